@@ -1,0 +1,1 @@
+"""Suisou: from the notes of a wind ensemble to the performance of its players."""

@@ -1,0 +1,61 @@
+"""The error family and the messages of the whole program.
+
+Below the command line and the shell nothing is worded: a message is an id plus arguments, and whoever
+shows it holds the templates (English in `app.cli.messages`, translated ones in the shell).
+"""
+
+from __future__ import annotations
+
+from typing import TypeAlias
+
+import msgspec
+
+Argument: TypeAlias = str | int | float | bool
+
+
+class Message(msgspec.Struct, frozen=True):
+    """Something to tell a person: a warning, a reason, a problem.
+
+    Attributes
+    ----------
+    id : str
+        Dotted, e.g. ``"midi.track_truncated"``; names the template.
+    arguments : dict of str to str, int, float or bool
+        What the template is filled with (file, track, bar, note ...).
+    """
+
+    id: str
+    arguments: dict[str, Argument] = {}
+
+
+class AppError(Exception):
+    """An error a person can act on; anything else that escapes a parser is a bug.
+
+    Parameters
+    ----------
+    id : str
+        Message id, as in `Message`.
+    **arguments
+        What the template is filled with.
+    """
+
+    def __init__(self, id: str, /, **arguments: Argument) -> None:
+        self.message = Message(id, arguments)
+        detail = ", ".join(f"{key}={value!r}" for key, value in arguments.items())
+        super().__init__(f"{id} ({detail})" if detail else id)
+
+
+class FileError(AppError):
+    """A file that cannot be read or written; ``file`` is always among the arguments."""
+
+
+class MapError(AppError):
+    """An instrument map or metadata table that is not valid; names the line or key path."""
+
+
+class UsageError(AppError):
+    """A request that makes no sense: an unknown player, parameter or range."""
+
+
+class Cancelled(AppError):
+    """The person stopped the work; nothing half-written stays."""

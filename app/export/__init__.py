@@ -1,0 +1,1 @@
+"""One performance to files: characters, instruments and the report."""

@@ -1,0 +1,1 @@
+"""Binary FBX: encoder, decoder, elements and a text dump."""

@@ -1,0 +1,1 @@
+"""Plan to sampled motion: controls, face, body layers, and contacts solved last."""

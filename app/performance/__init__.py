@@ -1,0 +1,1 @@
+"""The pipeline: Project snapshot to plan to motion, by player and time span."""

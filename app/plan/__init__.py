@@ -1,0 +1,1 @@
+"""Notes to plan: what each player does, and when, as named events with reasons."""

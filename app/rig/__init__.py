@@ -1,0 +1,1 @@
+"""Skeletons, quaternions, FK, IK, characters, instrument models, skinning."""

@@ -1,0 +1,1 @@
+"""MIDI file to score: notes, tempo map, metres, controller curves, parts."""

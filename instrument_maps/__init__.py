@@ -1,0 +1,1 @@
+"""Instrument maps: one TOML table per instrument, with loader and validator."""

@@ -1,0 +1,1 @@
+"""What an animator may edit as data: expressions, bodies, skeleton profiles."""

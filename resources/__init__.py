@@ -1,0 +1,1 @@
+"""Characters, instrument models, example pieces and the scripts that make them."""
