@@ -1,0 +1,48 @@
+"""How a performance looks: sampled arrays at a frame rate, derived from a plan and thrown away at will."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+import numpy as np
+import numpy.typing as npt
+
+
+@dataclass(frozen=True)
+class Motion:
+    """One player's motion. Frame ``n`` is at ``first_frame_s + n / fps``.
+
+    Attributes
+    ----------
+    fps : Fraction
+        Frames per second.
+    first_frame_s : float
+        Time of frame 0 in the performance, seconds; usually negative.
+    rotations : (F, J, 4) float32
+        ``parent_from_joint`` rotations, unit quaternions xyzw, in the order of the character's skeleton.
+    hips_m : (F, 3) float32
+        Translation of the hips in the root's frame, metres.
+    morphs : dict of str to (F,) float32
+        Weights 0..1 of the ARKit morph targets that move.
+    controls : dict of str to (F,) float32
+        Value 0..1 of every control of the instrument.
+    instrument_position_m : (F, 3) float32
+        Origin of the instrument (``world_from_instrument``), metres.
+    instrument_rotation : (F, 4) float32
+        Rotation of the instrument (``world_from_instrument``), xyzw.
+    """
+
+    fps: Fraction
+    first_frame_s: float
+    rotations: npt.NDArray[np.float32]
+    hips_m: npt.NDArray[np.float32]
+    morphs: dict[str, npt.NDArray[np.float32]]
+    controls: dict[str, npt.NDArray[np.float32]]
+    instrument_position_m: npt.NDArray[np.float32]
+    instrument_rotation: npt.NDArray[np.float32]
+
+    @property
+    def frames(self) -> int:
+        """Number of frames."""
+        return len(self.hips_m)

@@ -1,0 +1,210 @@
+"""What each player does, and when: named events, each with its reason.
+
+Times stand twice: in integer ticks of the score (where an event is anchored, and what a correction moves) and in
+float64 seconds of the performance, which may be negative before the first tick. Ranges are half-open.
+"""
+
+from __future__ import annotations
+
+from typing import Literal, Protocol, TypeAlias, overload
+
+import msgspec
+import numpy as np
+import numpy.typing as npt
+
+from app.errors import Message
+
+FloatArray: TypeAlias = npt.NDArray[np.float64]
+
+
+class Note(Protocol):
+    """A sounding note of one monophonic line, as the plan needs it."""
+
+    @property
+    def id(self) -> str: ...
+    @property
+    def onset_tick(self) -> int: ...
+    @property
+    def duration_tick(self) -> int: ...
+    @property
+    def pitch(self) -> int: ...
+    @property
+    def velocity(self) -> int: ...
+
+
+class Clock(Protocol):
+    """Ticks to seconds and back, through every tempo change; defined for negative times too."""
+
+    @property
+    def ticks_per_quarter(self) -> int: ...
+    @overload
+    def seconds(self, ticks: float) -> float: ...
+    @overload
+    def seconds(self, ticks: FloatArray) -> FloatArray: ...
+    @overload
+    def ticks(self, seconds: float) -> float: ...
+    @overload
+    def ticks(self, seconds: FloatArray) -> FloatArray: ...
+
+
+class Metre(Protocol):
+    """A metre and the tick at which it begins."""
+
+    @property
+    def tick(self) -> int: ...
+    @property
+    def numerator(self) -> int: ...
+    @property
+    def denominator(self) -> int: ...
+
+
+class PlayerParameters(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """What the animator may set for one player; every field is a `--set` parameter by its name."""
+
+    amplitude: float = 0.5
+    breath_min_beats: float = 0.5
+    breath_last_beat_beats: float = 1.0
+    breath_prepare_beats: float = 2.0
+    lung_s: float = 9.0
+    embouchure_tension: float = 1.0
+    sway: float = 1.0
+    weight_shift: float = 1.0
+    bell_height: float = 1.0
+    posture: Literal["standing", "seated"] = "standing"
+    cue_leader: bool | None = None
+    """None: the piece decides (the highest part that plays first leads)."""
+    seed: int = 0
+
+
+class FingeringEvent(msgspec.Struct, frozen=True):
+    """The fingering of one note. ``controls`` holds 0..1 for every control of the map that is not at rest."""
+
+    id: str
+    note_id: str
+    start_tick: int
+    end_tick: int
+    start_s: float
+    end_s: float
+    label: str
+    rank: int
+    controls: dict[str, float]
+    cents: float
+    reason: Message
+    corrected: bool = False
+
+
+class BreathEvent(msgspec.Struct, frozen=True):
+    """An inhalation, or the motion that prepares it. ``depth`` is 0..1 of a full lung; a catch breath is shallow."""
+
+    id: str
+    kind: Literal["preparation", "breath"]
+    start_tick: int
+    end_tick: int
+    start_s: float
+    end_s: float
+    depth: float
+    reason: Message
+    corrected: bool = False
+
+
+class TongueEvent(msgspec.Struct, frozen=True):
+    """The tongue's stroke before an attacked note; it releases at ``end_s``, the onset."""
+
+    id: str
+    note_id: str
+    start_s: float
+    end_s: float
+
+
+class EmbouchureEvent(msgspec.Struct, frozen=True):
+    """Lips during one note. All values 0..1: ``tension`` (register), ``effort`` (height, loudness, length), ``air`` (dynamics)."""
+
+    id: str
+    note_id: str
+    start_s: float
+    end_s: float
+    tension: float
+    effort: float
+    air: float
+    reason: Message
+    corrected: bool = False
+
+
+class CueEvent(msgspec.Struct, frozen=True):
+    """A lead-in by body and instrument. The nod starts at ``start_s``; its acceleration peaks at ``peak_s``, the preparatory beat,
+    one beat (``beat_s``) before the entry at ``end_s``."""
+
+    id: str
+    player_id: str
+    start_tick: int
+    end_tick: int
+    start_s: float
+    peak_s: float
+    end_s: float
+    beat_s: float
+    reason: Message
+    corrected: bool = False
+
+
+class GestureEvent(msgspec.Struct, frozen=True):
+    """A body motion over a span. ``amount`` is -1..1, signed by direction (left, up and forward are positive)."""
+
+    id: str
+    kind: Literal["sway", "weight_shift", "bell_height", "lower_instrument"]
+    start_tick: int
+    end_tick: int
+    start_s: float
+    end_s: float
+    amount: float
+    reason: Message
+    corrected: bool = False
+
+
+class ExpressionEvent(msgspec.Struct, frozen=True):
+    """A facial expression from `metadata` with strength 0..1 and fades."""
+
+    id: str
+    expression: str
+    start_tick: int
+    end_tick: int
+    start_s: float
+    end_s: float
+    strength: float
+    fade_in_s: float
+    fade_out_s: float
+    reason: Message
+    corrected: bool = False
+
+
+Event: TypeAlias = FingeringEvent | BreathEvent | TongueEvent | EmbouchureEvent | CueEvent | GestureEvent | ExpressionEvent
+
+
+class Problem(msgspec.Struct, frozen=True):
+    """Something the animator should look at, anchored to a note where there is one."""
+
+    message: Message
+    note_id: str | None
+    start_s: float
+    end_s: float
+
+
+class TimeFrame(msgspec.Struct, frozen=True):
+    """The span of a performance, shared by all its players. Frame 0 is at ``first_frame_s``."""
+
+    first_frame_s: float
+    end_s: float
+
+
+class PlayerPlan(msgspec.Struct, frozen=True):
+    """Everything one player does. Each tuple is ordered by start."""
+
+    player_id: str
+    time_frame: TimeFrame
+    fingerings: tuple[FingeringEvent, ...]
+    breaths: tuple[BreathEvent, ...]
+    tongues: tuple[TongueEvent, ...]
+    embouchures: tuple[EmbouchureEvent, ...]
+    cues: tuple[CueEvent, ...]
+    gestures: tuple[GestureEvent, ...]
+    expressions: tuple[ExpressionEvent, ...]
+    problems: tuple[Problem, ...]

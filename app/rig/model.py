@@ -1,0 +1,136 @@
+"""Characters and instrument models as values: skeleton, skinned meshes, morph targets, landmarks, moving nodes.
+
+Every skeleton is *normalised*: in the rest (T-)pose all joint frames are parallel to the world, so a joint's local
+rotation is the identity there. The bind pose of the skin may be another pose (see `Skin.joint_from_mesh`).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+
+@dataclass(frozen=True)
+class Skeleton:
+    """Joints in topological order (a parent before its children); joint 0 is the only root.
+
+    Attributes
+    ----------
+    names : tuple of str
+        ``root``, then VRM 1.0 humanoid names and any further joints of the character.
+    parents : tuple of int
+        Index of the parent, -1 for the root.
+    offsets_m : (J, 3) float64
+        Translation of each joint in its parent's frame at rest, metres.
+    """
+
+    names: tuple[str, ...]
+    parents: tuple[int, ...]
+    offsets_m: npt.NDArray[np.float64]
+
+    def index(self, name: str) -> int:
+        """Index of a joint; KeyError where there is none."""
+        try:
+            return self.names.index(name)
+        except ValueError:
+            raise KeyError(name) from None
+
+
+@dataclass(frozen=True)
+class Material:
+    """A plain surface: linear base colour RGBA 0..1, metallic and roughness 0..1."""
+
+    name: str
+    base_color: tuple[float, float, float, float]
+    metallic: float
+    roughness: float
+    double_sided: bool = False
+
+
+@dataclass(frozen=True)
+class Morph:
+    """A morph target, sparse: displacement of some vertices in the mesh's bind space, metres."""
+
+    name: str
+    vertices: npt.NDArray[np.int32]
+    deltas_m: npt.NDArray[np.float32]
+    normal_deltas: npt.NDArray[np.float32] | None
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """A triangle mesh, of one or several materials.
+
+    Attributes
+    ----------
+    positions_m, normals : (V, 3) float32
+    uvs : (V, 2) float32
+    triangles : (T, 3) int32
+    triangle_materials : (T,) int32
+        Index into ``materials``.
+    joints, weights : (V, K) int32 and float32
+        Skinning of a character's mesh; weights of a vertex sum to 1. An instrument's mesh is rigid: K = 1 and the
+        index is a node of the `InstrumentModel`.
+    morphs : tuple of Morph
+    """
+
+    name: str
+    positions_m: npt.NDArray[np.float32]
+    normals: npt.NDArray[np.float32]
+    uvs: npt.NDArray[np.float32]
+    triangles: npt.NDArray[np.int32]
+    triangle_materials: npt.NDArray[np.int32]
+    materials: tuple[Material, ...]
+    joints: npt.NDArray[np.int32]
+    weights: npt.NDArray[np.float32]
+    morphs: tuple[Morph, ...] = ()
+
+
+@dataclass(frozen=True)
+class Landmark:
+    """A named place on a mesh: the mean of some vertices, e.g. ``right.index.pad``."""
+
+    mesh: str
+    vertices: npt.NDArray[np.int32]
+
+
+@dataclass(frozen=True)
+class Character:
+    """A body that can be posed and exported.
+
+    Attributes
+    ----------
+    skeleton : Skeleton
+    joint_from_mesh : (J, 4, 4) float64
+        Inverse bind matrices; skinning is ``world_from_joint @ joint_from_mesh @ position``.
+    meshes : tuple of Mesh
+    landmarks : dict of str to Landmark
+    """
+
+    id: str
+    skeleton: Skeleton
+    joint_from_mesh: npt.NDArray[np.float64]
+    meshes: tuple[Mesh, ...]
+    landmarks: dict[str, Landmark]
+
+
+@dataclass(frozen=True)
+class InstrumentModel:
+    """An instrument's nodes and meshes, in the instrument's frame (origin at the rim, +Z along the air, +Y up).
+
+    Attributes
+    ----------
+    node_names : tuple of str
+        Node 0 is the root; the others are the moving parts, each a child of the root.
+    node_positions_m : (N, 3) float64
+        Rest position of each node in the instrument's frame (rest rotations are the identity).
+    meshes : tuple of Mesh
+        Vertices in the instrument's frame at rest; `Mesh.joints` names the node each vertex moves with.
+    """
+
+    id: str
+    node_names: tuple[str, ...]
+    node_positions_m: npt.NDArray[np.float64]
+    meshes: tuple[Mesh, ...]
