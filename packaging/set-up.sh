@@ -1,0 +1,51 @@
+# Sourced by ./run and ./test: makes .venv (and, for the tests, the independent readers) inside the checkout.
+# Does nothing when nothing has changed since the last time.
+
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+say() { printf '%s\n' "$*" >&2; }
+
+# Debian packages that are missing are installed when we may; otherwise the person is told.
+need_packages() {
+    command -v dpkg-query >/dev/null || return 0
+    local missing=() package
+    for package in "$@"; do
+        [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" = installed ] || missing+=("$package")
+    done
+    [ ${#missing[@]} -eq 0 ] && return 0
+    if [ "$(id -u)" -ne 0 ]; then
+        say "Missing Debian packages; please run: sudo apt-get install ${missing[*]}"
+        return 0
+    fi
+    say "Installing ${missing[*]} ..."
+    apt-get update -qq >&2
+    DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+}
+
+usable_python() {
+    local candidate
+    for candidate in python3.11 python3 python3.12 python3.13; do
+        if "$candidate" -c 'import sys, venv, ensurepip; sys.exit(sys.version_info < (3, 11))' 2>/dev/null; then
+            printf '%s' "$candidate"
+            return 0
+        fi
+    done
+    return 1
+}
+
+# environment FOLDER STAMP PIP-ARGUMENTS...: a virtual environment that holds exactly what was asked for.
+environment() {
+    local folder=$1 stamp=$2 python key
+    shift 2
+    python=$(usable_python) || {
+        need_packages python3 python3-venv
+        python=$(usable_python) || { say "Suisou needs Python 3.11 or newer with venv."; exit 1; }
+    }
+    key=$({ cat pyproject.toml; printf '%s ' "$@"; "$python" -VV; pwd; } | cksum)
+    [ -x "$folder/bin/python" ] && [ "$(cat "$folder/$stamp" 2>/dev/null)" = "$key" ] && return 0
+    say "Setting up $folder ..."
+    [ -x "$folder/bin/python" ] || "$python" -m venv "$folder"
+    "$folder/bin/python" -m pip install --quiet --disable-pip-version-check "$@" >&2
+    printf '%s' "$key" > "$folder/$stamp"
+}
