@@ -1,0 +1,169 @@
+"""`PLAYER.parameter=value`: what a person sets for one player or for several, checked before anything is made.
+
+Raises `UsageError` with these ids: ``set.syntax`` (text), ``set.player_unknown`` (player, possible),
+``set.parameter_unknown`` (parameter, possible), ``set.value_invalid`` (parameter, value, possible),
+``player.unknown`` (player, possible).
+"""
+
+from __future__ import annotations
+
+import fnmatch
+import math
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Final, TypeAlias, get_args
+
+import msgspec
+
+from app.errors import UsageError
+from app.plan.model import PlayerParameters
+
+Value: TypeAlias = str | int | float | bool | None
+
+# Closed ranges; what is not named here is bounded by its type alone.
+_BOUNDS: Final[Mapping[str, tuple[float, float]]] = {
+    "amplitude": (0.0, 1.0),
+    "breath_min_beats": (0.0, 64.0),
+    "breath_last_beat_beats": (0.0, 64.0),
+    "breath_prepare_beats": (0.0, 64.0),
+    "lung_s": (1.0, 60.0),
+    "embouchure_tension": (0.0, 2.0),
+    "sway": (0.0, 2.0),
+    "weight_shift": (0.0, 2.0),
+    "bell_height": (0.0, 2.0),
+    "seed": (0, 2**63 - 1),
+}
+_TYPES: Final = {field.name: field.type for field in msgspec.structs.fields(PlayerParameters)}
+_CASTING: Final = ("instrument", "character")
+_AUTOMATIC: Final = "auto"
+
+
+class Setting(msgspec.Struct, frozen=True):
+    """One parameter of one player. ``player`` is the index of the player, ``value`` already of the right type."""
+
+    player: int
+    parameter: str
+    value: Value
+
+
+def parameter_names() -> tuple[str, ...]:
+    """Every name that can be set, in a fixed order."""
+    return (*_TYPES, *_CASTING)
+
+
+def matching_players(wanted: str, names: Sequence[str]) -> tuple[int, ...]:
+    """Indices of the players that a name or a pattern (``*``, ``?``, ``[...]``) means; case does not count.
+
+    A name that fits exactly is that player, whatever pattern it might be.
+    """
+    key = wanted.strip().casefold()
+    exact = tuple(index for index, name in enumerate(names) if name.casefold() == key)
+    if exact:
+        return exact
+    return tuple(index for index, name in enumerate(names) if fnmatch.fnmatchcase(name.casefold(), key))
+
+
+def select_players(wanted: Iterable[str], names: Sequence[str]) -> tuple[int, ...]:
+    """Indices of the players named, in the order of the score; all of them where nothing is wanted.
+
+    Raises
+    ------
+    UsageError
+        ``player.unknown`` where a name or pattern means nobody.
+    """
+    chosen: set[int] = set()
+    asked = False
+    for name in wanted:
+        asked = True
+        found = matching_players(name, names)
+        if not found:
+            raise UsageError("player.unknown", player=name, possible=", ".join(names) or "-")
+        chosen.update(found)
+    return tuple(sorted(chosen)) if asked else tuple(range(len(names)))
+
+
+def parse_settings(
+    texts: Iterable[str], names: Sequence[str], instruments: Iterable[str], characters: Iterable[str]
+) -> tuple[Setting, ...]:
+    """Read ``PLAYER.parameter=value`` texts; a later one wins over an earlier one.
+
+    Parameters
+    ----------
+    texts : iterable of str
+        As given by the person. A player may be a pattern: ``*.amplitude=0``.
+    names : sequence of str
+        The players' names. They may hold dots and equals signs; the reading that names a player is taken.
+    instruments, characters : iterable of str
+        The ids that ``instrument`` and ``character`` may have.
+
+    Raises
+    ------
+    UsageError
+        See the module's docstring.
+    """
+    choices = {"instrument": tuple(instruments), "character": tuple(characters)}
+    settings: dict[tuple[int, str], Setting] = {}
+    for text in texts:
+        players, parameter, value_text = _split(text, names)
+        value = _value(parameter, value_text, choices)
+        for player in players:
+            settings[player, parameter] = Setting(player, parameter, value)
+    return tuple(settings.values())
+
+
+def with_settings(parameters: PlayerParameters, settings: Iterable[Setting]) -> PlayerParameters:
+    """The parameters with those settings that are fields of them."""
+    changes = {setting.parameter: setting.value for setting in settings if setting.parameter in _TYPES}
+    return msgspec.structs.replace(parameters, **changes)
+
+
+def _split(text: str, names: Sequence[str]) -> tuple[tuple[int, ...], str, str]:
+    """Players, parameter and value; every place where ``.word=`` stands may be the seam."""
+    readings = [
+        (text[: seam.start()], seam.group(1).strip(), text[seam.end() :])
+        for seam in re.finditer(r"\.\s*(\w+)\s*=", text)
+        if text[: seam.start()].strip()
+    ]
+    if not readings:
+        raise UsageError("set.syntax", text=text)
+    for player, parameter, value in readings:
+        found = matching_players(player, names)
+        if found:
+            if parameter not in parameter_names():
+                raise UsageError("set.parameter_unknown", parameter=parameter, possible=", ".join(parameter_names()))
+            return found, parameter, value.strip()
+    raise UsageError("set.player_unknown", player=readings[0][0], possible=", ".join(names) or "-")
+
+
+def _value(parameter: str, text: str, choices: Mapping[str, tuple[str, ...]]) -> Value:
+    if parameter in choices:
+        possible = (*choices[parameter], _AUTOMATIC)
+        if text not in possible:
+            raise UsageError("set.value_invalid", parameter=parameter, value=text, possible=", ".join(possible))
+        return None if text == _AUTOMATIC else text
+    kind = _TYPES[parameter]
+    candidate: object = None if text.casefold() in (_AUTOMATIC, "none", "null") else text
+    try:
+        value: Value = msgspec.convert(candidate, kind, strict=False)
+    except msgspec.ValidationError:
+        value = math.nan
+    low, high = _BOUNDS.get(parameter, (-math.inf, math.inf))
+    if isinstance(value, int | float) and not isinstance(value, bool) and not low <= value <= high:
+        raise UsageError("set.value_invalid", parameter=parameter, value=text, possible=_possible(parameter))
+    return value
+
+
+def _possible(parameter: str) -> str:
+    """What a parameter may be, as a text for a message: numbers and words only."""
+    if parameter in _BOUNDS:
+        low, high = _BOUNDS[parameter]
+        return f"{low} ... {high}"
+    options: list[str] = []
+    for kind in get_args(_TYPES[parameter]) or (_TYPES[parameter],):
+        if isinstance(kind, str):
+            options.append(kind)
+        elif kind is bool:
+            options += ["true", "false"]
+        elif kind is type(None):
+            options.append(_AUTOMATIC)
+    return ", ".join(options)
