@@ -1,0 +1,170 @@
+"""Reading and checking the metadata tables; every fault names the file and the line or key path.
+
+Messages
+--------
+metadata.missing(kind, name, known), metadata.syntax(file, detail), metadata.invalid(file, key, detail)
+"""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from functools import cache
+from pathlib import Path
+from typing import TypeVar
+
+import msgspec
+
+from app.errors import MapError
+from metadata.model import ARKIT_MORPHS, Body, Embouchure, Expression, SkeletonProfile
+
+ROOT = Path(__file__).parent
+_KIND_FOLDERS = {"expression": "expressions", "body": "bodies", "skeleton": "skeletons"}
+_AXIS_TOLERANCE = 2e-3
+_MORPHS = frozenset(ARKIT_MORPHS)
+
+T = TypeVar("T")
+
+
+def names(kind: str) -> tuple[str, ...]:
+    """Names of the tables of a kind (``expression``, ``body``, ``skeleton``), sorted."""
+    return tuple(sorted(path.stem for path in (ROOT / _KIND_FOLDERS[kind]).glob("*.toml")))
+
+
+def load_expressions() -> dict[str, Expression]:
+    """Every bundled expression, by name."""
+    return {name: load_expression(name) for name in names("expression")}
+
+
+@cache
+def load_expression(name: str) -> Expression:
+    """The bundled expression of this name. Raises MapError."""
+    return read_expression(_path("expression", name))
+
+
+@cache
+def load_skeleton(name: str = "vrm1") -> SkeletonProfile:
+    """The bundled skeleton profile of this name. Raises MapError."""
+    return read_skeleton(_path("skeleton", name))
+
+
+@cache
+def load_body(name: str = "adult") -> Body:
+    """The bundled body of this name. Raises MapError."""
+    return read_body(_path("body", name))
+
+
+def read_expression(path: Path) -> Expression:
+    """Read and check an expression. Raises MapError."""
+    expression = _decode(path, Expression)
+    _check_name(path, expression.name)
+    _check_morphs(path, "weights", expression.weights)
+    return expression
+
+
+def read_skeleton(path: Path) -> SkeletonProfile:
+    """Read and check a skeleton profile. Raises MapError."""
+    profile = _decode(path, SkeletonProfile)
+    _check_name(path, profile.name)
+    seen: set[str] = set()
+    for index, joint in enumerate(profile.joints):
+        key = f"joints[{index}]"
+        if joint.name in seen:
+            raise _invalid(path, f"{key}.name", f"{joint.name!r} appears twice")
+        if (joint.parent == "") != (index == 0):
+            raise _invalid(path, f"{key}.parent", "the first joint, and only it, is the root")
+        if joint.parent and joint.parent not in seen:
+            raise _invalid(path, f"{key}.parent", f"{joint.parent!r} is not a joint above")
+        if joint.kind not in profile.axes:
+            raise _invalid(path, f"{key}.kind", f"no axes for {joint.kind!r}")
+        seen.add(joint.name)
+    for kind, axes in profile.axes.items():
+        _check_axes(path, f"axes.{kind}", (axes.flexion, axes.sideways, axes.twist))
+    for chain, joints in profile.chains.items():
+        _check_joints(path, f"chains.{chain}", joints, seen)
+    for side, fingers in profile.fingers.items():
+        for finger, value in fingers.items():
+            _check_joints(path, f"fingers.{side}.{finger}.joints", value.joints, seen)
+    return profile
+
+
+def read_body(path: Path) -> Body:
+    """Read and check a body against its skeleton profile. Raises MapError."""
+    body = _decode(path, Body)
+    _check_name(path, body.name)
+    if body.skeleton not in names("skeleton"):
+        raise _invalid(path, "skeleton", f"no skeleton profile {body.skeleton!r}")
+    profile = load_skeleton(body.skeleton)
+    kinds = {joint.kind for joint in profile.joints}
+    for kind, limits in body.limits.items():
+        if kind not in kinds:
+            raise _invalid(path, f"limits.{kind}", f"no joint of {body.skeleton!r} is of this kind")
+        for field in ("flexion_deg", "sideways_deg", "twist_deg"):
+            low, high = getattr(limits, field)
+            if not -180.0 <= low <= 0.0 <= high <= 180.0:
+                raise _invalid(path, f"limits.{kind}.{field}", "must hold 0 and lie within -180..180")
+    missing = sorted(kinds - set(body.limits) - {"root"})
+    if missing:
+        raise _invalid(path, "limits", f"no limits for {', '.join(missing)}")
+    for name in ("standing", "seated"):
+        if name not in body.postures:
+            raise _invalid(path, "postures", f"no posture {name!r}")
+    names_known = {joint.name for joint in profile.joints}
+    for name, posture in body.postures.items():
+        _check_joints(path, f"postures.{name}.spine_deg", tuple(posture.spine_deg), names_known)
+    for field in Embouchure.__struct_fields__:
+        _check_morphs(path, f"embouchure.{field}", getattr(body.embouchure, field))
+    return body
+
+
+def _path(kind: str, name: str) -> Path:
+    known = names(kind)
+    if name not in known:
+        raise MapError("metadata.missing", kind=kind, name=name, known=", ".join(known))
+    return ROOT / _KIND_FOLDERS[kind] / f"{name}.toml"
+
+
+def _decode(path: Path, type_: type[T]) -> T:
+    try:
+        table = tomllib.loads(path.read_bytes().decode())
+    except OSError as error:
+        raise MapError("metadata.syntax", file=path.name, detail=error.strerror or str(error)) from error
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise MapError("metadata.syntax", file=path.name, detail=str(error)) from error
+    try:
+        # strict=False would read "1" as 1; str_keys are what TOML has anyway.
+        return msgspec.convert(table, type_)
+    except msgspec.ValidationError as error:
+        text = str(error)
+        found = re.search(r"^(.*?)(?: - at `(?:key in )?\$?\.?(.*?)`)?$", text)
+        detail, key = (found.group(1), found.group(2) or "") if found else (text, "")
+        raise _invalid(path, key, detail) from error
+
+
+def _invalid(path: Path, key: str, detail: str) -> MapError:
+    return MapError("metadata.invalid", file=path.name, key=key, detail=detail)
+
+
+def _check_name(path: Path, name: str) -> None:
+    if name != path.stem:
+        raise _invalid(path, "name", f"{name!r} is not the file's name {path.stem!r}")
+
+
+def _check_morphs(path: Path, key: str, weights: dict[str, float]) -> None:
+    for morph in weights:
+        if morph not in _MORPHS:
+            raise _invalid(path, f"{key}.{morph}", "not one of the 52 ARKit morph targets")
+
+
+def _check_joints(path: Path, key: str, joints: tuple[str, ...], known: set[str]) -> None:
+    for joint in joints:
+        if joint not in known:
+            raise _invalid(path, key, f"no joint {joint!r}")
+
+
+def _check_axes(path: Path, key: str, axes: tuple[tuple[float, float, float], ...]) -> None:
+    for i, a in enumerate(axes):
+        for j, b in enumerate(axes):
+            dot = sum(p * q for p, q in zip(a, b, strict=True))
+            if abs(dot - (i == j)) > _AXIS_TOLERANCE:
+                raise _invalid(path, key, "axes must be unit vectors at right angles")

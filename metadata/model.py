@@ -1,0 +1,261 @@
+"""What an animator may edit as data: facial expressions, bodies, skeleton profiles.
+
+Angles in the tables are degrees, because people edit them; every name says so. Rotations are about the axes of the
+normalised T-pose: joint frames parallel to the world, the character faces +Z, its left is +X, arms
+along X with palms down.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal, TypeAlias
+
+import msgspec
+
+Fraction01: TypeAlias = Annotated[float, msgspec.Meta(ge=0.0, le=1.0)]
+Positive: TypeAlias = Annotated[float, msgspec.Meta(gt=0.0)]
+NotNegative: TypeAlias = Annotated[float, msgspec.Meta(ge=0.0)]
+Range: TypeAlias = tuple[float, float]
+"""Lowest and highest, degrees."""
+Axis: TypeAlias = tuple[float, float, float]
+"""A unit vector in the T-pose; the positive rotation about it is the motion the field names."""
+AmplitudeScale: TypeAlias = tuple[NotNegative, NotNegative, NotNegative]
+"""The value at amplitude 0 (the residual of a player told to keep still), 0.5 (natural) and 1 (exaggerated);
+linear between. Use `at_amplitude`."""
+
+ARKIT_MORPHS: tuple[str, ...] = (
+    "browDownLeft", "browDownRight", "browInnerUp", "browOuterUpLeft", "browOuterUpRight",
+    "cheekPuff", "cheekSquintLeft", "cheekSquintRight",
+    "eyeBlinkLeft", "eyeBlinkRight", "eyeLookDownLeft", "eyeLookDownRight", "eyeLookInLeft", "eyeLookInRight",
+    "eyeLookOutLeft", "eyeLookOutRight", "eyeLookUpLeft", "eyeLookUpRight",
+    "eyeSquintLeft", "eyeSquintRight", "eyeWideLeft", "eyeWideRight",
+    "jawForward", "jawLeft", "jawOpen", "jawRight",
+    "mouthClose", "mouthDimpleLeft", "mouthDimpleRight", "mouthFrownLeft", "mouthFrownRight", "mouthFunnel",
+    "mouthLeft", "mouthLowerDownLeft", "mouthLowerDownRight", "mouthPressLeft", "mouthPressRight", "mouthPucker", "mouthRight",
+    "mouthRollLower", "mouthRollUpper", "mouthShrugLower", "mouthShrugUpper", "mouthSmileLeft", "mouthSmileRight",
+    "mouthStretchLeft", "mouthStretchRight", "mouthUpperUpLeft", "mouthUpperUpRight",
+    "noseSneerLeft", "noseSneerRight", "tongueOut",
+)  # fmt: skip
+"""The 52 morph targets of Apple's ARKit (`ARFaceAnchor.BlendShapeLocation`)."""
+
+
+def at_amplitude(scale: AmplitudeScale, amplitude: float) -> float:
+    """Value of a scale at a player's amplitude 0..1, linear between its three values."""
+    residual, natural, exaggerated = scale
+    if amplitude <= 0.5:
+        return residual + (natural - residual) * max(amplitude, 0.0) * 2.0
+    return natural + (exaggerated - natural) * (min(amplitude, 1.0) - 0.5) * 2.0
+
+
+class Expression(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """A face as ARKit weights. An event of the plan blends it in by its strength.
+
+    Attributes
+    ----------
+    while_playing : bool
+        Whether it may show while the lips are at the mouthpiece; what moves the lips must not.
+    fade_in_s, fade_out_s : float
+        Usual fades, seconds.
+    """
+
+    name: str
+    description: str
+    weights: dict[str, Fraction01]
+    while_playing: bool
+    fade_in_s: Positive
+    fade_out_s: Positive
+
+
+class JointLimits(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """Human range of one joint, and the largest angular acceleration a person gives it.
+
+    The joint's rotation is ``swing * twist``: twist about the profile's `JointAxes.twist`; the swing, as a rotation
+    vector, has the components ``flexion`` and ``sideways`` on the axes of the same names. Both sides share an entry
+    (``upperArm`` is `leftUpperArm` and `rightUpperArm`), because a right joint's axes are mirrored.
+    """
+
+    flexion_deg: Range
+    sideways_deg: Range
+    twist_deg: Range
+    acceleration_rad_s2: Positive
+    source: str
+
+
+class Posture(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """How a trained player stands or sits, before any motion.
+
+    Attributes
+    ----------
+    feet_apart_hip_widths : float
+        Distance between the ankles over the distance between the hip joints.
+    foot_forward_m : float
+        How far the left foot is before the right, metres.
+    toes_out_deg, knee_bend_deg, hip_flexion_deg : float
+        ``hip_flexion_deg`` is the thigh's angle before the vertical; seated about 85.
+    spine_deg : dict of str to float
+        Flexion (forward positive) of each joint of spine and neck; the sum over the spine is the trunk's lean.
+    shoulder_lift_deg, elbow_off_ribs_deg : float
+        ``elbow_off_ribs_deg``: angle between the hanging upper arm and the trunk, sideways.
+    head_down_deg : float
+        How far the head may follow the instrument's angle downwards.
+    seat_height_shank : float
+        Height of the seat over the length of the shank; 0 where there is no seat.
+    """
+
+    feet_apart_hip_widths: Positive
+    foot_forward_m: float
+    toes_out_deg: float
+    knee_bend_deg: NotNegative
+    hip_flexion_deg: float
+    spine_deg: dict[str, float]
+    shoulder_lift_deg: float
+    elbow_off_ribs_deg: NotNegative
+    head_down_deg: float
+    seat_height_shank: NotNegative
+
+
+class Sway(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """Bobbing and leaning with the music; sizes by amplitude."""
+
+    side_deg: AmplitudeScale
+    forward_deg: AmplitudeScale
+    turn_deg: AmplitudeScale
+    bob_m: AmplitudeScale
+    knee_deg: AmplitudeScale
+    head_deg: AmplitudeScale
+    residual_hz: Positive
+
+
+class WeightShift(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """Moving the weight from one foot to the other."""
+
+    side_m: AmplitudeScale
+    roll_deg: AmplitudeScale
+    transition_s: Positive
+
+
+class BellMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """The bell rising and falling with the melody's contour."""
+
+    up_deg: AmplitudeScale
+    down_deg: AmplitudeScale
+    lowered_trunk_deg: float
+    lower_s: Positive
+    raise_s: Positive
+
+
+class CueMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """The leader's start: knees bend and the instrument dips, then both rise on the preparatory beat."""
+
+    knee_deg: AmplitudeScale
+    bell_dip_deg: AmplitudeScale
+    bell_lift_deg: AmplitudeScale
+    trunk_deg: AmplitudeScale
+    head_deg: AmplitudeScale
+
+
+class BreathMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """An inhalation of depth 1; a shallower one scales it. Players become more upright and the arms neutral
+    (Frontiers in Psychology 2024, 1394035)."""
+
+    jaw_open: Fraction01
+    mouth_stretch: Fraction01
+    nose_flare: Fraction01
+    torso_back_deg: NotNegative
+    shoulder_lift_deg: NotNegative
+    head_back_deg: float
+    elbow_out_deg: float
+    preparation_forward_deg: NotNegative
+
+
+class Embouchure(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """ARKit weights at full tension (high notes: drawn tight), fully relaxed (low notes), full air and full effort;
+    the face while playing is ``relaxed * (1 - tension) + tight * tension + air * air + effort * effort``."""
+
+    relaxed: dict[str, Fraction01]
+    tight: dict[str, Fraction01]
+    air: dict[str, Fraction01]
+    effort: dict[str, Fraction01]
+    tongue_stroke: dict[str, Fraction01]
+
+
+class Body(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """How a kind of body holds itself and moves, on the joints of ``skeleton``."""
+
+    name: str
+    description: str
+    skeleton: str
+    limits: dict[str, JointLimits]
+    postures: dict[Literal["standing", "seated"], Posture]
+    sway: Sway
+    weight_shift: WeightShift
+    bell: BellMotion
+    cue: CueMotion
+    breath: BreathMotion
+    embouchure: Embouchure
+
+
+class JointAxes(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """Anatomical axes of a joint in the T-pose. Positive flexion closes the joint or bends it forward; positive
+    sideways and twist are what the profile's comments say."""
+
+    flexion: Axis
+    sideways: Axis
+    twist: Axis
+
+
+class ProfileJoint(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """A joint of the profile, its parent (empty for the root) and the key of its axes and limits."""
+
+    name: str
+    parent: str
+    kind: str
+    required: bool = True
+
+
+class Finger(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """The three joints of a finger, from the palm outwards."""
+
+    joints: tuple[str, str, str]
+
+
+class SkeletonProfile(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """Names and roles of a skeleton's joints.
+
+    Attributes
+    ----------
+    joints : tuple of ProfileJoint
+        In topological order.
+    axes : dict of str to JointAxes
+        By joint kind, for the left side and the middle; see `joint_axes`.
+    chains : dict of str to tuple of str
+        ``spine``, ``neck``, ``left_arm`` (clavicle to hand), ``right_arm``, ``left_leg``, ``right_leg``.
+    fingers : dict of str to dict of str to Finger
+        By side (``left``, ``right``) and finger (``thumb``, ``index``, ``middle``, ``ring``, ``little``).
+    """
+
+    name: str
+    description: str
+    joints: tuple[ProfileJoint, ...]
+    axes: dict[str, JointAxes]
+    chains: dict[str, tuple[str, ...]]
+    fingers: dict[Literal["left", "right"], dict[Literal["thumb", "index", "middle", "ring", "little"], Finger]]
+
+    def joint(self, name: str) -> ProfileJoint:
+        """The joint of this name; KeyError where there is none."""
+        for joint in self.joints:
+            if joint.name == name:
+                return joint
+        raise KeyError(name)
+
+    def joint_axes(self, name: str) -> JointAxes:
+        """Anatomical axes of a joint; a right joint's are the left one's mirrored in the plane X = 0, so that the
+        signs mean the same on both sides (axes are pseudovectors: y and z change sign)."""
+        axes = self.axes[self.joint(name).kind]
+        if not name.startswith("right"):
+            return axes
+        return JointAxes(_mirrored(axes.flexion), _mirrored(axes.sideways), _mirrored(axes.twist))
+
+
+def _mirrored(axis: Axis) -> Axis:
+    # 0.0 - y rather than -y: no negative zeros.
+    return (axis[0], 0.0 - axis[1], 0.0 - axis[2])
