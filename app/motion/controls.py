@@ -1,0 +1,114 @@
+"""Valves, slides, keys, triggers and rings as curves of time.
+
+A control is in place at the onset of its note. It leaves its last place only just before the next onset; repeated
+notes do not lift it; in a rest of a beat or more it returns to rest once its note has ended. How quickly each control
+moves, and in how much of a note, the instrument map says.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from app.motion.curve import Curve, moves
+from app.plan.model import FingeringEvent
+from instrument_maps.model import Control
+
+SLOWEST_FRAME_S = 1.0 / 24.0
+"""A note is judged up to one frame after its onset; no move, however hurried, begins before that."""
+RELEASE_S = 0.12
+"""A finger's way back to rest after a note, unhurried."""
+CARRY_BACK_S = 0.25
+"""A slide's way back to rest, unhurried, takes at least this long ..."""
+CARRY_BACK_SHARE = 0.5
+"""... and goes at this share of the speed the map gives."""
+
+
+def need_s(control: Control, distance: float) -> float:
+    """Least time of a move over ``distance`` (0..1 of the travel); 0 where the map gives no speed."""
+    if control.max_speed_m_s is None or control.motion.travel_m is None:
+        return 0.0
+    return abs(distance) * control.motion.travel_m / control.max_speed_m_s
+
+
+def window_s(control: Control, distance: float, duration_s: float, gap_s: float) -> float:
+    """How long before an onset a control may leave its place.
+
+    Where the share of the note is too short for a human speed (the plan flags such notes) the control starts
+    earlier, but leaves the note its first frame at 24 frames/s.
+
+    Parameters
+    ----------
+    control : Control
+    distance : float
+        How far it goes, 0..1 of its travel.
+    duration_s, gap_s : float
+        Sounding length of the note before, and the rest between that note and the onset.
+    """
+    need = need_s(control, distance)
+    allowed = max(gap_s, control.move_note_share * duration_s)
+    if need <= allowed:
+        return min(max(control.move_window_s, need), allowed)
+    return min(need, max(allowed, duration_s + gap_s - SLOWEST_FRAME_S))
+
+
+def control_curve(fingerings: Sequence[FingeringEvent], control: Control, beat_ticks: int) -> Curve:
+    """The value 0..1 of one control through a player's notes.
+
+    Parameters
+    ----------
+    fingerings : sequence of FingeringEvent
+        In order; each starts at its note's onset and ends with it. A control they do not name is at rest.
+    control : Control
+    beat_ticks : int
+        A rest of this many ticks brings the control back to rest.
+    """
+    rest = control.rest_value
+    segments: list[tuple[float, float, float]] = []
+    value = rest
+    last: FingeringEvent | None = None
+    for event in fingerings:
+        target = event.controls.get(control.name, rest)
+        if last is None:
+            segments.append((event.start_s - _free_window_s(control, target - rest), event.start_s, target))
+        elif event.start_tick - last.end_tick >= beat_ticks:
+            segments += _through_rest(control, last.end_s, event.start_s, value, target)
+        elif target != value:
+            end_s = min(last.end_s, event.start_s)
+            window = window_s(control, target - value, end_s - last.start_s, event.start_s - end_s)
+            segments.append((event.start_s - window, event.start_s, target))
+        value, last = target, event
+    if last is not None:
+        segments.append((last.end_s, last.end_s + _back_s(control, value), rest))
+    return moves(segments, rest)
+
+
+def control_curves(
+    fingerings: Sequence[FingeringEvent], controls: Iterable[Control], beat_ticks: int
+) -> dict[str, Curve]:
+    """Curves of all controls of an instrument, by name."""
+    return {control.name: control_curve(fingerings, control, beat_ticks) for control in controls}
+
+
+def _free_window_s(control: Control, distance: float) -> float:
+    return max(control.move_window_s, need_s(control, distance))
+
+
+def _back_s(control: Control, value: float) -> float:
+    """Unhurried time of the way back to rest."""
+    need = need_s(control, value - control.rest_value)
+    return max(CARRY_BACK_S, need / CARRY_BACK_SHARE) if need > 0.0 else RELEASE_S
+
+
+def _through_rest(
+    control: Control, end_s: float, onset_s: float, value: float, target: float
+) -> list[tuple[float, float, float]]:
+    """Back to rest once the note has ended, and out again just before the next onset."""
+    rest = control.rest_value
+    gap_s = onset_s - end_s
+    back, out = abs(value - rest), abs(target - rest)
+    back_s = _back_s(control, value) if back else 0.0
+    out_s = _free_window_s(control, out) if out else 0.0
+    if back_s + out_s > gap_s:  # a fast beat: hurry both ways, each by its share of the distance
+        back_s = max(gap_s - out_s, gap_s * back / (back + out))
+    back_end_s = min(end_s + back_s, onset_s)
+    return [(end_s, back_end_s, rest), (max(onset_s - out_s, back_end_s), onset_s, target)]
