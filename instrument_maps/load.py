@@ -1,0 +1,189 @@
+"""Reads instrument maps: TOML text to `InstrumentMap`, refusing with the exact place what is wrong.
+
+Messages
+--------
+map.unreadable : file, detail
+    "{file}: cannot be read: {detail}"
+map.syntax : file, line, column, detail
+    "{file}, line {line}, column {column}: {detail}"
+map.invalid : file, path, detail
+    "{file}: {path}: {detail}"
+map.unknown : id
+    "There is no instrument map named '{id}'"
+"""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Iterable, Mapping
+from functools import cache
+from pathlib import Path
+
+import msgspec
+
+from app.errors import MapError, Message
+from instrument_maps.model import InstrumentMap
+from instrument_maps.validate import problems
+
+FOLDER = Path(__file__).parent
+"""Where the bundled maps are."""
+
+MODELS = FOLDER.parent / "resources" / "instruments"
+"""Where the bundled models are."""
+
+NOT_MAPS = frozenset({"vocabulary.toml"})
+
+_SYNTAX_PLACE = re.compile(r" \(at (?:line (\d+), column (\d+)|end of document)\)$")
+_SCHEMA_PLACE = re.compile(r" - at `(?:key in )?\$?\.?(.*)`$")
+
+
+def parse_map(text: str, file: str) -> InstrumentMap:
+    """Build a map from the text of its file.
+
+    Parameters
+    ----------
+    text : str
+        TOML.
+    file : str
+        The file's name for messages; its stem has to be the map's id.
+
+    Raises
+    ------
+    MapError
+        With line and column (``map.syntax``) or the key path (``map.invalid``) of the first problem.
+    """
+    instrument = _shaped(text, file)
+    for path, detail in problems(instrument, Path(file).stem):
+        raise MapError("map.invalid", file=file, path=path, detail=detail)
+    return instrument
+
+
+def load_map(path: Path | str) -> InstrumentMap:
+    """Read one map file.
+
+    Raises
+    ------
+    MapError
+        See `parse_map`; ``map.unreadable`` where the file cannot be read at all.
+    """
+    return parse_map(_text(Path(path)), str(path))
+
+
+def check_map(path: Path | str) -> tuple[Message, ...]:
+    """Return everything that is wrong with a map file, its model included; empty for a valid map.
+
+    A syntax or schema error hides what lies behind it and is returned alone.
+    """
+    from instrument_maps.check_model import model_problems
+
+    file = Path(path)
+    try:
+        instrument = _shaped(_text(file), str(file))
+    except MapError as error:
+        return (error.message,)
+    found = [*problems(instrument, file.stem)]
+    model = file.parent / instrument.model
+    found += model_problems(instrument, model if model.exists() else MODELS / instrument.model)
+    return tuple(
+        Message("map.invalid", {"file": str(file), "path": where, "detail": detail}) for where, detail in found
+    )
+
+
+@cache
+def bundled_maps() -> Mapping[str, InstrumentMap]:
+    """Return the maps that come with the program, by id, in the order of their ids."""
+    return _folder_maps(FOLDER)
+
+
+def find_map(id: str, extra_folders: Iterable[Path] = ()) -> InstrumentMap:
+    """Return the map of this id; a person's own folders win over the bundled ones.
+
+    Raises
+    ------
+    MapError
+        ``map.unknown`` where no folder has it, or what is wrong with its file.
+    """
+    for folder in extra_folders:
+        path = folder / f"{id}.toml"
+        if path.is_file():
+            return load_map(path)
+    try:
+        return bundled_maps()[id]
+    except KeyError:
+        raise MapError("map.unknown", id=id) from None
+
+
+def all_maps(extra_folders: Iterable[Path] = ()) -> dict[str, InstrumentMap]:
+    """Return the bundled maps and those of a person's own folders, by id; own ones win."""
+    maps = dict(bundled_maps())
+    for folder in extra_folders:
+        maps.update(_folder_maps(folder))
+    return dict(sorted(maps.items()))
+
+
+def model_path(instrument: InstrumentMap, extra_folders: Iterable[Path] = ()) -> Path:
+    """Return the file of a map's model: beside a person's own map, else the bundled one.
+
+    Raises
+    ------
+    MapError
+        ``map.unreadable`` where no folder has it.
+    """
+    for folder in (*extra_folders, MODELS):
+        if (folder / instrument.model).is_file():
+            return folder / instrument.model
+    raise MapError("map.unreadable", file=instrument.model, detail="no such model")
+
+
+def _folder_maps(folder: Path) -> dict[str, InstrumentMap]:
+    paths = sorted(path for path in folder.glob("*.toml") if path.name not in NOT_MAPS)
+    return {path.stem: load_map(path) for path in paths}
+
+
+def _text(path: Path) -> str:
+    try:
+        return path.read_bytes().decode("utf-8-sig").replace("\r\n", "\n")
+    except OSError as error:
+        raise MapError("map.unreadable", file=str(path), detail=error.strerror or str(error)) from error
+    except UnicodeDecodeError as error:
+        raise MapError("map.unreadable", file=str(path), detail=f"byte {error.start} is not UTF-8") from error
+
+
+def _shaped(text: str, file: str) -> InstrumentMap:
+    """Parse and convert: everything that types alone can tell."""
+    try:
+        table = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        place = _SYNTAX_PLACE.search(str(error))
+        line, column = _place(text, place)
+        detail = _SYNTAX_PLACE.sub("", str(error))
+        raise MapError("map.syntax", file=file, line=line, column=column, detail=detail) from error
+    except RecursionError as error:
+        raise MapError("map.syntax", file=file, line=1, column=1, detail="nested too deeply") from error
+    try:
+        return msgspec.convert(table, InstrumentMap)
+    except msgspec.ValidationError as error:
+        place = _SCHEMA_PLACE.search(str(error))
+        path = place.group(1) if place else ""
+        detail = _SCHEMA_PLACE.sub("", str(error))
+        raise MapError("map.invalid", file=file, path=path or "(top level)", detail=detail) from error
+
+
+def _place(text: str, found: re.Match[str] | None) -> tuple[int, int]:
+    """Line and column of a syntax error, counted from 1; the end of the text where the parser says so."""
+    if found is not None and found.group(1):
+        return int(found.group(1)), int(found.group(2))
+    lines = text.split("\n")
+    return len(lines), len(lines[-1]) + 1
+
+
+__all__ = [
+    "all_maps",
+    "bundled_maps",
+    "check_map",
+    "find_map",
+    "load_map",
+    "model_path",
+    "parse_map",
+]

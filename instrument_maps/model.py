@@ -1,0 +1,421 @@
+"""What an instrument map says: frozen records, one per table of the TOML file.
+
+A map is everything the program knows about an instrument. It speaks of *nodes* (the named moving parts of
+the model), *controls* (what a player moves), *contacts* (which part of which hand touches what) and
+*fingerings* (which controls give which note). Code below and above asks the map and never asks which
+instrument it is.
+
+Frames
+------
+The root frame of a model has its origin in the centre of the mouthpiece's rim plane, +Z along the air
+stream, +Y up as played and +X to the player's left; metres. The frame of a moving node is that of the
+node at rest and moves with it: a point given in the frame of ``valve_1`` goes down with the valve.
+At rest the frames of all nodes of a model differ from the root's by a translation only.
+"""
+
+from __future__ import annotations
+
+from typing import Literal, TypeAlias
+
+import msgspec
+
+SCHEMA_VERSION = 1
+"""The schema these records describe; a file that says another number is refused."""
+
+ROOT = "root"
+"""Name of the node that stands for the instrument itself."""
+
+Vector: TypeAlias = tuple[float, float, float]
+Hand: TypeAlias = Literal["left", "right"]
+
+FINGERS = ("thumb", "index", "middle", "ring", "little")
+PARTS = frozenset(
+    f"{hand}.{part}"
+    for hand in ("left", "right")
+    for part in (*(f"{finger}.{place}" for finger in FINGERS for place in ("pad", "side")), "palm", "thumb_web")
+)
+"""Body landmarks a contact may name, e.g. ``right.index.pad``, ``left.palm``."""
+
+MOVERS = frozenset(f"{hand}.{mover}" for hand in ("left", "right") for mover in (*FINGERS, "hand"))
+"""What may move a control: a finger, or a whole hand (a playing slide)."""
+
+
+class _Table(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """A table of the file: immutable, and a key it does not know is an error."""
+
+
+class Name(_Table, frozen=True):
+    """The instrument's name by language (BCP 47 primary tags the program speaks)."""
+
+    en: str
+    ja: str
+
+
+class Range(_Table, frozen=True):
+    """Concert MIDI pitches, both ends inclusive.
+
+    ``low``..``high`` is what the table of fingerings covers; ``easy_low``..``easy_high`` is where the
+    embouchure is neither relaxed to its limit nor drawn tight.
+    """
+
+    low: int
+    high: int
+    easy_low: int
+    easy_high: int
+
+
+class Embouchure(_Table, frozen=True):
+    """How the lips meet the instrument.
+
+    Attributes
+    ----------
+    kind : str
+        ``"cup"``: both lips inside a cup mouthpiece.
+    upper_lip_share : float
+        Part of the rim's diameter that lies on the upper lip, 0..1.
+    """
+
+    kind: Literal["cup"]
+    upper_lip_share: float
+
+
+class Mouthpiece(_Table, frozen=True):
+    """The frame the lips are put to, in the model's root frame.
+
+    ``position_m`` is the centre of the rim plane, ``air_axis`` the direction of the air stream,
+    ``up_axis`` up as played (unit vectors, orthogonal); ``rim_radius_m`` is the crest of the rim, where
+    it presses on the lips, ``rim_outer_radius_m`` its outer edge.
+    """
+
+    position_m: Vector
+    air_axis: Vector
+    up_axis: Vector
+    rim_radius_m: float
+    rim_outer_radius_m: float
+
+
+class Motion(_Table, frozen=True):
+    """How a node moves while its control goes from 0 to 1, in the root frame.
+
+    Either a translation (``axis`` and ``travel_m``) or a rotation about ``pivot_m`` (a point in the root
+    frame; ``axis`` and ``angle_rad``, right-handed).
+    """
+
+    axis: Vector
+    travel_m: float | None = None
+    angle_rad: float | None = None
+    pivot_m: Vector | None = None
+
+
+class Control(_Table, frozen=True):
+    """Something the player moves: a valve, a slide, a lever.
+
+    Attributes
+    ----------
+    name : str
+        Unique; also the bone's name in an exported file.
+    kind : str
+        ``"press"`` goes down under a finger, ``"lever"`` turns under one, ``"slide"`` is pushed and pulled.
+    role : str
+        ``"pitch"``: named by the fingerings. ``"intonation"``: corrects a note that is held long enough.
+    node : str
+        The model's node it moves.
+    motion : Motion
+        How.
+    finger : str
+        What moves it, one of `MOVERS`.
+    label : str
+        Its sign in the short form of a fingering (``"1"``, ``"T"``); empty where the place itself is the
+        label (a slide) or where it has none.
+    rest_value : float
+        Where it is when nothing is played, 0..1.
+    move_window_s : float
+        It leaves its place at most this long before the next onset ...
+    move_note_share : float
+        ... and at most this part of the sounding note before it.
+    max_speed_m_s : float or None
+        Where the distance decides (a slide): the window is then at least distance / speed.
+    used_with : tuple of str
+        Intonation only: labels of the fingerings it corrects.
+    held_min_s : float or None
+        Intonation only: notes shorter than this are not corrected.
+    """
+
+    name: str
+    kind: Literal["press", "lever", "slide"]
+    role: Literal["pitch", "intonation"]
+    node: str
+    motion: Motion
+    finger: str
+    label: str = ""
+    rest_value: float = 0.0
+    move_window_s: float = 0.06
+    move_note_share: float = 0.4
+    max_speed_m_s: float | None = None
+    used_with: tuple[str, ...] = ()
+    held_min_s: float | None = None
+
+
+class Contact(_Table, frozen=True):
+    """A part of a hand that touches the instrument.
+
+    Attributes
+    ----------
+    part : str
+        One of `PARTS`.
+    node : str
+        The node that is touched (`ROOT` or the node of a control): position and normal are in its frame.
+    position_m, normal : vector
+        A point of the surface and the unit normal that points out of it, towards the skin.
+    control : str or None
+        The control this touch works, if any.
+    when : str
+        ``"always"``; ``"pressed"``: only while the control is away from rest; ``"released"``: only at rest.
+    grip : str
+        ``"firm"``: the touch that carries or works the instrument, exact. ``"resting"``: the part lies
+        against the surface where the hand allows it (judged as the hand's grip, not as a touch).
+    """
+
+    part: str
+    node: str
+    position_m: Vector
+    normal: Vector
+    control: str | None = None
+    when: Literal["always", "pressed", "released"] = "always"
+    grip: Literal["firm", "resting"] = "firm"
+
+
+class HandSeed(_Table, frozen=True):
+    """Where a solver starts a hand from: a plausible pose of a medium hand, not a contact.
+
+    ``palm_position_m`` is the middle of the palm's skin, ``palm_normal`` points out of the palm,
+    ``finger_direction`` from the wrist to the knuckles; in the frame of ``node``. ``curl`` is the bend of the
+    fingers without a contact: 0 straight, 1 a fist; in the order index, middle, ring, little.
+    """
+
+    hand: Hand
+    node: str
+    palm_position_m: Vector
+    palm_normal: Vector
+    finger_direction: Vector
+    curl: tuple[float, float, float, float] = (0.35, 0.4, 0.45, 0.45)
+
+
+class Capsule(_Table, frozen=True, tag="capsule", tag_field="shape"):
+    """A tube or bar: all points within ``radius_m`` of the segment ``a_m``..``b_m``."""
+
+    node: str
+    a_m: Vector
+    b_m: Vector
+    radius_m: float
+
+
+class Cylinder(_Table, frozen=True, tag="cylinder", tag_field="shape"):
+    """A flat-ended round body between ``a_m`` and ``b_m``."""
+
+    node: str
+    a_m: Vector
+    b_m: Vector
+    radius_m: float
+
+
+class Cone(_Table, frozen=True, tag="cone", tag_field="shape"):
+    """A flat-ended round body whose radius goes from ``radius_a_m`` to ``radius_b_m``."""
+
+    node: str
+    a_m: Vector
+    b_m: Vector
+    radius_a_m: float
+    radius_b_m: float
+
+
+class Ring(_Table, frozen=True, tag="ring", tag_field="shape"):
+    """A torus about ``axis``: ``radius_m`` to the middle of its tube, which is ``tube_radius_m`` thick."""
+
+    node: str
+    centre_m: Vector
+    axis: Vector
+    radius_m: float
+    tube_radius_m: float
+
+
+class Box(_Table, frozen=True, tag="box", tag_field="shape"):
+    """A box with half sizes ``half_m`` along the unit vectors ``x_axis``, ``y_axis`` and their cross product."""
+
+    node: str
+    centre_m: Vector
+    half_m: Vector
+    x_axis: Vector
+    y_axis: Vector
+
+
+Proxy: TypeAlias = Capsule | Cylinder | Cone | Ring | Box
+"""A closed body that stands for a part of the model when a hand is checked against it."""
+
+
+class Carriage(_Table, frozen=True):
+    """How the instrument is carried while playing, as (lowest, usual, highest) angles in degrees.
+
+    From the horizontal, straight ahead of the player: ``pitch_down_deg`` bell below the mouthpiece,
+    ``yaw_left_deg`` bell to the player's left, ``roll_left_deg`` the instrument's up leaning to the left.
+    Applied in the order yaw, pitch, roll.
+    """
+
+    pitch_down_deg: Vector
+    yaw_left_deg: Vector
+    roll_left_deg: Vector
+
+
+class Lowered(_Table, frozen=True):
+    """Where the instrument is in a long rest.
+
+    ``offset_m`` is the mouthpiece's place relative to where it is while playing, in the player's frame
+    (left, up, ahead); the angles are as in `Carriage`.
+    """
+
+    offset_m: Vector
+    pitch_down_deg: float
+    yaw_left_deg: float
+    roll_left_deg: float
+
+
+class Hold(_Table, frozen=True):
+    """How a trained player carries the instrument.
+
+    ``support_hand`` bears its weight. ``standing`` and ``seated`` are for playing; the two ``lowered``
+    tables are for long rests.
+    """
+
+    support_hand: Hand
+    standing: Carriage
+    seated: Carriage
+    lowered_standing: Lowered
+    lowered_seated: Lowered
+
+
+class Acoustics(_Table, frozen=True):
+    """The tube behind the table of fingerings: lets a test, or a reader, check it.
+
+    Attributes
+    ----------
+    fundamental_pitch : int
+        Concert MIDI pitch of the first harmonic of the plain tube.
+    tube_m : float
+        Effective length of the plain tube.
+    semitones : dict of str to int
+        What each pitch control lowers the tube by when it is alone (valves, a trigger).
+    slide_control : str or None
+        The playing slide, whose places are ``tube_m x (2**(semitones/12) - 1) / 2`` from closed, times the
+        length of the tube with the other controls.
+    """
+
+    fundamental_pitch: int
+    tube_m: float
+    semitones: dict[str, int]
+    slide_control: str | None = None
+
+
+class Fingering(_Table, frozen=True):
+    """One way to play one written note.
+
+    Attributes
+    ----------
+    written_pitch : int
+        MIDI pitch as the player reads it.
+    rank : int
+        1 = first choice; alternates count on without gaps.
+    label : str
+        The usual short form: ``"0"``, ``"13"``, ``"T12"``; of a slide ``"1"``..``"7"``, ``"T1"``.
+    controls : dict of str to float
+        Value 0..1 of every pitch control away from its rest.
+    cents : float
+        How far the note is from equal temperament when it is simply blown, after what ``controls`` does.
+    correction : dict of str to float
+        Values of the intonation controls for a note that is held.
+    tags : tuple of str
+        Why one would take it: ``"trill"``, ``"fast"``, ``"raised"`` ...
+    """
+
+    written_pitch: int
+    rank: int
+    label: str
+    controls: dict[str, float] = {}
+    cents: float = 0.0
+    correction: dict[str, float] = {}
+    tags: tuple[str, ...] = ()
+
+
+class InstrumentMap(_Table, frozen=True):
+    """One instrument, as its file says it.
+
+    Attributes
+    ----------
+    schema_version : int
+        `SCHEMA_VERSION`.
+    id : str
+        The file's stem.
+    name : Name
+        For people.
+    short_name : str
+        For a file name or a narrow column.
+    plays : tuple of str
+        Ids of the instrument vocabulary whose parts this instrument plays.
+    substitutes_for : tuple of str
+        Ids it may stand in for where they have no map of their own.
+    transposition_semitones : int
+        Written minus concert pitch.
+    range : Range
+        Concert pitches.
+    model : str
+        File name of the glTF binary.
+    fingerings : tuple of Fingering
+        Sorted by written pitch and rank.
+    """
+
+    schema_version: int
+    id: str
+    name: Name
+    short_name: str
+    plays: tuple[str, ...]
+    transposition_semitones: int
+    range: Range
+    model: str
+    embouchure: Embouchure
+    mouthpiece: Mouthpiece
+    controls: tuple[Control, ...]
+    contacts: tuple[Contact, ...]
+    hands: tuple[HandSeed, ...]
+    proxy: tuple[Proxy, ...]
+    hold: Hold
+    fingerings: tuple[Fingering, ...]
+    substitutes_for: tuple[str, ...] = ()
+    acoustics: Acoustics | None = None
+    sources: tuple[str, ...] = ()
+
+    def control(self, name: str) -> Control:
+        """Return the control of this name; `KeyError` if there is none."""
+        for control in self.controls:
+            if control.name == name:
+                return control
+        raise KeyError(name)
+
+    def in_range(self, concert_pitch: int) -> bool:
+        """Whether the table has fingerings for this concert pitch."""
+        return self.range.low <= concert_pitch <= self.range.high
+
+    def nearest_playable(self, concert_pitch: int) -> int:
+        """Return the concert pitch itself, or the end of the range that is nearest to it."""
+        return min(max(concert_pitch, self.range.low), self.range.high)
+
+    def fingerings_for(self, concert_pitch: int) -> tuple[Fingering, ...]:
+        """Return the fingerings of a concert pitch, first choice first.
+
+        For a pitch out of range: those of `nearest_playable`. Never empty for a valid map.
+        """
+        written = self.nearest_playable(concert_pitch) + self.transposition_semitones
+        return tuple(fingering for fingering in self.fingerings if fingering.written_pitch == written)
+
+    def values(self, fingering: Fingering, *, held: bool = False) -> dict[str, float]:
+        """Return the value of every control under a fingering; ``held`` adds the intonation controls."""
+        chosen = {**fingering.controls, **(fingering.correction if held else {})}
+        return {control.name: chosen.get(control.name, control.rest_value) for control in self.controls}

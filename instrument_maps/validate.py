@@ -1,0 +1,327 @@
+"""What a map must fulfil beyond its types: names that exist, numbers in range, fingerings that are complete."""
+
+from __future__ import annotations
+
+import math
+from collections import defaultdict
+from collections.abc import Callable, Iterator
+from typing import TypeAlias
+
+from instrument_maps.model import (
+    MOVERS,
+    PARTS,
+    ROOT,
+    SCHEMA_VERSION,
+    Box,
+    Capsule,
+    Carriage,
+    Cone,
+    Contact,
+    Control,
+    Cylinder,
+    Fingering,
+    InstrumentMap,
+    Proxy,
+    Ring,
+    Vector,
+)
+
+Problem: TypeAlias = tuple[str, str]
+"""Key path and what is wrong there, e.g. ``("controls[2].finger", "'right.indx' is not a finger")``."""
+
+_UNIT_TOLERANCE = 1e-3
+_REACH_M = 3.0
+_CENTS = 100.0
+
+
+def problems(instrument: InstrumentMap, stem: str) -> Iterator[Problem]:
+    """Yield every problem of a map whose types are right, in the order of its tables."""
+    yield from _head(instrument, stem)
+    yield from _mouthpiece(instrument)
+    yield from _controls(instrument)
+    yield from _contacts(instrument)
+    yield from _proxies(instrument)
+    yield from _hold(instrument)
+    yield from _acoustics(instrument)
+    yield from _fingerings(instrument)
+
+
+def _head(instrument: InstrumentMap, stem: str) -> Iterator[Problem]:
+    if instrument.schema_version != SCHEMA_VERSION:
+        yield "schema_version", f"{instrument.schema_version} is not {SCHEMA_VERSION}, the version this program reads"
+    if instrument.id != stem:
+        yield "id", f"'{instrument.id}' is not the file's name, '{stem}'"
+    for key, text in (("name.en", instrument.name.en), ("name.ja", instrument.name.ja)):
+        if not text.strip():
+            yield key, "is empty"
+    if not instrument.plays:
+        yield "plays", "is empty: no part would ever be given to this instrument"
+    limits = instrument.range
+    if not 0 <= limits.low <= limits.easy_low <= limits.easy_high <= limits.high <= 127:
+        yield "range", "must be 0 <= low <= easy_low <= easy_high <= high <= 127"
+    if abs(instrument.transposition_semitones) > 36:
+        yield "transposition_semitones", f"{instrument.transposition_semitones} is more than three octaves"
+    if not instrument.model.endswith(".glb") or "/" in instrument.model or "\\" in instrument.model:
+        yield "model", f"'{instrument.model}' is not the name of a .glb file"
+    if not 0 < instrument.embouchure.upper_lip_share < 1:
+        yield "embouchure.upper_lip_share", "must lie between 0 and 1"
+
+
+def _mouthpiece(instrument: InstrumentMap) -> Iterator[Problem]:
+    mouthpiece = instrument.mouthpiece
+    yield from _point("mouthpiece.position_m", mouthpiece.position_m)
+    yield from _unit("mouthpiece.air_axis", mouthpiece.air_axis)
+    yield from _unit("mouthpiece.up_axis", mouthpiece.up_axis)
+    if abs(_dot(mouthpiece.air_axis, mouthpiece.up_axis)) > _UNIT_TOLERANCE:
+        yield "mouthpiece.up_axis", "is not at a right angle to air_axis"
+    if not 0 < mouthpiece.rim_radius_m <= mouthpiece.rim_outer_radius_m < 0.1:
+        yield "mouthpiece.rim_radius_m", "must be 0 < rim_radius_m <= rim_outer_radius_m < 0.1"
+
+
+def _controls(instrument: InstrumentMap) -> Iterator[Problem]:
+    labels = {fingering.label for fingering in instrument.fingerings}
+    for key, seen in (("name", defaultdict[str, int](int)), ("node", defaultdict[str, int](int))):
+        for index, control in enumerate(instrument.controls):
+            value = getattr(control, key)
+            seen[value] += 1
+            if seen[value] > 1:
+                yield f"controls[{index}].{key}", f"'{value}' is used twice"
+    for index, control in enumerate(instrument.controls):
+        path = f"controls[{index}]"
+        if not control.name.isidentifier():
+            yield f"{path}.name", f"'{control.name}' is not a plain name (letters, digits, underscores)"
+        if control.node == ROOT:
+            yield f"{path}.node", f"'{ROOT}' is the instrument itself and does not move"
+        if control.finger not in MOVERS:
+            yield f"{path}.finger", f"'{control.finger}' is not a finger"
+        yield from _motion(path, control)
+        yield from _timing(path, control)
+        yield from _role(path, control, labels)
+
+
+def _motion(path: str, control: Control) -> Iterator[Problem]:
+    motion = control.motion
+    yield from _unit(f"{path}.motion.axis", motion.axis)
+    if (motion.travel_m is None) == (motion.angle_rad is None):
+        yield f"{path}.motion", "needs either travel_m or angle_rad"
+    if motion.travel_m is not None and not 0 < motion.travel_m < _REACH_M:
+        yield f"{path}.motion.travel_m", f"{motion.travel_m} m is not a travel"
+    if motion.angle_rad is not None:
+        if not 0 < abs(motion.angle_rad) < math.pi:
+            yield f"{path}.motion.angle_rad", f"{motion.angle_rad} rad is not the turn of a lever"
+        if motion.pivot_m is None:
+            yield f"{path}.motion.pivot_m", "is missing: a turn needs a pivot"
+        else:
+            yield from _point(f"{path}.motion.pivot_m", motion.pivot_m)
+    elif motion.pivot_m is not None:
+        yield f"{path}.motion.pivot_m", "has no meaning without angle_rad"
+
+
+def _timing(path: str, control: Control) -> Iterator[Problem]:
+    yield from _within(f"{path}.rest_value", control.rest_value, 0, 1)
+    yield from _within(f"{path}.move_window_s", control.move_window_s, 0.005, 2)
+    yield from _within(f"{path}.move_note_share", control.move_note_share, 0.01, 1)
+    if control.max_speed_m_s is not None:
+        yield from _within(f"{path}.max_speed_m_s", control.max_speed_m_s, 0.05, 20)
+        if control.motion.travel_m is None:
+            yield f"{path}.max_speed_m_s", "has no meaning for a turn"
+
+
+def _role(path: str, control: Control, labels: set[str]) -> Iterator[Problem]:
+    if control.role == "intonation":
+        if not control.used_with:
+            yield f"{path}.used_with", "is empty: this control would never move"
+        if control.held_min_s is None:
+            yield f"{path}.held_min_s", "is missing"
+        else:
+            yield from _within(f"{path}.held_min_s", control.held_min_s, 0, 10)
+        for index, label in enumerate(control.used_with):
+            if label not in labels:
+                yield f"{path}.used_with[{index}]", f"no fingering is labelled '{label}'"
+        return
+    if control.used_with:
+        yield f"{path}.used_with", "belongs to controls of the role 'intonation'"
+    if control.held_min_s is not None:
+        yield f"{path}.held_min_s", "belongs to controls of the role 'intonation'"
+
+
+def _contacts(instrument: InstrumentMap) -> Iterator[Problem]:
+    nodes = {ROOT, *(control.node for control in instrument.controls)}
+    controls = {control.name: control for control in instrument.controls}
+    seen: set[tuple[str, str]] = set()
+    for index, contact in enumerate(instrument.contacts):
+        path = f"contacts[{index}]"
+        if contact.part not in PARTS:
+            yield f"{path}.part", f"'{contact.part}' is not a part of a hand"
+        if contact.node not in nodes:
+            yield f"{path}.node", f"'{contact.node}' is neither '{ROOT}' nor the node of a control"
+        yield from _point(f"{path}.position_m", contact.position_m)
+        yield from _unit(f"{path}.normal", contact.normal)
+        if contact.control is not None and contact.control not in controls:
+            yield f"{path}.control", f"there is no control named '{contact.control}'"
+        elif contact.control is None and contact.when != "always":
+            yield f"{path}.when", f"'{contact.when}' needs a control"
+        if (contact.part, contact.when) in seen:
+            yield f"{path}.part", f"'{contact.part}' touches twice"
+        seen.add((contact.part, contact.when))
+    for index, control in enumerate(instrument.controls):
+        if not any(_works(contact, control) for contact in instrument.contacts):
+            yield f"controls[{index}].finger", f"no contact says where '{control.finger}' touches '{control.name}'"
+    yield from _hands(instrument, nodes)
+
+
+def _works(contact: Contact, control: Control) -> bool:
+    """Whether a contact is the mover of a control; a whole hand touches with any of its parts."""
+    hand, _, mover = control.finger.partition(".")
+    of_mover = contact.part.startswith(f"{hand}." if mover == "hand" else f"{hand}.{mover}.")
+    return contact.control == control.name and of_mover
+
+
+def _hands(instrument: InstrumentMap, nodes: set[str]) -> Iterator[Problem]:
+    hands = [seed.hand for seed in instrument.hands]
+    for index, seed in enumerate(instrument.hands):
+        path = f"hands[{index}]"
+        if seed.hand in hands[:index]:
+            yield f"{path}.hand", f"the {seed.hand} hand starts twice"
+        if seed.node not in nodes:
+            yield f"{path}.node", f"'{seed.node}' is neither '{ROOT}' nor the node of a control"
+        yield from _point(f"{path}.palm_position_m", seed.palm_position_m)
+        yield from _unit(f"{path}.palm_normal", seed.palm_normal)
+        yield from _unit(f"{path}.finger_direction", seed.finger_direction)
+        for finger, curl in enumerate(seed.curl):
+            yield from _within(f"{path}.curl[{finger}]", curl, 0, 1)
+    for index, contact in enumerate(instrument.contacts):
+        hand = contact.part.partition(".")[0]
+        if contact.part in PARTS and hand not in hands:
+            yield f"contacts[{index}].part", f"'hands' does not say where the {hand} hand starts"
+
+
+def _proxies(instrument: InstrumentMap) -> Iterator[Problem]:
+    nodes = {ROOT, *(control.node for control in instrument.controls)}
+    for index, proxy in enumerate(instrument.proxy):
+        path = f"proxy[{index}]"
+        if proxy.node not in nodes:
+            yield f"{path}.node", f"'{proxy.node}' is neither '{ROOT}' nor the node of a control"
+        for key, detail in _proxy(proxy):
+            yield f"{path}.{key}", detail
+
+
+def _proxy(proxy: Proxy) -> Iterator[Problem]:
+    if isinstance(proxy, Capsule | Cylinder | Cone):
+        yield from _point("a_m", proxy.a_m)
+        yield from _point("b_m", proxy.b_m)
+        if not isinstance(proxy, Capsule) and math.dist(proxy.a_m, proxy.b_m) < 1e-6:
+            yield "b_m", "is the same point as a_m"
+        radii = (
+            {"radius_a_m": proxy.radius_a_m, "radius_b_m": proxy.radius_b_m}
+            if isinstance(proxy, Cone)
+            else {"radius_m": proxy.radius_m}
+        )
+        for key, radius in radii.items():
+            yield from _within(key, radius, 1e-5, _REACH_M)
+    elif isinstance(proxy, Ring):
+        yield from _point("centre_m", proxy.centre_m)
+        yield from _unit("axis", proxy.axis)
+        yield from _within("radius_m", proxy.radius_m, 1e-4, _REACH_M)
+        yield from _within("tube_radius_m", proxy.tube_radius_m, 1e-5, proxy.radius_m)
+    elif isinstance(proxy, Box):
+        yield from _point("centre_m", proxy.centre_m)
+        yield from _unit("x_axis", proxy.x_axis)
+        yield from _unit("y_axis", proxy.y_axis)
+        if abs(_dot(proxy.x_axis, proxy.y_axis)) > _UNIT_TOLERANCE:
+            yield "y_axis", "is not at a right angle to x_axis"
+        for axis, half in enumerate(proxy.half_m):
+            yield from _within(f"half_m[{axis}]", half, 1e-5, _REACH_M)
+
+
+def _hold(instrument: InstrumentMap) -> Iterator[Problem]:
+    hold = instrument.hold
+    for name, carriage in (("standing", hold.standing), ("seated", hold.seated)):
+        for key in Carriage.__struct_fields__:
+            low, usual, high = getattr(carriage, key)
+            if not -180 <= low <= usual <= high <= 180:
+                yield f"hold.{name}.{key}", "must be [lowest, usual, highest] in degrees"
+    for name, lowered in (("lowered_standing", hold.lowered_standing), ("lowered_seated", hold.lowered_seated)):
+        yield from _point(f"hold.{name}.offset_m", lowered.offset_m)
+        for key in ("pitch_down_deg", "yaw_left_deg", "roll_left_deg"):
+            yield from _within(f"hold.{name}.{key}", getattr(lowered, key), -180, 180)
+
+
+def _acoustics(instrument: InstrumentMap) -> Iterator[Problem]:
+    acoustics = instrument.acoustics
+    if acoustics is None:
+        return
+    controls = {control.name for control in instrument.controls if control.role == "pitch"}
+    yield from _within("acoustics.tube_m", acoustics.tube_m, 0.1, 20)
+    for name, semitones in acoustics.semitones.items():
+        if name not in controls:
+            yield f"acoustics.semitones.{name}", f"there is no control named '{name}' that changes the pitch"
+        yield from _within(f"acoustics.semitones.{name}", semitones, 1, 12)
+    if acoustics.slide_control is not None and acoustics.slide_control not in controls:
+        yield "acoustics.slide_control", f"there is no control named '{acoustics.slide_control}'"
+
+
+def _fingerings(instrument: InstrumentMap) -> Iterator[Problem]:
+    ranks: dict[int, list[int]] = defaultdict(list)
+    shift = instrument.transposition_semitones
+    low, high = instrument.range.low + shift, instrument.range.high + shift
+    previous = (-1, 0)
+    for index, fingering in enumerate(instrument.fingerings):
+        path = f"fingerings[{index}]"
+        yield from _fingering(path, fingering, instrument)
+        if not low <= fingering.written_pitch <= high:
+            yield f"{path}.written_pitch", f"{fingering.written_pitch} is not in the range, written {low}..{high}"
+        place = (fingering.written_pitch, fingering.rank)
+        if place <= previous:
+            yield path, "is out of order: fingerings are sorted by written pitch, then rank"
+        previous = place
+        ranks[fingering.written_pitch].append(fingering.rank)
+    for written, found in ranks.items():
+        if sorted(found) != list(range(1, len(found) + 1)):
+            yield "fingerings", f"written pitch {written}: the ranks {found} do not count from 1 without gaps"
+    for written in range(low, high + 1):
+        if written not in ranks:
+            yield "fingerings", f"written pitch {written} (concert {written - shift}) has none"
+
+
+def _fingering(path: str, fingering: Fingering, instrument: InstrumentMap) -> Iterator[Problem]:
+    if not fingering.label:
+        yield f"{path}.label", "is empty"
+    yield from _within(f"{path}.cents", fingering.cents, -_CENTS, _CENTS)
+    roles = {control.name: control.role for control in instrument.controls}
+    used_with = {control.name: control.used_with for control in instrument.controls}
+    for key, role, values in (
+        ("controls", "pitch", fingering.controls),
+        ("correction", "intonation", fingering.correction),
+    ):
+        for name, value in values.items():
+            if roles.get(name) != role:
+                yield f"{path}.{key}.{name}", f"there is no control named '{name}' with the role '{role}'"
+            yield from _within(f"{path}.{key}.{name}", value, 0, 1)
+    for name in fingering.correction:
+        if name in used_with and roles[name] == "intonation" and fingering.label not in used_with[name]:
+            yield f"{path}.correction.{name}", f"'{name}' is not used with '{fingering.label}' (controls, used_with)"
+
+
+def _within(path: str, value: float, low: float, high: float) -> Iterator[Problem]:
+    if not low <= value <= high:  # also catches nan
+        yield path, f"{value:g} is not between {low:g} and {high:g}"
+
+
+def _point(path: str, point: Vector) -> Iterator[Problem]:
+    if not _all(point, lambda value: abs(value) <= _REACH_M):
+        yield path, f"{list(point)} is not a point in metres near the instrument"
+
+
+def _unit(path: str, vector: Vector) -> Iterator[Problem]:
+    length = math.hypot(*vector)
+    if not abs(length - 1) <= _UNIT_TOLERANCE:
+        yield path, f"{list(vector)} has the length {length:g}, not 1"
+
+
+def _all(values: Vector, test: Callable[[float], bool]) -> bool:
+    return all(math.isfinite(value) and test(value) for value in values)
+
+
+def _dot(a: Vector, b: Vector) -> float:
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
