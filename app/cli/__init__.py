@@ -1,1 +1,95 @@
-"""The command line: parses, prints, and calls the rooms below."""
+"""The command line: parses, calls the rooms below, prints. Every sub-command is a module of this folder.
+
+Exit status: 0 done, 1 bad input (or stopped by the person), 2 bad use.
+"""
+
+from __future__ import annotations
+
+import argparse
+import io
+import os
+import sys
+from collections.abc import Callable, Sequence
+from importlib.metadata import PackageNotFoundError, version
+
+from app.cli import export, inspect, instruments
+from app.cli.messages import error_text
+from app.errors import AppError, UsageError
+
+DONE, BAD_INPUT, BAD_USE = 0, 1, 2
+
+_DESCRIPTION = """\
+Turns the MIDI of a wind ensemble into the performance of its players, for animation.
+"""
+_EPILOG = """\
+examples:
+  suisou inspect quartet.mid
+  suisou export quartet.mid --to out
+  suisou export quartet.mid --to out --format fbx --fps 30 --from-bar 1 --to-bar 8
+  suisou export quartet.mid --to out --set "*.amplitude=0.8" --set "trombone.posture=seated"
+  suisou instruments
+"""
+
+
+def program_version() -> str:
+    """The installed version; the one in the making where nothing is installed."""
+    try:
+        return version("suisou")
+    except PackageNotFoundError:
+        return "0+checkout"
+
+
+def parser() -> argparse.ArgumentParser:
+    """The whole command line."""
+    top = argparse.ArgumentParser(
+        prog="suisou",
+        description=_DESCRIPTION,
+        epilog=_EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    top.add_argument("--version", action="version", version=f"suisou {program_version()}")
+    commands = top.add_subparsers(title="commands", dest="command", metavar="COMMAND")
+    for module in (inspect, export, instruments):
+        module.add_command(commands)
+    return top
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Run the program with these arguments (without its own name) and return the exit status."""
+    _speak_utf8()
+    try:
+        parsed = parser().parse_args(arguments)
+        if parsed.command is None:
+            parser().print_help()
+            return DONE
+        run: Callable[[argparse.Namespace], None] = parsed.run
+        run(parsed)
+        sys.stdout.flush()
+    except SystemExit as stop:  # argparse: --help and --version end with 0, bad use with 2
+        return stop.code if isinstance(stop.code, int) else BAD_USE
+    except UsageError as error:
+        return _fail(error_text(error), BAD_USE)
+    except AppError as error:
+        return _fail(error_text(error), BAD_INPUT)
+    except KeyboardInterrupt:
+        return _fail("stopped; nothing was written", BAD_INPUT)
+    except BrokenPipeError:
+        # Whoever read our output has gone (`| head`): not an error. Python would complain once more at exit.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return DONE
+    return DONE
+
+
+def _fail(sentence: str, status: int) -> int:
+    print(f"suisou: {sentence}", file=sys.stderr)
+    return status
+
+
+def _speak_utf8() -> None:
+    """Pipes and files get UTF-8 on every system; a terminal keeps its encoding and shows what it can."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            if stream.isatty():
+                stream.reconfigure(errors="replace")
+            else:
+                stream.reconfigure(encoding="utf-8", errors="backslashreplace")

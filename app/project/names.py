@@ -24,7 +24,9 @@ _LONGEST_NAME_BYTES = 80
 def clean_name(text: str) -> str:
     """The text on one line, composed (NFC), without control characters; may be empty."""
     kept = (" " if character.isspace() else character for character in unicodedata.normalize("NFC", text))
-    visible = "".join(character for character in kept if unicodedata.category(character) not in ("Cc", "Cs", "Cn", "Co"))
+    visible = "".join(
+        character for character in kept if unicodedata.category(character) not in ("Cc", "Cs", "Cn", "Co")
+    )
     return " ".join(visible.split())
 
 

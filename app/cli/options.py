@@ -1,0 +1,62 @@
+"""What a person types, as values: frame rates, bars, players."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from fractions import Fraction
+
+LOWEST_FPS = 1
+HIGHEST_FPS = 240
+_PULLED_DOWN = (24, 30, 48, 60, 120)
+"""Nominal rates that television slows by 1000/1001; 29.97 means 30000/1001 and not 2997/100."""
+
+
+def frame_rate(text: str) -> Fraction:
+    """Frames per second from ``60``, ``29.97`` or ``30000/1001``.
+
+    Raises
+    ------
+    argparse.ArgumentTypeError
+        Not a rate between 1 and 240.
+    """
+    try:
+        rate = Fraction(text.strip())
+    except (ValueError, ZeroDivisionError):
+        raise argparse.ArgumentTypeError(f"{text!r} is not a frame rate such as 24, 29.97 or 30000/1001") from None
+    if "/" not in text:
+        for nominal in _PULLED_DOWN:
+            pulled_down = Fraction(nominal * 1000, 1001)
+            # The usual short forms keep two or three decimals: 23.98, 23.976, 29.97, 59.94.
+            if abs(rate - pulled_down) < Fraction(1, 200):
+                rate = pulled_down
+    if not LOWEST_FPS <= rate <= HIGHEST_FPS:
+        raise argparse.ArgumentTypeError(f"{text!r} is not between {LOWEST_FPS} and {HIGHEST_FPS} frames per second")
+    return rate
+
+
+def frame_rate_text(rate: Fraction) -> str:
+    """``60`` or ``30000/1001``."""
+    return str(rate.numerator) if rate.denominator == 1 else f"{rate.numerator}/{rate.denominator}"
+
+
+def whole_number(text: str) -> int:
+    """A whole number of at least 0."""
+    try:
+        number = int(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number") from None
+    if not 0 <= number < 2**63:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number from 0 on")
+    return number
+
+
+def beats(text: str) -> float:
+    """A finite number of beats, 0 to 64."""
+    try:
+        number = float(text)
+    except ValueError:
+        number = math.nan
+    if not 0.0 <= number <= 64.0:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a number of beats from 0 to 64")
+    return number

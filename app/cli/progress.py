@@ -1,0 +1,40 @@
+"""One line of progress on a terminal; silence elsewhere."""
+
+from __future__ import annotations
+
+import time
+from typing import TextIO
+
+
+class Progress:
+    """Shows how far the work is, on one line that is written over.
+
+    Parameters
+    ----------
+    stream : text stream
+        Usually standard error. Nothing is written where it is not a terminal.
+    """
+
+    def __init__(self, stream: TextIO) -> None:
+        self._stream = stream
+        self._active = stream.isatty()
+        self._shown = ""
+        self._last_s = -1.0
+
+    def __call__(self, fraction: float, label: str) -> None:
+        """Show ``fraction`` (0..1) done of the work that ``label`` names; at most ten times a second."""
+        now_s = time.monotonic()
+        if not self._active or (now_s - self._last_s < 0.1 and fraction < 1.0):
+            return
+        self._last_s = now_s
+        line = f"{round(100 * min(max(fraction, 0.0), 1.0)):3d} %  {label}"[:78]
+        self._stream.write(f"\r{line.ljust(len(self._shown))}")
+        self._stream.flush()
+        self._shown = line
+
+    def clear(self) -> None:
+        """Take the line away."""
+        if self._shown:
+            self._stream.write(f"\r{' ' * len(self._shown)}\r")
+            self._stream.flush()
+            self._shown = ""
