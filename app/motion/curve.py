@@ -17,6 +17,9 @@ import numpy.typing as npt
 
 FloatArray: TypeAlias = npt.NDArray[np.float64]
 
+ROUNDING_S = 1e-9
+"""Moves whose times touch may overlap by this much."""
+
 
 def frame_times(first_frame_s: float, fps: Fraction, first_frame: int, frames: int) -> FloatArray:
     """Times of ``frames`` frames from frame ``first_frame`` on, seconds; exact to one rounding each."""
@@ -70,13 +73,15 @@ class Curve:
 def moves(segments: Sequence[tuple[float, float, float]], initial: float = 0.0) -> Curve:
     """A curve from ``(start_s, end_s, value)``: each move starts where the last one ended.
 
-    Moves that change nothing or take no time are left out. Raises ValueError where they overlap.
+    Moves that change nothing are left out. Raises ValueError where they overlap or take no time.
     """
     rows: list[tuple[float, float, float, float]] = []
     value, time_s = initial, -np.inf
     for start_s, end_s, target in segments:
         if target == value:
             continue
+        if time_s - ROUNDING_S < start_s < time_s:
+            start_s = time_s
         if start_s < time_s or end_s <= start_s:
             raise ValueError(f"move [{start_s}, {end_s}) to {target} overlaps the one before, which ends at {time_s}")
         rows.append((start_s, end_s, value, target))

@@ -53,7 +53,9 @@ def plan_gaze(plan: PlayerPlan, seed: int) -> Gaze:
         yaw_rad=moves([(t, t + SACCADE_S, yaw) for t, yaw, _, _ in targets]),
         pitch_rad=moves([(t, t + SACCADE_S, pitch) for t, _, pitch, _ in targets], MUSIC_PITCH_RAD),
         head_yaw_rad=moves([(t, t + HEAD_TURN_S, share * yaw) for t, yaw, _, share in targets]),
-        head_pitch_rad=moves([(t, t + HEAD_TURN_S, 0.25 * share * (pitch - MUSIC_PITCH_RAD)) for t, _, pitch, share in targets]),
+        head_pitch_rad=moves(
+            [(t, t + HEAD_TURN_S, 0.25 * share * (pitch - MUSIC_PITCH_RAD)) for t, _, pitch, share in targets]
+        ),
         blinks=_blinks(plan, generator(plan.player_id, seed, "blink")),
     )
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from fractions import Fraction
 
@@ -79,7 +80,7 @@ def test_a_slide_is_exact_at_the_judged_frame_and_until_its_window(fps, events) 
 @settings(max_examples=100, deadline=None)
 def test_between_two_notes_a_control_goes_one_way_and_no_further(events) -> None:
     curve = control_curve(events, slide(), TICKS)
-    for event, following in zip(events, events[1:], strict=False):
+    for event, following in itertools.pairwise(events):
         if following.start_tick - event.end_tick >= TICKS:
             continue
         values = curve.sample(np.linspace(event.start_s, following.start_s, 400))

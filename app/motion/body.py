@@ -1,0 +1,275 @@
+"""Layers of body motion: sway, weight, knees, breath, cue, bell, gaze and the residue of a body told to keep still.
+
+Every layer is a function of time in anatomical angles. Layers are added, so each can be left out and none knows the
+others; contacts are solved afterwards and are never broken by them. Sizes come from `metadata` at the player's
+amplitude.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Literal
+
+import numpy as np
+
+from app.motion.curve import Curve, FloatArray, Noise, bump, moves
+from app.motion.gaze import Gaze
+from app.motion.seed import generator
+from app.plan.model import BreathEvent, CueEvent, GestureEvent, PlayerParameters, PlayerPlan
+from metadata.model import AmplitudeScale, Body, Posture, at_amplitude
+
+TRUNK_SHARES = {"spine": 0.40, "chest": 0.35, "upperChest": 0.25}
+NECK_SHARES = {"neck": 0.45, "head": 0.55}
+TRUNK = (*TRUNK_SHARES, *NECK_SHARES)
+EYES_LEVEL = 0.6
+"""Share of the trunk's sideways lean that neck and head take back, so that the eyes stay level."""
+QUICK_S = 0.6
+"""Gestures shorter than this are smaller in proportion: nobody leans as far in half the time."""
+EXHALE_S = 3.0
+BREATH_LEAD_S = 0.03
+"""The inhalation is complete this long before the breath's end."""
+NOISE_SHARE = 0.30
+"""Wandering beside the planned gestures, as a share of their size."""
+LIFT_LAG = 0.6547
+"""Where the side lobe of a bump's acceleration peaks, in half widths: a lift placed there adds to the nod's peak
+without moving it."""
+LIFT_SHARE = 0.6
+
+
+@dataclass(frozen=True)
+class BodyMotion:
+    """What the layers sum to; every array is (F,) float64.
+
+    Attributes
+    ----------
+    forward_rad, left_rad, turn_rad : dict of str to array
+        Flexion, sideways lean and twist of each joint of trunk and neck.
+    hips_side_m, hips_bob_m : array
+        Of the hips, to the left and down.
+    hips_roll_rad, hips_turn_rad : array
+        Left and left.
+    knee_rad : array
+        Bend added to both knees.
+    bell_rad : array
+        Bell up, beside what the head does.
+    shoulders_rad : array
+        Both shoulders up.
+    elbows_rad : array
+        Both elbows out.
+    eyes_yaw_rad, eyes_pitch_rad : array
+        Of the eyes in the head: left, down.
+    inhaled : array
+        How full the lungs are, 0..1.
+    """
+
+    forward_rad: dict[str, FloatArray]
+    left_rad: dict[str, FloatArray]
+    turn_rad: dict[str, FloatArray]
+    hips_side_m: FloatArray
+    hips_bob_m: FloatArray
+    hips_roll_rad: FloatArray
+    hips_turn_rad: FloatArray
+    knee_rad: FloatArray
+    bell_rad: FloatArray
+    shoulders_rad: FloatArray
+    elbows_rad: FloatArray
+    eyes_yaw_rad: FloatArray
+    eyes_pitch_rad: FloatArray
+    inhaled: FloatArray
+
+
+@dataclass(frozen=True)
+class _Sizes:
+    """The body's sizes at one player's amplitude, and the noise of that player."""
+
+    body: Body
+    parameters: PlayerParameters
+    player_id: str
+
+    def of(self, scale: AmplitudeScale) -> float:
+        return at_amplitude(scale, self.parameters.amplitude)
+
+    def rad(self, scale: AmplitudeScale) -> float:
+        return float(np.deg2rad(self.of(scale)))
+
+    def wander(self, layer: str, scale: AmplitudeScale, times_s: FloatArray) -> FloatArray:
+        """Noise of this player's layer: the residue, and a share of the planned motion's size."""
+        low_hz = self.body.sway.residual_hz
+        noise = Noise.of(generator(self.player_id, self.parameters.seed, layer), 0.4 * low_hz, 2.5 * low_hz)
+        return noise.sample(times_s) * (scale[0] + NOISE_SHARE * (self.of(scale) - scale[0]))
+
+
+def follow(
+    events: Sequence[GestureEvent],
+    kind: Literal["sway", "weight_shift", "bell_height"],
+    transition_s: float | None = None,
+    limits: tuple[float, float] = (-1.0, 1.0),
+) -> Curve:
+    """A value that goes to each gesture's amount: over the whole gesture, or within ``transition_s`` of its start.
+
+    It goes back to 0 where the next gesture is more than its own length (at least a second) away.
+    """
+    chosen = [event for event in events if event.kind == kind]
+    segments: list[tuple[float, float, float]] = []
+    for event, following in zip(chosen, [*chosen[1:], None], strict=True):
+        end_s = event.end_s if following is None else min(event.end_s, following.start_s)
+        length_s = end_s - event.start_s
+        if length_s <= 0.0:
+            continue
+        move_s = length_s if transition_s is None else min(transition_s, length_s)
+        size = min(1.0, move_s / QUICK_S)
+        amount = float(np.clip(event.amount * size, *limits))
+        segments.append((event.start_s, event.start_s + move_s, amount))
+        pause_s = np.inf if following is None else following.start_s - end_s
+        if pause_s > max(1.0, length_s):
+            segments.append((end_s, end_s + min(max(length_s, 1.0), 2.0, pause_s), 0.0))
+    return moves(segments)
+
+
+def bobbing(events: Sequence[GestureEvent], times_s: FloatArray) -> FloatArray:
+    """Down-ness 0..1 of a body that bobs with the sway's beats: lowest on each beat, up between them."""
+    beats = [event for event in events if event.kind == "sway"]
+    segments: list[tuple[float, float, float]] = []
+    free_s = -np.inf
+    for event in beats:
+        start_s, length_s = max(event.start_s, free_s), event.end_s - max(event.start_s, free_s)
+        if length_s <= 0.0:
+            continue
+        size = min(1.0, length_s / QUICK_S)
+        if start_s > free_s:
+            segments.append((start_s - 0.5 * length_s if start_s - 0.5 * length_s >= free_s else free_s, start_s, size))
+        segments.append((start_s, start_s + 0.55 * length_s, 0.0))
+        segments.append((start_s + 0.55 * length_s, event.end_s, size))
+        free_s = event.end_s
+    if segments:
+        segments.append((free_s, free_s + 0.5, 0.0))
+    return moves(segments).sample(times_s)
+
+
+def lungs(breaths: Sequence[BreathEvent]) -> tuple[Curve, Curve]:
+    """How full the lungs are (up over each breath, down over the phrase), and the preparation's lean 0..1."""
+    full: list[tuple[float, float, float]] = []
+    lean: list[tuple[float, float, float]] = []
+    level = 0.0
+    drawn = [breath for breath in breaths if breath.kind == "breath"]
+    for breath, following in zip(drawn, [*drawn[1:], None], strict=True):
+        top_s = max(breath.end_s - BREATH_LEAD_S, 0.5 * (breath.start_s + breath.end_s))
+        rise = 0.5 + 0.5 * breath.depth
+        level = min(1.4, level + rise)
+        full.append((breath.start_s, top_s, level))
+        until_s = breath.end_s + EXHALE_S if following is None else min(breath.end_s + EXHALE_S, following.start_s)
+        if until_s > breath.end_s:
+            level *= 1.0 - min(1.0, (until_s - breath.end_s) / 1.5)
+            full.append((breath.end_s, until_s, level))
+    free_s = -np.inf
+    for breath in breaths:
+        if breath.kind == "preparation" and breath.end_s > max(breath.start_s, free_s):
+            start_s = max(breath.start_s, free_s)
+            free_s = breath.end_s + 0.6 * (breath.end_s - start_s)
+            lean += [(start_s, breath.end_s, 1.0), (breath.end_s, free_s, 0.0)]
+    return moves(full), moves(lean)
+
+
+def nods(cues: Sequence[CueEvent], times_s: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Dip and lift of all cues, 0..1: the dip's acceleration peaks on the preparatory beat, its width is the beat."""
+    dip, lift = np.zeros(len(times_s)), np.zeros(len(times_s))
+    for cue in cues:
+        half_s = min(0.6 * cue.beat_s, cue.peak_s - cue.start_s)
+        if half_s <= 0.0:
+            continue
+        first, last = np.searchsorted(times_s, [cue.peak_s - half_s, cue.peak_s + 2.0 * half_s])
+        here = slice(first, last)
+        np.maximum(dip[here], bump(times_s[here], cue.peak_s, half_s), out=dip[here])
+        np.maximum(lift[here], bump(times_s[here], cue.peak_s + LIFT_LAG * half_s, half_s), out=lift[here])
+    return dip, lift
+
+
+@dataclass
+class _Sum:
+    """Angles of trunk and neck while the layers are added."""
+
+    frames: int
+    angles: dict[str, FloatArray] = field(default_factory=dict)
+
+    def add(self, shares: dict[str, float], values: FloatArray) -> None:
+        for joint, share in shares.items():
+            if joint in self.angles:
+                self.angles[joint] = self.angles[joint] + share * values
+            else:
+                self.angles[joint] = share * values
+
+    def all(self) -> dict[str, FloatArray]:
+        return {joint: self.angles.get(joint, np.zeros(self.frames)) for joint in TRUNK}
+
+
+def body_motion(
+    plan: PlayerPlan, parameters: PlayerParameters, body: Body, posture: Posture, gaze: Gaze, times_s: FloatArray
+) -> BodyMotion:
+    """Sum of all layers at ascending ``times_s`` (F,), on top of the posture's own angles."""
+    sizes = _Sizes(body, parameters, plan.player_id)
+    sway, frames = body.sway, len(times_s)
+    level, preparing = lungs(plan.breaths)
+    inhaled, lean = level.sample(times_s), preparing.sample(times_s)
+    dip, lift = nods(plan.cues, times_s)
+
+    aside = parameters.sway * follow(plan.gestures, "sway").sample(times_s)
+    down = parameters.sway * bobbing(plan.gestures, times_s) * (1.0 - np.clip(inhaled, 0.0, 1.0))
+    weight = parameters.weight_shift * follow(
+        plan.gestures, "weight_shift", body.weight_shift.transition_s
+    ).sample(times_s)
+    height = parameters.bell_height * follow(plan.gestures, "bell_height", 0.5).sample(times_s)
+    bell_up = np.maximum(height, 0.0) * sizes.rad(body.bell.up_deg) + np.minimum(height, 0.0) * sizes.rad(
+        body.bell.down_deg
+    )
+
+    forward, left, turn = _Sum(frames), _Sum(frames), _Sum(frames)
+    for joint, angle_deg in posture.spine_deg.items():
+        forward.add({joint: 1.0}, np.full(frames, np.deg2rad(angle_deg)))
+
+    deg = np.deg2rad
+    side = aside * sizes.rad(sway.side_deg) + deg(sizes.wander("side", sway.side_deg, times_s))
+    left.add(TRUNK_SHARES, side)
+    left.add(NECK_SHARES, -EYES_LEVEL * side)
+    twist = -aside * sizes.rad(sway.turn_deg) + deg(sizes.wander("turn", sway.turn_deg, times_s))
+    turn.add(TRUNK_SHARES, 0.7 * twist)
+    nod_forward = down * sizes.rad(sway.forward_deg) + deg(sizes.wander("forward", sway.forward_deg, times_s))
+    forward.add(TRUNK_SHARES, nod_forward)
+    forward.add(NECK_SHARES, down * sizes.rad(sway.head_deg) - 0.4 * nod_forward)
+    left.add(NECK_SHARES, deg(sizes.wander("head_side", sway.head_deg, times_s)))
+    turn.add(NECK_SHARES, deg(sizes.wander("head_turn", sway.head_deg, times_s)))
+
+    breathing = deg(body.breath.torso_back_deg) * inhaled - deg(body.breath.preparation_forward_deg) * lean
+    forward.add(TRUNK_SHARES, -breathing)
+    forward.add(NECK_SHARES, -deg(body.breath.head_back_deg) * inhaled + 0.4 * breathing)
+
+    forward.add(TRUNK_SHARES, sizes.rad(body.cue.trunk_deg) * (dip - LIFT_SHARE * lift))
+    forward.add(NECK_SHARES, sizes.rad(body.cue.head_deg) * (dip - LIFT_SHARE * lift))
+    bell_cue = LIFT_SHARE * sizes.rad(body.cue.bell_lift_deg) * lift - sizes.rad(body.cue.bell_dip_deg) * dip
+    # The head follows a rising or sinking bell a little, the trunk less.
+    forward.add(NECK_SHARES, -0.35 * bell_up)
+    forward.add(TRUNK_SHARES, -0.15 * bell_up)
+
+    head_yaw, head_pitch = gaze.head_yaw_rad.sample(times_s), gaze.head_pitch_rad.sample(times_s)
+    turn.add(NECK_SHARES, 0.5 * head_yaw)
+    forward.add(NECK_SHARES, 0.5 * head_pitch)
+
+    roll = weight * sizes.rad(body.weight_shift.roll_deg)
+    left.add(TRUNK_SHARES, -0.8 * roll)
+    return BodyMotion(
+        forward_rad=forward.all(),
+        left_rad=left.all(),
+        turn_rad=turn.all(),
+        hips_side_m=weight * sizes.of(body.weight_shift.side_m)
+        + sizes.wander("weight", body.weight_shift.side_m, times_s),
+        hips_bob_m=down * sizes.of(sway.bob_m),
+        hips_roll_rad=roll,
+        hips_turn_rad=0.3 * twist,
+        knee_rad=down * sizes.rad(sway.knee_deg) + dip * sizes.rad(body.cue.knee_deg),
+        bell_rad=0.5 * bell_up + bell_cue,
+        shoulders_rad=deg(body.breath.shoulder_lift_deg) * inhaled,
+        elbows_rad=deg(body.breath.elbow_out_deg) * inhaled,
+        eyes_yaw_rad=gaze.yaw_rad.sample(times_s) - 0.5 * head_yaw,
+        eyes_pitch_rad=gaze.pitch_rad.sample(times_s) - 0.5 * head_pitch,
+        inhaled=inhaled,
+    )
