@@ -5,6 +5,10 @@ from __future__ import annotations
 import argparse
 import math
 from fractions import Fraction
+from typing import TypeAlias
+
+Commands: TypeAlias = "argparse._SubParsersAction[argparse.ArgumentParser]"
+"""Where a sub-command declares itself."""
 
 LOWEST_FPS = 1
 HIGHEST_FPS = 240

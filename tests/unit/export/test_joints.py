@@ -7,37 +7,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from app.export.joints import (
-    anatomical_angles,
-    angular_accelerations,
-    conjugate,
-    multiply,
-    rotation_vectors,
-    world_transforms,
-)
-
-seeds = st.integers(0, 2**32 - 1)
+from app.export.joints import anatomical_angles, angular_accelerations, world_transforms
 
 
-@given(seeds)
-def test_rotation_vectors_and_products_are_scipys(seed: int) -> None:
-    a, b = Rotation.random(8, random_state=seed % 1000), Rotation.random(8, random_state=seed % 1000 + 1)
-    np.testing.assert_allclose(rotation_vectors(a.as_quat()), a.as_rotvec(), atol=1e-9)
-    product = Rotation.from_quat(multiply(a.as_quat(), b.as_quat()))
-    assert np.max((product * (a * b).inv()).magnitude()) < 1e-9
-    unit = multiply(a.as_quat(), conjugate(a.as_quat()))
-    np.testing.assert_allclose(np.abs(unit[:, 3]), 1.0)
-
-
-def test_a_tiny_rotation_keeps_its_size() -> None:
-    vectors = np.array([[1e-10, 0, 0], [0, 1e-6, 0], [0.0, 0.0, 0.0]])
-    np.testing.assert_allclose(rotation_vectors(Rotation.from_rotvec(vectors).as_quat()), vectors, atol=1e-15)
-
-
-@given(st.floats(-1.5, 1.5), st.floats(-1.0, 1.0), st.floats(-3.0, 3.0), seeds)
+@given(st.floats(-1.5, 1.5), st.floats(-1.0, 1.0), st.floats(-3.0, 3.0), st.integers(0, 1000))
 def test_angles_come_back(flexion: float, sideways: float, twist: float, seed: int) -> None:
-    axes = Rotation.random(random_state=seed % 1000).as_matrix()
-    f_axis, s_axis, t_axis = axes
+    f_axis, s_axis, t_axis = Rotation.random(random_state=seed).as_matrix()
     swing = Rotation.from_rotvec(flexion * f_axis + sideways * s_axis)
     rotation = (swing * Rotation.from_rotvec(twist * t_axis)).as_quat()
     for sign in (1.0, -1.0):
@@ -54,9 +29,11 @@ def test_a_constant_acceleration_is_found() -> None:
 
 
 def test_world_transforms_chain() -> None:
-    local = np.tile(np.eye(4), (2, 3, 1, 1))
-    local[:, :, 1, 3] = 1.0
-    local[1, 0, :3, :3] = Rotation.from_euler("z", 90, degrees=True).as_matrix()
-    world = world_transforms((-1, 0, 1), local)
+    translations = np.zeros((2, 3, 3))
+    translations[..., 1] = 1.0
+    rotations = np.zeros((2, 3, 4))
+    rotations[..., 3] = 1.0
+    rotations[1, 0] = Rotation.from_euler("z", 90, degrees=True).as_quat()
+    world = world_transforms((-1, 0, 1), translations, rotations)
     np.testing.assert_allclose(world[0, 2, :3, 3], [0, 3, 0], atol=1e-12)
     np.testing.assert_allclose(world[1, 2, :3, 3], [-2, 1, 0], atol=1e-12)

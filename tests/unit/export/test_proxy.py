@@ -51,10 +51,7 @@ def winding_numbers(mesh: trimesh.Trimesh, points: np.ndarray) -> np.ndarray:
     numerator = np.einsum("pti,pti->pt", a, np.cross(b, c))
     dot = np.einsum
     denominator = (
-        la * lb * lc
-        + dot("pti,pti->pt", a, b) * lc
-        + dot("pti,pti->pt", b, c) * la
-        + dot("pti,pti->pt", c, a) * lb
+        la * lb * lc + dot("pti,pti->pt", a, b) * lc + dot("pti,pti->pt", b, c) * la + dot("pti,pti->pt", c, a) * lb
     )
     return 2 * np.arctan2(numerator, denominator).sum(axis=1) / (4 * np.pi)
 

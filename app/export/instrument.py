@@ -1,0 +1,106 @@
+"""An instrument and its moving parts as the scene of a file, in the same space as its player.
+
+The root bone is the instrument's place in the world; every moving part is a bone below it that bears the name of the
+control that moves it.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from app.export.character import CENTIMETRES, mesh_names, skinned_mesh
+from app.formats.fbx.scene import FbxBone, FbxClip, FbxScene
+from app.motion.model import Motion
+from app.rig import quaternion
+from app.rig.model import InstrumentModel
+from instrument_maps.model import Control, InstrumentMap
+
+FloatArray = npt.NDArray[np.float64]
+
+
+def instrument_scene(
+    instrument: InstrumentMap, model: InstrumentModel, motion: Motion, clip: str, creator: str
+) -> FbxScene:
+    """The scene of a player's instrument.
+
+    Parameters
+    ----------
+    instrument : InstrumentMap
+    model : InstrumentModel
+        The model the map names.
+    motion : Motion
+        Of the player who holds it.
+    clip, creator : str
+        Name of the animation; program and version.
+    """
+    bones = instrument_bones(instrument, model)
+    binds = np.tile(np.eye(4), (len(bones), 1, 1))
+    binds[:, :3, 3] = model.node_positions_m * CENTIMETRES
+    names = mesh_names((mesh.name for mesh in model.meshes), (bone.name for bone in bones))
+    return FbxScene(
+        bones=bones,
+        meshes=tuple(
+            skinned_mesh(mesh, name, mesh.joints, mesh.weights, binds)
+            for mesh, name in zip(model.meshes, names, strict=True)
+        ),
+        clip=instrument_clip(instrument, model, motion, clip),
+        creator=creator,
+    )
+
+
+def instrument_bones(instrument: InstrumentMap, model: InstrumentModel) -> tuple[FbxBone, ...]:
+    """One bone per node; a node that a control moves is named after the control."""
+    by_node = {control.node: control.name for control in instrument.controls}
+    unturned = np.array([0.0, 0.0, 0.0, 1.0])
+    root_m = model.node_positions_m[0]
+    return tuple(
+        FbxBone(
+            name=by_node.get(node, node),
+            parent=-1 if index == 0 else 0,
+            translation_cm=(model.node_positions_m[index] - (root_m if index else 0.0)) * CENTIMETRES,
+            rotation_xyzw=unturned,
+        )
+        for index, node in enumerate(model.node_names)
+    )
+
+
+def instrument_clip(instrument: InstrumentMap, model: InstrumentModel, motion: Motion, name: str) -> FbxClip:
+    """Where the instrument is and what its parts do."""
+    rotations = np.zeros((motion.frames, len(model.node_names), 4))
+    rotations[..., 3] = 1.0
+    rotations[:, 0] = motion.instrument_rotation
+    translations_cm = {0: motion.instrument_position_m.astype(np.float64) * CENTIMETRES}
+    for control in instrument.controls:
+        node = model.node_names.index(control.node)
+        values = motion.controls[control.name].astype(np.float64)
+        rest_m = model.node_positions_m[node] - model.node_positions_m[0]
+        position_m, rotation = part_motion(control, rest_m, values)
+        translations_cm[node] = position_m * CENTIMETRES
+        rotations[:, node] = rotation
+    return FbxClip(name, motion.fps, motion.frames, rotations, translations_cm)
+
+
+def part_motion(control: Control, rest_m: FloatArray, values: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """A moving part in the instrument's frame, for values 0..1 of its control.
+
+    Parameters
+    ----------
+    control : Control
+    rest_m : (3,) float64
+        Where the part's frame is at value 0.
+    values : (F,) float64
+
+    Returns
+    -------
+    position_m : (F, 3) float64
+    rotation : (F, 4) float64
+        Quaternions xyzw.
+    """
+    axis = np.asarray(control.motion.axis)
+    if control.motion.travel_m is not None:
+        unturned = np.tile(quaternion.IDENTITY, (len(values), 1))
+        return rest_m + (values * control.motion.travel_m)[:, None] * axis, unturned
+    pivot_m = rest_m if control.motion.pivot_m is None else np.asarray(control.motion.pivot_m)
+    rotation = quaternion.from_axis_angle(axis, values * (control.motion.angle_rad or 0.0))
+    return pivot_m + quaternion.rotate(rotation, rest_m - pivot_m), rotation
