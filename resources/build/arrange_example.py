@@ -1,0 +1,223 @@
+"""Arrange the bundled example: four players out of Pezel's five-part sonata 21.
+
+Source: J. Pezel, "Hora decima", sonata 21, engraved for the Mutopia project (public domain), as MIDI in
+``tests/data/midi/ensemble/brass_quintet_pezel_sonata21.mid``. Run from anywhere::
+
+    python -m resources.build.arrange_example
+
+What the arrangement does (quarters are counted from the start of the source, metre 3/2):
+
+- It takes the fugato, the homophonic middle part and the closing imitations: quarters 42 to 306.
+- The two sopranos, in one track of the source, become the trumpets: where two notes sound the upper goes to the first
+  trumpet, except where the second one's run crosses over it; where one sounds, `SECOND_TRUMPET_ALONE` says whose entry it is.
+- The first trombone plays the source's alto line, and in places the tenor's.
+- The second trombone plays the bass; what lies below E2 an octave higher.
+- A note of three quarters or more that another follows at once ends early, so that the player can breathe.
+- Dynamics by section (echoes in the closing part), metre and contour; a broadening at the middle part and at the end.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import NamedTuple
+
+import mido
+
+SOURCE = Path(__file__).parents[2] / "tests/data/midi/ensemble/brass_quintet_pezel_sonata21.mid"
+TARGET = Path(__file__).parents[1] / "examples/quartet.mid"
+
+FIRST_QUARTER, LAST_QUARTER = 42.0, 306.0
+TICKS_PER_QUARTER = 480
+LOWEST_TROMBONE_PITCH = 40
+
+SECOND_TRUMPET_ALONE = ((76.0, 88.0), (108.0, 114.0), (128.0, 132.0), (210.0, 216.0), (268.0, 270.0))
+TRUMPETS_CROSSED = ((216.0, 218.0), (268.0, 276.0))
+# The first trombone plays the tenor here: a run while the alto rests, and the thirds of three closing chords.
+TENOR_INSTEAD = ((54.0, 60.0), (156.0, 162.0), (228.0, 234.0), (300.0, 306.0))
+LOWEST_TENOR_PITCH = 50
+
+# (from quarter, loudness as velocity): the closing part answers its own phrases more softly.
+SECTIONS = (
+    (42.0, 84),
+    (100.0, 92),
+    (136.0, 98),
+    (160.0, 70),
+    (176.0, 94),
+    (210.0, 64),
+    (222.0, 76),
+    (234.0, 88),
+    (246.0, 66),
+    (258.0, 84),
+    (280.0, 104),
+)
+# (from quarter, quarters per minute); the last bars broaden quarter by quarter.
+TEMPI = (
+    (42.0, 180.0),
+    (162.0, 168.0),
+    (208.0, 160.0),
+    (210.0, 184.0),
+    (284.0, 176.0),
+    (290.0, 168.0),
+    (294.0, 160.0),
+    (296.0, 148.0),
+    (298.0, 132.0),
+    (300.0, 112.0),
+)
+
+
+class Sound(NamedTuple):
+    """One note: onset and length in quarters, MIDI pitch."""
+
+    onset: float
+    pitch: int
+    length: float
+
+
+# Where the sopranos meet on one pitch the source has one note; the other player's is put back.
+FIRST_TRUMPET_UNISONS = [Sound(218.0, 69, 0.5)]
+SECOND_TRUMPET_UNISONS = [Sound(156.0, 64, 6.0), Sound(204.0, 67, 6.0)]
+
+
+def sounds(track: mido.MidiTrack, ticks_per_quarter: int) -> list[Sound]:
+    """The notes of one track, by onset and pitch."""
+    tick = 0
+    sounding: dict[int, list[int]] = {}
+    found = []
+    for message in track:
+        tick += message.time
+        if message.type == "note_on" and message.velocity:
+            sounding.setdefault(message.note, []).append(tick)
+        elif message.type in ("note_on", "note_off") and sounding.get(message.note):
+            onset = sounding[message.note].pop(0)
+            found.append(Sound(onset / ticks_per_quarter, message.note, (tick - onset) / ticks_per_quarter))
+    return sorted(sound for sound in found if FIRST_QUARTER <= sound.onset < LAST_QUARTER)
+
+
+def within(quarter: float, spans: tuple[tuple[float, float], ...]) -> bool:
+    return any(first <= quarter < last for first, last in spans)
+
+
+def trumpets(sopranos: list[Sound]) -> tuple[list[Sound], list[Sound]]:
+    """Share the sopranos' track between two players."""
+    first: list[Sound] = []
+    second: list[Sound] = []
+    for sound in sopranos:
+        others = [
+            other
+            for other in sopranos
+            if other is not sound
+            and other.onset < sound.onset + sound.length
+            and sound.onset < other.onset + other.length
+        ]
+        if others:
+            upper = sound.pitch >= max(other.pitch for other in others)
+            to_first = upper != within(sound.onset, TRUMPETS_CROSSED)
+        else:
+            to_first = not within(sound.onset, SECOND_TRUMPET_ALONE)
+        (first if to_first else second).append(sound)
+    return sorted(first + FIRST_TRUMPET_UNISONS), sorted(second + SECOND_TRUMPET_UNISONS)
+
+
+def first_trombone(alto: list[Sound], low: list[Sound]) -> list[Sound]:
+    """The alto line, or the tenor's where `TENOR_INSTEAD` says so."""
+    tenor = [sound for sound in low if within(sound.onset, TENOR_INSTEAD) and sound.pitch >= LOWEST_TENOR_PITCH]
+    return sorted([sound for sound in alto if not within(sound.onset, TENOR_INSTEAD)] + tenor)
+
+
+def bass_line(track: list[Sound]) -> list[Sound]:
+    """The lowest voice, what lies below the trombone's range taken an octave higher (the source doubles it there)."""
+    line: list[Sound] = []
+    for sound in track:
+        if line and line[-1].onset + line[-1].length > sound.onset:
+            continue  # another voice over a held bass
+        octave = 12 if sound.pitch < LOWEST_TROMBONE_PITCH else 0
+        line.append(sound._replace(pitch=sound.pitch + octave))
+    return line
+
+
+def breathing(line: list[Sound]) -> list[Sound]:
+    """End long notes early where the next follows at once."""
+    shaped = []
+    for sound, following in zip(line, [*line[1:], None], strict=True):
+        length = sound.length
+        if following is not None:
+            length = min(length, following.onset - sound.onset)
+            if sound.onset + length == following.onset and length >= 3:
+                length -= 1.0 if length >= 4 else 0.5
+        shaped.append(sound._replace(length=length))
+    return shaped
+
+
+def velocity(sound: Sound, line: list[Sound]) -> int:
+    """Loudness by section, accent by metre (3/2 from the first quarter), a little more towards the top of the line."""
+    base = next(level for quarter, level in reversed(SECTIONS) if quarter <= sound.onset)
+    place = (sound.onset - FIRST_QUARTER) % 6
+    accent = 8 if place == 0 else 4 if place in (2, 4) else 0 if place == int(place) else -4
+    pitches = [other.pitch for other in line]
+    contour = round(10 * (sound.pitch - sum(pitches) / len(pitches)) / (max(pitches) - min(pitches)))
+    return max(1, min(127, base + accent + contour))
+
+
+def tick(quarter: float) -> int:
+    return round((quarter - FIRST_QUARTER) * TICKS_PER_QUARTER)
+
+
+def track_of(events: list[tuple[int, int, mido.Message | mido.MetaMessage]]) -> mido.MidiTrack:
+    """Events at absolute ticks to a track; at one tick the smaller order goes first."""
+    track = mido.MidiTrack()
+    now = 0
+    for at, _, message in sorted(events, key=lambda event: event[:2]):
+        track.append(message.copy(time=at - now))
+        now = at
+    return track
+
+
+def conductor() -> mido.MidiTrack:
+    meta = mido.MetaMessage
+    events = [
+        (0, 0, meta("track_name", name="Sonata 21")),
+        (0, 1, meta("text", text="Johann Pezel, Hora decima (1670), arranged for two trumpets and two trombones")),
+        (0, 2, meta("copyright", text="Public domain")),
+        (0, 3, meta("time_signature", numerator=3, denominator=2, clocks_per_click=48)),
+        (0, 4, meta("key_signature", key="Em")),
+        *((tick(quarter), 5, meta("set_tempo", tempo=mido.bpm2tempo(bpm))) for quarter, bpm in TEMPI),
+    ]
+    return track_of(events)
+
+
+def player(name: str, channel: int, program: int, line: list[Sound]) -> mido.MidiTrack:
+    events: list[tuple[int, int, mido.Message | mido.MetaMessage]] = [
+        (0, 0, mido.MetaMessage("track_name", name=name)),
+        (0, 1, mido.Message("program_change", channel=channel, program=program)),
+    ]
+    for sound in line:
+        loudness = velocity(sound, line)
+        on = mido.Message("note_on", channel=channel, note=sound.pitch, velocity=loudness)
+        off = mido.Message("note_off", channel=channel, note=sound.pitch, velocity=64)
+        events += [(tick(sound.onset), 3, on), (tick(sound.onset + sound.length), 2, off)]
+    return track_of(events)
+
+
+def arrange(source: mido.MidiFile) -> mido.MidiFile:
+    """The quartet, from the source's three tracks of players."""
+    sopranos, alto, low = (sounds(track, source.ticks_per_beat) for track in source.tracks[1:])
+    upper, lower = trumpets(sopranos)
+    lines = (
+        ("Trumpet 1", 0, 56, upper),
+        ("Trumpet 2", 1, 56, lower),
+        ("Trombone 1", 2, 57, first_trombone(alto, low)),
+        ("Trombone 2", 3, 57, bass_line(low)),
+    )
+    tracks = [player(name, channel, program, breathing(line)) for name, channel, program, line in lines]
+    return mido.MidiFile(type=1, ticks_per_beat=TICKS_PER_QUARTER, tracks=[conductor(), *tracks])
+
+
+def main() -> None:
+    """Write the example and say how long it is."""
+    quartet = arrange(mido.MidiFile(SOURCE))
+    quartet.save(TARGET)
+    print(f"{TARGET.name}: {quartet.length:.1f} s")
+
+
+if __name__ == "__main__":
+    main()
