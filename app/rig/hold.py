@@ -1,0 +1,285 @@
+"""How one body holds one instrument: fixed hand frames, finger poses over the controls, the lips.
+
+A `Hold` is fitted once per character and instrument (`app.rig.fit.fit_hold`) and then only evaluated, vectorised
+over frames:
+
+1. ``Lips.contact_m`` gives where the lips are in the head's frame; with the head's transform and the wanted rotation of
+   the instrument that gives ``world_from_instrument``.
+2. `hand_targets` gives ``world_from_hand`` of both wrists (a hand that lies on a moving node moves with it).
+3. `app.rig.ik.solve_limb` turns a shoulder and a target into rotations of upper arm, lower arm and hand;
+   ``HandHold.elbow_direction`` is the comfortable pole.
+4. `finger_rotations` gives the fingers by interpolation of tables over the values of the controls.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from app.rig import quaternion
+
+FloatArray = npt.NDArray[np.float64]
+Side = Literal["left", "right"]
+
+
+@dataclass(frozen=True)
+class NodeMotion:
+    """How a node of the instrument moves with one control, in the instrument's frame.
+
+    The node's transform is a translation by ``value * travel_m`` or a rotation by ``value * angle_rad`` about the axis
+    ``axis`` through ``pivot_m``; the other one is zero.
+    """
+
+    control: str
+    travel_m: FloatArray
+    axis: FloatArray
+    angle_rad: float
+    pivot_m: FloatArray
+
+
+@dataclass(frozen=True)
+class FingerTable:
+    """Poses of one finger over the value of the control it works.
+
+    Attributes
+    ----------
+    finger : str
+        E.g. ``"right.index"``.
+    control : str or None
+        None: the finger does not move and the table has one row.
+    values : (S,) float64
+        Ascending, from 0 to 1.
+    joints : tuple of int
+        Joints of the skeleton, from the palm outwards.
+    rotations : (S, len(joints), 4) float64
+        ``parent_from_joint``, xyzw, each sample in the hemisphere of the one before.
+    """
+
+    finger: str
+    control: str | None
+    values: FloatArray
+    joints: tuple[int, ...]
+    rotations: FloatArray
+
+
+@dataclass(frozen=True)
+class ContactFit:
+    """How well one contact of the map is met, the worst over the samples of its control.
+
+    ``distance_m`` is from the landmark on the deformed mesh to the touch point, ``angle_rad`` between the pad's outward
+    normal and the reversed normal of the surface.
+    """
+
+    part: str
+    node: str
+    control: str | None
+    firm: bool
+    distance_m: float
+    angle_rad: float
+
+
+@dataclass(frozen=True)
+class HandHold:
+    """How one hand lies on the instrument.
+
+    Attributes
+    ----------
+    side : str
+        ``"left"`` or ``"right"``.
+    node : str
+        The node the hand moves with (``"root"``, or a slide's).
+    motion : NodeMotion or None
+        How that node moves; None where the hand rests on the root.
+    instrument_from_hand_m, instrument_from_hand_rotation : (3,) and (4,) float64
+        The hand joint (the wrist) in the instrument's frame with every control at 0.
+    fingers : tuple of FingerTable
+    elbow_direction : (3,) float64
+        Unit pole: where the elbow points off the line from shoulder to wrist, in the frame of the player (+Z ahead,
+        +X left, +Y up), chosen for a straight wrist.
+    contacts : tuple of ContactFit
+    penetration_m : float
+        Deepest vertex of hand and fingers inside the instrument's proxy, over all samples.
+    """
+
+    side: Side
+    node: str
+    motion: NodeMotion | None
+    instrument_from_hand_m: FloatArray
+    instrument_from_hand_rotation: FloatArray
+    fingers: tuple[FingerTable, ...]
+    elbow_direction: FloatArray
+    contacts: tuple[ContactFit, ...]
+    penetration_m: float
+
+
+@dataclass(frozen=True)
+class Reach:
+    """Whether an upright body's arm reaches its hand's place over the range of the control that moves it.
+
+    With the upper body upright and the instrument as it is usually carried.
+
+    Attributes
+    ----------
+    side, control : str
+        ``control`` is None for a hand on the root (then there is one value).
+    values : (S,) float64
+        Values of the control.
+    shortfall_m : (S,) float64
+        How far the shoulder joint must come towards the hand: distance from shoulder to wrist minus `arm_m`; negative
+        where the arm is still bent.
+    direction : (3,) float64
+        Unit vector from the shoulder to the wrist at the last value, in the player's frame.
+    arm_m : float
+        Upper plus lower arm.
+    max_value : float
+        Largest value reached without help.
+    """
+
+    side: Side
+    control: str | None
+    values: FloatArray
+    shortfall_m: FloatArray
+    direction: FloatArray
+    arm_m: float
+    max_value: float
+
+
+@dataclass(frozen=True)
+class Lips:
+    """Where the mouth is in the frame of the head joint, linear in the morph weights.
+
+    Attributes
+    ----------
+    contact_rest_m, upper_rest_m : (3,) float64
+        The middle of both lips where a rim lies, and of the upper lip alone.
+    contact_deltas_m, upper_deltas_m : dict of str to (3,) float64
+        What each morph at weight 1 adds; morphs that do nothing here are absent.
+    """
+
+    contact_rest_m: FloatArray
+    contact_deltas_m: Mapping[str, FloatArray]
+    upper_rest_m: FloatArray
+    upper_deltas_m: Mapping[str, FloatArray]
+
+    def contact_m(self, morphs: Mapping[str, npt.NDArray[np.floating]], frames: int) -> FloatArray:
+        """Return (F, 3) the lips' contact in the head's frame for weight curves (F,) by morph name."""
+        return _weighted(self.contact_rest_m, self.contact_deltas_m, morphs, frames)
+
+    def upper_m(self, morphs: Mapping[str, npt.NDArray[np.floating]], frames: int) -> FloatArray:
+        """Return (F, 3) the contact carried by the upper lip alone: what the rim stays on when the jaw opens.
+
+        Equal to `contact_m` where no morph parts the lips.
+        """
+        carried = _weighted(np.zeros(3), self.upper_deltas_m, morphs, frames)
+        carried += self.contact_rest_m
+        return carried
+
+
+@dataclass(frozen=True)
+class Hold:
+    """A character's hold of an instrument; see the module.
+
+    Attributes
+    ----------
+    character_id, instrument_id : str
+    hands : tuple of HandHold
+    lips : Lips
+    reach : tuple of Reach
+        One per hand.
+    """
+
+    character_id: str
+    instrument_id: str
+    hands: tuple[HandHold, ...]
+    lips: Lips
+    reach: tuple[Reach, ...]
+
+    @property
+    def finger_joints(self) -> tuple[int, ...]:
+        """The joints `finger_rotations` poses, in its order."""
+        return tuple(joint for hand in self.hands for finger in hand.fingers for joint in finger.joints)
+
+
+def hand_targets(
+    hand: HandHold,
+    world_from_instrument_m: FloatArray,
+    world_from_instrument_rotation: FloatArray,
+    controls: Mapping[str, npt.NDArray[np.floating]],
+) -> tuple[FloatArray, FloatArray]:
+    """Place a hand on a moving instrument.
+
+    Parameters
+    ----------
+    hand : HandHold
+    world_from_instrument_m, world_from_instrument_rotation : (F, 3) and (F, 4) float64
+    controls : dict of str to (F,)
+        Values 0..1; a control that is absent is at 0.
+
+    Returns
+    -------
+    positions_m, rotations : (F, 3) and (F, 4) float64
+        ``world_from_hand``.
+    """
+    frames = len(world_from_instrument_m)
+    local = np.broadcast_to(hand.instrument_from_hand_m, (frames, 3))
+    turn = np.broadcast_to(hand.instrument_from_hand_rotation, (frames, 4))
+    motion = hand.motion
+    if motion is not None and motion.control in controls:
+        value = np.asarray(controls[motion.control], dtype=np.float64)
+        if motion.angle_rad:
+            moved = quaternion.from_rotation_vector(np.multiply.outer(value * motion.angle_rad, motion.axis))
+            local = motion.pivot_m + quaternion.rotate(moved, local - motion.pivot_m)
+            turn = quaternion.multiply(moved, turn)
+        else:
+            local = local + np.multiply.outer(value, motion.travel_m)
+    positions = world_from_instrument_m + quaternion.rotate(world_from_instrument_rotation, local)
+    return positions, quaternion.multiply(world_from_instrument_rotation, turn)
+
+
+def finger_rotations(hold: Hold, controls: Mapping[str, npt.NDArray[np.floating]], frames: int) -> FloatArray:
+    """Interpolate the finger tables.
+
+    Parameters
+    ----------
+    hold : Hold
+    controls : dict of str to (F,)
+        Values 0..1; a control that is absent is at 0.
+    frames : int
+        F.
+
+    Returns
+    -------
+    (F, len(hold.finger_joints), 4) float64
+        ``parent_from_joint`` rotations in the order of ``hold.finger_joints``.
+    """
+    result = np.empty((frames, len(hold.finger_joints), 4))
+    start = 0
+    for hand in hold.hands:
+        for table in hand.fingers:
+            stop = start + len(table.joints)
+            if table.control is None or table.control not in controls:
+                result[:, start:stop] = table.rotations[0]
+            else:
+                value = np.clip(controls[table.control], 0.0, 1.0)
+                place = np.interp(value, table.values, np.arange(len(table.values), dtype=np.float64))
+                low = np.minimum(place.astype(np.intp), len(table.values) - 2)
+                share = (place - low)[:, None, None]
+                mixed = table.rotations[low] * (1.0 - share) + table.rotations[low + 1] * share
+                mixed /= np.sqrt(np.einsum("fjc,fjc->fj", mixed, mixed))[..., None]
+                result[:, start:stop] = mixed
+            start = stop
+    return result
+
+
+def _weighted(
+    rest: FloatArray, deltas: Mapping[str, FloatArray], morphs: Mapping[str, npt.NDArray[np.floating]], frames: int
+) -> FloatArray:
+    result = np.tile(rest, (frames, 1))
+    for name, delta in deltas.items():
+        if name in morphs:
+            result += np.multiply.outer(np.asarray(morphs[name], dtype=np.float64), delta)
+    return result

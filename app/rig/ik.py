@@ -1,0 +1,151 @@
+"""Two-bone inverse kinematics of arms and legs, analytic and vectorised over frames.
+
+A limb is an upper bone, a lower bone and an end (hand or foot). Bones never stretch: a target out of reach is
+approached, and the last per cent of the limb's length is approached softly, so that the joint in the middle does not pop.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from app.rig import quaternion
+from app.rig.model import Skeleton
+
+FloatArray = npt.NDArray[np.float64]
+Side = Literal["left", "right"]
+
+SOFT_SHARE = 0.01
+"""Part of the limb's length within which full extension is approached exponentially."""
+
+
+@dataclass(frozen=True)
+class Limb:
+    """The joints and rest geometry of an arm or a leg.
+
+    Attributes
+    ----------
+    upper, lower, end : int
+        Joints: shoulder, elbow, wrist; or hip, knee, ankle.
+    upper_vector_m, lower_vector_m : (3,) float64
+        From each joint to the next at rest.
+    hinge_axis : (3,) float64
+        Unit axis at rest about which a positive turn of the lower bone bends the limb.
+    twist_share : float
+        Part of the end's twist about the lower bone that the lower bone takes (the forearm's pronation).
+    """
+
+    upper: int
+    lower: int
+    end: int
+    upper_vector_m: FloatArray
+    lower_vector_m: FloatArray
+    hinge_axis: FloatArray
+    twist_share: float
+
+    @property
+    def length_m(self) -> float:
+        """Upper plus lower bone."""
+        return float(np.linalg.norm(self.upper_vector_m) + np.linalg.norm(self.lower_vector_m))
+
+
+@dataclass(frozen=True)
+class LimbPose:
+    """Rotations of a limb: all ``parent_from_joint`` (F, 4), and how far the end stays from its target (F,)."""
+
+    upper: FloatArray
+    lower: FloatArray
+    end: FloatArray
+    miss_m: FloatArray
+
+
+def arm(skeleton: Skeleton, side: Side, twist_share: float = 0.5) -> Limb:
+    """Return the limb of an arm (VRM names). The elbow bends forwards in the T-pose."""
+    hinge = np.array([0.0, -1.0 if side == "left" else 1.0, 0.0])
+    return _limb(skeleton, [f"{side}UpperArm", f"{side}LowerArm", f"{side}Hand"], hinge, twist_share)
+
+
+def leg(skeleton: Skeleton, side: Side, twist_share: float = 0.0) -> Limb:
+    """Return the limb of a leg (VRM names). The knee bends backwards."""
+    return _limb(
+        skeleton, [f"{side}UpperLeg", f"{side}LowerLeg", f"{side}Foot"], np.array([1.0, 0.0, 0.0]), twist_share
+    )
+
+
+def solve_limb(
+    limb: Limb,
+    root_m: FloatArray,
+    parent_rotation: FloatArray,
+    target_m: FloatArray,
+    target_rotation: FloatArray,
+    pole: FloatArray,
+) -> LimbPose:
+    """Bring the end of a limb to a target.
+
+    Parameters
+    ----------
+    limb : Limb
+    root_m : (F, 3) float64
+        World position of the upper joint (shoulder or hip joint).
+    parent_rotation : (F, 4) float64
+        World rotation of the upper joint's parent.
+    target_m, target_rotation : (F, 3) and (F, 4) float64
+        Wanted world transform of the end joint.
+    pole : (F, 3) or (3,) float64
+        World direction in which the middle joint points off the line from root to target; need not be a unit vector
+        nor orthogonal.
+
+    Returns
+    -------
+    LimbPose
+    """
+    a = float(np.linalg.norm(limb.upper_vector_m))
+    b = float(np.linalg.norm(limb.lower_vector_m))
+    line = target_m - root_m
+    wanted = np.sqrt(np.einsum("fi,fi->f", line, line))
+    direction = line / np.maximum(wanted, 1e-9)[:, None]
+    distance = _soft_limit(wanted, a + b, abs(a - b))
+    off = pole - direction * np.einsum("fi,fi->f", np.broadcast_to(pole, direction.shape), direction)[:, None]
+    off /= np.maximum(np.sqrt(np.einsum("fi,fi->f", off, off)), 1e-9)[:, None]
+    # Law of cosines: the middle joint lies `along` the line and `aside` of it.
+    along = (a * a - b * b + distance * distance) / (2.0 * distance)
+    aside = np.sqrt(np.maximum(a * a - along * along, 0.0))
+    middle = direction * along[:, None] + off * aside[:, None]
+    end = direction * distance[:, None]
+    # Bending turns the upper bone's direction towards the end: about middle x (end - middle).
+    hinge = np.cross(off, direction)
+    upper_world = _turn(limb.upper_vector_m / a, limb.hinge_axis, middle / a, hinge)
+    lower_world = _turn(limb.lower_vector_m / b, limb.hinge_axis, (end - middle) / b, hinge)
+    if limb.twist_share:
+        axis = limb.lower_vector_m / b
+        twist = quaternion.twist_angle(quaternion.multiply(quaternion.conjugate(lower_world), target_rotation), axis)
+        lower_world = quaternion.multiply(lower_world, quaternion.from_axis_angle(axis, limb.twist_share * twist))
+    return LimbPose(
+        upper=quaternion.multiply(quaternion.conjugate(parent_rotation), upper_world),
+        lower=quaternion.multiply(quaternion.conjugate(upper_world), lower_world),
+        end=quaternion.multiply(quaternion.conjugate(lower_world), target_rotation),
+        miss_m=np.abs(wanted - distance),
+    )
+
+
+def _soft_limit(distance: FloatArray, longest: float, shortest: float) -> FloatArray:
+    """Keep distances within the limb's reach, smoothly (to the first derivative) near full extension."""
+    band = SOFT_SHARE * longest
+    over = np.maximum(distance - (longest - band), 0.0)
+    soft = np.where(over > 0.0, longest - band * np.exp(-over / band), distance)
+    return np.maximum(soft, shortest + 1e-6)
+
+
+def _turn(rest: FloatArray, rest_hinge: FloatArray, now: FloatArray, hinge: FloatArray) -> FloatArray:
+    """World rotation of a bone with rest direction and hinge, now along another direction and hinge."""
+    rest_hinge = rest_hinge - rest * float(rest @ rest_hinge)
+    rest_frame = quaternion.from_frames(rest, rest_hinge / np.linalg.norm(rest_hinge))
+    return quaternion.multiply(quaternion.from_frames(now, hinge), quaternion.conjugate(rest_frame))
+
+
+def _limb(skeleton: Skeleton, names: list[str], hinge: FloatArray, twist_share: float) -> Limb:
+    upper, lower, end = (skeleton.index(name) for name in names)
+    return Limb(upper, lower, end, skeleton.offsets_m[lower], skeleton.offsets_m[end], hinge, twist_share)

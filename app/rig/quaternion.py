@@ -1,0 +1,194 @@
+"""Unit quaternions ``xyzw`` (as glTF and scipy), vectorised over any leading axes.
+
+A rotation ``a_from_b`` maps coordinates in frame b to frame a; ``multiply(a_from_b, b_from_c)`` is ``a_from_c``.
+All functions broadcast their leading axes and return float64.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+FloatArray = npt.NDArray[np.float64]
+ArrayLike = npt.ArrayLike
+
+IDENTITY: FloatArray = np.array([0.0, 0.0, 0.0, 1.0])
+IDENTITY.setflags(write=False)
+
+
+def multiply(a: ArrayLike, b: ArrayLike) -> FloatArray:
+    """Return the product: first b, then a. Shapes (..., 4)."""
+    a, b = np.asarray(a), np.asarray(b)
+    ax, ay, az, aw = a[..., 0], a[..., 1], a[..., 2], a[..., 3]
+    bx, by, bz, bw = b[..., 0], b[..., 1], b[..., 2], b[..., 3]
+    result = np.empty(np.broadcast_shapes(a.shape, b.shape))
+    result[..., 0] = aw * bx + ax * bw + ay * bz - az * by
+    result[..., 1] = aw * by - ax * bz + ay * bw + az * bx
+    result[..., 2] = aw * bz + ax * by - ay * bx + az * bw
+    result[..., 3] = aw * bw - ax * bx - ay * by - az * bz
+    return result
+
+
+def conjugate(q: ArrayLike) -> FloatArray:
+    """Return the inverse rotation. Shape (..., 4)."""
+    result = np.array(q, dtype=np.float64)
+    result[..., :3] *= -1.0
+    return result
+
+
+def rotate(q: ArrayLike, v: ArrayLike) -> FloatArray:
+    """Rotate vectors (..., 3) by quaternions (..., 4)."""
+    q, v = np.asarray(q), np.asarray(v)
+    x, y, z, w = q[..., 0], q[..., 1], q[..., 2], q[..., 3]
+    vx, vy, vz = v[..., 0], v[..., 1], v[..., 2]
+    # v + 2 w (u x v) + 2 u x (u x v), with t = 2 u x v
+    tx = 2.0 * (y * vz - z * vy)
+    ty = 2.0 * (z * vx - x * vz)
+    tz = 2.0 * (x * vy - y * vx)
+    result = np.empty((*np.broadcast_shapes(q.shape[:-1], v.shape[:-1]), 3))
+    result[..., 0] = vx + w * tx + y * tz - z * ty
+    result[..., 1] = vy + w * ty + z * tx - x * tz
+    result[..., 2] = vz + w * tz + x * ty - y * tx
+    return result
+
+
+def normalize(q: ArrayLike) -> FloatArray:
+    """Scale quaternions (..., 4) to length 1; a zero quaternion becomes the identity."""
+    result = np.array(q, dtype=np.float64)
+    length = np.sqrt(np.einsum("...i,...i->...", result, result))
+    zero = length < 1e-12
+    result /= np.where(zero, 1.0, length)[..., None]
+    result[zero] = IDENTITY
+    return result
+
+
+def from_rotation_vector(v: ArrayLike) -> FloatArray:
+    """Return quaternions of rotation vectors (..., 3): unit axis times angle in radians."""
+    v = np.asarray(v, dtype=np.float64)
+    angle = np.sqrt(np.einsum("...i,...i->...", v, v))
+    result = np.empty((*v.shape[:-1], 4))
+    # sin(angle / 2) / angle, finite at 0
+    result[..., :3] = v * (0.5 * np.sinc(angle / (2.0 * np.pi)))[..., None]
+    result[..., 3] = np.cos(0.5 * angle)
+    return result
+
+
+def to_rotation_vector(q: ArrayLike) -> FloatArray:
+    """Return rotation vectors (..., 3) of the shorter turn of quaternions (..., 4)."""
+    q = np.asarray(q, dtype=np.float64)
+    sine = np.sqrt(np.einsum("...i,...i->...", q[..., :3], q[..., :3]))
+    sign = np.where(q[..., 3] < 0.0, -1.0, 1.0)
+    angle = 2.0 * np.arctan2(sine, np.abs(q[..., 3]))
+    scale = np.where(sine < 1e-9, 2.0, angle / np.where(sine < 1e-9, 1.0, sine))
+    return q[..., :3] * (sign * scale)[..., None]
+
+
+def from_axis_angle(axis: ArrayLike, angle_rad: ArrayLike) -> FloatArray:
+    """Return quaternions that turn by angles (...) about unit axes (..., 3)."""
+    axis, half = np.asarray(axis, dtype=np.float64), 0.5 * np.asarray(angle_rad, dtype=np.float64)
+    shape = np.broadcast_shapes(axis.shape[:-1], half.shape)
+    result = np.empty((*shape, 4))
+    result[..., :3] = axis * np.sin(half)[..., None]
+    result[..., 3] = np.cos(half)
+    return result
+
+
+def to_matrix(q: ArrayLike) -> FloatArray:
+    """Return rotation matrices (..., 3, 3) of unit quaternions (..., 4)."""
+    q = np.asarray(q, dtype=np.float64)
+    x, y, z, w = q[..., 0], q[..., 1], q[..., 2], q[..., 3]
+    result = np.empty((*q.shape[:-1], 3, 3))
+    result[..., 0, 0] = 1.0 - 2.0 * (y * y + z * z)
+    result[..., 0, 1] = 2.0 * (x * y - z * w)
+    result[..., 0, 2] = 2.0 * (x * z + y * w)
+    result[..., 1, 0] = 2.0 * (x * y + z * w)
+    result[..., 1, 1] = 1.0 - 2.0 * (x * x + z * z)
+    result[..., 1, 2] = 2.0 * (y * z - x * w)
+    result[..., 2, 0] = 2.0 * (x * z - y * w)
+    result[..., 2, 1] = 2.0 * (y * z + x * w)
+    result[..., 2, 2] = 1.0 - 2.0 * (x * x + y * y)
+    return result
+
+
+def from_matrix(m: ArrayLike) -> FloatArray:
+    """Return quaternions (..., 4) of rotation matrices (..., 3, 3), with w >= 0.
+
+    Of the four algebraic forms the one with the largest divisor is taken (Shepperd 1978).
+    """
+    m = np.asarray(m, dtype=np.float64)
+    xx, yy, zz = m[..., 0, 0], m[..., 1, 1], m[..., 2, 2]
+    yz, zx, xy = m[..., 2, 1] - m[..., 1, 2], m[..., 0, 2] - m[..., 2, 0], m[..., 1, 0] - m[..., 0, 1]
+    pyz, pzx, pxy = m[..., 2, 1] + m[..., 1, 2], m[..., 0, 2] + m[..., 2, 0], m[..., 1, 0] + m[..., 0, 1]
+    forms = np.stack(
+        [
+            np.stack([1.0 + xx - yy - zz, pxy, pzx, yz], axis=-1),
+            np.stack([pxy, 1.0 - xx + yy - zz, pyz, zx], axis=-1),
+            np.stack([pzx, pyz, 1.0 - xx - yy + zz, xy], axis=-1),
+            np.stack([yz, zx, xy, 1.0 + xx + yy + zz], axis=-1),
+        ],
+        axis=-2,
+    )
+    best = np.argmax(np.einsum("...ii->...i", forms), axis=-1)
+    result = normalize(np.take_along_axis(forms, best[..., None, None], axis=-2)[..., 0, :])
+    result[result[..., 3] < 0.0] *= -1.0
+    return result
+
+
+def from_frames(x_axis: ArrayLike, y_axis: ArrayLike) -> FloatArray:
+    """Return the rotation whose columns are x, y and x cross y; x and y are unit and orthogonal, (..., 3)."""
+    x_axis, y_axis = np.broadcast_arrays(np.asarray(x_axis, dtype=np.float64), np.asarray(y_axis, dtype=np.float64))
+    return from_matrix(np.stack([x_axis, y_axis, np.cross(x_axis, y_axis)], axis=-1))
+
+
+def between(a: ArrayLike, b: ArrayLike) -> FloatArray:
+    """Return the shortest rotation that takes unit vectors a to unit vectors b, (..., 3).
+
+    Opposite vectors are turned about some axis orthogonal to a.
+    """
+    a, b = np.broadcast_arrays(np.asarray(a, dtype=np.float64), np.asarray(b, dtype=np.float64))
+    result = np.empty((*a.shape[:-1], 4))
+    result[..., :3] = np.cross(a, b)
+    result[..., 3] = 1.0 + np.einsum("...i,...i->...", a, b)
+    opposite = result[..., 3] < 1e-9
+    if np.any(opposite):
+        flipped = a[opposite]
+        other = np.where(np.abs(flipped[..., :1]) < 0.9, [1.0, 0.0, 0.0], [0.0, 1.0, 0.0])
+        result[opposite, :3] = np.cross(flipped, other)
+        result[opposite, 3] = 0.0
+    return normalize(result)
+
+
+def swing_twist(q: ArrayLike, axis: ArrayLike) -> tuple[FloatArray, FloatArray]:
+    """Split rotations (..., 4) into ``swing * twist`` with the twist about a unit axis (..., 3).
+
+    Where the rotation is half a turn about an orthogonal axis the twist is the identity.
+    """
+    q, axis = np.asarray(q, dtype=np.float64), np.asarray(axis, dtype=np.float64)
+    along = np.einsum("...i,...i->...", q[..., :3], axis)
+    twist = np.empty((*np.broadcast_shapes(q.shape[:-1], axis.shape[:-1]), 4))
+    twist[..., :3] = along[..., None] * axis
+    twist[..., 3] = q[..., 3]
+    twist = normalize(twist)
+    return multiply(q, conjugate(twist)), twist
+
+
+def twist_angle(q: ArrayLike, axis: ArrayLike) -> FloatArray:
+    """Return the angle, radians in (-pi, pi], of rotations (..., 4) about a unit axis (..., 3)."""
+    q, axis = np.asarray(q, dtype=np.float64), np.asarray(axis, dtype=np.float64)
+    sign = np.where(q[..., 3] < 0.0, -1.0, 1.0)
+    angle: FloatArray = 2.0 * np.arctan2(sign * np.einsum("...i,...i->...", q[..., :3], axis), sign * q[..., 3])
+    return angle
+
+
+def nlerp(a: ArrayLike, b: ArrayLike, share: ArrayLike) -> FloatArray:
+    """Mix quaternions (..., 4) linearly and normalise, by the shorter way; ``share`` (...) is 0 at a, 1 at b."""
+    a, b = np.asarray(a, dtype=np.float64), np.asarray(b, dtype=np.float64)
+    share = np.asarray(share, dtype=np.float64)[..., None]
+    sign = np.where(np.einsum("...i,...i->...", a, b) < 0.0, -1.0, 1.0)[..., None]
+    return normalize(a * (1.0 - share) + b * (sign * share))
+
+
+def slerp(a: ArrayLike, b: ArrayLike, share: ArrayLike) -> FloatArray:
+    """Interpolate quaternions (..., 4) at constant angular speed, by the shorter way; ``share`` (...) is 0 at a."""
+    turn = to_rotation_vector(multiply(conjugate(a), b))
+    return multiply(a, from_rotation_vector(turn * np.asarray(share, dtype=np.float64)[..., None]))
