@@ -1,0 +1,59 @@
+"""Files that appear whole or not at all.
+
+Messages: ``file.cannot_write`` (file, reason): "{file} cannot be written: {reason}".
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import secrets
+from collections.abc import Iterator
+from pathlib import Path
+from typing import BinaryIO
+
+from app.errors import FileError
+
+
+@contextlib.contextmanager
+def atomic_write(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
+    """Open a file for writing that takes its name only once it is complete and on the disk.
+
+    The bytes go to a temporary file in the same folder; on leaving the block it is flushed, synced and renamed over
+    `path`. If the block raises, also on KeyboardInterrupt, the temporary file is removed and `path` is left as it was.
+
+    Parameters
+    ----------
+    path : str or path-like
+        A symbolic link is followed, so that the link stays a link. The folder must exist.
+
+    Yields
+    ------
+    binary file
+
+    Raises
+    ------
+    FileError
+        ``file.cannot_write`` if the system refuses (folder missing, no permission, disk full).
+    """
+    target = Path(os.path.realpath(path))
+    partial = target.parent / f".{secrets.token_hex(8)}.partial"
+    try:
+        # "x": never write into somebody else's file; the mode follows the umask, as for any new file.
+        stream = partial.open("xb")
+    except OSError as error:
+        raise _cannot_write(path, error) from error
+    try:
+        with stream:
+            yield stream
+            stream.flush()
+            os.fsync(stream.fileno())
+        partial.replace(target)
+    except OSError as error:
+        raise _cannot_write(path, error) from error
+    finally:
+        partial.unlink(missing_ok=True)
+
+
+def _cannot_write(path: str | os.PathLike[str], error: OSError) -> FileError:
+    return FileError("file.cannot_write", file=os.fspath(path), reason=error.strerror or str(error))

@@ -1,0 +1,157 @@
+"""Quaternions to continuous Euler angles and back, over whole clips at once.
+
+An order is written as the three axes of a product from left to right: ``"ZYX"`` means the matrix Rz Ry Rx (FBX's
+default, which FBX itself calls XYZ), ``"ZXY"`` means Rz Rx Ry (the usual order of BVH channels). Source: K. Shoemake,
+"Euler Angle Conversion", Graphics Gems IV (1994), for the general form.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+Float64Array = npt.NDArray[np.float64]
+
+# Below this cosine of the middle angle the first angle is not determined by the rotation. The others are computed from
+# the first one, so that any choice gives the exact rotation; the middle angle is then wrong by less than this (rad).
+_GIMBAL_COSINE = 1e-8
+
+# Frames times joints worked on at once: about fifteen arrays of this many doubles stay in a core's cache.
+_BLOCK = 16384
+
+
+def euler_degrees(rotations_xyzw: npt.NDArray[np.floating], order: str) -> npt.NDArray[np.float64]:
+    """Angles of every joint, unrolled along the frames.
+
+    Of the two triples for each rotation the one nearer to the previous frame's is taken, and whole turns are added
+    so that no angle jumps: programs that interpolate the angles between two frames then stay near the rotation.
+
+    Parameters
+    ----------
+    rotations_xyzw : ndarray, shape (F, J, 4)
+        Quaternions, any nonzero length.
+    order : str
+        Three different axes, e.g. ``"ZYX"``.
+
+    Returns
+    -------
+    ndarray, shape (J, 3, F), float64
+        Degrees, the angle of each axis in the order of `order`. At gimbal lock the first angle keeps its last value.
+    """
+    frame_count, joint_count, _ = rotations_xyzw.shape
+    angles = np.empty((joint_count, 3, frame_count))
+    step = max(1, _BLOCK // max(1, frame_count))
+    for first in range(0, joint_count, step):
+        block = rotations_xyzw[:, first : first + step].transpose(2, 1, 0).astype(np.float64, order="C")
+        angles[first : first + step] = _unroll(_angles(block, order)).transpose(1, 0, 2)
+    return angles
+
+
+def quaternions(angles_degrees: npt.NDArray[np.floating], order: str) -> npt.NDArray[np.float64]:
+    """Inverse of `euler_degrees`.
+
+    Parameters
+    ----------
+    angles_degrees : ndarray, shape (..., 3)
+        In the order of `order`.
+    order : str
+
+    Returns
+    -------
+    ndarray, shape (..., 4), float64
+        Unit quaternions xyzw.
+    """
+    half = np.radians(np.asarray(angles_degrees, dtype=np.float64)) / 2
+    result = np.zeros((*half.shape[:-1], 4))
+    result[..., 3] = 1.0
+    for column, axis in enumerate(order):
+        turn = np.zeros_like(result)
+        turn[..., "XYZ".index(axis)] = np.sin(half[..., column])
+        turn[..., 3] = np.cos(half[..., column])
+        result = multiply(result, turn)
+    return result
+
+
+def multiply(left: npt.NDArray[np.float64], right: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+    """Hamilton product of quaternions xyzw, shapes (..., 4)."""
+    lx, ly, lz, lw = np.moveaxis(left, -1, 0)
+    rx, ry, rz, rw = np.moveaxis(right, -1, 0)
+    return np.stack(
+        [
+            lw * rx + lx * rw + ly * rz - lz * ry,
+            lw * ry - lx * rz + ly * rw + lz * rx,
+            lw * rz + lx * ry - ly * rx + lz * rw,
+            lw * rw - lx * rx - ly * ry - lz * rz,
+        ],
+        axis=-1,
+    )
+
+
+def matrices(rotations_xyzw: npt.NDArray[np.floating]) -> npt.NDArray[np.float64]:
+    """Rotation matrices, shape (..., 3, 3), column-vector convention, of quaternions (..., 4) of any nonzero length."""
+    q = np.asarray(rotations_xyzw, dtype=np.float64)
+    x, y, z, w = np.moveaxis(q, -1, 0)
+    s = 2.0 / np.einsum("...i,...i->...", q, q)
+    result = np.empty((*q.shape[:-1], 3, 3))
+    result[..., 0, 0] = 1 - s * (y * y + z * z)
+    result[..., 0, 1] = s * (x * y - z * w)
+    result[..., 0, 2] = s * (x * z + y * w)
+    result[..., 1, 0] = s * (x * y + z * w)
+    result[..., 1, 1] = 1 - s * (x * x + z * z)
+    result[..., 1, 2] = s * (y * z - x * w)
+    result[..., 2, 0] = s * (x * z - y * w)
+    result[..., 2, 1] = s * (y * z + x * w)
+    result[..., 2, 2] = 1 - s * (x * x + y * y)
+    return result
+
+
+def _angles(q: Float64Array, order: str) -> Float64Array:
+    """Principal angles in radians, shape (3, J, F), of quaternions (4, J, F)."""
+    i, j, k = ("XYZ".index(axis) for axis in order)
+    sign = 1.0 if (j - i) % 3 == 1 else -1.0
+    w = q[3]
+    s = 2.0 / (q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + w * w)
+    sqi, sqj, sqk = s * q[i], s * q[j], s * q[k]
+    ij, ik, jk = sqi * q[j], sqi * q[k], sqj * q[k]
+    ii, jj, kk = sqi * q[i], sqj * q[j], sqk * q[k]
+    iw, jw, kw = sign * sqi * w, sign * sqj * w, sign * sqk * w
+    # The needed entries m[row, column] of the rotation matrix, named by the axes.
+    m_ik, m_jk, m_kk = ik + jw, jk - iw, 1 - (ii + jj)
+    m_ji, m_jj, m_ki, m_kj = ij + kw, 1 - (ii + kk), ik - jw, jk + iw
+
+    middle_cosine = np.sqrt(m_jk * m_jk + m_kk * m_kk)
+    first = np.arctan2(-sign * m_jk, m_kk)
+    locked = middle_cosine < _GIMBAL_COSINE
+    if locked.any():
+        last_free = np.where(locked, 0, np.arange(q.shape[-1]))
+        np.maximum.accumulate(last_free, axis=-1, out=last_free)
+        first = np.take_along_axis(first, last_free, axis=-1)
+        cosine, sine = np.cos(first), np.sin(first)
+    else:
+        cosine, sine = m_kk / middle_cosine, -sign * m_jk / middle_cosine
+    middle = np.arctan2(sign * m_ik, middle_cosine)
+    # What is left when the first turn is undone is Rj Rk, whose row j holds the third angle alone.
+    third = np.arctan2(sign * cosine * m_ji + sine * m_ki, cosine * m_jj + sign * sine * m_kj)
+    return np.stack([first, middle, third])
+
+
+def _unroll(angles: Float64Array) -> Float64Array:
+    """Degrees without jumps along the last axis, from principal radians, shape (3, J, F)."""
+    turns = angles * (0.5 / np.pi)
+    step = np.diff(turns, axis=-1)
+    same = np.abs(step - np.rint(step)).sum(axis=0)
+    # The other triple of a rotation is (first + half a turn, half a turn - middle, third + half a turn). The distance
+    # between two triples is the same if both are exchanged, so only the places where to change over matter.
+    step[0] += 0.5
+    step[1] = 0.5 - turns[1, :, 1:] - turns[1, :, :-1]
+    step[2] += 0.5
+    changes = np.abs(step - np.rint(step)).sum(axis=0) < same
+    if changes.any():
+        other = np.zeros(turns.shape[1:], dtype=bool)
+        np.logical_xor.accumulate(changes, axis=-1, out=other[:, 1:])
+        turns[0] += 0.5 * other
+        turns[1] = np.where(other, 0.5 - turns[1], turns[1])
+        turns[2] += 0.5 * other
+    turns[..., 1:] -= np.cumsum(np.rint(np.diff(turns, axis=-1)), axis=-1)
+    turns *= 360.0
+    return turns

@@ -1,0 +1,181 @@
+"""Element tree -> bytes of a binary FBX file.
+
+Knows records, properties and the footer, and no scene. Layout: `FBX binary file format specification
+<https://code.blender.org/2013/08/fbx-binary-file-format-specification/>`_ and, for the identifiers, measurements on
+the FBX SDK's own reader, which takes a file for empty if FileId, CreationTime and footer id do not belong together.
+"""
+
+from __future__ import annotations
+
+import struct
+import zlib
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import BinaryIO, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+MAGIC = b"Kaydara FBX Binary  \0\x1a\0"
+VERSION = 7400
+LARGE_VERSION = 7500
+"""Version with 64-bit offsets, which older programs refuse: taken only for what does not fit otherwise."""
+
+# One fixed triple that belongs together, so that the same scene gives the same bytes.
+CREATION_TIME = "1970-01-01 10:00:00:000"
+FILE_ID = bytes.fromhex("28b32aebb624ccc2bfc8b02aa92bfcf1")
+FOOTER_ID = bytes.fromhex("fabcab09d0c8d466b176fb831cf7267e")
+FOOTER_END = bytes.fromhex("f85a8c6adef5d97eece90ce3758f290b")
+
+_LARGEST_OFFSET = 2**31 - 1
+_RAW_ARRAY_BYTES = 128
+_ZLIB_LEVEL = 1
+
+_ARRAY_CODES = {"f4": b"f", "f8": b"d", "i4": b"i", "i8": b"l", "b1": b"b"}
+
+
+@dataclass(frozen=True, slots=True)
+class PackedArray:
+    """An array already in its file form; many elements may share one, so that it is compressed once."""
+
+    encoded: bytes
+
+
+Property: TypeAlias = (
+    "bool | np.int16 | np.int32 | np.int64 | np.float32 | float | str | bytes | npt.NDArray[np.generic] | PackedArray"
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Element:
+    """One record.
+
+    Attributes
+    ----------
+    name : str
+        ASCII, at most 255 characters.
+    properties : tuple of Property
+        The type decides the form in the file: bool C, np.int16 Y, np.int32 I, np.int64 L, np.float32 F, float D,
+        str S, bytes R, one-dimensional arrays of float32 f, float64 d, int32 i, int64 l, bool b. A plain int is
+        refused: its width would be a guess.
+    children : tuple of Element or None
+        None: no block at all. ``()``: an empty block, which some records must have.
+    """
+
+    name: str
+    properties: tuple[Property, ...] = ()
+    children: tuple[Element, ...] | None = None
+
+    def child(self, name: str) -> Element | None:
+        """First child of that name."""
+        return next((child for child in self.children or () if child.name == name), None)
+
+
+def pack_array(values: npt.NDArray[np.generic], *, compress: bool = True) -> PackedArray:
+    """File form of a one-dimensional array, compressed if that is worth it.
+
+    Raises
+    ------
+    TypeError
+        If its type has no form in the file.
+    """
+    code = _ARRAY_CODES.get(values.dtype.str[1:])
+    if code is None or values.ndim != 1:
+        raise TypeError(f"no FBX array of {values.dtype} with {values.ndim} dimensions")
+    raw = np.ascontiguousarray(values, dtype=values.dtype.newbyteorder("<")).tobytes()
+    encoding = 0
+    if compress and len(raw) > _RAW_ARRAY_BYTES:
+        raw, encoding = zlib.compress(raw, _ZLIB_LEVEL), 1
+    return PackedArray(code + struct.pack("<III", len(values), encoding, len(raw)) + raw)
+
+
+def write_elements(stream: BinaryIO, elements: Sequence[Element]) -> None:
+    """Write a whole file.
+
+    Parameters
+    ----------
+    stream : binary file
+        Written from its current position, which must be the start of the file.
+    elements : sequence of Element
+        The top level. Their order is kept; FileId and CreationTime must be `FILE_ID` and `CREATION_TIME`.
+    """
+    stream.writelines(_file_chunks(elements))
+
+
+def encode_elements(elements: Sequence[Element]) -> bytes:
+    """Bytes of a whole file, as `write_elements` writes them."""
+    return b"".join(_file_chunks(elements))
+
+
+def _file_chunks(elements: Sequence[Element]) -> list[bytes | bytearray]:
+    """The file in pieces; big arrays are not copied."""
+    writer = _Writer(VERSION)
+    writer.file(elements)
+    if writer.position > _LARGEST_OFFSET:
+        writer = _Writer(LARGE_VERSION)
+        writer.file(elements)
+    return writer.chunks
+
+
+class _Writer:
+    def __init__(self, version: int) -> None:
+        self._version = version
+        self._head = struct.Struct("<IIIB" if version < LARGE_VERSION else "<QQQB")
+        self._null = bytes(self._head.size)
+        self.chunks: list[bytes | bytearray] = []
+        self.position = 0
+
+    def file(self, elements: Sequence[Element]) -> None:
+        self._add(MAGIC + struct.pack("<I", self._version))
+        for element in elements:
+            self._record(element)
+        self._add(self._null)
+        self._add(FOOTER_ID + bytes(4))
+        self._add(bytes(16 - self.position % 16))
+        self._add(struct.pack("<I", self._version) + bytes(120) + FOOTER_END)
+
+    def _add(self, chunk: bytes | bytearray) -> None:
+        self.chunks.append(chunk)
+        self.position += len(chunk)
+
+    def _record(self, element: Element) -> None:
+        name = element.name.encode("ascii")
+        head = bytearray(self._head.size)  # filled in once the end of the record is known
+        self._add(head)
+        self._add(name)
+        start = self.position
+        for value in element.properties:
+            self._add(_encode_property(value))
+        property_bytes = self.position - start
+        if element.children is not None:
+            for child in element.children:
+                self._record(child)
+            self._add(self._null)
+        if self.position <= _LARGEST_OFFSET or self._version >= LARGE_VERSION:
+            self._head.pack_into(head, 0, self.position, len(element.properties), property_bytes, len(name))
+
+
+def _encode_property(value: Property) -> bytes:
+    if isinstance(value, PackedArray):
+        return value.encoded
+    if isinstance(value, np.ndarray):
+        return pack_array(value).encoded
+    if isinstance(value, str):
+        text = value.encode("utf-8", "surrogateescape")
+        return b"S" + struct.pack("<I", len(text)) + text
+    if isinstance(value, bytes):
+        return b"R" + struct.pack("<I", len(value)) + value
+    for kind, layout in _SCALARS:
+        if isinstance(value, kind):
+            return struct.pack(layout[0], layout[1], value)
+    raise TypeError(f"no FBX property for {type(value).__name__}")
+
+
+_SCALARS: tuple[tuple[type | tuple[type, ...], tuple[str, bytes]], ...] = (
+    ((bool, np.bool_), ("<c?", b"C")),
+    (np.int16, ("<ch", b"Y")),
+    (np.int32, ("<ci", b"I")),
+    (np.int64, ("<cq", b"L")),
+    (np.float32, ("<cf", b"F")),
+    (float, ("<cd", b"D")),
+)

@@ -1,0 +1,416 @@
+"""Binary FBX file -> scene: for reading back what `app.formats.fbx.write` wrote.
+
+It understands what that writes: bones in centimetres without scaling, pivots or pre-rotations, directly under the
+scene, and keys on every frame. Anything else is refused, never quietly misread.
+
+Messages, beside those of `app.formats.fbx.decode` (all with ``file``):
+``file.cannot_read`` (reason): "{file} cannot be read: {reason}";
+``fbx.missing`` (what): "{file} has no {what}";
+``fbx.unsupported`` (what): "{file}: {what} is not supported";
+``fbx.contradiction`` (detail): "{file} contradicts itself: {detail}".
+"""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from fractions import Fraction
+from pathlib import Path
+from typing import TypeVar
+
+import numpy as np
+import numpy.typing as npt
+
+from app.errors import FileError
+from app.formats import euler
+from app.formats.fbx import ticks
+from app.formats.fbx.decode import read_elements
+from app.formats.fbx.encode import Element, Property
+from app.formats.fbx.scene import FbxBone, FbxClip, FbxMaterial, FbxMesh, FbxMorph, FbxScene, check_scene
+from app.formats.fbx.write import EULER_ORDER
+
+T = TypeVar("T")
+Float64Array = npt.NDArray[np.float64]
+
+# Frames times bones, and vertices times influences: far beyond any real file, small enough for any computer.
+_MOST_VALUES = 2**25
+
+_NOT_SUPPORTED = (
+    "PreRotation", "PostRotation", "RotationOffset", "RotationPivot", "ScalingOffset", "ScalingPivot",
+    "GeometricTranslation", "GeometricRotation", "RotationOrder",
+)  # fmt: skip
+
+
+def read_scene(path: str | os.PathLike[str]) -> FbxScene:
+    """Read a file as `write_scene` writes it.
+
+    Normals and UVs come per corner, everything else as it went in, in float64 (curves in float32's precision).
+
+    Raises
+    ------
+    FileError
+        If the file is no such file.
+    """
+    file = os.fspath(path)
+    try:
+        data = Path(path).read_bytes()
+    except OSError as error:
+        raise FileError("file.cannot_read", file=file, reason=error.strerror or str(error)) from error
+    return decode_scene(data, file)
+
+
+def decode_scene(data: bytes, file: str) -> FbxScene:
+    """Scene of a file's bytes, as `read_scene`."""
+    root = read_elements(data, file)
+    graph = _Graph(root, file)
+    bones, bone_of_model = _bones(graph)
+    meshes = tuple(_mesh(graph, model, bone_of_model) for model in graph.of_kind("Model", "Mesh"))
+    clip = _clip(graph, root, bones, bone_of_model)
+    creator = root.child("Creator")
+    scene = FbxScene(bones, meshes, clip, graph.only(creator, str) if creator is not None else "")
+    try:
+        check_scene(scene)
+    except ValueError as error:
+        raise FileError("fbx.contradiction", file=file, detail=str(error)) from error
+    return scene
+
+
+# ---------------------------------------------------------------------------------------------------- object graph
+
+
+@dataclass(frozen=True)
+class _Object:
+    id: int
+    kind: str
+    name: str
+    sub_class: str
+    element: Element
+
+
+class _Graph:
+    """Objects by id, and what hangs from what."""
+
+    def __init__(self, root: Element, file: str) -> None:
+        self.file = file
+        self.objects: dict[int, _Object] = {}
+        self.children: dict[int, list[tuple[int, str]]] = {}
+        self.parents: dict[int, list[tuple[int, str]]] = {}
+        for element in self.section(root, "Objects").children or ():
+            number, name, sub_class = (*element.properties, None, None, None)[:3]
+            if not isinstance(number, np.int64) or not isinstance(name, str) or not isinstance(sub_class, str):
+                raise FileError("fbx.missing", file=file, what=f"id or name of a {element.name}")
+            key = int(number)
+            self.objects[key] = _Object(key, element.name, name.split("\0")[0], sub_class, element)
+        for element in self.section(root, "Connections").children or ():
+            _, child, parent, target = (*element.properties, None, None, None, None)[:4]
+            if not isinstance(child, np.int64) or not isinstance(parent, np.int64):
+                raise FileError("fbx.missing", file=file, what="end of a connection")
+            to_property = target if isinstance(target, str) else ""
+            self.children.setdefault(int(parent), []).append((int(child), to_property))
+            self.parents.setdefault(int(child), []).append((int(parent), to_property))
+
+    def section(self, root: Element, name: str) -> Element:
+        found = root.child(name)
+        if found is None:
+            raise FileError("fbx.missing", file=self.file, what=name)
+        return found
+
+    def of_kind(self, kind: str, sub_class: str) -> list[_Object]:
+        return [o for o in self.objects.values() if o.kind == kind and o.sub_class == sub_class]
+
+    def below(self, parent: _Object, kind: str, sub_class: str | None = None) -> list[_Object]:
+        """Objects of a kind that are connected to `parent`, in the file's order."""
+        linked = (self.objects.get(child) for child, _ in self.children.get(parent.id, ()))
+        return [o for o in linked if o is not None and o.kind == kind and sub_class in (None, o.sub_class)]
+
+    def _array(self, element: Element, name: str, kind: str) -> npt.NDArray[np.generic]:
+        child = element.child(name)
+        values = child.properties[0] if child is not None and child.properties else None
+        if not isinstance(values, np.ndarray) or values.dtype.kind != kind:
+            raise FileError("fbx.missing", file=self.file, what=f"{name} of a {element.name}")
+        return values
+
+    def floats(self, element: Element, name: str, width: int) -> Float64Array:
+        """Array of doubles in rows."""
+        values = self._array(element, name, "f").astype(np.float64)
+        if len(values) % width:
+            raise FileError("fbx.contradiction", file=self.file, detail=f"{name} is not made of {width}s")
+        return values.reshape(-1, width)
+
+    def integers(self, element: Element, name: str) -> npt.NDArray[np.int64]:
+        return self._array(element, name, "i").astype(np.int64)
+
+    def matrix(self, element: Element, name: str) -> Float64Array:
+        values = self.floats(element, name, 16)
+        if len(values) != 1:
+            raise FileError("fbx.contradiction", file=self.file, detail=f"{name} is not a matrix")
+        return values.reshape(4, 4).T
+
+    def only(self, element: Element, kind: type[T]) -> T:
+        """The one property of a record."""
+        if len(element.properties) != 1 or not isinstance(element.properties[0], kind):
+            raise FileError("fbx.missing", file=self.file, what=f"value of {element.name}")
+        return element.properties[0]
+
+
+def _properties(element: Element) -> dict[str, tuple[Property, ...]]:
+    """Values of the Properties70 block, by name."""
+    block = element.child("Properties70")
+    rows = [row.properties for row in (block.children or () if block is not None else ())]
+    return {row[0]: row[4:] for row in rows if len(row) >= 4 and isinstance(row[0], str)}
+
+
+def _numbers(values: tuple[Property, ...]) -> list[float]:
+    return [float(value) for value in values if isinstance(value, float | np.integer | np.floating)]
+
+
+# ------------------------------------------------------------------------------------------------------------ bones
+
+
+def _bones(graph: _Graph) -> tuple[tuple[FbxBone, ...], dict[int, int]]:
+    """Bones with parents first, and the index of each model."""
+    models = graph.of_kind("Model", "LimbNode")
+    is_bone = {model.id for model in models}
+    parent_of: dict[int, int] = {}
+    for model in models:
+        above = [parent for parent, to in graph.parents.get(model.id, ()) if not to]
+        bone_above = [parent for parent in above if parent in is_bone]
+        if not bone_above and any(graph.objects[p].kind == "Model" for p in above if p in graph.objects):
+            raise FileError("fbx.unsupported", file=graph.file, what=f"a node above the bone {model.name}")
+        parent_of[model.id] = bone_above[0] if bone_above else 0
+    index: dict[int, int] = {0: -1}
+    bones: list[FbxBone] = []
+    for model in models:
+        chain = [model.id]
+        while parent_of[chain[-1]] and parent_of[chain[-1]] not in index:
+            chain.append(parent_of[chain[-1]])
+            if len(chain) > len(models):
+                raise FileError("fbx.contradiction", file=graph.file, detail=f"{model.name} is its own ancestor")
+        for key in reversed(chain):
+            if key not in index:
+                index[key] = len(bones)
+                bones.append(_bone(graph, graph.objects[key], index[parent_of[key]]))
+    del index[0]
+    return tuple(bones), index
+
+
+def _bone(graph: _Graph, model: _Object, parent: int) -> FbxBone:
+    translation, rotation = _placement(graph, model)
+    quaternion = euler.quaternions(rotation[::-1], EULER_ORDER)
+    return FbxBone(model.name, parent, translation, quaternion)
+
+
+def _placement(graph: _Graph, model: _Object) -> tuple[Float64Array, Float64Array]:
+    """Local translation and Euler angles of a model that has nothing else."""
+    properties = _properties(model.element)
+    for name in _NOT_SUPPORTED:
+        if any(_numbers(properties.get(name, ()))):
+            raise FileError("fbx.unsupported", file=graph.file, what=f"{name} of {model.name}")
+    if any(value != 1.0 for value in _numbers(properties.get("Lcl Scaling", ()))):
+        raise FileError("fbx.unsupported", file=graph.file, what=f"scaling of {model.name}")
+    vectors = [_numbers(properties.get(name, (0.0, 0.0, 0.0))) for name in ("Lcl Translation", "Lcl Rotation")]
+    if any(len(vector) != 3 for vector in vectors):
+        raise FileError("fbx.missing", file=graph.file, what=f"place of {model.name}")
+    return np.array(vectors[0]), np.array(vectors[1])
+
+
+# ----------------------------------------------------------------------------------------------------------- meshes
+
+
+def _mesh(graph: _Graph, model: _Object, bone_of_model: dict[int, int]) -> FbxMesh:
+    if any(np.concatenate(_placement(graph, model))):
+        raise FileError("fbx.unsupported", file=graph.file, what=f"place of the mesh {model.name}")
+    shapes = graph.below(model, "Geometry", "Mesh")
+    if len(shapes) != 1:
+        raise FileError("fbx.missing", file=graph.file, what=f"geometry of {model.name}")
+    element = shapes[0].element
+    vertices = graph.floats(element, "Vertices", 3)
+    faces = _faces(graph, element, model.name)
+    normals = graph.floats(_layer(graph, element, "LayerElementNormal", "ByPolygonVertex"), "Normals", 3)
+    joint_indices, weights, binds = _skin(graph, shapes[0], len(vertices), bone_of_model)
+    return FbxMesh(
+        name=model.name,
+        vertices_cm=vertices,
+        faces=faces,
+        normals=normals,
+        uvs=_uvs(graph, element),
+        materials=tuple(_material(material) for material in graph.below(model, "Material")),
+        face_materials=_face_materials(graph, element, len(faces)),
+        joint_indices=joint_indices,
+        weights=weights,
+        world_from_bone_bind=binds,
+        morphs=_morphs(graph, shapes[0]),
+    )
+
+
+def _layer(graph: _Graph, element: Element, name: str, mapping: str) -> Element:
+    layer = graph.section(element, name)
+    given = layer.child("MappingInformationType")
+    if given is None or graph.only(given, str) != mapping:
+        raise FileError("fbx.unsupported", file=graph.file, what=f"mapping of {name}")
+    return layer
+
+
+def _faces(graph: _Graph, element: Element, name: str) -> npt.NDArray[np.int64]:
+    corners = graph.integers(element, "PolygonVertexIndex")
+    ends = np.flatnonzero(corners < 0)
+    width = int(ends[0]) + 1 if len(ends) else 0
+    if not width or len(corners) % width or not np.array_equal(ends, np.arange(width - 1, len(corners), width)):
+        raise FileError("fbx.unsupported", file=graph.file, what=f"polygons of different sizes in {name}")
+    return np.where(corners < 0, -corners - 1, corners).reshape(-1, width)
+
+
+def _uvs(graph: _Graph, element: Element) -> Float64Array | None:
+    if element.child("LayerElementUV") is None:
+        return None
+    layer = _layer(graph, element, "LayerElementUV", "ByPolygonVertex")
+    uvs, indices = graph.floats(layer, "UV", 2), graph.integers(layer, "UVIndex")
+    if indices.size and not 0 <= indices.min() <= indices.max() < len(uvs):
+        raise FileError("fbx.contradiction", file=graph.file, detail="UVIndex beyond UV")
+    return uvs[indices]
+
+
+def _face_materials(graph: _Graph, element: Element, face_count: int) -> npt.NDArray[np.int64]:
+    layer = graph.section(element, "LayerElementMaterial")
+    indices = graph.integers(layer, "Materials")
+    return np.repeat(indices, face_count) if len(indices) == 1 else indices
+
+
+def _material(material: _Object) -> FbxMaterial:
+    properties = {name: _numbers(values) for name, values in _properties(material.element).items()}
+
+    def color(name: str) -> tuple[float, float, float]:
+        values = properties.get(name, [])
+        return (values[0], values[1], values[2]) if len(values) == 3 else (0.0, 0.0, 0.0)
+
+    def number(name: str, otherwise: float) -> float:
+        return next(iter(properties.get(name, [])), otherwise)
+
+    return FbxMaterial(
+        material.name,
+        color("DiffuseColor"),
+        color("SpecularColor"),
+        number("Shininess", 20.0),
+        number("Opacity", 1.0),
+    )
+
+
+def _skin(
+    graph: _Graph, shape: _Object, vertex_count: int, bone_of_model: dict[int, int]
+) -> tuple[npt.NDArray[np.int64], Float64Array, Float64Array]:
+    """Joints and weights by vertex, the strongest first, and the bind pose of every bone."""
+    binds = _bind_pose(graph, bone_of_model)
+    vertices, joints, weights = [], [], []
+    for skin in graph.below(shape, "Deformer", "Skin"):
+        for cluster in graph.below(skin, "Deformer", "Cluster"):
+            bones = [bone_of_model[child] for child, _ in graph.children.get(cluster.id, ()) if child in bone_of_model]
+            if len(bones) != 1:
+                raise FileError("fbx.missing", file=graph.file, what=f"bone of a cluster of {shape.name}")
+            binds[bones[0]] = graph.matrix(cluster.element, "TransformLink")
+            indices = graph.integers(cluster.element, "Indexes")
+            values = graph.floats(cluster.element, "Weights", 1)[:, 0]
+            if len(indices) != len(values) or (indices.size and not 0 <= indices.min() <= indices.max() < vertex_count):
+                raise FileError("fbx.contradiction", file=graph.file, detail=f"weights of {shape.name}")
+            vertices.append(indices)
+            joints.append(np.full(len(indices), bones[0]))
+            weights.append(values)
+    if not vertices:
+        return np.zeros((vertex_count, 0), dtype=np.int64), np.zeros((vertex_count, 0)), binds
+    vertex, joint, weight = np.concatenate(vertices), np.concatenate(joints), np.concatenate(weights)
+    order = np.lexsort((-weight, vertex))
+    vertex, joint, weight = vertex[order], joint[order], weight[order]
+    counts = np.bincount(vertex, minlength=vertex_count)
+    width = int(counts.max(initial=0))
+    if width * vertex_count > _MOST_VALUES:
+        raise FileError("fbx.unsupported", file=graph.file, what=f"{width} influences on a vertex of {shape.name}")
+    slot = np.arange(len(vertex)) - np.repeat(np.cumsum(counts) - counts, counts)
+    joint_indices = np.zeros((vertex_count, width), dtype=np.int64)
+    slot_weights = np.zeros((vertex_count, width))
+    joint_indices[vertex, slot], slot_weights[vertex, slot] = joint, weight
+    return joint_indices, slot_weights, binds
+
+
+def _bind_pose(graph: _Graph, bone_of_model: dict[int, int]) -> Float64Array:
+    binds = np.full((len(bone_of_model), 4, 4), np.nan)
+    for pose in graph.of_kind("Pose", "BindPose"):
+        for node in pose.element.children or ():
+            if node.name == "PoseNode":
+                model = int(graph.only(graph.section(node, "Node"), np.int64))
+                if model in bone_of_model:
+                    binds[bone_of_model[model]] = graph.matrix(node, "Matrix")
+    return binds
+
+
+def _morphs(graph: _Graph, shape: _Object) -> tuple[FbxMorph, ...]:
+    morphs = []
+    for deformer in graph.below(shape, "Deformer", "BlendShape"):
+        for channel in graph.below(deformer, "Deformer", "BlendShapeChannel"):
+            targets = graph.below(channel, "Geometry", "Shape")
+            if len(targets) != 1:
+                raise FileError("fbx.unsupported", file=graph.file, what=f"{len(targets)} shapes in {channel.name}")
+            element = targets[0].element
+            normals = graph.floats(element, "Normals", 3) if element.child("Normals") is not None else None
+            indices = graph.integers(element, "Indexes")
+            morphs.append(FbxMorph(channel.name, indices, graph.floats(element, "Vertices", 3), normals))
+    return tuple(morphs)
+
+
+# -------------------------------------------------------------------------------------------------------- animation
+
+
+def _clip(graph: _Graph, root: Element, bones: tuple[FbxBone, ...], bone_of_model: dict[int, int]) -> FbxClip | None:
+    stacks = graph.of_kind("AnimationStack", "")
+    if not stacks:
+        return None
+    settings = _properties(graph.section(root, "GlobalSettings"))
+    mode, custom = _numbers(settings.get("TimeMode", ())), _numbers(settings.get("CustomFrameRate", ()))
+    fps = ticks.rate(int(mode[0]) if mode else 0, custom[0] if custom else 0.0)
+    if fps is None:
+        raise FileError("fbx.missing", file=graph.file, what="frame rate")
+    frames, curves = _curves(graph, stacks[0], fps)
+    if frames * len(bones) > _MOST_VALUES:
+        raise FileError("fbx.unsupported", file=graph.file, what=f"{frames} frames of {len(bones)} bones")
+    rotations = np.empty((frames, len(bones), 4))
+    rotations[:] = [bone.rotation_xyzw for bone in bones]
+    translations: dict[int, Float64Array] = {}
+    weights: dict[str, Float64Array] = {}
+    for (target, to_property), values in curves.items():
+        if target in bone_of_model and to_property in ("Lcl Rotation", "Lcl Translation") and values.shape[1] == 3:
+            if to_property == "Lcl Rotation":
+                rotations[:, bone_of_model[target]] = euler.quaternions(values[:, ::-1], EULER_ORDER)
+            else:
+                translations[bone_of_model[target]] = values
+        elif to_property == "DeformPercent" and target in graph.objects and values.shape[1] == 1:
+            name, weight = graph.objects[target].name, values[:, 0] / 100.0
+            if name in weights and not np.array_equal(weights[name], weight):
+                raise FileError("fbx.contradiction", file=graph.file, detail=f"two different curves of {name}")
+            weights[name] = weight
+        else:
+            raise FileError("fbx.unsupported", file=graph.file, what=f"animation of {to_property}")
+    return FbxClip(stacks[0].name, fps, frames, rotations, translations, weights)
+
+
+def _curves(graph: _Graph, stack: _Object, fps: Fraction) -> tuple[int, dict[tuple[int, str], Float64Array]]:
+    """Number of frames, and the values (F, channels) of every animated property."""
+    times: npt.NDArray[np.int64] | None = None
+    result: dict[tuple[int, str], Float64Array] = {}
+    for layer in graph.below(stack, "AnimationLayer"):
+        for node in graph.below(layer, "AnimationCurveNode"):
+            channels = []
+            for curve in graph.below(node, "AnimationCurve"):
+                key_ticks = graph.integers(curve.element, "KeyTime")
+                values = graph.floats(curve.element, "KeyValueFloat", 1)[:, 0]
+                if times is None:
+                    times = key_ticks
+                if len(values) != len(times) or not np.array_equal(key_ticks, times):
+                    raise FileError("fbx.unsupported", file=graph.file, what="curves with keys at different times")
+                channels.append(values)
+            targets = [(target, to) for target, to in graph.parents.get(node.id, ()) if to]
+            if len(targets) != 1 or not channels:
+                raise FileError("fbx.missing", file=graph.file, what=f"target or curve of {node.name}")
+            result[targets[0]] = np.stack(channels, axis=1)
+    if times is None:
+        raise FileError("fbx.missing", file=graph.file, what="animation curve")
+    if not np.array_equal(times, ticks.frame_ticks(fps, len(times))):
+        raise FileError("fbx.unsupported", file=graph.file, what="keys that are not on the frames")
+    return len(times), result

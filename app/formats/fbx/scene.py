@@ -1,0 +1,245 @@
+"""What an FBX file holds, as plain values: bones, skinned meshes, morphs, materials, one clip.
+
+Space: centimetres, right-handed, Y up. Quaternions are xyzw, matrices act on column vectors. Nothing is scaled.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+import numpy as np
+import numpy.typing as npt
+
+FloatArray = npt.NDArray[np.floating]
+IntArray = npt.NDArray[np.integer]
+
+
+@dataclass(frozen=True, eq=False)
+class FbxBone:
+    """A joint of the skeleton.
+
+    Attributes
+    ----------
+    name : str
+    parent : int
+        Index of a bone before this one; -1 for the one root.
+    translation_cm : ndarray, shape (3,)
+    rotation_xyzw : ndarray, shape (4,)
+        Rest pose, relative to the parent. What the clip does not move stays here.
+    """
+
+    name: str
+    parent: int
+    translation_cm: FloatArray
+    rotation_xyzw: FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class FbxMorph:
+    """A morph target (blend shape).
+
+    Attributes
+    ----------
+    name : str
+        A name may come once per mesh; the clip's weight of that name drives all of them.
+    vertex_indices : ndarray of int, shape (K,)
+    position_deltas_cm : ndarray, shape (K, 3)
+    normal_deltas : ndarray, shape (K, 3), or None
+        None: the normals stay.
+    """
+
+    name: str
+    vertex_indices: IntArray
+    position_deltas_cm: FloatArray
+    normal_deltas: FloatArray | None = None
+
+
+@dataclass(frozen=True)
+class FbxMaterial:
+    """A Phong surface; colours are linear RGB from 0 to 1, shininess is the Phong exponent."""
+
+    name: str
+    diffuse_rgb: tuple[float, float, float]
+    specular_rgb: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    shininess: float = 20.0
+    opacity: float = 1.0
+
+
+@dataclass(frozen=True, eq=False)
+class FbxMesh:
+    """A mesh that the bones deform, in world space in its bind pose.
+
+    Attributes
+    ----------
+    name : str
+        Not a bone's.
+    vertices_cm : ndarray, shape (V, 3)
+    faces : ndarray of int, shape (T, N)
+        Triangles, or polygons of N corners each, counter-clockwise seen from outside.
+    normals : ndarray, shape (V, 3) or (T * N, 3)
+        Per vertex or per corner. A mesh with as many corners as vertices counts as given per vertex.
+    uvs : ndarray, shape (V, 2) or (T * N, 2), or None
+        Per vertex or per corner; v points up (glTF's points down).
+    materials : tuple of FbxMaterial
+        At least one.
+    face_materials : ndarray of int, shape (T,), or None
+        Index into `materials`; None: all faces have the first.
+    joint_indices : ndarray of int, shape (V, K)
+    weights : ndarray, shape (V, K)
+        Any number of influences; entries with weight 0 do not count, a joint named twice adds up.
+    world_from_bone_bind : ndarray, shape (J, 4, 4)
+        Where every bone of the scene was when the mesh was bound; the same for all meshes of a scene, and not
+        necessarily the bones' rest pose.
+    morphs : tuple of FbxMorph
+    """
+
+    name: str
+    vertices_cm: FloatArray
+    faces: IntArray
+    normals: FloatArray
+    uvs: FloatArray | None
+    materials: tuple[FbxMaterial, ...]
+    face_materials: IntArray | None
+    joint_indices: IntArray
+    weights: FloatArray
+    world_from_bone_bind: FloatArray
+    morphs: tuple[FbxMorph, ...] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class FbxClip:
+    """A baked animation: a key on every frame, the first at time zero.
+
+    Attributes
+    ----------
+    name : str
+    fps : Fraction
+    frames : int
+        Number of frames F, at least 1; the clip lasts ``(F - 1) / fps`` seconds.
+    rotations_xyzw : ndarray, shape (F, J, 4)
+        Relative to the parent.
+    translations_cm : mapping of int to ndarray, shape (F, 3)
+        By bone index, relative to the parent; only the bones that move.
+    morph_weights : mapping of str to ndarray, shape (F,)
+        By morph name, 0 to 1.
+    """
+
+    name: str
+    fps: Fraction
+    frames: int
+    rotations_xyzw: FloatArray
+    translations_cm: Mapping[int, FloatArray] = field(default_factory=dict)
+    morph_weights: Mapping[str, FloatArray] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, eq=False)
+class FbxScene:
+    """A character or an instrument, and what it does.
+
+    Attributes
+    ----------
+    bones : tuple of FbxBone
+        Parents first; exactly one root, the first.
+    meshes : tuple of FbxMesh
+    clip : FbxClip or None
+    creator : str
+        Program and version that made the file.
+    """
+
+    bones: tuple[FbxBone, ...]
+    meshes: tuple[FbxMesh, ...] = ()
+    clip: FbxClip | None = None
+    creator: str = "Suisou"
+
+
+def check_scene(scene: FbxScene) -> None:
+    """Refuse a scene that no file could hold.
+
+    Raises
+    ------
+    ValueError
+        Naming what contradicts what: this is a mistake of the caller, not of a user.
+    """
+    bone_count = len(scene.bones)
+    if not bone_count or scene.bones[0].parent != -1:
+        raise ValueError("the first bone must be the root")
+    for index, bone in enumerate(scene.bones[1:], start=1):
+        if not 0 <= bone.parent < index:
+            raise ValueError(f"bone {bone.name!r}: its parent must come before it, and only the first is a root")
+    names = [bone.name for bone in scene.bones] + [mesh.name for mesh in scene.meshes]
+    if len(set(names)) != len(names) or not all(names):
+        raise ValueError("bones and meshes must have different, non-empty names")
+    for mesh in scene.meshes:
+        _check_mesh(mesh, bone_count)
+        if not np.array_equal(mesh.world_from_bone_bind, scene.meshes[0].world_from_bone_bind):
+            raise ValueError(f"mesh {mesh.name!r}: bound in another pose than {scene.meshes[0].name!r}")
+    if scene.clip is not None:
+        _check_clip(scene.clip, bone_count)
+
+
+def _check_mesh(mesh: FbxMesh, bone_count: int) -> None:
+    vertex_count = len(mesh.vertices_cm)
+    if mesh.faces.ndim != 2 or mesh.faces.shape[1] < 3:
+        raise ValueError(f"mesh {mesh.name!r}: faces of shape {mesh.faces.shape}")
+    corner_count = mesh.faces.size
+    shapes = {
+        "vertices_cm": (mesh.vertices_cm.shape, [(vertex_count, 3)]),
+        "normals": (mesh.normals.shape, [(vertex_count, 3), (corner_count, 3)]),
+        "weights": (mesh.weights.shape, [mesh.joint_indices.shape]),
+        "world_from_bone_bind": (mesh.world_from_bone_bind.shape, [(bone_count, 4, 4)]),
+    }
+    if mesh.uvs is not None:
+        shapes["uvs"] = (mesh.uvs.shape, [(vertex_count, 2), (corner_count, 2)])
+    if mesh.face_materials is not None:
+        shapes["face_materials"] = (mesh.face_materials.shape, [(len(mesh.faces),)])
+    for what, (given, allowed) in shapes.items():
+        if given not in allowed:
+            raise ValueError(f"mesh {mesh.name!r}: {what} of shape {given}, not {allowed}")
+    if len(mesh.joint_indices) != vertex_count:
+        raise ValueError(f"mesh {mesh.name!r}: joints for {len(mesh.joint_indices)} of {vertex_count} vertices")
+    _check_indices(mesh, "faces", mesh.faces, vertex_count)
+    _check_indices(mesh, "joint_indices", mesh.joint_indices, bone_count)
+    if mesh.face_materials is not None:
+        _check_indices(mesh, "face_materials", mesh.face_materials, len(mesh.materials))
+    elif not mesh.materials:
+        raise ValueError(f"mesh {mesh.name!r}: no material")
+    _check_morphs(mesh, vertex_count)
+    numbers = [mesh.vertices_cm, mesh.normals, mesh.weights, mesh.world_from_bone_bind]
+    numbers += [morph.position_deltas_cm for morph in mesh.morphs]
+    if not all(np.isfinite(values).all() for values in numbers):
+        raise ValueError(f"mesh {mesh.name!r}: not all its values are finite")
+
+
+def _check_morphs(mesh: FbxMesh, vertex_count: int) -> None:
+    if len({morph.name for morph in mesh.morphs}) != len(mesh.morphs):
+        raise ValueError(f"mesh {mesh.name!r}: two morphs of one name")
+    for morph in mesh.morphs:
+        _check_indices(mesh, f"morph {morph.name!r}", morph.vertex_indices, vertex_count)
+        deltas = (len(morph.vertex_indices), 3)
+        if morph.position_deltas_cm.shape != deltas or (
+            morph.normal_deltas is not None and morph.normal_deltas.shape != deltas
+        ):
+            raise ValueError(f"mesh {mesh.name!r}: morph {morph.name!r} has not one delta per vertex")
+
+
+def _check_indices(mesh: FbxMesh, what: str, indices: IntArray, count: int) -> None:
+    if indices.size and not 0 <= indices.min() <= indices.max() < count:
+        raise ValueError(f"mesh {mesh.name!r}: {what} beyond 0..{count - 1}")
+
+
+def _check_clip(clip: FbxClip, bone_count: int) -> None:
+    if clip.frames < 1 or clip.fps <= 0:
+        raise ValueError(f"a clip of {clip.frames} frames at {clip.fps} frames/s")
+    curves: dict[str, tuple[FloatArray, tuple[int, ...]]] = {}
+    curves |= {f"translations of bone {bone}": (values, (3,)) for bone, values in clip.translations_cm.items()}
+    curves |= {f"weights of {name!r}": (values, ()) for name, values in clip.morph_weights.items()}
+    curves["rotations"] = (clip.rotations_xyzw, (bone_count, 4))
+    for what, (values, shape) in curves.items():
+        if values.shape != (clip.frames, *shape):
+            raise ValueError(f"{what}: shape {values.shape}, not {(clip.frames, *shape)}")
+        if not np.isfinite(values).all():
+            raise ValueError(f"{what}: not all values are finite")
+    if any(not 0 <= bone < bone_count for bone in clip.translations_cm):
+        raise ValueError("translations of a bone that is not there")

@@ -1,0 +1,65 @@
+"""FBX time: integer ticks, 46,186,158,000 a second, and the named frame rates.
+
+Source: FBX SDK reference, ``FbxTime`` (``FBXSDK_TC_SECOND`` and ``FbxTime::EMode``).
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import numpy as np
+import numpy.typing as npt
+
+TICKS_PER_SECOND = 46_186_158_000
+
+CUSTOM_TIME_MODE = 14
+
+_TIME_MODES = {
+    Fraction(120): 1,
+    Fraction(100): 2,
+    Fraction(60): 3,
+    Fraction(50): 4,
+    Fraction(48): 5,
+    Fraction(30): 6,
+    Fraction(30000, 1001): 9,
+    Fraction(25): 10,
+    Fraction(24): 11,
+    Fraction(1000): 12,
+    Fraction(24000, 1001): 13,
+    Fraction(96): 15,
+    Fraction(72): 16,
+    Fraction(60000, 1001): 17,
+    Fraction(120000, 1001): 18,
+}
+_RATES = {mode: fps for fps, mode in _TIME_MODES.items()} | {7: Fraction(30), 8: Fraction(30000, 1001)}
+
+
+def frame_ticks(fps: Fraction, frames: int) -> npt.NDArray[np.int64]:
+    """Tick of each frame, shape (frames,), rounded from its own number so that no error adds up."""
+    numerator, denominator = TICKS_PER_SECOND * fps.denominator, fps.numerator
+    if numerator % denominator == 0:
+        return np.arange(frames, dtype=np.int64) * (numerator // denominator)
+    # Python's integers: the products would overflow 64 bits after about an hour.
+    return np.array([(2 * n * numerator + denominator) // (2 * denominator) for n in range(frames)], dtype=np.int64)
+
+
+def time_mode(fps: Fraction) -> int:
+    """``TimeMode`` of the global settings; `CUSTOM_TIME_MODE` goes with ``CustomFrameRate``."""
+    return _TIME_MODES.get(fps, CUSTOM_TIME_MODE)
+
+
+def rate(mode: int, custom: float) -> Fraction | None:
+    """Inverse of `time_mode`; None if the settings name no rate."""
+    if mode != CUSTOM_TIME_MODE:
+        return _RATES.get(mode)
+    if not 0 < custom < 1e6:
+        return None
+    return exact_rate(custom)
+
+
+def exact_rate(fps: float) -> Fraction:
+    """The fraction that a written-down frame rate means: whole, n/1.001, or simply close."""
+    for candidate in (Fraction(round(fps)), Fraction(round(fps * 1.001) * 1000, 1001)):
+        if candidate and abs(float(candidate) - fps) < 1e-6 * fps:
+            return candidate
+    return Fraction(fps).limit_denominator(10000)

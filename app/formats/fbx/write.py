@@ -1,0 +1,410 @@
+"""Scene -> binary FBX 7.4 file.
+
+The layout is what the FBX SDK 2019.2, ufbx, Blender, assimp and three.js all read alike: no pivots, no scaling, bones
+as LimbNodes under one root, Euler angles in the default order, a key on every frame.
+"""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass, field
+
+import numpy as np
+import numpy.typing as npt
+
+from app.formats.atomic import atomic_write
+from app.formats.euler import euler_degrees
+from app.formats.fbx import encode, ticks
+from app.formats.fbx.encode import Element, PackedArray, Property, encode_elements, pack_array, write_elements
+from app.formats.fbx.geometry import geometry, morph_geometry, skin_clusters
+from app.formats.fbx.scene import FbxBone, FbxClip, FbxMaterial, FbxMesh, FbxScene, FloatArray, check_scene
+
+# FBX calls this order XYZ: x turns first, so the matrix is Rz Ry Rx.
+EULER_ORDER = "ZYX"
+
+_FIRST_ID = 1_000_000
+# Linear keys. The bits beside "linear" (4) and the tangent data are those that every reader has met before.
+_KEY_FLAGS = np.array([0x6104], dtype=np.int32)
+_KEY_DATA = np.array([0.0, 0.0, 9.419963346924634e-30, 0.0], dtype=np.float32)
+
+
+def write_scene(path: str | os.PathLike[str], scene: FbxScene) -> None:
+    """Write a scene as a binary FBX file, whole or not at all.
+
+    Parameters
+    ----------
+    path : str or path-like
+    scene : FbxScene
+
+    Raises
+    ------
+    FileError
+        ``file.cannot_write``.
+    ValueError
+        If the scene contradicts itself.
+    """
+    elements = scene_elements(scene)
+    with atomic_write(path) as stream:
+        write_elements(stream, elements)
+
+
+def encode_scene(scene: FbxScene) -> bytes:
+    """Bytes that `write_scene` writes; the same scene always gives the same."""
+    return encode_elements(scene_elements(scene))
+
+
+def scene_elements(scene: FbxScene) -> tuple[Element, ...]:
+    """Top level of the file, in the order that every reader expects."""
+    check_scene(scene)
+    graph = _Graph()
+    _add_skeleton_and_meshes(graph, scene)
+    last_tick = 0
+    if scene.clip is not None:
+        last_tick = _add_clip(graph, scene, scene.clip)
+    take = scene.clip.name if scene.clip is not None else ""
+    return (
+        _header(scene.creator),
+        Element("FileId", (encode.FILE_ID,)),
+        Element("CreationTime", (encode.CREATION_TIME,)),
+        Element("Creator", (scene.creator,)),
+        _global_settings(scene.clip, last_tick),
+        _documents(graph, take),
+        Element("References", (), ()),
+        _definitions(graph),
+        Element("Objects", (), tuple(graph.objects)),
+        Element("Connections", (), tuple(graph.connections)),
+        _takes(take, last_tick),
+    )
+
+
+# ---------------------------------------------------------------------------------------------------- object graph
+
+
+@dataclass
+class _Graph:
+    """Objects and connections while the file is being put together."""
+
+    objects: list[Element] = field(default_factory=list)
+    connections: list[Element] = field(default_factory=list)
+    bone_ids: list[int] = field(default_factory=list)
+    channel_ids: dict[str, list[int]] = field(default_factory=dict)
+    last_id: int = _FIRST_ID
+
+    def new_id(self) -> int:
+        self.last_id += 1
+        return self.last_id
+
+    def add(self, kind: str, name: str, class_name: str, sub_class: str, children: tuple[Element, ...]) -> int:
+        new = self.new_id()
+        self.objects.append(Element(kind, (np.int64(new), f"{name}\0\x01{class_name}", sub_class), children))
+        return new
+
+    def connect(self, child: int, parent: int, to_property: str | None = None) -> None:
+        ends: tuple[Property, ...] = (np.int64(child), np.int64(parent))
+        if to_property is None:
+            self.connections.append(Element("C", ("OO", *ends)))
+        else:
+            self.connections.append(Element("C", ("OP", *ends, to_property)))
+
+
+def _integer(name: str, value: int) -> Element:
+    return Element(name, (np.int32(value),))
+
+
+def _property(name: str, kind: str, label: str, flags: str, *values: Property) -> Element:
+    return Element("P", (name, kind, label, flags, *values))
+
+
+def _vector(name: str, values: FloatArray) -> Element:
+    """A transform property that may be animated; its kind is called like the property."""
+    return _property(name, name, "", "A", *(float(value) for value in values))
+
+
+def _properties(*properties: Element) -> Element:
+    return Element("Properties70", (), properties)
+
+
+# --------------------------------------------------------------------------------------------- skeleton and meshes
+
+
+def _add_skeleton_and_meshes(graph: _Graph, scene: FbxScene) -> None:
+    for bone in scene.bones:
+        _add_bone(graph, bone)
+    materials: dict[FbxMaterial, int] = {}
+    mesh_ids = [_add_mesh(graph, mesh, materials) for mesh in scene.meshes]
+    if scene.meshes:
+        binds = scene.meshes[0].world_from_bone_bind
+        nodes = [_pose_node(graph.bone_ids[index], bind) for index, bind in enumerate(binds)]
+        nodes = [_pose_node(mesh_id, np.eye(4)) for mesh_id in mesh_ids] + nodes
+        header = (Element("Type", ("BindPose",)), _integer("Version", 100), _integer("NbPoseNodes", len(nodes)))
+        graph.add("Pose", "BindPose", "Pose", "BindPose", (*header, *nodes))
+
+
+def _add_bone(graph: _Graph, bone: FbxBone) -> None:
+    flags = (Element("TypeFlags", ("Skeleton",)),)
+    attribute = graph.add("NodeAttribute", bone.name, "NodeAttribute", "LimbNode", flags)
+    rotation = euler_degrees(np.asarray(bone.rotation_xyzw)[None, None], EULER_ORDER)[0, ::-1, 0]
+    model = graph.add("Model", bone.name, "Model", "LimbNode", _model(bone.translation_cm, rotation))
+    graph.bone_ids.append(model)
+    graph.connect(model, 0 if bone.parent < 0 else graph.bone_ids[bone.parent])
+    graph.connect(attribute, model)
+
+
+def _model(translation_cm: FloatArray, rotation_degrees: FloatArray) -> tuple[Element, ...]:
+    return (
+        _integer("Version", 232),
+        _properties(
+            _property("InheritType", "enum", "", "", np.int32(1)),
+            _property("DefaultAttributeIndex", "int", "Integer", "", np.int32(0)),
+            _vector("Lcl Translation", translation_cm),
+            _vector("Lcl Rotation", rotation_degrees),
+            _vector("Lcl Scaling", np.ones(3)),
+        ),
+        Element("Shading", (True,)),
+        Element("Culling", ("CullingOff",)),
+    )
+
+
+def _add_mesh(graph: _Graph, mesh: FbxMesh, materials: dict[FbxMaterial, int]) -> int:
+    model = graph.add("Model", mesh.name, "Model", "Mesh", _model(np.zeros(3), np.zeros(3)))
+    graph.connect(model, 0)
+    shape = graph.add("Geometry", mesh.name, "Geometry", "Mesh", geometry(mesh))
+    graph.connect(shape, model)
+    for material in mesh.materials:
+        if material not in materials:
+            materials[material] = graph.add("Material", material.name, "Material", "", _material(material))
+        graph.connect(materials[material], model)
+    _add_skin(graph, mesh, shape)
+    if mesh.morphs:
+        _add_morphs(graph, mesh, shape)
+    return model
+
+
+def _material(material: FbxMaterial) -> tuple[Element, ...]:
+    def color(name: str, rgb: tuple[float, float, float]) -> Element:
+        return _property(name, "Color", "", "A", *(float(value) for value in rgb))
+
+    def number(name: str, value: float) -> Element:
+        return _property(name, "Number", "", "A", float(value))
+
+    transparency = 1.0 - material.opacity
+    return (
+        _integer("Version", 102),
+        Element("ShadingModel", ("Phong",)),
+        _integer("MultiLayer", 0),
+        _properties(
+            color("DiffuseColor", material.diffuse_rgb),
+            number("DiffuseFactor", 1.0),
+            color("EmissiveColor", (0.0, 0.0, 0.0)),
+            color("AmbientColor", (0.0, 0.0, 0.0)),
+            color("SpecularColor", material.specular_rgb),
+            number("SpecularFactor", 1.0),
+            number("Shininess", material.shininess),
+            number("ShininessExponent", material.shininess),
+            color("TransparentColor", (transparency,) * 3),
+            number("TransparencyFactor", transparency),
+            number("Opacity", material.opacity),
+        ),
+    )
+
+
+def _add_skin(graph: _Graph, mesh: FbxMesh, shape: int) -> None:
+    skin_children = (_integer("Version", 101), Element("Link_DeformAcuracy", (50.0,)))
+    skin = graph.add("Deformer", mesh.name, "Deformer", "Skin", skin_children)
+    graph.connect(skin, shape)
+    for bone, indices, weights in skin_clusters(mesh):
+        bind = np.asarray(mesh.world_from_bone_bind[bone], dtype=np.float64)
+        children = (
+            _integer("Version", 100),
+            Element("UserData", ("", "")),
+            Element("Indexes", (indices,)),
+            Element("Weights", (weights,)),
+            _matrix("Transform", np.linalg.inv(bind)),
+            _matrix("TransformLink", bind),
+        )
+        cluster = graph.add("Deformer", mesh.name, "SubDeformer", "Cluster", children)
+        graph.connect(cluster, skin)
+        graph.connect(graph.bone_ids[bone], cluster)
+
+
+def _matrix(name: str, matrix: FloatArray) -> Element:
+    """Stored column by column: the translation is in entries 12 to 14."""
+    return Element(name, (np.ascontiguousarray(matrix.T, dtype=np.float64).ravel(),))
+
+
+def _pose_node(node: int, world_from_node: FloatArray) -> Element:
+    return Element("PoseNode", (), (Element("Node", (np.int64(node),)), _matrix("Matrix", world_from_node)))
+
+
+def _add_morphs(graph: _Graph, mesh: FbxMesh, shape: int) -> None:
+    # Unreal cuts the deformer's name off the front of a channel's name, so it must not be one.
+    deformer = graph.add("Deformer", f"{mesh.name}_morphs", "Deformer", "BlendShape", (_integer("Version", 100),))
+    graph.connect(deformer, shape)
+    for morph in mesh.morphs:
+        children = (
+            _integer("Version", 100),
+            Element("DeformPercent", (0.0,)),
+            Element("FullWeights", (np.array([100.0]),)),
+        )
+        channel = graph.add("Deformer", morph.name, "SubDeformer", "BlendShapeChannel", children)
+        target = graph.add("Geometry", morph.name, "Geometry", "Shape", morph_geometry(morph))
+        graph.connect(channel, deformer)
+        graph.connect(target, channel)
+        graph.channel_ids.setdefault(morph.name, []).append(channel)
+
+
+# -------------------------------------------------------------------------------------------------------- animation
+
+
+def _add_clip(graph: _Graph, scene: FbxScene, clip: FbxClip) -> int:
+    """Stack, layer and all curves; returns the tick of the last key."""
+    key_ticks = ticks.frame_ticks(clip.fps, clip.frames)
+    last_tick = int(key_ticks[-1])
+    spans = [
+        _property(name, "KTime", "Time", "", np.int64(tick))
+        for name, tick in zip(
+            ("LocalStart", "LocalStop", "ReferenceStart", "ReferenceStop"), (0, last_tick, 0, last_tick), strict=True
+        )
+    ]
+    stack = graph.add("AnimationStack", clip.name, "AnimStack", "", (_properties(*spans),))
+    layer = graph.add("AnimationLayer", "BaseLayer", "AnimLayer", "", ())
+    graph.connect(layer, stack)
+    curves = _Curves(graph, layer, pack_array(key_ticks), clip.frames)
+
+    rotations = euler_degrees(clip.rotations_xyzw, EULER_ORDER)
+    for bone, model in enumerate(graph.bone_ids):
+        if bone in clip.translations_cm:
+            curves.add(model, "Lcl Translation", "T", "XYZ", np.asarray(clip.translations_cm[bone]).T)
+        curves.add(model, "Lcl Rotation", "R", "XYZ", rotations[bone, ::-1])
+    for name, weights in clip.morph_weights.items():
+        percent = np.asarray(weights, dtype=np.float64)[None] * 100.0
+        for channel in graph.channel_ids.get(name, ()):
+            curves.add(channel, "DeformPercent", "DeformPercent", ("DeformPercent",), percent)
+    return last_tick
+
+
+class _Curves:
+    """Adds the curves of one layer. What is the same in all of them is packed once."""
+
+    def __init__(self, graph: _Graph, layer: int, times: PackedArray, frames: int) -> None:
+        self._graph = graph
+        self._layer = layer
+        self._before = (_integer("KeyVer", 4008), Element("KeyTime", (times,)))
+        # All four are needed: without them the FBX SDK crashes.
+        self._after = (
+            Element("KeyAttrFlags", (pack_array(_KEY_FLAGS),)),
+            Element("KeyAttrDataFloat", (pack_array(_KEY_DATA),)),
+            Element("KeyAttrRefCount", (pack_array(np.array([frames], dtype=np.int32)),)),
+        )
+
+    def add(
+        self, target: int, target_property: str, name: str, channels: str | tuple[str, ...], values: FloatArray
+    ) -> None:
+        """Animate one property; `values` has a row of frames per channel."""
+        defaults = [
+            _property(f"d|{channel}", "Number", "", "A", float(row[0]))
+            for channel, row in zip(channels, values, strict=True)
+        ]
+        node = self._graph.add("AnimationCurveNode", name, "AnimCurveNode", "", (_properties(*defaults),))
+        self._graph.connect(node, self._layer)
+        self._graph.connect(node, target, target_property)
+        for channel, row in zip(channels, values.astype(np.float32), strict=True):
+            keys = Element("KeyValueFloat", (_pack_keys(row),))
+            children = (Element("Default", (float(row[0]),)), *self._before, keys, *self._after)
+            curve = self._graph.add("AnimationCurve", "", "AnimCurve", "", children)
+            self._graph.connect(curve, node, f"d|{channel}")
+
+
+def _pack_keys(row: npt.NDArray[np.float32]) -> PackedArray:
+    """Keys of one channel. One that rests is compressed to nothing; the noise of a moving one is not worth the time."""
+    return pack_array(row, compress=bool((row == row[0]).all()))
+
+
+# -------------------------------------------------------------------------------------------------- the other parts
+
+
+def _header(creator: str) -> Element:
+    stamp = tuple(
+        _integer(name, value)
+        for name, value in (
+            ("Version", 1000), ("Year", 1970), ("Month", 1), ("Day", 1),
+            ("Hour", 10), ("Minute", 0), ("Second", 0), ("Millisecond", 0),
+        )
+    )  # fmt: skip
+    texts = ("Title", "Subject", "Author", "Keywords", "Revision", "Comment")
+    meta = (_integer("Version", 100), *(Element(name, ("",)) for name in texts))
+    vendor = [
+        _property(f"{when}|{what}", "KString", "", "", value)
+        for when in ("Original", "LastSaved")
+        for what, value in (("ApplicationVendor", "Suisou"), ("ApplicationName", creator))
+    ]
+    info = (
+        Element("Type", ("UserData",)),
+        _integer("Version", 100),
+        Element("MetaData", (), meta),
+        _properties(*vendor),
+    )
+    return Element(
+        "FBXHeaderExtension",
+        (),
+        (
+            _integer("FBXHeaderVersion", 1003),
+            _integer("FBXVersion", encode.VERSION),
+            _integer("EncryptionType", 0),
+            Element("CreationTimeStamp", (), stamp),
+            Element("Creator", (creator,)),
+            Element("SceneInfo", ("GlobalInfo\0\x01SceneInfo", "UserData"), info),
+        ),
+    )
+
+
+def _global_settings(clip: FbxClip | None, last_tick: int) -> Element:
+    axes = (
+        ("UpAxis", 1), ("UpAxisSign", 1), ("FrontAxis", 2), ("FrontAxisSign", 1), ("CoordAxis", 0),
+        ("CoordAxisSign", 1), ("OriginalUpAxis", 1), ("OriginalUpAxisSign", 1),
+    )  # fmt: skip
+    properties = [_property(name, "int", "Integer", "", np.int32(value)) for name, value in axes]
+    properties += [
+        _property("UnitScaleFactor", "double", "Number", "", 1.0),
+        _property("OriginalUnitScaleFactor", "double", "Number", "", 1.0),
+    ]
+    if clip is not None:
+        properties += [
+            _property("TimeMode", "enum", "", "", np.int32(ticks.time_mode(clip.fps))),
+            _property("TimeSpanStart", "KTime", "Time", "", np.int64(0)),
+            _property("TimeSpanStop", "KTime", "Time", "", np.int64(last_tick)),
+            _property("CustomFrameRate", "double", "Number", "", float(clip.fps)),
+        ]
+    return Element("GlobalSettings", (), (_integer("Version", 1000), _properties(*properties)))
+
+
+def _documents(graph: _Graph, take: str) -> Element:
+    document = Element(
+        "Document",
+        (np.int64(graph.new_id()), "Scene", "Scene"),
+        (
+            _properties(
+                _property("SourceObject", "object", "", ""),
+                _property("ActiveAnimStackName", "KString", "", "", take),
+            ),
+            Element("RootNode", (np.int64(0),)),
+        ),
+    )
+    return Element("Documents", (), (_integer("Count", 1), document))
+
+
+def _definitions(graph: _Graph) -> Element:
+    counts = {"GlobalSettings": 1}
+    for element in graph.objects:
+        counts[element.name] = counts.get(element.name, 0) + 1
+    types = (Element("ObjectType", (kind,), (_integer("Count", count),)) for kind, count in counts.items())
+    return Element("Definitions", (), (_integer("Version", 100), _integer("Count", sum(counts.values())), *types))
+
+
+def _takes(take: str, last_tick: int) -> Element:
+    children: tuple[Element, ...] = (Element("Current", (take,)),)
+    if take:
+        span = (np.int64(0), np.int64(last_tick))
+        details = (Element("FileName", (f"{take}.tak",)), Element("LocalTime", span), Element("ReferenceTime", span))
+        children += (Element("Take", (take,), details),)
+    return Element("Takes", (), children)
