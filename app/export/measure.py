@@ -1,0 +1,492 @@
+"""What the written files really hold: contacts, controls, joints, feet and breaths, measured on what our reader reads back.
+
+Nothing here looks at the motion the files were made from; only the plan (what should happen) and the map (where things
+are) are known beside the files.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import msgspec
+import numpy as np
+import numpy.typing as npt
+
+from app.export.joints import anatomical_angles, angular_accelerations
+from app.export.penetration import Hands
+from app.export.playback import Playback, Surface
+from app.formats.fbx.scene import FbxMesh, FbxScene
+from app.plan.model import BreathEvent, FingeringEvent, PlayerPlan
+from app.rig import quaternion
+from app.rig.model import Character
+from instrument_maps.model import ROOT, Contact, Control, InstrumentMap
+from metadata.model import Body, SkeletonProfile
+
+FloatArray: TypeAlias = npt.NDArray[np.float64]
+BoolArray: TypeAlias = npt.NDArray[np.bool_]
+
+TOUCH_MM = 2.0
+GRIP_MM = 3.0
+LIPS_MM = 2.0
+FEET_MM = 1.0
+BONES_MM = 0.01
+PENETRATION_MM = 3.0
+PRESSED = 0.9
+"""A control is where it should be within a tenth of its travel ..."""
+SLIDE_M = 0.005
+"""... or, where it slides, within this distance."""
+JAW_OPENS = 0.05
+TORSO_BACK_RAD = math.radians(0.3)
+"""A breath shows where the jaw opens by this weight and the torso leans back by this angle."""
+
+_CHUNK = 256
+_TORSO = ("hips", "neck")
+_SOLES = ("left.foot.sole", "right.foot.sole")
+_HANDS = ("left.hand", "right.hand")
+_LIPS = "lips.contact"
+_UPPER_LIP = "lips.upper"
+
+
+class Spread(msgspec.Struct, frozen=True):
+    """A distance over frames, against its bound. With no frame there is nothing to measure and nothing is wrong."""
+
+    max_mm: float
+    p99_mm: float
+    bound_mm: float
+    frames: int
+
+    @property
+    def kept(self) -> bool:
+        """Whether the bound is kept at every frame."""
+        return self.max_mm <= self.bound_mm
+
+
+class ControlMeasure(msgspec.Struct, frozen=True):
+    """Whether a control is in place at the judged frames, and stays there until it may leave."""
+
+    judged: int
+    right: int
+    short_notes: int
+    short_right: int
+    held_frames: int
+    held_wrong: int
+
+
+class JointMeasure(msgspec.Struct, frozen=True):
+    """The joint that comes nearest to its bound, or goes beyond it."""
+
+    joint: str
+    value: float
+    bound: float
+    beyond: int
+    """Frames (of any joint) beyond the bound."""
+
+
+class BreathMeasure(msgspec.Struct, frozen=True):
+    """Planned breaths and how many of them show."""
+
+    planned: int
+    jaw_open: int
+    torso_back: int
+    shown: int
+
+
+class PlayerMeasures(msgspec.Struct, frozen=True):
+    """Section by section what one player's files hold."""
+
+    sounding_frames: int
+    contacts: dict[str, Spread]
+    lips: Spread
+    upper_lip_in_breaths: Spread
+    feet: dict[str, Spread]
+    bones: Spread
+    penetration: Spread
+    controls: dict[str, ControlMeasure]
+    limits: JointMeasure
+    acceleration: JointMeasure
+    breaths: BreathMeasure
+
+
+@dataclass(frozen=True, eq=False)
+class Measured:
+    """Measures of one player, and the sway of its torso (F, 2), radians (sideways, forward), to compare players."""
+
+    measures: PlayerMeasures
+    sway_rad: FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class _Traces:
+    """What the frames are asked for, over the whole file."""
+
+    landmarks: dict[str, FloatArray]
+    nodes: dict[str, FloatArray]
+    torso: FloatArray
+    bone_deviation_m: FloatArray
+    depth_m: FloatArray
+
+
+def measure_player(
+    player_scene: FbxScene,
+    instrument_scene: FbxScene,
+    character: Character,
+    instrument: InstrumentMap,
+    plan: PlayerPlan,
+    body: Body,
+    profile: SkeletonProfile,
+    first_frame_s: float,
+) -> Measured:
+    """Measure what was read back of one player's two files.
+
+    Parameters
+    ----------
+    player_scene, instrument_scene : FbxScene
+        Both with a clip.
+    character : Character
+        For its landmarks: vertex numbers of the meshes in the file.
+    instrument : InstrumentMap
+    plan : PlayerPlan
+        Of the whole piece; what lies outside the file's frames is not judged.
+    body, profile : Body and SkeletonProfile
+        Human ranges, and the axes they are about.
+    first_frame_s : float
+        Time of the file's first frame.
+    """
+    if player_scene.clip is None or instrument_scene.clip is None:
+        raise ValueError("a file without a clip cannot be measured")
+    player = Playback(player_scene, player_scene.clip)
+    held = Playback(instrument_scene, instrument_scene.clip)
+    fps = player.clip.fps
+    times_s = first_frame_s + np.arange(player.clip.frames) / float(fps)
+    notes = [note for note in plan.fingerings if note.end_s > times_s[0] and note.start_s <= times_s[-1]]
+    sounding = _within(times_s, [(note.start_s, note.end_s) for note in notes])
+    traces = _trace(player, held, character, instrument, sounding)
+    values = control_values(instrument, held)
+    rotations = player.rotations(0, player.clip.frames)
+    judge = ControlJudge(times_s, float(fps), first_frame_s, notes)
+    measures = PlayerMeasures(
+        sounding_frames=int(sounding.sum()),
+        contacts={
+            _contact_name(contact): _contact(contact, instrument, traces, judge, values, sounding)
+            for contact in instrument.contacts
+        },
+        lips=_rim(instrument, traces, _LIPS, sounding),
+        upper_lip_in_breaths=_rim(
+            instrument, traces, _UPPER_LIP, _within(times_s, _catch_breaths(plan, notes)), steady=True
+        ),
+        feet={name: _drift(traces.landmarks[name]) for name in _SOLES},
+        bones=_spread(traces.bone_deviation_m, BONES_MM),
+        penetration=_spread(traces.depth_m[sounding], PENETRATION_MM),
+        controls={control.name: judge.measure(control, values[control.name]) for control in instrument.controls},
+        limits=_limits(rotations, player.bone_names, body, profile),
+        acceleration=_acceleration(rotations, player.bone_names, body, profile, float(fps)),
+        breaths=_breaths(plan.breaths, times_s, player, traces.torso),
+    )
+    return Measured(measures, traces.torso)
+
+
+def control_values(instrument: InstrumentMap, held: Playback) -> dict[str, FloatArray]:
+    """Value of every control (F,), from where its bone is in the file."""
+    frames = held.clip.frames
+    rotations, translations_m = held.rotations(0, frames), held.translations_m(0, frames)
+    result = {}
+    for control in instrument.controls:
+        bone = held.bone_names.index(control.name)
+        axis = np.asarray(control.motion.axis)
+        if control.motion.travel_m is not None:
+            moved_m = (translations_m[:, bone] - held.rest_m[bone]) @ axis
+            result[control.name] = moved_m / control.motion.travel_m
+        else:
+            angles = quaternion.twist_angle(rotations[:, bone], axis)
+            result[control.name] = angles / (control.motion.angle_rad or math.nan)
+    return result
+
+
+class ControlJudge:
+    """The notes of a file and when each is judged.
+
+    Parameters
+    ----------
+    times_s : (F,) float64
+    fps, first_frame_s : float
+    notes : sequence of FingeringEvent
+        Ordered by onset.
+    """
+
+    def __init__(self, times_s: FloatArray, fps: float, first_frame_s: float, notes: Sequence[FingeringEvent]) -> None:
+        self._times_s = times_s
+        self._notes = notes
+        starts = np.array([note.start_s for note in notes])
+        self._ends = np.array([note.end_s for note in notes])
+        self._frames = np.ceil((starts - first_frame_s) * fps).astype(np.int64)
+        self._inside = (self._frames >= 0) & (self._frames < len(times_s))
+        self._short = self._ends - starts < 2.0 / fps
+
+    def targets(self, control: Control) -> FloatArray:
+        """Value of a control that each note asks for."""
+        return np.array([note.controls.get(control.name, control.rest_value) for note in self._notes])
+
+    def in_place(self, control: Control, values: FloatArray, targets: FloatArray) -> BoolArray:
+        """Whether values are near enough to their targets."""
+        off = np.abs(values - targets)
+        if control.kind == "slide" and control.motion.travel_m is not None:
+            return off * control.motion.travel_m <= SLIDE_M
+        return off <= 1.0 - PRESSED + 1e-9
+
+    def working(self, control: Control, values: FloatArray) -> tuple[BoolArray, BoolArray]:
+        """Frames of a sounding note at which a control is away from rest as its note asks, and at rest as it asks."""
+        pressed = np.zeros(len(self._times_s), dtype=np.bool_)
+        released = pressed.copy()
+        for note, target in zip(self._notes, self.targets(control), strict=True):
+            span = self._span(note.start_s, note.end_s)
+            there = self.in_place(control, values[span], np.asarray(target))
+            (released if target == control.rest_value else pressed)[span] |= there
+        return pressed, released
+
+    def measure(self, control: Control, values: FloatArray) -> ControlMeasure:
+        """Count the notes at whose judged frame a control is in place, and the frames at which it left too early."""
+        targets = self.targets(control)
+        long, short = self._inside & ~self._short, self._inside & self._short
+        right = np.zeros(len(targets), dtype=np.bool_)
+        right[self._inside] = self.in_place(control, values[self._frames[self._inside]], targets[self._inside])
+        held = wrong = 0
+        for index in np.flatnonzero(long):
+            span = self._span(self._notes[index].start_s, self._leaves_s(control, targets, int(index)))
+            there = self.in_place(control, values[span], targets[index])
+            held += len(there)
+            wrong += int((~there).sum())
+        return ControlMeasure(
+            judged=int(long.sum()),
+            right=int(right[long].sum()),
+            short_notes=int(short.sum()),
+            short_right=int(right[short].sum()),
+            held_frames=held,
+            held_wrong=wrong,
+        )
+
+    def _leaves_s(self, control: Control, targets: FloatArray, index: int) -> float:
+        """The earliest time at which a control may leave the place of a note: its end, or shortly before."""
+        note = self._notes[index]
+        window = control.move_window_s
+        if index + 1 < len(targets) and control.max_speed_m_s and control.motion.travel_m:
+            way_m = abs(targets[index + 1] - targets[index]) * control.motion.travel_m
+            window = max(window, way_m / control.max_speed_m_s)
+        next_s = self._notes[index + 1].start_s if index + 1 < len(targets) else math.inf
+        window -= min(max(next_s - note.end_s, 0.0), window)
+        return note.end_s - min(window, control.move_note_share * (note.end_s - note.start_s))
+
+    def _span(self, start_s: float, end_s: float) -> slice:
+        return slice(*np.searchsorted(self._times_s, [start_s - 1e-9, end_s - 1e-9]))
+
+
+def sway_correlations(players: Mapping[str, FloatArray]) -> dict[str, float]:
+    """Largest correlation of each player's torso sway with any other player's, over sideways and forward motion."""
+    names = list(players)
+    greatest = dict.fromkeys(names, -1.0)
+    for axis in range(2):
+        for index, name in enumerate(names):
+            for other in names[index + 1 :]:
+                a, b = players[name][:, axis], players[other][:, axis]
+                if np.ptp(a) == 0.0 or np.ptp(b) == 0.0:
+                    continue
+                correlation = float(np.corrcoef(a, b)[0, 1])
+                greatest[name] = max(greatest[name], correlation)
+                greatest[other] = max(greatest[other], correlation)
+    return greatest
+
+
+def _trace(
+    player: Playback, held: Playback, character: Character, instrument: InstrumentMap, sounding: BoolArray
+) -> _Traces:
+    """One walk over all frames, a chunk at a time."""
+    frames = player.clip.frames
+    wanted = {contact.part for contact in instrument.contacts} | {*_SOLES, _LIPS, _UPPER_LIP}
+    surfaces = {name: _landmark_surface(player, character, name) for name in sorted(wanted)}
+    hands = _hands(player, character, instrument)
+    bone_of_node = {control.node: control.name for control in instrument.controls} | {ROOT: held.bone_names[0]}
+    node_bones = {node: held.bone_names.index(bone) for node, bone in bone_of_node.items()}
+    landmarks = {name: np.empty((frames, 3)) for name in surfaces}
+    nodes = {node: np.empty((frames, 4, 4)) for node in node_bones}
+    torso, depth_m, deviation_m = np.empty((frames, 2)), np.zeros(frames), np.empty(frames)
+    low, high = (player.bone_names.index(name) for name in _TORSO)
+    lengths_m = np.linalg.norm(player.rest_m, axis=1)
+    parents = np.array(player.parents)
+    rigid = np.array([parent > 0 for parent in player.parents])
+    for first in range(0, frames, _CHUNK):
+        last = min(first + _CHUNK, frames)
+        span = slice(first, last)
+        world = player.world(first, last)
+        for name, surface in surfaces.items():
+            landmarks[name][span] = surface.positions_m(world, first, last).mean(axis=1)
+        held_world = held.world(first, last)
+        for node, bone in node_bones.items():
+            nodes[node][span] = held_world[:, bone]
+        joints_m = world[..., :3, 3]
+        upright = joints_m[:, high] - joints_m[:, low]
+        torso[span] = np.arctan2(upright[:, [0, 2]], upright[:, 1:2])
+        bones_m = np.linalg.norm(joints_m - joints_m[:, parents], axis=-1)
+        deviation_m[span] = np.abs(bones_m - lengths_m)[:, rigid].max(axis=1)
+        if sounding[span].any():
+            for part in hands:
+                depth_m[span] = np.maximum(
+                    depth_m[span], part.depths_m(world, {name: nodes[name][span] for name in nodes}, first, last)
+                )
+    return _Traces(landmarks, nodes, torso, deviation_m, depth_m)
+
+
+def _mesh(playback: Playback, character: Character, name: str) -> FbxMesh:
+    """The file's mesh of a character's mesh: they stand in the same order."""
+    order = [mesh.name for mesh in character.meshes].index(name)
+    return playback.scene.meshes[order]
+
+
+def _landmark_surface(playback: Playback, character: Character, name: str) -> Surface:
+    landmark = character.landmarks[name]
+    return Surface(playback, _mesh(playback, character, landmark.mesh), landmark.vertices)
+
+
+def _hands(playback: Playback, character: Character, instrument: InstrumentMap) -> list[Hands]:
+    return [
+        Hands(playback, _mesh(playback, character, landmark.mesh), landmark.vertices, instrument.proxy)
+        for landmark in (character.landmarks[name] for name in _HANDS)
+    ]
+
+
+def _within(times_s: FloatArray, spans: Sequence[tuple[float, float]]) -> BoolArray:
+    inside = np.zeros(len(times_s), dtype=np.bool_)
+    for start_s, end_s in spans:
+        inside[slice(*np.searchsorted(times_s, [start_s - 1e-9, end_s - 1e-9]))] = True
+    return inside
+
+
+def _spread(distances_m: FloatArray, bound_mm: float) -> Spread:
+    if not len(distances_m):
+        return Spread(0.0, 0.0, bound_mm, 0)
+    distances_mm = distances_m * 1000.0
+    return Spread(
+        round(float(distances_mm.max()), 5),
+        round(float(np.percentile(distances_mm, 99)), 5),
+        bound_mm,
+        len(distances_mm),
+    )
+
+
+def _contact_name(contact: Contact) -> str:
+    return f"{contact.part} on {contact.control or contact.node}"
+
+
+def _contact(
+    contact: Contact,
+    instrument: InstrumentMap,
+    traces: _Traces,
+    judge: ControlJudge,
+    values: Mapping[str, FloatArray],
+    sounding: BoolArray,
+) -> Spread:
+    frames = sounding
+    touch = False
+    if contact.control is not None:
+        pressed, released = judge.working(instrument.control(contact.control), values[contact.control])
+        frames = {"always": sounding, "pressed": pressed, "released": released}[contact.when]
+        touch = contact.grip == "firm" and not contact.part.endswith(("palm", "thumb_web"))
+    node = traces.nodes[contact.node][frames]
+    point_m = node[:, :3, :3] @ np.asarray(contact.position_m) + node[:, :3, 3]
+    distances_m = np.linalg.norm(traces.landmarks[contact.part][frames] - point_m, axis=1)
+    return _spread(distances_m, TOUCH_MM if touch else GRIP_MM)
+
+
+def _rim(
+    instrument: InstrumentMap, traces: _Traces, landmark: str, frames: BoolArray, *, steady: bool = False
+) -> Spread:
+    """Distance of the middle of the rim to the lips; ``steady``: how far it wanders from where it usually is on them."""
+    root = traces.nodes[ROOT][frames]
+    if not len(root):
+        return _spread(np.zeros(0), LIPS_MM)
+    rim_m = root[:, :3, :3] @ np.asarray(instrument.mouthpiece.position_m) + root[:, :3, 3]
+    lips_m = traces.landmarks[landmark][frames]
+    offset_m = np.einsum("fji,fj->fi", root[:, :3, :3], lips_m - rim_m)
+    if steady:
+        offset_m = offset_m - np.median(offset_m, axis=0)
+    return _spread(np.linalg.norm(offset_m, axis=1), LIPS_MM)
+
+
+def _catch_breaths(plan: PlayerPlan, notes: Sequence[FingeringEvent]) -> list[tuple[float, float]]:
+    """Breaths in rests too short to take the instrument down: within a second after a note."""
+    ends = np.array([note.end_s for note in notes])
+    return [
+        (breath.start_s, breath.end_s)
+        for breath in plan.breaths
+        if breath.kind == "breath" and len(ends) and np.any(np.abs(breath.start_s - ends) < 1.0)
+    ]
+
+
+def _drift(landmark_m: FloatArray) -> Spread:
+    return _spread(np.linalg.norm(landmark_m - landmark_m[0], axis=1), FEET_MM)
+
+
+def _limits(rotations: FloatArray, bones: Sequence[str], body: Body, profile: SkeletonProfile) -> JointMeasure:
+    """The joint angle that goes furthest beyond its range, degrees (negative: inside all ranges by that much)."""
+    known = {joint.name: joint.kind for joint in profile.joints}
+    worst, beyond = ("", -math.inf), 0
+    for index, bone in enumerate(bones):
+        limits = body.limits.get(known.get(bone, ""))
+        if limits is None:
+            continue
+        axes = profile.joint_axes(bone)
+        angles = np.degrees(
+            anatomical_angles(
+                rotations[:, index], np.asarray(axes.flexion), np.asarray(axes.sideways), np.asarray(axes.twist)
+            )
+        )
+        for name, angle, (low, high) in zip(
+            ("flexion", "sideways", "twist"),
+            angles.T,
+            (limits.flexion_deg, limits.sideways_deg, limits.twist_deg),
+            strict=True,
+        ):
+            excess = np.maximum(low - angle, angle - high)
+            beyond += int((excess > 0.01).sum())
+            worst = max(worst, (f"{bone} {name}", round(float(excess.max()), 4)), key=lambda item: item[1])
+    return JointMeasure(worst[0], worst[1], 0.0, beyond)
+
+
+def _acceleration(
+    rotations: FloatArray, bones: Sequence[str], body: Body, profile: SkeletonProfile, fps: float
+) -> JointMeasure:
+    """The angular acceleration that comes nearest to its human bound."""
+    known = {joint.name: joint.kind for joint in profile.joints}
+    indices = [index for index, bone in enumerate(bones) if known.get(bone, "") in body.limits]
+    bounds = np.array([body.limits[known[bones[index]]].acceleration_rad_s2 for index in indices])
+    accelerations = angular_accelerations(rotations[:, indices], fps)
+    if not accelerations.size:
+        return JointMeasure("", 0.0, 0.0, 0)
+    ratios = accelerations / bounds
+    worst = int(np.argmax(ratios.max(axis=0)))
+    return JointMeasure(
+        bones[indices[worst]],
+        round(float(accelerations[:, worst].max()), 3),
+        float(bounds[worst]),
+        int((ratios > 1.0).sum()),
+    )
+
+
+def _breaths(
+    events: Sequence[BreathEvent], times_s: FloatArray, player: Playback, torso_rad: FloatArray
+) -> BreathMeasure:
+    """Whether during each breath the jaw opens and the torso leans back against what was just before."""
+    jaw = np.asarray(player.clip.morph_weights.get("jawOpen", np.zeros(len(times_s))), np.float64)
+    planned = opened = back = shown = 0
+    for event in events:
+        first, last = np.searchsorted(times_s, [event.start_s - 1e-9, event.end_s + 1e-9])
+        if event.kind != "breath" or first == 0 or last >= len(times_s) or last - first < 1:
+            continue
+        planned += 1
+        opens = bool(jaw[first:last].max() - jaw[first - 1] >= JAW_OPENS)
+        leans = bool(torso_rad[first - 1, 1] - torso_rad[first : last + 1, 1].min() >= TORSO_BACK_RAD)
+        opened += opens
+        back += leans
+        shown += opens and leans
+    return BreathMeasure(planned, opened, back, shown)

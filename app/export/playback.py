@@ -1,0 +1,122 @@
+"""A file's scene played back: where its bones and its deformed surfaces are, in metres."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import numpy.typing as npt
+
+from app.export.joints import world_transforms
+from app.formats.fbx.scene import FbxClip, FbxMesh, FbxScene
+from app.rig import quaternion
+
+FloatArray = npt.NDArray[np.float64]
+IntArray = npt.NDArray[np.integer]
+METRES = 0.01
+
+
+@dataclass(frozen=True, eq=False)
+class Playback:
+    """A scene with a clip, as any reader of the file would play it."""
+
+    scene: FbxScene
+    clip: FbxClip
+
+    @cached_property
+    def bone_names(self) -> tuple[str, ...]:
+        """Names of the bones."""
+        return tuple(bone.name for bone in self.scene.bones)
+
+    @cached_property
+    def parents(self) -> tuple[int, ...]:
+        """Index of each bone's parent, -1 for the root."""
+        return tuple(bone.parent for bone in self.scene.bones)
+
+    @cached_property
+    def rest_m(self) -> FloatArray:
+        """Rest translations (J, 3)."""
+        return np.stack([np.asarray(bone.translation_cm, np.float64) for bone in self.scene.bones]) * METRES
+
+    def rotations(self, first: int, last: int) -> FloatArray:
+        """Local rotations (n, J, 4) of the frames ``first`` .. ``last - 1``."""
+        return quaternion.normalize(self.clip.rotations_xyzw[first:last])
+
+    def translations_m(self, first: int, last: int) -> FloatArray:
+        """Local translations (n, J, 3) of the frames ``first`` .. ``last - 1``."""
+        result = np.tile(self.rest_m, (last - first, 1, 1))
+        for bone, translation_cm in self.clip.translations_cm.items():
+            result[:, bone] = translation_cm[first:last].astype(np.float64) * METRES
+        return result
+
+    def world(self, first: int, last: int) -> FloatArray:
+        """World transforms (n, J, 4, 4) of the frames ``first`` .. ``last - 1``."""
+        return world_transforms(self.parents, self.translations_m(first, last), self.rotations(first, last))
+
+
+class Surface:
+    """Some vertices of a mesh, ready to be deformed: linear blend skinning after the morph targets.
+
+    Parameters
+    ----------
+    playback : Playback
+    mesh : FbxMesh
+        One of its scene's.
+    vertices : (V,) integer array
+    """
+
+    def __init__(self, playback: Playback, mesh: FbxMesh, vertices: IntArray) -> None:
+        weights = _dense_weights(mesh, vertices, len(playback.bone_names))
+        self._bones = np.flatnonzero(weights.any(axis=0))
+        self._weights = weights[:, self._bones]
+        binds = np.asarray(mesh.world_from_bone_bind, np.float64)[self._bones].copy()
+        binds[:, :3, 3] *= METRES
+        self._bone_from_mesh = np.linalg.inv(binds)
+        self._positions = np.asarray(mesh.vertices_cm, np.float64)[vertices] * METRES
+        homogeneous = np.concatenate([self._positions, np.ones((len(vertices), 1))], axis=1)
+        # (4 * bones, V): one matrix product skins all vertices of all frames.
+        self._blend = np.einsum("vb,vi->biv", self._weights, homogeneous).reshape(-1, len(vertices))
+        self._morphs = _touching_morphs(playback.clip, mesh, vertices)
+
+    def positions_m(self, world: FloatArray, first: int, last: int) -> FloatArray:
+        """Deformed positions (n, V, 3); ``world`` is `Playback.world` of the same frames."""
+        frames = last - first
+        world_from_mesh = (world[:, self._bones] @ self._bone_from_mesh)[:, :, :3]
+        rows = world_from_mesh.transpose(0, 2, 1, 3).reshape(frames * 3, -1)
+        result = (rows @ self._blend).reshape(frames, 3, -1).transpose(0, 2, 1)
+        if self._morphs:
+            moved = np.zeros((frames, len(self._positions), 3))
+            for weights, deltas_m in self._morphs:
+                moved += weights[first:last, None, None] * deltas_m
+            touched = np.flatnonzero(np.any([deltas_m.any(axis=1) for _, deltas_m in self._morphs], axis=0))
+            blended = np.tensordot(self._weights[touched], world_from_mesh[..., :3], axes=(1, 1))
+            result = result.copy()
+            result[:, touched] += np.einsum("vfij,fvj->fvi", blended, moved[:, touched])
+        return result
+
+
+def _dense_weights(mesh: FbxMesh, vertices: IntArray, bones: int) -> FloatArray:
+    """Weights (V, J) with sum 1, as a reader normalises them."""
+    weights = np.zeros((len(vertices), bones))
+    rows = np.arange(len(vertices))
+    for column in range(mesh.joint_indices.shape[1]):
+        np.add.at(weights, (rows, mesh.joint_indices[vertices, column]), mesh.weights[vertices, column])
+    return weights / weights.sum(axis=1, keepdims=True)
+
+
+def _touching_morphs(clip: FbxClip, mesh: FbxMesh, vertices: IntArray) -> list[tuple[FloatArray, FloatArray]]:
+    """Weight curve (F,) and displacement (V, 3) in metres of every morph that moves one of the vertices."""
+    place = np.full(len(mesh.vertices_cm), -1)
+    place[vertices] = np.arange(len(vertices))
+    touching = []
+    for morph in mesh.morphs:
+        curve = clip.morph_weights.get(morph.name)
+        rows = place[morph.vertex_indices]
+        if curve is None or not (rows >= 0).any():
+            continue
+        deltas_m = np.zeros((len(vertices), 3))
+        deltas_m[rows[rows >= 0]] = np.asarray(morph.position_deltas_cm, np.float64)[rows >= 0] * METRES
+        if deltas_m.any():
+            touching.append((np.asarray(curve, np.float64), deltas_m))
+    return touching
