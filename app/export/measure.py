@@ -1,4 +1,4 @@
-"""What the written files really hold: contacts, controls, joints, feet and breaths, measured on what our reader reads back.
+"""What the written files hold: contacts, controls, joints, feet and breaths, measured on what our reader reads back.
 
 Nothing here looks at the motion the files were made from; only the plan (what should happen) and the map (where things
 are) are known beside the files.
@@ -253,8 +253,8 @@ class ControlJudge:
         right = np.zeros(len(targets), dtype=np.bool_)
         right[self._inside] = self.in_place(control, values[self._frames[self._inside]], targets[self._inside])
         held = wrong = 0
-        for index in np.flatnonzero(long):
-            span = self._span(self._notes[index].start_s, self._leaves_s(control, targets, int(index)))
+        for index in np.flatnonzero(long).tolist():
+            span = self._span(self._notes[index].start_s, self._leaves_s(control, targets, index))
             there = self.in_place(control, values[span], targets[index])
             held += len(there)
             wrong += int((~there).sum())
@@ -401,7 +401,7 @@ def _contact(
 def _rim(
     instrument: InstrumentMap, traces: _Traces, landmark: str, frames: BoolArray, *, steady: bool = False
 ) -> Spread:
-    """Distance of the middle of the rim to the lips; ``steady``: how far it wanders from where it usually is on them."""
+    """Distance of the rim's middle to the lips; ``steady``: how far it wanders from where it usually is on them."""
     root = traces.nodes[ROOT][frames]
     if not len(root):
         return _spread(np.zeros(0), LIPS_MM)

@@ -19,6 +19,7 @@ from app.formats.fbx.scene import FbxMesh
 from instrument_maps.model import Proxy
 
 FloatArray = npt.NDArray[np.float64]
+AnyFloatArray = npt.NDArray[np.floating]
 IntArray = npt.NDArray[np.integer]
 
 GROUP = 16
@@ -84,8 +85,8 @@ class Hands:
         radii = np.array([group.radius_m for group in self._groups])
         for body in self._proxy:
             distance = signed_distance(body, _moved(node_from_world[body.node], middles)) - radii
-            for index in np.flatnonzero((distance < 0.0).any(axis=0)):
-                near.setdefault(int(index), []).append((body, distance[:, index] < 0.0))
+            for index in np.flatnonzero((distance < 0.0).any(axis=0)).tolist():
+                near.setdefault(index, []).append((body, distance[:, index] < 0.0))
         for index, bodies in near.items():
             points = self._members[index].positions_m(world, first, last)
             for body, frames in bodies:
@@ -95,7 +96,7 @@ class Hands:
         return deepest
 
 
-def _moved(matrices: FloatArray, points: FloatArray) -> FloatArray:
+def _moved(matrices: AnyFloatArray, points: AnyFloatArray) -> AnyFloatArray:
     """Points (n, V, 3) through transforms (n, 4, 4)."""
     return points @ matrices[:, :3, :3].swapaxes(1, 2) + matrices[:, None, :3, 3]
 

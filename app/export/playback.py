@@ -84,7 +84,7 @@ class Surface:
         frames = last - first
         world_from_mesh = (world[:, self._bones] @ self._bone_from_mesh)[:, :, :3]
         rows = world_from_mesh.transpose(0, 2, 1, 3).reshape(frames * 3, -1)
-        result = (rows @ self._blend).reshape(frames, 3, -1).transpose(0, 2, 1)
+        result: FloatArray = (rows @ self._blend).reshape(frames, 3, -1).transpose(0, 2, 1)
         if self._morphs:
             moved = np.zeros((frames, len(self._positions), 3))
             for weights, deltas_m in self._morphs:
@@ -102,7 +102,8 @@ def _dense_weights(mesh: FbxMesh, vertices: IntArray, bones: int) -> FloatArray:
     rows = np.arange(len(vertices))
     for column in range(mesh.joint_indices.shape[1]):
         np.add.at(weights, (rows, mesh.joint_indices[vertices, column]), mesh.weights[vertices, column])
-    return weights / weights.sum(axis=1, keepdims=True)
+    weights /= weights.sum(axis=1, keepdims=True)
+    return weights
 
 
 def _touching_morphs(clip: FbxClip, mesh: FbxMesh, vertices: IntArray) -> list[tuple[FloatArray, FloatArray]]:
