@@ -10,6 +10,8 @@ from fractions import Fraction
 import numpy as np
 import numpy.typing as npt
 
+from app.formats.rates import exact_rate
+
 TICKS_PER_SECOND = 46_186_158_000
 
 CUSTOM_TIME_MODE = 14
@@ -55,11 +57,3 @@ def rate(mode: int, custom: float) -> Fraction | None:
     if not 0 < custom < 1e6:
         return None
     return exact_rate(custom)
-
-
-def exact_rate(fps: float) -> Fraction:
-    """The fraction that a written-down frame rate means: whole, n/1.001, or simply close."""
-    for candidate in (Fraction(round(fps)), Fraction(round(fps * 1.001) * 1000, 1001)):
-        if candidate and abs(float(candidate) - fps) < 1e-6 * fps:
-            return candidate
-    return Fraction(fps).limit_denominator(10000)

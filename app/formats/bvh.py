@@ -1,0 +1,329 @@
+"""BVH (Biovision hierarchy) files, both ways.
+
+The dialect that bvhio, bvh, pybvh, Blender, assimp and three.js read alike: position channels on the root only, whose
+own OFFSET is zero (some readers add it to the channels, others replace it), rotation channels Z X Y on every joint,
+the frame time with enough digits for a long take. Source: M. Meredith, S. Maddock, "Motion Capture File Formats
+Explained" (University of Sheffield, 2001).
+
+Messages (with ``file``): ``file.cannot_read`` (reason);
+``bvh.syntax`` (line, found): "{file}, line {line}: {found} does not belong here";
+``bvh.truncated``: "{file} ends too early";
+``bvh.motion`` (detail): "{file}: the motion does not fit the skeleton ({detail})";
+``bvh.unsupported`` (line, what): "{file}, line {line}: {what} is not supported".
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+from app.errors import FileError
+from app.formats import euler
+from app.formats.atomic import atomic_write
+from app.formats.fixed_point import table_text
+from app.formats.rates import exact_rate
+
+FloatArray = npt.NDArray[np.floating]
+
+_ORDER = "ZXY"
+_POSITIONS = ["Xposition", "Yposition", "Zposition"]
+_DEEPEST = 512
+
+
+@dataclass(frozen=True, eq=False)
+class BvhClip:
+    """A skeleton and its motion; centimetres, right-handed, Y up.
+
+    Attributes
+    ----------
+    names : tuple of str
+        Joints, parents first; the first is the one root.
+    parents : tuple of int
+        -1 for the root.
+    offsets_cm : ndarray, shape (J, 3)
+        Relative to the parent; the root's is zero.
+    end_sites_cm : mapping of int to ndarray, shape (3,)
+        Ends of the joints that have no child.
+    fps : Fraction
+    root_translation_cm : ndarray, shape (F, 3)
+    rotations_xyzw : ndarray, shape (F, J, 4)
+        Relative to the parent.
+    """
+
+    names: tuple[str, ...]
+    parents: tuple[int, ...]
+    offsets_cm: FloatArray
+    end_sites_cm: Mapping[int, FloatArray]
+    fps: Fraction
+    root_translation_cm: FloatArray
+    rotations_xyzw: FloatArray
+
+
+def write_bvh(
+    path: str | os.PathLike[str],
+    names: Sequence[str],
+    parents: Sequence[int],
+    offsets_cm: FloatArray,
+    fps: Fraction,
+    root_translation_cm: FloatArray,
+    rotations_xyzw: FloatArray,
+    end_sites_cm: Mapping[int, FloatArray],
+) -> None:
+    """Write a BVH file, whole or not at all.
+
+    Parameters
+    ----------
+    path : str or path-like
+    names, parents, offsets_cm, fps, root_translation_cm, rotations_xyzw, end_sites_cm
+        As in `BvhClip`. Names have no blanks; children need not follow their parent directly (the file's order of
+        joints is depth first). The root's offset is not written: its place is in `root_translation_cm`. Every joint
+        without a child needs an end site.
+
+    Raises
+    ------
+    FileError
+        ``file.cannot_write``.
+    ValueError
+        If the values contradict each other.
+    """
+    clip = BvhClip(
+        tuple(names), tuple(parents), offsets_cm, end_sites_cm, fps, root_translation_cm, rotations_xyzw
+    )  # fmt: skip
+    pieces = _pieces(clip)
+    with atomic_write(path) as stream:
+        stream.writelines(pieces)
+
+
+def encode_bvh(clip: BvhClip) -> bytes:
+    """Bytes of the file that `write_bvh` writes."""
+    return b"".join(_pieces(clip))
+
+
+def _pieces(clip: BvhClip) -> list[bytes]:
+    _check(clip)
+    children: list[list[int]] = [[] for _ in clip.names]
+    for joint, parent in enumerate(clip.parents[1:], start=1):
+        children[parent].append(joint)
+    lines = ["HIERARCHY"]
+    order: list[int] = []
+    _joint_lines(clip, children, lines, order)
+    frames = len(clip.rotations_xyzw)
+    # A decimal more than a double holds at this size, so that the last frame of an hour is still in its place.
+    lines += ["MOTION", f"Frames: {frames}", f"Frame Time: {float(1 / clip.fps):.16f}", ""]
+
+    table = np.empty((frames, 3 + 3 * len(order)))
+    table[:, :3] = clip.root_translation_cm
+    angles = euler.euler_degrees(clip.rotations_xyzw, _ORDER)
+    table[:, 3:] = angles[order].reshape(-1, frames).T
+    return ["\n".join(lines).encode("utf-8"), *table_text(table)]
+
+
+def _joint_lines(clip: BvhClip, children: list[list[int]], lines: list[str], order: list[int]) -> None:
+    """Add the hierarchy, depth first, and say in which order the joints come."""
+    rotations = " ".join(f"{axis}rotation" for axis in _ORDER)
+    # What is still to be written, last first: a joint with its depth, or a closing brace of that depth.
+    pending: list[tuple[int | None, int]] = [(0, 0)]
+    while pending:
+        joint, depth = pending.pop()
+        indent = "\t" * depth
+        if joint is None:
+            lines.append(indent + "}")
+            continue
+        order.append(joint)
+        offset = np.zeros(3) if joint == 0 else clip.offsets_cm[joint]
+        channels = f"CHANNELS 6 {' '.join(_POSITIONS)} {rotations}" if joint == 0 else f"CHANNELS 3 {rotations}"
+        lines += [
+            f"{indent}{'JOINT' if joint else 'ROOT'} {clip.names[joint]}",
+            indent + "{",
+            f"{indent}\tOFFSET {_vector(offset)}",
+            f"{indent}\t{channels}",
+        ]
+        if not children[joint]:
+            end = _vector(clip.end_sites_cm[joint])
+            lines += [f"{indent}\tEnd Site", indent + "\t{", f"{indent}\t\tOFFSET {end}", indent + "\t}"]
+        pending.append((None, depth))
+        pending += [(child, depth + 1) for child in reversed(children[joint])]
+
+
+def _vector(values: FloatArray) -> str:
+    return " ".join(f"{value + 0.0:.6f}" for value in values)
+
+
+def _check(clip: BvhClip) -> None:
+    count = len(clip.names)
+    if not count or clip.parents[0] != -1 or len(clip.parents) != count:
+        raise ValueError("one parent per joint, and the first joint is the root")
+    if any(not 0 <= parent < joint for joint, parent in enumerate(clip.parents[1:], start=1)):
+        raise ValueError("a parent must come before its joint, and only the first joint is a root")
+    if len(set(clip.names)) != count or any(name.split() != [name] for name in clip.names):
+        raise ValueError("joints must have different names without blanks")
+    missing = set(range(count)) - set(clip.parents) - set(clip.end_sites_cm)
+    if missing:
+        raise ValueError(f"no end site for {', '.join(clip.names[joint] for joint in sorted(missing))}")
+    frames = len(clip.rotations_xyzw)
+    if clip.rotations_xyzw.shape != (frames, count, 4) or clip.root_translation_cm.shape != (frames, 3) or not frames:
+        raise ValueError("rotations (F, J, 4) and root translations (F, 3) of at least one frame")
+    if np.shape(clip.offsets_cm) != (count, 3) or not np.isfinite(clip.offsets_cm).all() or clip.fps <= 0:
+        raise ValueError("one finite offset per joint, and a frame rate above zero")
+
+
+# ---------------------------------------------------------------------------------------------------------- reading
+
+
+def read_bvh(path: str | os.PathLike[str]) -> BvhClip:
+    """Read a BVH file with any order of rotation channels; position channels on the root only.
+
+    A root offset is left out: like most programs, this one takes the position channels as the root's place.
+
+    Raises
+    ------
+    FileError
+        If it is no such file.
+    """
+    file = os.fspath(path)
+    try:
+        text = Path(path).read_bytes().decode("utf-8", "replace")
+    except OSError as error:
+        raise FileError("file.cannot_read", file=file, reason=error.strerror or str(error)) from error
+    return decode_bvh(text, file)
+
+
+def decode_bvh(text: str, file: str) -> BvhClip:
+    """Clip of a file's text, as `read_bvh`."""
+    head, _, motion = text.partition("MOTION")
+    hierarchy = _Hierarchy(file)
+    hierarchy.read(head)
+    return _motion(motion, hierarchy, file)
+
+
+class _Hierarchy:
+    """The skeleton as it is read."""
+
+    def __init__(self, file: str) -> None:
+        self.file = file
+        self.names: list[str] = []
+        self.parents: list[int] = []
+        self.offsets: list[list[float]] = []
+        self.channels: list[list[str]] = []
+        self.end_sites: dict[int, npt.NDArray[np.float64]] = {}
+
+    def read(self, head: str) -> None:
+        lines = ((number, line.split()) for number, line in enumerate(head.splitlines(), start=1))
+        rows = ((number, words) for number, words in lines if words)
+        number, words = self._next(rows)
+        if words != ["HIERARCHY"]:
+            raise self._syntax(number, words)
+        open_joints: list[int] = []
+        for number, words in rows:
+            if (
+                words[0] == ("JOINT" if self.names else "ROOT")
+                and len(words) > 1
+                and bool(open_joints or not self.names)
+            ):
+                self._open(number, "_".join(words[1:]), open_joints)
+                self._brace(rows)
+            elif words[:2] == ["End", "Site"] and open_joints:
+                self._brace(rows)
+                number, words = self._next(rows)
+                self.end_sites[open_joints[-1]] = np.array(self._offset(number, words))
+                self._brace(rows, "}")
+            elif words[0] == "OFFSET" and open_joints:
+                self.offsets[open_joints[-1]] = self._offset(number, words)
+            elif words[0] == "CHANNELS" and open_joints:
+                self._channels(number, words, open_joints[-1])
+            elif words == ["}"] and open_joints:
+                open_joints.pop()
+            else:
+                raise self._syntax(number, words)
+        if open_joints or not self.names:
+            raise FileError("bvh.truncated", file=self.file)
+
+    def _open(self, number: int, name: str, open_joints: list[int]) -> None:
+        if len(open_joints) >= _DEEPEST:
+            raise FileError("bvh.unsupported", file=self.file, line=number, what="a skeleton nested so deeply")
+        self.parents.append(open_joints[-1] if open_joints else -1)
+        open_joints.append(len(self.names))
+        self.names.append(name)
+        self.offsets.append([0.0, 0.0, 0.0])
+        self.channels.append([])
+
+    def _channels(self, number: int, words: list[str], joint: int) -> None:
+        names = words[2:]
+        if words[1:2] != [str(len(names))]:
+            raise self._syntax(number, words)
+        positions = [name for name in names if name.endswith("position")]
+        rotations = [name for name in names if name.endswith("rotation")]
+        if positions + rotations != names or positions not in ([], _POSITIONS) or (positions and joint):
+            raise FileError("bvh.unsupported", file=self.file, line=number, what=" ".join(names))
+        if sorted(rotations) != ["Xrotation", "Yrotation", "Zrotation"]:
+            raise FileError("bvh.unsupported", file=self.file, line=number, what=" ".join(names))
+        self.channels[joint] = names
+
+    def _offset(self, number: int, words: list[str]) -> list[float]:
+        try:
+            values = [float(word) for word in words[1:]]
+        except ValueError as error:
+            raise self._syntax(number, words) from error
+        if words[0] != "OFFSET" or len(values) != 3 or not np.isfinite(values).all():
+            raise self._syntax(number, words)
+        return values
+
+    def _next(self, rows: Iterator[tuple[int, list[str]]]) -> tuple[int, list[str]]:
+        row = next(rows, None)
+        if row is None:
+            raise FileError("bvh.truncated", file=self.file)
+        return row
+
+    def _brace(self, rows: Iterator[tuple[int, list[str]]], brace: str = "{") -> None:
+        number, words = self._next(rows)
+        if words != [brace]:
+            raise self._syntax(number, words)
+
+    def _syntax(self, number: int, words: list[str]) -> FileError:
+        return FileError("bvh.syntax", file=self.file, line=number, found=" ".join(words)[:40])
+
+
+def _motion(motion: str, hierarchy: _Hierarchy, file: str) -> BvhClip:
+    words = motion.split()
+    try:
+        if words[0] != "Frames:" or words[2:4] != ["Frame", "Time:"]:
+            raise FileError("bvh.motion", file=file, detail="no Frames or Frame Time")
+        frames, frame_time = int(words[1]), float(words[4])
+        values = np.array(words[5:], dtype=np.float64)
+    except (IndexError, ValueError) as error:
+        raise FileError("bvh.motion", file=file, detail="a number is missing or damaged") from error
+    width = sum(len(channels) for channels in hierarchy.channels)
+    if not 1e-6 < frame_time < 1e6 or frames < 1 or not np.isfinite(values).all():
+        raise FileError("bvh.motion", file=file, detail="a number is out of range")
+    if len(values) != frames * width:
+        raise FileError("bvh.motion", file=file, detail=f"{len(values)} numbers for {frames} frames of {width}")
+    table = values.reshape(frames, width)
+    root_translation = np.zeros((frames, 3))
+    rotations = np.zeros((frames, len(hierarchy.names), 4))
+    rotations[..., 3] = 1.0
+    column = 0
+    for joint, channels in enumerate(hierarchy.channels):
+        if len(channels) == 6:
+            root_translation = table[:, column : column + 3]
+        if channels:
+            order = "".join(name[0] for name in channels[-3:])
+            stop = column + len(channels)
+            rotations[:, joint] = euler.quaternions(table[:, stop - 3 : stop], order)
+            column = stop
+    offsets = np.array(hierarchy.offsets)
+    offsets[0] = 0.0
+    return BvhClip(
+        tuple(hierarchy.names),
+        tuple(hierarchy.parents),
+        offsets,
+        hierarchy.end_sites,
+        exact_rate(1 / frame_time),
+        root_translation,
+        rotations,
+    )
