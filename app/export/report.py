@@ -1,0 +1,109 @@
+"""What an export says about itself: ``report.json``, and the bounds that its measures are held against."""
+
+from __future__ import annotations
+
+import math
+
+import msgspec
+
+from app.export.measure import PlayerMeasures, Spread
+
+SWAY_CORRELATION = 0.9
+"""Two players whose sway correlates this much move alike."""
+
+
+class StagePlace(msgspec.Struct, frozen=True):
+    """Where a player stands on the stage: the files hold every player at the origin, facing +Z. Metres, Y up, the
+    audience towards +Z; a positive turn is from +Z towards +X."""
+
+    x_m: float
+    z_m: float
+    turn_deg: float
+
+
+class PlayerReport(msgspec.Struct, frozen=True):
+    """One player's files and what they hold."""
+
+    name: str
+    part: str
+    instrument: str
+    character: str
+    posture: str
+    files: dict[str, str]
+    stage: StagePlace
+    notes: int
+    measures: PlayerMeasures | None
+    """None where no FBX was asked for: there is nothing to deform in a BVH file."""
+    sway_correlation: float | None
+    """Greatest correlation with another exported player; None where there is no other."""
+
+
+class UnplayedPart(msgspec.Struct, frozen=True):
+    """A part of the file that nobody plays, and why."""
+
+    name: str
+    reason: str
+    note_count: int
+
+
+class Report(msgspec.Struct, frozen=True):
+    """``report.json``. Frame n is at ``first_frame_s + n / fps`` of the piece, so its sound starts at
+    ``-first_frame_s`` of the animation. ``fps_exact`` is the rate as a fraction (``30000/1001``)."""
+
+    version: str
+    source: str
+    first_frame_s: float
+    fps: float
+    fps_exact: str
+    frames: int
+    end_s: float
+    bars: tuple[int, int] | None
+    seed: int
+    players: tuple[PlayerReport, ...]
+    warnings: tuple[str, ...]
+    unplayed: tuple[UnplayedPart, ...]
+
+
+def encode_report(report: Report) -> bytes:
+    """The report as indented JSON, UTF-8. A number that is not finite is a mistake of ours and is refused."""
+    builtins = msgspec.to_builtins(report)
+    _check_finite(builtins)
+    return msgspec.json.format(msgspec.json.encode(builtins), indent=2) + b"\n"
+
+
+def _check_finite(value: object) -> None:
+    if isinstance(value, dict):
+        for item in value.values():
+            _check_finite(item)
+    elif isinstance(value, list | tuple):
+        for item in value:
+            _check_finite(item)
+    elif isinstance(value, float) and not math.isfinite(value):
+        raise ValueError("a report holds finite numbers only")
+
+
+def failures(player: PlayerReport) -> tuple[str, ...]:
+    """Names of the measures that a player's files do not keep."""
+    measures = player.measures
+    if measures is None:
+        return ()
+    spreads: dict[str, Spread] = {
+        **measures.contacts,
+        "lips": measures.lips,
+        "upper lip in breaths": measures.upper_lip_in_breaths,
+        "bones": measures.bones,
+        "penetration": measures.penetration,
+        **measures.feet,
+    }
+    failed = [name for name, spread in spreads.items() if not spread.kept]
+    failed += [f"{name} at onsets" for name, control in measures.controls.items() if control.right < control.judged]
+    failed += [f"{name} held" for name, control in measures.controls.items() if control.held_wrong]
+    if measures.limits.beyond:
+        failed.append(f"limits of {measures.limits.joint}")
+    if measures.acceleration.beyond:
+        failed.append(f"acceleration of {measures.acceleration.joint}")
+    if measures.breaths.shown < measures.breaths.planned:
+        failed.append("breaths")
+    if player.sway_correlation is not None and player.sway_correlation >= SWAY_CORRELATION:
+        failed.append("sway")
+    return tuple(failed)

@@ -1,0 +1,73 @@
+"""Files that come all together or not at all."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from app.errors import FileError
+from app.export import folder as folder_module
+from app.export.folder import files_into
+
+
+def test_files_appear_together_and_replace_old_ones(tmp_path: Path) -> None:
+    target = tmp_path / "a" / "b"
+    target.mkdir(parents=True)
+    (target / "one").write_text("old")
+    (target / "other").write_text("kept")
+    with files_into(target) as partial:
+        (partial / "one").write_text("new")
+        (partial / "two").write_text("2")
+        assert (target / "one").read_text() == "old"
+    assert {path.name: path.read_text() for path in target.iterdir()} == {"one": "new", "two": "2", "other": "kept"}
+
+
+@pytest.mark.parametrize("error", [KeyboardInterrupt, ValueError])
+def test_nothing_remains_of_a_failure(tmp_path: Path, error: type[BaseException]) -> None:
+    with pytest.raises(error), files_into(tmp_path / "new" / "deep") as partial:
+        (partial / "one").write_text("1")
+        raise error
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_failure_keeps_what_was_there(tmp_path: Path) -> None:
+    (tmp_path / "one").write_text("old")
+    with pytest.raises(ValueError, match="stop"), files_into(tmp_path) as partial:
+        (partial / "one").write_text("new")
+        raise ValueError("stop")
+    assert [(path.name, path.read_text()) for path in tmp_path.iterdir()] == [("one", "old")]
+
+
+def test_a_file_in_the_way_is_named(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("")
+    with pytest.raises(FileError) as error, files_into(tmp_path / "file"):
+        pass
+    assert error.value.message.id == "file.cannot_write"
+    assert "file" in str(error.value.message.arguments["file"])
+
+
+def test_a_folder_in_the_way_is_found_before_anything_moves(tmp_path: Path) -> None:
+    (tmp_path / "two").mkdir()
+    with pytest.raises(FileError), files_into(tmp_path) as partial:
+        (partial / "one").write_text("1")
+        (partial / "two").write_text("2")
+    assert [path.name for path in tmp_path.iterdir()] == ["two"]
+
+
+def test_a_late_interrupt_does_not_leave_half_of_the_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    replace, calls = folder_module.os.replace, []
+
+    def interrupted(source: Path, target: Path) -> None:
+        calls.append(target)
+        if len(calls) == 1:
+            raise KeyboardInterrupt
+        replace(source, target)
+        if len(calls) == 2:
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr(folder_module.os, "replace", interrupted)
+    with files_into(tmp_path) as partial:
+        for name in ("one", "two", "three"):
+            (partial / name).write_text(name)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["one", "three", "two"]
