@@ -8,8 +8,9 @@ amplitude.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
-from typing import Literal
+from dataclasses import dataclass, field, fields
+from itertools import zip_longest
+from typing import Any, Literal
 
 import numpy as np
 
@@ -60,7 +61,9 @@ class BodyMotion:
     eyes_yaw_rad, eyes_pitch_rad : array
         Of the eyes in the head: left, down.
     inhaled : array
-        How full the lungs are, 0..1.
+        How full the lungs are; 1 after a full breath.
+    lowered : array
+        0 with the instrument at the lips, 1 with it lowered.
     """
 
     forward_rad: dict[str, FloatArray]
@@ -77,6 +80,27 @@ class BodyMotion:
     eyes_yaw_rad: FloatArray
     eyes_pitch_rad: FloatArray
     inhaled: FloatArray
+    lowered: FloatArray
+
+    def __getitem__(self, frames: slice) -> BodyMotion:
+        """The same motion in some of its frames."""
+        cut: dict[str, Any] = {}
+        for member in fields(self):
+            value = getattr(self, member.name)
+            if isinstance(value, dict):
+                cut[member.name] = {joint: angles[frames] for joint, angles in value.items()}
+            else:
+                cut[member.name] = value[frames]
+        return BodyMotion(**cut)
+
+    @classmethod
+    def still(cls, posture: Posture) -> BodyMotion:
+        """One frame of the posture before any motion."""
+        zero = np.zeros(1)
+        nothing = dict.fromkeys(TRUNK, zero)
+        held = {joint: np.array([np.deg2rad(posture.spine_deg.get(joint, 0.0))]) for joint in TRUNK}
+        rest: dict[str, Any] = {member.name: zero for member in fields(cls)}
+        return cls(**(rest | {"forward_rad": held, "left_rad": nothing, "turn_rad": nothing}))
 
 
 @dataclass(frozen=True)
@@ -112,7 +136,7 @@ def follow(
     """
     chosen = [event for event in events if event.kind == kind]
     segments: list[tuple[float, float, float]] = []
-    for event, following in zip(chosen, [*chosen[1:], None], strict=True):
+    for event, following in zip_longest(chosen, chosen[1:]):
         end_s = event.end_s if following is None else min(event.end_s, following.start_s)
         length_s = end_s - event.start_s
         if length_s <= 0.0:
@@ -153,7 +177,7 @@ def lungs(breaths: Sequence[BreathEvent]) -> tuple[Curve, Curve]:
     lean: list[tuple[float, float, float]] = []
     level = 0.0
     drawn = [breath for breath in breaths if breath.kind == "breath"]
-    for breath, following in zip(drawn, [*drawn[1:], None], strict=True):
+    for breath, following in zip_longest(drawn, drawn[1:]):
         top_s = max(breath.end_s - BREATH_LEAD_S, 0.5 * (breath.start_s + breath.end_s))
         rise = 0.5 + 0.5 * breath.depth
         level = min(1.4, level + rise)
@@ -169,6 +193,18 @@ def lungs(breaths: Sequence[BreathEvent]) -> tuple[Curve, Curve]:
             free_s = breath.end_s + 0.6 * (breath.end_s - start_s)
             lean += [(start_s, breath.end_s, 1.0), (breath.end_s, free_s, 0.0)]
     return moves(full), moves(lean)
+
+
+def lowering(gestures: Sequence[GestureEvent], lower_s: float, raise_s: float) -> Curve:
+    """0 with the instrument at the lips, 1 with it lowered; it is up again when the gesture ends."""
+    segments: list[tuple[float, float, float]] = []
+    for event in gestures:
+        if event.kind != "lower_instrument":
+            continue
+        share = min(1.0, (event.end_s - event.start_s) / (lower_s + raise_s))
+        segments.append((event.start_s, event.start_s + share * lower_s, event.amount))
+        segments.append((event.end_s - share * raise_s, event.end_s, 0.0))
+    return moves(segments)
 
 
 def nods(cues: Sequence[CueEvent], times_s: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -215,9 +251,9 @@ def body_motion(
 
     aside = parameters.sway * follow(plan.gestures, "sway").sample(times_s)
     down = parameters.sway * bobbing(plan.gestures, times_s) * (1.0 - np.clip(inhaled, 0.0, 1.0))
-    weight = parameters.weight_shift * follow(
-        plan.gestures, "weight_shift", body.weight_shift.transition_s
-    ).sample(times_s)
+    weight = parameters.weight_shift * follow(plan.gestures, "weight_shift", body.weight_shift.transition_s).sample(
+        times_s
+    )
     height = parameters.bell_height * follow(plan.gestures, "bell_height", 0.5).sample(times_s)
     bell_up = np.maximum(height, 0.0) * sizes.rad(body.bell.up_deg) + np.minimum(height, 0.0) * sizes.rad(
         body.bell.down_deg
@@ -254,6 +290,9 @@ def body_motion(
     turn.add(NECK_SHARES, 0.5 * head_yaw)
     forward.add(NECK_SHARES, 0.5 * head_pitch)
 
+    lowered = lowering(plan.gestures, body.bell.lower_s, body.bell.raise_s).sample(times_s)
+    forward.add(TRUNK_SHARES, deg(body.bell.lowered_trunk_deg) * lowered)
+
     roll = weight * sizes.rad(body.weight_shift.roll_deg)
     left.add(TRUNK_SHARES, -0.8 * roll)
     return BodyMotion(
@@ -272,4 +311,5 @@ def body_motion(
         eyes_yaw_rad=gaze.yaw_rad.sample(times_s) - 0.5 * head_yaw,
         eyes_pitch_rad=gaze.pitch_rad.sample(times_s) - 0.5 * head_pitch,
         inhaled=inhaled,
+        lowered=lowered,
     )

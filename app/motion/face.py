@@ -105,6 +105,7 @@ def face_morphs(
     body: Body,
     expressions: Mapping[str, Expression],
     gaze: Gaze,
+    mouth_open: FloatArray,
     times_s: FloatArray,
 ) -> dict[str, FloatArray]:
     """Weights 0..1 of every morph that moves, each (F,) float64.
@@ -120,12 +121,14 @@ def face_morphs(
         All that the plan names.
     gaze : Gaze
         For the lids.
+    mouth_open : (F,) float64
+        `breath_opening`, sampled.
     times_s : (F,) float64
         Ascending.
     """
     events = plan.embouchures
     tensions = [min(1.0, parameters.embouchure_tension * event.tension) for event in events]
-    inhaling = breath_opening(plan).sample(times_s)
+    inhaling = mouth_open
     at_lips = _tracked(events, [1.0] * len(events), FORM_S, 0.0).sample(times_s)
     formed = at_lips * (1.0 - 0.9 * inhaling)
     tension = _tracked(events, tensions, SHIFT_S, None).sample(times_s)

@@ -45,9 +45,7 @@ def slide(name: str = "slide", **changes: object) -> Control:
     return Control(name=name, **(settings | changes))  # type: ignore[arg-type]
 
 
-def fingerings(
-    rows: list[tuple[float, float, dict[str, float]]], quarter_s: float = 0.5
-) -> tuple[FingeringEvent, ...]:
+def fingerings(rows: list[tuple[float, float, dict[str, float]]], quarter_s: float = 0.5) -> tuple[FingeringEvent, ...]:
     """Events from (onset_s, end_s, controls) at a steady tempo."""
     return tuple(
         FingeringEvent(

@@ -1,0 +1,177 @@
+"""Where feet and hips are, and the upright chain from hips to head: what contacts are solved on."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from app.motion.body import BodyMotion
+from app.motion.curve import FloatArray
+from app.rig import quaternion
+from app.rig.ik import SOFT_SHARE, Limb, leg, solve_limb
+from app.rig.model import Skeleton
+from app.rig.skeleton import rest_positions
+from metadata.model import Posture
+
+Side = Literal["left", "right"]
+SIDES: tuple[Side, Side] = ("left", "right")
+
+LEGS_BLEND_M = 0.003
+"""The hips hang from the shorter leg; where both are as long the hand-over is rounded by about this much."""
+STRAIGHTEST = 0.9995
+"""Share of its length a leg or an arm is stretched at most."""
+
+
+@dataclass(frozen=True)
+class Stance:
+    """Feet on the ground and hips above them, in the root's frame.
+
+    Attributes
+    ----------
+    hips_m : (3,) float64
+        Hips before any motion.
+    knee_rad : float
+        Bend of the knees before any motion.
+    ankles_m, feet : dict of side to (3,) and (4,) float64
+        Place and rotation of both feet; they stay.
+    legs : dict of side to Limb
+    seated : bool
+        The hips stay on the seat.
+    """
+
+    hips_m: FloatArray
+    knee_rad: float
+    ankles_m: dict[Side, FloatArray]
+    feet: dict[Side, FloatArray]
+    legs: dict[Side, Limb]
+    seated: bool
+
+
+def stance(skeleton: Skeleton, posture: Posture) -> Stance:
+    """Place feet and hips for a posture: soles as high as at rest, hips over (or behind) the feet."""
+    legs = {side: leg(skeleton, side) for side in SIDES}
+    rest = rest_positions(skeleton)
+    thigh, shank = (float(np.linalg.norm(v)) for v in (legs["left"].upper_vector_m, legs["left"].lower_vector_m))
+    hip_flexion, knee = np.deg2rad(posture.hip_flexion_deg), float(np.deg2rad(posture.knee_bend_deg))
+    ahead_m = thigh * np.sin(hip_flexion) + shank * np.sin(hip_flexion - knee)
+    above_m = thigh * np.cos(hip_flexion) + shank * np.cos(hip_flexion - knee)
+    hips = skeleton.index("hips")
+    ankles_m: dict[Side, FloatArray] = {}
+    feet: dict[Side, FloatArray] = {}
+    for side, sign in zip(SIDES, (1.0, -1.0), strict=True):
+        hip_joint = rest[legs[side].upper]
+        ankle = rest[legs[side].end].copy()
+        ankle[0] = hip_joint[0] * posture.feet_apart_hip_widths
+        ankle[2] = hip_joint[2] + ahead_m + sign * 0.5 * posture.foot_forward_m
+        ankles_m[side] = ankle
+        feet[side] = quaternion.from_axis_angle(np.array([0.0, 1.0, 0.0]), sign * np.deg2rad(posture.toes_out_deg))
+    hips_m = rest[hips].copy()
+    hips_m[1] = rest[legs["left"].end][1] + above_m - (rest[legs["left"].upper] - rest[hips])[1]
+    return Stance(hips_m, knee, ankles_m, feet, legs, posture.seat_height_shank > 0.0)
+
+
+def hips_path(place: Stance, skeleton: Skeleton, motion: BodyMotion) -> tuple[FloatArray, FloatArray]:
+    """Translation (F, 3) and rotation (F, 4) of the hips in the root's frame.
+
+    Standing, the hips come down as the knees bend and as far as the weight lies aside; neither leg is ever too short.
+    """
+    frames = len(motion.hips_side_m)
+    if place.seated:
+        turn = np.zeros((frames, 3))
+        turn[:, 2] = -0.5 * motion.hips_roll_rad
+        return np.tile(place.hips_m, (frames, 1)), quaternion.from_rotation_vector(turn)
+    turn = np.zeros((frames, 3))
+    turn[:, 1] = motion.hips_turn_rad
+    turn[:, 2] = -motion.hips_roll_rad
+    rotation = quaternion.from_rotation_vector(turn)
+    hips_m = np.tile(place.hips_m, (frames, 1))
+    hips_m[:, 0] += motion.hips_side_m
+    heights = []
+    for side in SIDES:
+        limb = place.legs[side]
+        a, b = np.linalg.norm(limb.upper_vector_m), np.linalg.norm(limb.lower_vector_m)
+        joint_m = quaternion.rotate(rotation, skeleton.offsets_m[limb.upper])
+        across_m = hips_m[:, [0, 2]] + joint_m[:, [0, 2]] - place.ankles_m[side][[0, 2]]
+        length2 = a * a + b * b + 2.0 * a * b * np.cos(place.knee_rad + motion.knee_rad)
+        length2 = np.minimum(length2, np.square(STRAIGHTEST * (a + b)))
+        rise_m = np.sqrt(np.maximum(length2 - np.einsum("fi,fi->f", across_m, across_m), 0.01))
+        heights.append(place.ankles_m[side][1] + rise_m - joint_m[:, 1])
+    lower = np.minimum(heights[0], heights[1])
+    apart = np.abs(heights[0] - heights[1])
+    hips_m[:, 1] = lower - LEGS_BLEND_M * np.log1p(np.exp(-apart / LEGS_BLEND_M)) - motion.hips_bob_m
+    return hips_m, rotation
+
+
+def exact_target(limb: Limb, root_m: FloatArray, target_m: FloatArray) -> FloatArray:
+    """A target that `solve_limb`, which comes to full extension softly, brings exactly to ``target_m``.
+
+    Up to `STRAIGHTEST` of the limb's length; what is farther away is approached.
+    """
+    line = target_m - root_m
+    distance = np.sqrt(np.einsum("fi,fi->f", line, line))
+    longest = limb.length_m
+    band = SOFT_SHARE * longest
+    left = np.maximum(longest - distance, (1.0 - STRAIGHTEST) * longest)
+    asked = np.where(left < band, longest - band - band * np.log(np.minimum(left / band, 1.0)), distance)
+    exact: FloatArray = root_m + line * (asked / distance)[:, None]
+    return exact
+
+
+def solve_legs(
+    place: Stance, skeleton: Skeleton, hips_m: FloatArray, hips_rotation: FloatArray
+) -> dict[int, FloatArray]:
+    """Rotations of both legs and feet, by joint; the feet stay where the stance has them."""
+    frames = len(hips_m)
+    rotations: dict[int, FloatArray] = {}
+    for side in SIDES:
+        limb = place.legs[side]
+        root_m = hips_m + quaternion.rotate(hips_rotation, skeleton.offsets_m[limb.upper])
+        target_m = np.broadcast_to(place.ankles_m[side], (frames, 3))
+        foot = np.broadcast_to(place.feet[side], (frames, 4))
+        pole = quaternion.rotate(place.feet[side], np.array([0.0, 0.0, 1.0]))
+        pose = solve_limb(limb, root_m, hips_rotation, exact_target(limb, root_m, target_m), foot, pole)
+        rotations |= {limb.upper: pose.upper, limb.lower: pose.lower, limb.end: pose.end}
+    return rotations
+
+
+@dataclass(frozen=True)
+class Trunk:
+    """The chain from hips to head.
+
+    Attributes
+    ----------
+    local : dict of int to (F, 4)
+        ``parent_from_joint`` of every joint of the chain but the hips.
+    chest, chest_m, head, head_m : arrays
+        World rotation (F, 4) and position (F, 3) of the joint the shoulders hang on, and of the head.
+    """
+
+    local: dict[int, FloatArray]
+    chest: FloatArray
+    chest_m: FloatArray
+    head: FloatArray
+    head_m: FloatArray
+
+
+def trunk(skeleton: Skeleton, hips_m: FloatArray, hips_rotation: FloatArray, motion: BodyMotion) -> Trunk:
+    """Chain the trunk's angles from the hips to the head."""
+    chest_joint = skeleton.parents[skeleton.index("leftShoulder")]
+    hips, head = skeleton.index("hips"), skeleton.index("head")
+    chain = [head]
+    while skeleton.parents[chain[-1]] != hips:
+        chain.append(skeleton.parents[chain[-1]])
+    rotation, position = hips_rotation, hips_m
+    chest, chest_m = rotation, position
+    local: dict[int, FloatArray] = {}
+    for joint in reversed(chain):
+        name = skeleton.names[joint]
+        position = position + quaternion.rotate(rotation, skeleton.offsets_m[joint])
+        if name in motion.forward_rad:
+            vector = np.stack([motion.forward_rad[name], motion.turn_rad[name], -motion.left_rad[name]], axis=-1)
+            local[joint] = quaternion.from_rotation_vector(vector)
+            rotation = quaternion.multiply(rotation, local[joint])
+        if joint == chest_joint:
+            chest, chest_m = rotation, position
+    return Trunk(local, chest, chest_m, rotation, position)
