@@ -117,7 +117,8 @@ class TongueEvent(msgspec.Struct, frozen=True):
 
 
 class EmbouchureEvent(msgspec.Struct, frozen=True):
-    """Lips during one note. All values 0..1: ``tension`` (register), ``effort`` (height, loudness, length), ``air`` (dynamics)."""
+    """Lips during one note. All values 0..1: ``tension`` (register), ``effort`` (height, loudness, length), ``air``
+    (dynamics)."""
 
     id: str
     note_id: str
@@ -131,8 +132,8 @@ class EmbouchureEvent(msgspec.Struct, frozen=True):
 
 
 class CueEvent(msgspec.Struct, frozen=True):
-    """A lead-in by body and instrument. The nod starts at ``start_s``; its acceleration peaks at ``peak_s``, the preparatory beat,
-    one beat (``beat_s``) before the entry at ``end_s``."""
+    """A lead-in by body and instrument. The nod starts at ``start_s``; its acceleration peaks at ``peak_s``, the
+    preparatory beat, one beat (``beat_s``) before the entry at ``end_s``."""
 
     id: str
     player_id: str
@@ -176,7 +177,9 @@ class ExpressionEvent(msgspec.Struct, frozen=True):
     corrected: bool = False
 
 
-Event: TypeAlias = FingeringEvent | BreathEvent | TongueEvent | EmbouchureEvent | CueEvent | GestureEvent | ExpressionEvent
+Event: TypeAlias = (
+    FingeringEvent | BreathEvent | TongueEvent | EmbouchureEvent | CueEvent | GestureEvent | ExpressionEvent
+)
 
 
 class Problem(msgspec.Struct, frozen=True):

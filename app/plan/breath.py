@@ -1,0 +1,446 @@
+"""Where a player breathes.
+
+By the length of the rest, in felt beats (T6 of the 2018 thesis; the thresholds are the player's): in [min,
+last_beat) the breath takes the whole rest; in [last_beat, prepare) the last beat; from prepare on a preparatory
+motion comes in the beat before that. Every breath ends at the onset it serves. Where no rest serves within the
+lungs' budget, a catch breath is taken before a note that follows a phrase's end: in the short silence there, or out
+of the tail of the note before, whose lips then leave early while its sound stays.
+
+Messages
+--------
+breath.first(beats): "The first breath, in the {beats} beats before the entry."
+breath.rest_whole(rest_beats, min_beats, last_beat_beats): "A rest of {rest_beats} beats (from {min_beats} to below
+    {last_beat_beats}): the breath takes all of it."
+breath.last_beat(rest_beats, last_beat_beats, prepare_beats): "A rest of {rest_beats} beats (from {last_beat_beats}
+    to below {prepare_beats}): the breath takes its last beat."
+breath.prepared(rest_beats, prepare_beats): "A rest of {rest_beats} beats (from {prepare_beats}): prepared, then the
+    last beat."
+breath.preparation(rest_beats, prepare_beats): "A rest of {rest_beats} beats (from {prepare_beats}): getting ready to
+    breathe."
+breath.catch(after_note, phrase_s, lung_s, from_note_ms): "A catch breath after note {after_note}: {phrase_s} s
+    without a rest ask for more than the {lung_s} s of a full lung; {from_note_ms} ms come out of that note's tail."
+breath.too_long(note, phrase_s, air_s, lung_s): "From note {note} on, {phrase_s} s must be played on one breath; it
+    takes {air_s} s of air, and there are {lung_s}."
+"""
+
+from __future__ import annotations
+
+import msgspec
+import numpy as np
+
+from app.errors import Argument, Message
+from app.plan.corrections import BY_HAND, Correction, SetBreath, removed_ids, without_removed
+from app.plan.line import MEZZOFORTE, IntArray, LineTimes, Piece, chance
+from app.plan.model import BreathEvent, FloatArray, Note, PlayerParameters, Problem, TimeFrame
+
+FULL_BREATH_S = 0.5
+"""Time a trained player needs to fill the lungs."""
+CATCH_MIN_S = 0.15
+CATCH_MAX_S = 0.4
+CATCH_NOTE_SHARE = 1.0 / 3.0
+"""A catch breath takes at most this part of the note before it."""
+LEAST_DEPTH = 0.3
+LOUDNESS_RANGE = (0.6, 1.6)
+"""Air used by the softest and the loudest note, mezzoforte being 1."""
+
+# How good a place for a catch breath is (added up; the cost of a place is PLACE_COST minus this).
+PLACE_COST = 6.0
+LONG_NOTE = 1.5
+"""After a note at least twice as long as the notes around."""
+BAR_LINE = 1.0
+"""Before a bar's first note."""
+ON_BEAT = 0.4
+LEAP = 0.7
+"""Before a leap of a fourth or more."""
+SILENCE = 1.5
+"""A short silence is there already."""
+SLURRED = -2.0
+"""Between notes that overlap: the slur would be broken."""
+JITTER = 0.2
+"""Players differ where places are equally good."""
+TAKEN_COST = 3.0
+"""Where another player of the same part breathes: players stagger."""
+TOO_LONG_COST = 1000.0
+_EPSILON = 1e-9
+
+
+class BreathPlan(msgspec.Struct, frozen=True):
+    """Breaths of a line, with what else follows from them.
+
+    Attributes
+    ----------
+    generated_ids : frozenset of str
+        Every event the rules made, removed ones among them.
+    early_end_s : dict of int to float
+        Notes (by index) whose lips leave early for a catch breath, and when.
+    catch_notes : frozenset of str
+        Notes before which a catch breath is taken; players of the same part avoid them.
+    """
+
+    events: tuple[BreathEvent, ...]
+    problems: tuple[Problem, ...]
+    generated_ids: frozenset[str]
+    early_end_s: dict[int, float]
+    catch_notes: frozenset[str]
+
+
+def plan_breaths(
+    notes: tuple[Note, ...],
+    times: LineTimes,
+    piece: Piece,
+    parameters: PlayerParameters,
+    frame: TimeFrame,
+    corrections: tuple[Correction, ...] = (),
+    taken: frozenset[str] = frozenset(),
+    seed: tuple[str | int, ...] = (),
+) -> BreathPlan:
+    """Place every breath of a line.
+
+    Parameters
+    ----------
+    taken : frozenset of str
+        Notes before which other players of the same part take catch breaths.
+    seed : tuple
+        What tells this player from others where places are equally good.
+    """
+    if not notes:
+        return BreathPlan((), (), frozenset(), {}, frozenset())
+    removed = removed_ids(corrections)
+    index_of = {note.id: index for index, note in enumerate(notes)}
+    placed = {(item.kind, item.note_id): item for item in corrections
+              if isinstance(item, SetBreath) and item.note_id in index_of}  # fmt: skip
+    generated = rest_breaths(notes, times, piece, parameters, frame)
+    by_hand = [_by_hand(item, times, index_of[item.note_id], piece) for item in placed.values()]
+    hand_ids = {event.id for event in by_hand}
+    kept = [event for event in without_removed(generated, removed) if event.id not in hand_ids]
+    refill = np.zeros(len(notes))
+    for event in [*kept, *by_hand]:
+        if event.kind == "breath":
+            refill[index_of[_note_id(event)]] = max(0.0, _drawn(event.end_s - event.start_s) * _full(event))
+    catches = catch_places(notes, times, piece, parameters, refill, removed, taken, seed)
+    # The budget that made a catch breath necessary ends with the breath that follows it.
+    caught = [_catch(notes, times, piece, parameters, refill, index) for index in catches]
+    for event, index in zip(caught, catches, strict=True):
+        refill[index] = _drawn(event.end_s - event.start_s)
+    events = tuple(sorted([*kept, *by_hand, *caught], key=lambda event: (event.start_s, event.end_s)))
+    early_end_s: dict[int, float] = {}
+    problems = []
+    for event in events:
+        index = index_of[_note_id(event)]
+        if event.kind == "breath" and index > 0 and event.start_s < times.played_end_s[index - 1]:
+            early_end_s[index - 1] = max(event.start_s, float(times.onset_s[index - 1]))
+            if event.corrected:
+                message = Message("breath.inside_note", {"note": notes[index - 1].id})
+                problems.append(Problem(message, notes[index - 1].id, event.start_s, event.end_s))
+    return BreathPlan(
+        events=_with_depths(events, times, parameters, refill, index_of),
+        problems=(*problems, *_too_long(notes, times, parameters, refill)),
+        generated_ids=frozenset(event.id for event in (*generated, *caught)),
+        early_end_s=early_end_s,
+        catch_notes=frozenset(notes[index].id for index in catches),
+    )
+
+
+def rest_breaths(
+    notes: tuple[Note, ...], times: LineTimes, piece: Piece, parameters: PlayerParameters, frame: TimeFrame
+) -> tuple[BreathEvent, ...]:
+    """The breaths that the rests give, by the thresholds."""
+    beat = piece.beat_ticks
+    frame_tick = round(piece.clock.ticks(frame.first_frame_s), 3)
+    silence = times.silence_tick.astype(np.float64)
+    silence[0] = max(float(times.onset_tick[0]) - frame_tick, 0.0)
+    rests = silence / beat
+    serving = np.flatnonzero((rests >= parameters.breath_min_beats) & (silence > 0))
+    onsets = times.onset_tick[serving].astype(np.float64)
+    long = rests[serving] >= parameters.breath_last_beat_beats
+    # A threshold below one beat lets a rest shorter than a beat count as "last beat": then it is all there is.
+    starts = np.where(long, onsets - np.minimum(silence[serving], beat), onsets - silence[serving])
+    prepared = rests[serving] >= parameters.breath_prepare_beats
+    preparations = np.maximum(onsets - np.minimum(silence[serving], 2 * beat), onsets - silence[serving])
+    seconds = piece.clock.seconds
+    start_s, preparation_s = seconds(starts), seconds(preparations)
+    events: list[BreathEvent] = []
+    for place, index in enumerate(serving.tolist()):
+        note_id, rest = notes[index].id, round(float(rests[index]), 3)
+        onset_tick, onset_s = int(times.onset_tick[index]), float(times.onset_s[index])
+        if prepared[place] and preparations[place] < starts[place]:
+            arguments: dict[str, Argument] = {
+                "rest_beats": rest,
+                "prepare_beats": parameters.breath_prepare_beats,
+            }
+            events.append(
+                BreathEvent(
+                    id=f"preparation:{note_id}",
+                    kind="preparation",
+                    start_tick=round(preparations[place]),
+                    end_tick=round(starts[place]),
+                    start_s=float(preparation_s[place]),
+                    end_s=float(start_s[place]),
+                    depth=1.0,
+                    reason=Message("breath.preparation", arguments),
+                )
+            )
+        events.append(
+            BreathEvent(
+                id=f"breath:{note_id}",
+                kind="breath",
+                start_tick=round(starts[place]),
+                end_tick=onset_tick,
+                start_s=float(start_s[place]),
+                end_s=onset_s,
+                depth=1.0,
+                reason=_rest_reason(index, rest, bool(long[place]), bool(prepared[place]), parameters),
+            )
+        )
+    return tuple(events)
+
+
+def _rest_reason(index: int, rest: float, long: bool, prepared: bool, parameters: PlayerParameters) -> Message:
+    if index == 0:
+        return Message("breath.first", {"beats": rest})
+    if prepared:
+        return Message("breath.prepared", {"rest_beats": rest, "prepare_beats": parameters.breath_prepare_beats})
+    last = parameters.breath_last_beat_beats
+    if long:
+        return Message(
+            "breath.last_beat",
+            {"rest_beats": rest, "last_beat_beats": last, "prepare_beats": parameters.breath_prepare_beats},
+        )
+    return Message(
+        "breath.rest_whole",
+        {"rest_beats": rest, "min_beats": parameters.breath_min_beats, "last_beat_beats": last},
+    )
+
+
+def air_used_s(times: LineTimes) -> FloatArray:
+    """(N,): air each note takes, in seconds of playing at mezzoforte."""
+    low, high = LOUDNESS_RANGE
+    rate = np.interp(times.loudness, [0.0, MEZZOFORTE, 1.0], [low, 1.0, high])
+    return times.duration_s * rate
+
+
+def catch_places(
+    notes: tuple[Note, ...],
+    times: LineTimes,
+    piece: Piece,
+    parameters: PlayerParameters,
+    refill: FloatArray,
+    removed: frozenset[str],
+    taken: frozenset[str],
+    seed: tuple[str | int, ...],
+) -> list[int]:
+    """Indices of the notes before which a catch breath is needed.
+
+    Between two breaths that the rests give, the cheapest chain of places such that no stretch takes more air than
+    there is (a shortest path; the cost of a place falls with how good a phrase end it is). Where nothing helps, the
+    stretch stays.
+
+    Parameters
+    ----------
+    refill : (N,) float
+        Part of the lungs that the breath before each note fills; 0 where there is none.
+    """
+    used = np.concatenate(([0.0], np.cumsum(air_used_s(times))))
+    lung_s = parameters.lung_s
+    level = _levels(used, lung_s, refill)
+    length_s = _catch_lengths_s(times)
+    open_ = (length_s >= CATCH_MIN_S - _EPSILON) & (refill == 0.0)
+    open_[0] = False
+    breaths = np.flatnonzero(refill > 0.0)
+    starts = np.unique(np.concatenate(([0], breaths)))
+    ends = np.append(starts[1:], len(notes))
+    result: list[int] = []
+    for start, end in zip(starts.tolist(), ends.tolist(), strict=True):
+        if used[end] - used[start] <= level[start] * lung_s + _EPSILON:
+            continue
+        places = [
+            index for index in range(start + 1, end) if open_[index] and f"breath:{notes[index].id}" not in removed
+        ]
+        if places:
+            cost = _place_costs(notes, times, piece, places, taken, seed)
+            result += _cheapest_chain(used, places, cost, length_s, start, end, float(level[start]), lung_s)
+    return result
+
+
+def _cheapest_chain(
+    used: FloatArray,
+    places: list[int],
+    cost: FloatArray,
+    length_s: FloatArray,
+    start: int,
+    end: int,
+    level: float,
+    lung_s: float,
+) -> list[int]:
+    nodes = np.array([start, *places, end])
+    # What a catch breath draws, not what was left before it: a cautious player's reckoning.
+    air_s = np.array([level, *(_drawn(float(length_s[index])) for index in places), 0.0]) * lung_s
+    total = np.full(len(nodes), np.inf)
+    total[0] = 0.0
+    origin = np.zeros(len(nodes), dtype=np.int64)
+    for node in range(1, len(nodes)):
+        needed = used[nodes[node]] - used[nodes[:node]]
+        over = np.maximum(needed - air_s[:node], 0.0)
+        ways = total[:node] + np.where(over > _EPSILON, TOO_LONG_COST * (1.0 + over), 0.0)
+        origin[node] = int(np.argmin(ways))
+        total[node] = ways[origin[node]] + (cost[node - 1] if node < len(nodes) - 1 else 0.0)
+    chain = []
+    node = int(origin[-1])
+    while node > 0:
+        chain.append(int(nodes[node]))
+        node = int(origin[node])
+    return chain[::-1]
+
+
+def _place_costs(
+    notes: tuple[Note, ...],
+    times: LineTimes,
+    piece: Piece,
+    places: list[int],
+    taken: frozenset[str],
+    seed: tuple[str | int, ...],
+) -> FloatArray:
+    at = np.array(places)
+    duration = times.duration_s
+    around = np.array([np.median(duration[max(index - 4, 0) : index + 4]) for index in places])
+    onset = times.onset_tick[at]
+    bars = piece.bars(int(times.onset_tick[0]), int(times.onset_tick[-1]) + 1)
+    good: FloatArray = LONG_NOTE * (duration[at - 1] >= 2.0 * around)
+    good += BAR_LINE * np.isin(onset, bars)
+    bar = bars[np.maximum(np.searchsorted(bars, onset, side="right") - 1, 0)]
+    good += ON_BEAT * ((onset - bar) % piece.beat_ticks == 0)
+    good += LEAP * (np.abs(times.pitch[at] - times.pitch[at - 1]) >= 5)
+    good += SILENCE * (times.silence_tick[at] > 0)
+    good += SLURRED * times.overlaps_next[at - 1]
+    good += np.array([JITTER * chance(*seed, "catch", int(tick)) for tick in onset])
+    good -= TAKEN_COST * np.array([notes[index].id in taken for index in places])
+    return np.asarray(PLACE_COST - good, dtype=np.float64)
+
+
+def _catch_lengths_s(times: LineTimes) -> FloatArray:
+    """(N,): how long a catch breath before each note may be: the silence there, else also a part of the note before."""
+    gap = np.maximum(times.onset_s - np.insert(times.played_end_s[:-1], 0, times.onset_s[0]), 0.0)
+    before = np.insert(times.duration_s[:-1], 0, 0.0)
+    length = np.where(gap >= CATCH_MIN_S, gap, gap + CATCH_NOTE_SHARE * before)
+    return np.asarray(np.minimum(length, CATCH_MAX_S), dtype=np.float64)
+
+
+def _catch(
+    notes: tuple[Note, ...],
+    times: LineTimes,
+    piece: Piece,
+    parameters: PlayerParameters,
+    refill: FloatArray,
+    index: int,
+) -> BreathEvent:
+    onset_s = float(times.onset_s[index])
+    start_s = onset_s - float(_catch_lengths_s(times)[index])
+    breaths = np.flatnonzero(refill > 0.0)
+    first = breaths[breaths < index].max(initial=0)
+    last = breaths[breaths > index].min(initial=len(notes))
+    from_note_s = max(float(times.played_end_s[index - 1]) - start_s, 0.0)
+    return BreathEvent(
+        id=f"breath:{notes[index].id}",
+        kind="breath",
+        start_tick=round(piece.clock.ticks(start_s)),
+        end_tick=int(times.onset_tick[index]),
+        start_s=start_s,
+        end_s=onset_s,
+        depth=1.0,
+        reason=Message(
+            "breath.catch",
+            {
+                "after_note": notes[index - 1].id,
+                "phrase_s": round(float(times.played_end_s[last - 1] - times.onset_s[first]), 2),
+                "lung_s": parameters.lung_s,
+                "from_note_ms": round(from_note_s * 1000.0),
+            },
+        ),
+    )
+
+
+def _drawn(length_s: float) -> float:
+    """Part of the lungs that a breath of this length fills."""
+    return min(length_s / FULL_BREATH_S, 1.0)
+
+
+def _full(event: BreathEvent) -> float:
+    return event.depth if event.corrected else 1.0
+
+
+def _note_id(event: BreathEvent) -> str:
+    return event.id.split(":", 1)[1]
+
+
+def _levels(used: FloatArray, lung_s: float, refill: FloatArray) -> FloatArray:
+    """(N,): how full the lungs are (0..1) at each note's onset, after the breath before it."""
+    level = np.empty(len(refill))
+    # Nobody enters on empty lungs: without any breath before the first note (removed by hand) a normal one is assumed.
+    here = 0.5 if refill[0] == 0.0 else 0.0
+    for index in range(len(refill)):
+        if index:
+            here = max(here - (used[index] - used[index - 1]) / lung_s, 0.0)
+        here = min(here + refill[index], 1.0)
+        level[index] = here
+    return level
+
+
+def _with_depths(
+    events: tuple[BreathEvent, ...],
+    times: LineTimes,
+    parameters: PlayerParameters,
+    refill: FloatArray,
+    index_of: dict[str, int],
+) -> tuple[BreathEvent, ...]:
+    """Depths by what the phrase to come needs, within what the time allows. Those set by hand stay."""
+    used = np.concatenate(([0.0], np.cumsum(air_used_s(times))))
+    breaths = np.append(np.flatnonzero(refill > 0.0), len(refill))
+    result = []
+    for event in events:
+        if not event.corrected:
+            index = index_of[_note_id(event)]
+            until = int(breaths[np.searchsorted(breaths, index, side="right")])
+            need = (used[until] - used[index]) / parameters.lung_s
+            most = 1.0 if event.kind == "preparation" else _drawn(event.end_s - event.start_s)
+            depth = min(max(LEAST_DEPTH + (1.0 - LEAST_DEPTH) * need, LEAST_DEPTH), max(most, LEAST_DEPTH), 1.0)
+            event = msgspec.structs.replace(event, depth=round(float(depth), 4))
+        result.append(event)
+    return tuple(result)
+
+
+def _too_long(
+    notes: tuple[Note, ...], times: LineTimes, parameters: PlayerParameters, refill: FloatArray
+) -> list[Problem]:
+    used = np.concatenate(([0.0], np.cumsum(air_used_s(times))))
+    level = _levels(used, parameters.lung_s, refill)
+    starts: IntArray = np.unique(np.concatenate(([0], np.flatnonzero(refill > 0.0))))
+    ends = np.append(starts[1:], len(notes))
+    problems = []
+    for start, end in zip(starts.tolist(), ends.tolist(), strict=True):
+        air_s = float(used[end] - used[start])
+        if air_s > level[start] * parameters.lung_s + _EPSILON:
+            start_s, end_s = float(times.onset_s[start]), float(times.played_end_s[end - 1])
+            arguments = {
+                "note": notes[start].id,
+                "phrase_s": round(end_s - start_s, 2),
+                "air_s": round(air_s, 2),
+                "lung_s": round(float(level[start]) * parameters.lung_s, 2),
+            }
+            problems.append(Problem(Message("breath.too_long", arguments), notes[start].id, start_s, end_s))
+    return problems
+
+
+def _by_hand(item: SetBreath, times: LineTimes, index: int, piece: Piece) -> BreathEvent:
+    onset_tick = int(times.onset_tick[index])
+    start_tick, end_tick = onset_tick + item.start_offset_tick, onset_tick + item.end_offset_tick
+    return BreathEvent(
+        id=f"{item.kind}:{item.note_id}",
+        kind=item.kind,
+        start_tick=start_tick,
+        end_tick=end_tick,
+        start_s=piece.clock.seconds(float(start_tick)),
+        end_s=piece.clock.seconds(float(end_tick)),
+        depth=item.depth,
+        reason=BY_HAND,
+        corrected=True,
+    )

@@ -1,0 +1,283 @@
+"""What an animator changed by hand, anchored to note ids, event ids and ticks, so that regenerating keeps it.
+
+A correction wins over the generator and its result carries ``corrected=True``. One whose anchor is gone (its note was
+deleted, its event is no longer made) is handed back as a problem, never dropped silently.
+
+Messages
+--------
+correction.orphaned(kind, anchor): "The correction ({kind}) for {anchor} has lost its place: it is kept, but does
+    nothing."
+correction.no_such_fingering(note, label): "{label} is not a fingering of note {note} on this instrument; the search
+    chose."
+breath.inside_note(note): "This breath, placed by hand, lies inside the sounding note {note}."
+correction.by_hand(): "Set by hand."
+"""
+
+from __future__ import annotations
+
+from typing import Literal, TypeAlias, TypeVar
+
+import msgspec
+
+from app.errors import Message
+from app.plan.model import (
+    BreathEvent,
+    Clock,
+    CueEvent,
+    EmbouchureEvent,
+    ExpressionEvent,
+    GestureEvent,
+    Problem,
+)
+
+BY_HAND = Message("correction.by_hand")
+
+
+class _Correction(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag_field="correction"):
+    pass
+
+
+class PinFingering(_Correction, frozen=True, tag="pin_fingering"):
+    """Play this note with the fingering of this label; the search solves the notes around it anew."""
+
+    note_id: str
+    label: str
+
+
+class RemoveEvent(_Correction, frozen=True, tag="remove"):
+    """Leave out a generated breath, preparation, cue, gesture or expression. ``note_id`` is the note it belongs to,
+    where it has one: while that note lives, the removal is in force even if nothing would be generated."""
+
+    event_id: str
+    note_id: str | None = None
+
+
+class SetBreath(_Correction, frozen=True, tag="set_breath"):
+    """Put a breath (or preparation) before a note: added, or in place of the generated one. Ticks are relative to the
+    note's onset, so the breath moves with its note."""
+
+    note_id: str
+    start_offset_tick: int
+    end_offset_tick: int = 0
+    depth: float = 1.0
+    kind: Literal["preparation", "breath"] = "breath"
+
+
+class SetCue(_Correction, frozen=True, tag="set_cue"):
+    """Let this player give a cue to the entry of a note; ``beats`` is how long before it the preparatory beat is."""
+
+    note_id: str
+    beats: float = 1.0
+
+
+class SetEmbouchure(_Correction, frozen=True, tag="set_embouchure"):
+    """Set values of a note's embouchure; None keeps the generated one."""
+
+    note_id: str
+    tension: float | None = None
+    effort: float | None = None
+    air: float | None = None
+
+
+class ChangeGesture(_Correction, frozen=True, tag="change_gesture"):
+    """Move a generated gesture or change its amount; None keeps what was generated."""
+
+    event_id: str
+    start_tick: int | None = None
+    end_tick: int | None = None
+    amount: float | None = None
+
+
+class AddGesture(_Correction, frozen=True, tag="add_gesture"):
+    """A gesture of the animator's own, at a place of the score. ``name`` makes its event id unique."""
+
+    name: str
+    kind: Literal["sway", "weight_shift", "bell_height", "lower_instrument"]
+    start_tick: int
+    end_tick: int
+    amount: float
+
+
+class ChangeExpression(_Correction, frozen=True, tag="change_expression"):
+    """Move a generated expression, replace it by another or change its strength; None keeps what was generated."""
+
+    event_id: str
+    expression: str | None = None
+    start_tick: int | None = None
+    end_tick: int | None = None
+    strength: float | None = None
+
+
+class AddExpression(_Correction, frozen=True, tag="add_expression"):
+    """An expression of the animator's own, at a place of the score. ``name`` makes its event id unique."""
+
+    name: str
+    expression: str
+    start_tick: int
+    end_tick: int
+    strength: float = 1.0
+    fade_in_s: float = 0.2
+    fade_out_s: float = 0.3
+
+
+Correction: TypeAlias = (
+    PinFingering
+    | RemoveEvent
+    | SetBreath
+    | SetCue
+    | SetEmbouchure
+    | ChangeGesture
+    | AddGesture
+    | ChangeExpression
+    | AddExpression
+)
+
+E = TypeVar("E", BreathEvent, CueEvent, GestureEvent, ExpressionEvent)
+
+
+def removed_ids(corrections: tuple[Correction, ...]) -> frozenset[str]:
+    """Ids of the events that must not appear."""
+    return frozenset(item.event_id for item in corrections if isinstance(item, RemoveEvent))
+
+
+def without_removed(events: tuple[E, ...], removed: frozenset[str]) -> tuple[E, ...]:
+    """The events that were not removed by hand."""
+    return tuple(event for event in events if event.id not in removed) if removed else events
+
+
+def correct_embouchures(
+    events: tuple[EmbouchureEvent, ...], corrections: tuple[Correction, ...]
+) -> tuple[EmbouchureEvent, ...]:
+    """Embouchures with the values set by hand."""
+    by_note = {item.note_id: item for item in corrections if isinstance(item, SetEmbouchure)}
+    if not by_note:
+        return events
+    return tuple(
+        msgspec.structs.replace(
+            event,
+            tension=event.tension if item.tension is None else item.tension,
+            effort=event.effort if item.effort is None else item.effort,
+            air=event.air if item.air is None else item.air,
+            reason=BY_HAND,
+            corrected=True,
+        )
+        if (item := by_note.get(event.note_id)) is not None
+        else event
+        for event in events
+    )
+
+
+def correct_gestures(
+    events: tuple[GestureEvent, ...], corrections: tuple[Correction, ...], clock: Clock
+) -> tuple[GestureEvent, ...]:
+    """Gestures without the removed ones, with the changed and the added ones, ordered by start."""
+    changes = {item.event_id: item for item in corrections if isinstance(item, ChangeGesture)}
+    added = [item for item in corrections if isinstance(item, AddGesture)]
+    result = list(without_removed(events, removed_ids(corrections)))
+    if not changes and not added:
+        return tuple(result)
+    for index, event in enumerate(result):
+        change = changes.get(event.id)
+        if change is None:
+            continue
+        start = event.start_tick if change.start_tick is None else change.start_tick
+        end = event.end_tick if change.end_tick is None else change.end_tick
+        result[index] = msgspec.structs.replace(
+            event,
+            start_tick=start,
+            end_tick=end,
+            start_s=event.start_s if change.start_tick is None else clock.seconds(float(start)),
+            end_s=event.end_s if change.end_tick is None else clock.seconds(float(end)),
+            amount=event.amount if change.amount is None else change.amount,
+            reason=BY_HAND,
+            corrected=True,
+        )
+    for item in added:
+        result.append(
+            GestureEvent(
+                id=f"{item.kind}:{item.name}",
+                kind=item.kind,
+                start_tick=item.start_tick,
+                end_tick=item.end_tick,
+                start_s=clock.seconds(float(item.start_tick)),
+                end_s=clock.seconds(float(item.end_tick)),
+                amount=item.amount,
+                reason=BY_HAND,
+                corrected=True,
+            )
+        )
+    return tuple(sorted(result, key=lambda event: event.start_s))
+
+
+def correct_expressions(
+    events: tuple[ExpressionEvent, ...], corrections: tuple[Correction, ...], clock: Clock
+) -> tuple[ExpressionEvent, ...]:
+    """Expressions without the removed ones, with the changed and the added ones, ordered by start."""
+    changes = {item.event_id: item for item in corrections if isinstance(item, ChangeExpression)}
+    added = [item for item in corrections if isinstance(item, AddExpression)]
+    result = list(without_removed(events, removed_ids(corrections)))
+    if not changes and not added:
+        return tuple(result)
+    for index, event in enumerate(result):
+        change = changes.get(event.id)
+        if change is None:
+            continue
+        start = event.start_tick if change.start_tick is None else change.start_tick
+        end = event.end_tick if change.end_tick is None else change.end_tick
+        result[index] = msgspec.structs.replace(
+            event,
+            expression=event.expression if change.expression is None else change.expression,
+            start_tick=start,
+            end_tick=end,
+            start_s=event.start_s if change.start_tick is None else clock.seconds(float(start)),
+            end_s=event.end_s if change.end_tick is None else clock.seconds(float(end)),
+            strength=event.strength if change.strength is None else change.strength,
+            reason=BY_HAND,
+            corrected=True,
+        )
+    for item in added:
+        result.append(
+            ExpressionEvent(
+                id=f"expression:{item.name}",
+                expression=item.expression,
+                start_tick=item.start_tick,
+                end_tick=item.end_tick,
+                start_s=clock.seconds(float(item.start_tick)),
+                end_s=clock.seconds(float(item.end_tick)),
+                strength=item.strength,
+                fade_in_s=item.fade_in_s,
+                fade_out_s=item.fade_out_s,
+                reason=BY_HAND,
+                corrected=True,
+            )
+        )
+    return tuple(sorted(result, key=lambda event: event.start_s))
+
+
+def orphans(
+    corrections: tuple[Correction, ...], note_ids: frozenset[str], event_ids: frozenset[str], at_s: float
+) -> tuple[Problem, ...]:
+    """A problem for every correction whose note or event is no longer there.
+
+    Parameters
+    ----------
+    note_ids, event_ids : frozenset of str
+        The notes of the line, and every event the generator made before removals.
+    at_s : float
+        Where such a problem is shown: it has no place any more, so the performance's start.
+    """
+    problems = []
+    for item in corrections:
+        if isinstance(item, PinFingering | SetBreath | SetCue | SetEmbouchure):
+            anchor, alive = item.note_id, item.note_id in note_ids
+        elif isinstance(item, RemoveEvent):
+            anchor = item.event_id
+            alive = item.note_id in note_ids if item.note_id is not None else item.event_id in event_ids
+        elif isinstance(item, ChangeGesture | ChangeExpression):
+            anchor, alive = item.event_id, item.event_id in event_ids
+        else:
+            continue
+        if not alive:
+            kind = str(item.__struct_config__.tag)
+            problems.append(Problem(Message("correction.orphaned", {"kind": kind, "anchor": anchor}), None, at_s, at_s))
+    return tuple(problems)

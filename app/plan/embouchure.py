@@ -1,0 +1,108 @@
+"""Lips and tongue: one embouchure per note (T5 of the thesis: high notes drawn tight, low notes relaxed), and the
+tongue's stroke before each attack.
+
+Messages
+--------
+embouchure.register(pitch, low, high, loudness): "MIDI {pitch} in a range of {low}-{high}, loudness {loudness}."
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from app.errors import Message
+from app.plan.line import MEZZOFORTE, LineTimes
+from app.plan.model import EmbouchureEvent, FingeringEvent, FloatArray, Note, PlayerParameters, TongueEvent
+from instrument_maps.model import InstrumentMap
+
+TONGUE_S = 0.0345
+"""Contact of the tongue before an attack, independent of tempo (Hofmann 2012)."""
+EASY_TENSION = (0.3, 0.6)
+"""Tension at the two ends of the easy range; 0 and 1 at the ends of the range."""
+LOUD_TENSION = 0.15
+"""What going from mezzoforte to the loudest adds to tension."""
+LONG_S = 6.0
+"""A note held this long costs as much effort as it can."""
+SMEAR_M = 0.04
+"""A slide that moves further than this under a slur smears, so trombonists tongue it softly: tongued here too."""
+
+
+def tension_of(pitch: FloatArray, instrument: InstrumentMap) -> FloatArray:
+    """Tension 0..1 by register alone: piecewise linear over the map's range."""
+    limits = instrument.range
+    knots = np.array([limits.low, limits.easy_low, limits.easy_high, limits.high], dtype=np.float64)
+    # Equal knots (a map whose easy range is its range) would make np.interp jump; a semitone's slack keeps the order.
+    knots = np.maximum.accumulate(knots + np.array([-0.03, -0.02, 0.02, 0.03]))
+    return np.interp(pitch, knots, [0.0, EASY_TENSION[0], EASY_TENSION[1], 1.0])
+
+
+def plan_embouchures(
+    notes: tuple[Note, ...],
+    times: LineTimes,
+    instrument: InstrumentMap,
+    parameters: PlayerParameters,
+    early_end_s: dict[int, float],
+) -> tuple[EmbouchureEvent, ...]:
+    """An embouchure for every note.
+
+    ``tension`` is register, a little loudness, scaled by the player's ``embouchure_tension``; ``air`` is loudness;
+    ``effort`` is what height above the easy range, loudness above mezzoforte and length cost together.
+
+    Parameters
+    ----------
+    early_end_s : dict of int to float
+        Notes whose lips leave early for a catch breath.
+    """
+    if not notes:
+        return ()
+    pitch = times.pitch.astype(np.float64)
+    register = tension_of(pitch, instrument)
+    loud = np.clip((times.loudness - MEZZOFORTE) / (1.0 - MEZZOFORTE), -1.0, 1.0)
+    tension = np.clip((register + LOUD_TENSION * np.maximum(loud, 0.0)) * parameters.embouchure_tension, 0.0, 1.0)
+    high = np.clip((register - EASY_TENSION[1]) / (1.0 - EASY_TENSION[1]), 0.0, 1.0)
+    long = np.clip(times.duration_s / LONG_S, 0.0, 1.0)
+    # Independent strains: each takes its part of what the others leave.
+    effort = 1.0 - (1.0 - 0.75 * high) * (1.0 - 0.5 * np.maximum(loud, 0.0)) * (1.0 - 0.35 * long)
+    effort = np.clip(effort + 0.05 * register, 0.0, 1.0)
+    low, top = instrument.range.low, instrument.range.high
+    reasons: dict[tuple[int, float], Message] = {}
+    events = []
+    rows = zip(
+        notes, times.onset_s.tolist(), times.played_end_s.tolist(), times.pitch.tolist(),
+        np.round(times.loudness, 2).tolist(), np.round(tension, 4).tolist(), np.round(effort, 4).tolist(),
+        np.round(times.loudness, 4).tolist(), strict=True,
+    )  # fmt: skip
+    for index, (note, start_s, end_s, midi, loudness, tight, strain, air) in enumerate(rows):
+        reason = reasons.get((midi, loudness))
+        if reason is None:
+            arguments = {"pitch": midi, "low": low, "high": top, "loudness": loudness}
+            reason = reasons[midi, loudness] = Message("embouchure.register", arguments)
+        end_s = early_end_s.get(index, end_s)
+        events.append(EmbouchureEvent(f"embouchure:{note.id}", note.id, start_s, end_s, tight, strain, air, reason))
+    return tuple(events)
+
+
+def plan_tongues(
+    notes: tuple[Note, ...], times: LineTimes, instrument: InstrumentMap, fingerings: tuple[FingeringEvent, ...]
+) -> tuple[TongueEvent, ...]:
+    """The tongue's stroke before every attacked note.
+
+    Attacked is every note but one that is slurred to: the note before overlaps it, at another pitch, and no slide has
+    to move far. Engraved scores rendered to MIDI let all notes touch, so touching alone is no slur.
+    """
+    if not notes:
+        return ()
+    slides = [(control.name, control.motion.travel_m or 0.0) for control in instrument.controls
+              if control.role == "pitch" and control.kind == "slide"]  # fmt: skip
+    slurred = np.zeros(len(notes), dtype=bool)
+    slurred[1:] = times.overlaps_next[:-1] & (np.diff(times.pitch) != 0)
+    for index in np.flatnonzero(slurred).tolist():
+        before, here = fingerings[index - 1].controls, fingerings[index].controls
+        slurred[index] = all(
+            abs(here.get(name, 0.0) - before.get(name, 0.0)) * travel_m <= SMEAR_M for name, travel_m in slides
+        )
+    return tuple(
+        TongueEvent(f"tongue:{note.id}", note.id, onset_s - TONGUE_S, onset_s)
+        for note, onset_s, legato in zip(notes, times.onset_s.tolist(), slurred.tolist(), strict=True)
+        if not legato
+    )

@@ -1,0 +1,177 @@
+"""Faces: strained on high, loud and long notes, a little puffed on low and loud ones, brows up with entries, a smile
+after the last note; neutral beneath. What a name looks like is in ``metadata/expressions``.
+
+Messages
+--------
+expression.default(): "The face at rest."
+expression.effort(effort, threshold): "Effort {effort} (from {threshold}): high, loud or long."
+expression.low_loud(pitch, easy_low, loudness): "MIDI {pitch} lies below {easy_low} and is loud ({loudness})."
+expression.gives_entry(): "Gives the entry."
+expression.takes_entry(rest_s): "Comes in after {rest_s} s of rest."
+expression.end(): "The last note is over."
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from app.errors import Message
+from app.plan.line import LineTimes
+from app.plan.model import (
+    BreathEvent,
+    Clock,
+    CueEvent,
+    EmbouchureEvent,
+    ExpressionEvent,
+    FloatArray,
+    GestureEvent,
+    Note,
+    TimeFrame,
+)
+from instrument_maps.model import InstrumentMap
+from metadata.load import load_expressions
+from metadata.model import Expression
+
+EFFORT = 0.5
+"""From this effort on the face shows it."""
+JOIN_S = 0.35
+"""Notes closer than this share one expression: a face does not flicker with 16ths."""
+LEAST_S = 0.2
+"""A shorter moment does not reach the face."""
+LOUD = 0.75
+PUFF_SEMITONES = 6.0
+ENTRY_REST_S = 4.0
+"""After a rest this long a player's brows take the entry."""
+SMILE_AFTER_S = 0.7
+SMILE = 0.7
+
+
+def plan_expressions(
+    notes: tuple[Note, ...],
+    times: LineTimes,
+    clock: Clock,
+    instrument: InstrumentMap,
+    frame: TimeFrame,
+    embouchures: tuple[EmbouchureEvent, ...],
+    breaths: tuple[BreathEvent, ...],
+    cues: tuple[CueEvent, ...],
+    gestures: tuple[GestureEvent, ...],
+) -> tuple[ExpressionEvent, ...]:
+    """All expressions of one player, ordered by start."""
+    faces = load_expressions()
+    events = [
+        _event("expression:neutral", faces["neutral"], frame.first_frame_s, frame.end_s, 1.0, clock,
+               Message("expression.default"))
+    ]  # fmt: skip
+    effort = np.array([event.effort for event in embouchures])
+    events += _moments(
+        "strained",
+        faces["strained"],
+        notes,
+        times,
+        np.clip((effort - EFFORT) / (1.0 - EFFORT), 0.0, 1.0),
+        clock,
+        lambda peak: Message("expression.effort", {"effort": round(float(effort[peak]), 2), "threshold": EFFORT}),
+    )
+    easy_low = instrument.range.easy_low
+    low = np.clip((easy_low - times.pitch + 1) / PUFF_SEMITONES, 0.0, 1.0)
+    loud = np.clip((times.loudness - LOUD) / (1.0 - LOUD), 0.0, 1.0)
+    events += _moments(
+        "puffed",
+        faces["puffed"],
+        notes,
+        times,
+        np.sqrt(low * loud),
+        clock,
+        lambda peak: Message(
+            "expression.low_loud",
+            {
+                "pitch": int(times.pitch[peak]),
+                "easy_low": easy_low,
+                "loudness": round(float(times.loudness[peak]), 2),
+            },
+        ),
+    )
+    events += _entries(faces["brows_up"], notes, times, clock, breaths, cues)
+    lowered_s = [event.start_s for event in gestures if event.id == "lower_instrument:end"]
+    if lowered_s and lowered_s[0] + SMILE_AFTER_S < frame.end_s:
+        events.append(
+            _event("expression:smile", faces["smile"], lowered_s[0] + SMILE_AFTER_S, frame.end_s + 1.0, SMILE, clock,
+                   Message("expression.end"))
+        )  # fmt: skip
+    return tuple(sorted(events, key=lambda event: (event.start_s, event.id)))
+
+
+def _moments(
+    name: str,
+    face: Expression,
+    notes: tuple[Note, ...],
+    times: LineTimes,
+    strength: FloatArray,
+    clock: Clock,
+    reason: Callable[[int], Message],
+) -> list[ExpressionEvent]:
+    """One expression for every run of notes with a strength above 0 and no more than `JOIN_S` between them."""
+    at = np.flatnonzero(strength > 0.0)
+    if len(at) == 0:
+        return []
+    apart = times.onset_s[at[1:]] - times.played_end_s[at[:-1]] > JOIN_S
+    events = []
+    for run in np.split(at, np.flatnonzero(apart) + 1):
+        start_s, end_s = float(times.onset_s[run[0]]), float(times.played_end_s[run[-1]])
+        if end_s - start_s < LEAST_S:
+            continue
+        peak = int(run[np.argmax(strength[run])])
+        size = round(float(strength[peak]), 4)
+        events.append(_event(f"expression:{name}:{notes[run[0]].id}", face, start_s, end_s, size, clock, reason(peak)))
+    return events
+
+
+def _entries(
+    face: Expression,
+    notes: tuple[Note, ...],
+    times: LineTimes,
+    clock: Clock,
+    breaths: tuple[BreathEvent, ...],
+    cues: tuple[CueEvent, ...],
+) -> list[ExpressionEvent]:
+    """Brows up: the leader's with the cue, the others' with the breath before an entry after a long rest."""
+    events = [
+        _event(f"expression:brows_up:{cue.id}", face, cue.start_s, cue.end_s, 1.0, clock,
+               Message("expression.gives_entry"))
+        for cue in cues
+    ]  # fmt: skip
+    given_s = {cue.end_s for cue in cues}
+    rests_s = dict(
+        zip(
+            (f"breath:{note.id}" for note in notes[1:]),
+            (times.onset_s[1:] - times.played_end_s[:-1]).tolist(),
+            strict=True,
+        )
+    )
+    for breath in breaths:
+        rest_s = rests_s.get(breath.id, 0.0)
+        if breath.kind == "breath" and rest_s >= ENTRY_REST_S and breath.end_s not in given_s:
+            reason = Message("expression.takes_entry", {"rest_s": round(rest_s, 2)})
+            name = breath.id.split(":", 1)[1]
+            events.append(_event(f"expression:brows_up:{name}", face, breath.start_s, breath.end_s, 0.6, clock, reason))
+    return events
+
+
+def _event(
+    event_id: str, face: Expression, start_s: float, end_s: float, strength: float, clock: Clock, reason: Message
+) -> ExpressionEvent:
+    return ExpressionEvent(
+        id=event_id,
+        expression=face.name,
+        start_tick=round(clock.ticks(start_s)),
+        end_tick=round(clock.ticks(end_s)),
+        start_s=start_s,
+        end_s=end_s,
+        strength=strength,
+        fade_in_s=face.fade_in_s,
+        fade_out_s=face.fade_out_s,
+        reason=reason,
+    )

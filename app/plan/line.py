@@ -1,0 +1,156 @@
+"""What a plan is made from: the piece all players share and one player's line, with its times as arrays."""
+
+from __future__ import annotations
+
+import hashlib
+from dataclasses import dataclass
+
+import msgspec
+import numpy as np
+import numpy.typing as npt
+
+from app.plan.corrections import Correction
+from app.plan.model import Clock, FloatArray, Metre, Note, PlayerParameters
+from instrument_maps.model import InstrumentMap
+
+IntArray = npt.NDArray[np.int64]
+
+MEZZOFORTE = 0.63
+"""Loudness 0..1 of mezzoforte: MIDI velocity 80 of 127."""
+
+
+class Line(msgspec.Struct, frozen=True):
+    """What one player plays, on what, and what the animator said about it.
+
+    Attributes
+    ----------
+    notes : tuple of Note
+        Monophonic, ordered by onset; neighbours may overlap a little (legato).
+    loudness : tuple of float
+        Mean loudness 0..1 of every note where a breath, volume or expression curve says it; empty: the velocities do.
+    """
+
+    player_id: str
+    notes: tuple[Note, ...]
+    instrument_map: InstrumentMap
+    parameters: PlayerParameters = PlayerParameters()
+    corrections: tuple[Correction, ...] = ()
+    loudness: tuple[float, ...] = ()
+
+
+class Piece(msgspec.Struct, frozen=True):
+    """What all players share.
+
+    Attributes
+    ----------
+    metres : tuple of Metre
+        Ordered by tick; 4/4 before the first.
+    felt_beat_ticks : int or None
+        The beat that is felt where it is not the quarter (a dotted quarter in a fast 6/8).
+    bar_ticks : tuple of int
+        Where the bars begin, where the score knows better than the metres (pickups); empty: the metres say.
+    """
+
+    clock: Clock
+    metres: tuple[Metre, ...] = ()
+    felt_beat_ticks: int | None = None
+    bar_ticks: tuple[int, ...] = ()
+
+    @property
+    def beat_ticks(self) -> int:
+        """Ticks of the felt beat; a quarter unless the piece sets one."""
+        return self.felt_beat_ticks or self.clock.ticks_per_quarter
+
+    def bars(self, first_tick: int, last_tick: int) -> IntArray:
+        """Ticks at which bars begin, from the bar that holds ``first_tick`` to the last before ``last_tick``.
+
+        Before the first known bar the first metre runs backwards, so that a pre-roll has bars too.
+        """
+        quarter = self.clock.ticks_per_quarter
+        spans = [(metre.tick, max(quarter * 4 * metre.numerator // metre.denominator, 1)) for metre in self.metres]
+        if not spans or spans[0][0] > 0:
+            spans.insert(0, (0, quarter * 4))
+        if self.bar_ticks:
+            known = np.asarray(self.bar_ticks, dtype=np.int64)
+            before = np.arange(known[0] - spans[0][1], first_tick - spans[0][1], -spans[0][1], dtype=np.int64)[::-1]
+            after = np.arange(known[-1] + spans[-1][1], last_tick, spans[-1][1], dtype=np.int64)
+            ticks = np.concatenate((before, known, after))
+        else:
+            origin, length = spans[0]
+            start = origin + (first_tick - origin) // length * length if first_tick < origin else origin
+            ends = [span[0] for span in spans[1:]] + [max(last_tick, spans[-1][0] + 1)]
+            starts = [start] + [span[0] for span in spans[1:]]
+            ticks = np.concatenate(
+                [
+                    np.arange(low, high, span[1], dtype=np.int64)
+                    for low, high, span in zip(starts, ends, spans, strict=True)
+                ]
+            )
+        low = max(int(np.searchsorted(ticks, first_tick, side="right")) - 1, 0)
+        return ticks[low : int(np.searchsorted(ticks, last_tick, side="left"))]
+
+
+@dataclass(frozen=True)
+class LineTimes:
+    """The notes of a line as arrays (N,), in ticks and seconds.
+
+    ``played_end`` is the note's end, at most the next onset; ``silence_tick`` the silence before each note (none is 0;
+    before the first it is very long, since the pre-roll is silent); ``loudness`` 0..1.
+    """
+
+    onset_tick: IntArray
+    played_end_tick: IntArray
+    overlaps_next: npt.NDArray[np.bool_]
+    silence_tick: IntArray
+    onset_s: FloatArray
+    played_end_s: FloatArray
+    pitch: IntArray
+    loudness: FloatArray
+
+    @property
+    def duration_s(self) -> FloatArray:
+        """Sounding time of each note."""
+        return self.played_end_s - self.onset_s
+
+
+BEFORE_FIRST_TICK = 1 << 40
+"""Silence before the first note of a line, in ticks: longer than any threshold."""
+
+
+def line_times(line: Line, clock: Clock) -> LineTimes:
+    """The times of a line's notes. A line without notes gives empty arrays."""
+    notes = line.notes
+    count = len(notes)
+    onset = np.fromiter((note.onset_tick for note in notes), np.int64, count)
+    duration = np.fromiter((note.duration_tick for note in notes), np.int64, count)
+    pitch = np.fromiter((note.pitch for note in notes), np.int64, count)
+    velocity = np.fromiter((note.velocity for note in notes), np.int64, count)
+    end = onset + np.maximum(duration, 1)
+    following = np.append(onset[1:], BEFORE_FIRST_TICK)
+    played_end = np.maximum(np.minimum(end, following), onset)
+    reach = np.maximum.accumulate(end) if count else end
+    silence = np.maximum(onset - np.insert(reach[:-1], 0, -BEFORE_FIRST_TICK)[:count], 0)
+    if line.loudness:
+        loudness = np.clip(np.asarray(line.loudness, dtype=np.float64), 0.0, 1.0)
+    elif count and np.ptp(velocity) == 0:
+        # One velocity throughout is a file that says nothing about dynamics (engraved scores, most wind controllers).
+        loudness = np.full(count, MEZZOFORTE)
+    else:
+        loudness = np.clip(velocity / 127.0, 0.0, 1.0)
+    return LineTimes(
+        onset_tick=onset,
+        played_end_tick=played_end,
+        overlaps_next=end > following,
+        silence_tick=silence,
+        onset_s=clock.seconds(onset.astype(np.float64)),
+        played_end_s=clock.seconds(played_end.astype(np.float64)),
+        pitch=pitch,
+        loudness=loudness,
+    )
+
+
+def chance(*parts: str | int) -> float:
+    """A number in [0, 1) that depends on nothing but its arguments: the same seed, player and score position give the
+    same number on every machine and in every run."""
+    digest = hashlib.blake2b("\x1f".join(map(str, parts)).encode(), digest_size=8).digest()
+    return int.from_bytes(digest, "big") / 2.0**64
