@@ -77,7 +77,7 @@ def _move(source: Path, folder: Path) -> None:
             raise IsADirectoryError(f"{name} is a folder")
     while names:
         try:
-            os.replace(source / names[0], folder / names[0])
+            (source / names[0]).replace(folder / names[0])
             names.pop(0)
         except KeyboardInterrupt:
             # Too late to stop: a set of files half old and half new would be worse. What has moved is not there

@@ -7,8 +7,15 @@ from pathlib import Path
 import pytest
 
 from app.errors import FileError
-from app.export import folder as folder_module
 from app.export.folder import files_into
+
+
+def fill(target: Path, *names: str, error: type[BaseException] | None = None) -> None:
+    with files_into(target) as partial:
+        for name in names:
+            (partial / name).write_text(f"new {name}")
+        if error is not None:
+            raise error
 
 
 def test_files_appear_together_and_replace_old_ones(tmp_path: Path) -> None:
@@ -25,17 +32,15 @@ def test_files_appear_together_and_replace_old_ones(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("error", [KeyboardInterrupt, ValueError])
 def test_nothing_remains_of_a_failure(tmp_path: Path, error: type[BaseException]) -> None:
-    with pytest.raises(error), files_into(tmp_path / "new" / "deep") as partial:
-        (partial / "one").write_text("1")
-        raise error
+    with pytest.raises(error):
+        fill(tmp_path / "new" / "deep", "one", error=error)
     assert list(tmp_path.iterdir()) == []
 
 
 def test_a_failure_keeps_what_was_there(tmp_path: Path) -> None:
     (tmp_path / "one").write_text("old")
-    with pytest.raises(ValueError, match="stop"), files_into(tmp_path) as partial:
-        (partial / "one").write_text("new")
-        raise ValueError("stop")
+    with pytest.raises(LookupError):
+        fill(tmp_path, "one", error=LookupError)
     assert [(path.name, path.read_text()) for path in tmp_path.iterdir()] == [("one", "old")]
 
 
@@ -49,14 +54,13 @@ def test_a_file_in_the_way_is_named(tmp_path: Path) -> None:
 
 def test_a_folder_in_the_way_is_found_before_anything_moves(tmp_path: Path) -> None:
     (tmp_path / "two").mkdir()
-    with pytest.raises(FileError), files_into(tmp_path) as partial:
-        (partial / "one").write_text("1")
-        (partial / "two").write_text("2")
+    with pytest.raises(FileError):
+        fill(tmp_path, "one", "two")
     assert [path.name for path in tmp_path.iterdir()] == ["two"]
 
 
 def test_a_late_interrupt_does_not_leave_half_of_the_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    replace, calls = folder_module.os.replace, []
+    replace, calls = Path.replace, []
 
     def interrupted(source: Path, target: Path) -> None:
         calls.append(target)
@@ -66,8 +70,6 @@ def test_a_late_interrupt_does_not_leave_half_of_the_files(tmp_path: Path, monke
         if len(calls) == 2:
             raise KeyboardInterrupt
 
-    monkeypatch.setattr(folder_module.os, "replace", interrupted)
-    with files_into(tmp_path) as partial:
-        for name in ("one", "two", "three"):
-            (partial / name).write_text(name)
+    monkeypatch.setattr(Path, "replace", interrupted)
+    fill(tmp_path, "one", "two", "three")
     assert sorted(path.name for path in tmp_path.iterdir()) == ["one", "three", "two"]
