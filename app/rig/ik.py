@@ -1,7 +1,7 @@
 """Two-bone inverse kinematics of arms and legs, analytic and vectorised over frames.
 
 A limb is an upper bone, a lower bone and an end (hand or foot). Bones never stretch: a target out of reach is
-approached, and the last per cent of the limb's length is approached softly, so that the joint in the middle does not pop.
+approached, and the last per cent of the limb's length is approached softly, so that the middle joint does not pop.
 """
 
 from __future__ import annotations

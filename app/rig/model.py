@@ -1,7 +1,8 @@
 """Characters and instrument models as values: skeleton, skinned meshes, morph targets, landmarks, moving nodes.
 
 Every skeleton is *normalised*: in the rest (T-)pose all joint frames are parallel to the world, so a joint's local
-rotation is the identity there. The bind pose of the skin may be another pose (see `Skin.joint_from_mesh`).
+rotation is the identity there. The bind pose of the skin may be another pose (see `Character.joint_from_mesh`).
+Values that hold arrays compare and hash by identity, so that caches can be keyed by them.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Skeleton:
     """Joints in topological order (a parent before its children); joint 0 is the only root.
 
@@ -49,7 +50,7 @@ class Material:
     double_sided: bool = False
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Morph:
     """A morph target, sparse: displacement of some vertices in the mesh's bind space, metres."""
 
@@ -59,7 +60,7 @@ class Morph:
     normal_deltas: npt.NDArray[np.float32] | None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Mesh:
     """A triangle mesh, of one or several materials.
 
@@ -88,7 +89,7 @@ class Mesh:
     morphs: tuple[Morph, ...] = ()
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Landmark:
     """A named place on a mesh: the mean of some vertices, e.g. ``right.index.pad``."""
 
@@ -96,7 +97,7 @@ class Landmark:
     vertices: npt.NDArray[np.int32]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Character:
     """A body that can be posed and exported.
 
@@ -116,7 +117,7 @@ class Character:
     landmarks: dict[str, Landmark]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class InstrumentModel:
     """An instrument's nodes and meshes, in the instrument's frame (origin at the rim, +Z along the air, +Y up).
 

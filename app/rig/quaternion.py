@@ -80,7 +80,8 @@ def to_rotation_vector(q: ArrayLike) -> FloatArray:
     sign = np.where(q[..., 3] < 0.0, -1.0, 1.0)
     angle = 2.0 * np.arctan2(sine, np.abs(q[..., 3]))
     scale = np.where(sine < 1e-9, 2.0, angle / np.where(sine < 1e-9, 1.0, sine))
-    return q[..., :3] * (sign * scale)[..., None]
+    vector: FloatArray = q[..., :3] * (sign * scale)[..., None]
+    return vector
 
 
 def from_axis_angle(axis: ArrayLike, angle_rad: ArrayLike) -> FloatArray:

@@ -1,0 +1,241 @@
+"""Loading characters: our own glTF binaries and any humanoid with the VRM 1.0 extension.
+
+Rest rotations are removed: joint frames become parallel to the world, the bind pose stays what it was.
+
+Messages
+--------
+model.unreadable, model.invalid
+    See `app.rig.source`.
+character.missing : id, known
+    "There is no character named '{id}'; known: {known}"
+"""
+
+from __future__ import annotations
+
+import json
+from functools import lru_cache
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from app.errors import UsageError
+from app.rig.model import Character, Landmark, Mesh, Skeleton
+from app.rig.source import Source, accessor, build_mesh, invalid, read_source
+
+FloatArray = npt.NDArray[np.float64]
+_HALF = (
+    *("UpperArm", "LowerArm", "Hand", "UpperLeg", "LowerLeg", "Foot"),
+    *("ThumbMetacarpal", "ThumbProximal", "ThumbDistal"),
+    *(f + bone for f in ("Index", "Middle", "Ring", "Little") for bone in ("Proximal", "Intermediate", "Distal")),
+)
+REQUIRED_JOINTS = ("hips", "spine", "head", *(side + part for side in ("left", "right") for part in _HALF))
+"""Joints a body cannot play without."""
+
+
+def characters() -> dict[str, Path]:
+    """Return the bundled characters: id and file, in the order of their ids."""
+    folder = Path(str(files("resources"))) / "characters"
+    return {path.stem: path for path in sorted(folder.glob("*.glb"))}
+
+
+def bundled_character(id: str) -> Character:
+    """Return a bundled character; loaded once. Raises UsageError where there is none of this id."""
+    known = characters()
+    if id not in known:
+        raise UsageError("character.missing", id=id, known=", ".join(known))
+    return _loaded(known[id])
+
+
+@lru_cache(maxsize=8)
+def _loaded(path: Path) -> Character:
+    return load_character(path)
+
+
+def load_character(path: Path) -> Character:
+    """Load a character from a glTF binary.
+
+    Raises
+    ------
+    FileError
+        The file cannot be read, is no glTF 2.0 binary, or holds no humanoid that can play.
+    """
+    source = read_source(path)
+    try:
+        return _build(source, path)
+    except (KeyError, IndexError, TypeError, ValueError) as error:
+        raise invalid(path, f"damaged: {error!r}") from error
+
+
+def _build(source: Source, path: Path) -> Character:
+    skeleton, joint_of, world_from_node = _skeleton(source)
+    missing = [name for name in REQUIRED_JOINTS if name not in skeleton.names]
+    if missing:
+        raise invalid(path, f"not a humanoid with all fingers; missing: {', '.join(missing)}")
+    count = len(skeleton.names)
+    # joint_from_mesh of a joint no skin names: as if bound at rest.
+    joint_from_mesh = np.tile(np.eye(4), (count, 1, 1))
+    joint_from_mesh[:, :3, 3] = -np.array([_position(skeleton, joint) for joint in range(count)])
+    bound = np.zeros(count, dtype=bool)
+    meshes = []
+    for node, entry in enumerate(source.json.get("nodes", [])):
+        if "mesh" not in entry:
+            continue
+        index = entry["mesh"]
+        name = source.json["meshes"][index].get("name") or entry.get("name") or f"mesh_{index}"
+        mesh, skinned = build_mesh(source, index, name)
+        if skinned and "skin" in entry:
+            meshes.append(_skinned(source, entry["skin"], mesh, joint_of, world_from_node, joint_from_mesh, bound))
+        else:
+            meshes.append(_rigid(source, node, mesh, joint_of, joint_from_mesh, skeleton))
+    extras = _extras(source)
+    marks = {
+        name: Landmark(place["mesh"], np.asarray(place["vertices"], dtype=np.int32))
+        for name, place in extras.get("landmarks", {}).items()
+    }
+    return Character(path.stem, skeleton, joint_from_mesh, tuple(meshes), marks)
+
+
+def _skeleton(source: Source) -> tuple[Skeleton, dict[int, int], dict[int, FloatArray]]:
+    """Return the normalised skeleton, the joint of each node that is one, and the rest transforms of those nodes."""
+    nodes = source.json.get("nodes", [])
+    bones = source.json.get("extensions", {}).get("VRMC_vrm", {}).get("humanoid", {}).get("humanBones", {})
+    names = {bone["node"]: name for name, bone in bones.items()}
+    chosen = set(names)
+    for skin in source.json.get("skins", []):
+        chosen.update(skin["joints"])
+    for node, entry in enumerate(nodes):
+        if not names and entry.get("name") in REQUIRED_JOINTS:
+            chosen.add(node)
+    tops = [node for node in sorted(chosen) if _joint_above(source, node, chosen) < 0]
+    titles = {node: names.get(node) or nodes[node].get("name") or f"joint_{node}" for node in chosen}
+    has_root = len(tops) == 1 and titles[tops[0]] == "root"
+    # Children follow their parent closely (depth first), as a person would list them.
+    children: dict[int, list[int]] = {}
+    for node in sorted(chosen):
+        children.setdefault(_joint_above(source, node, chosen), []).append(node)
+    listed: list[int] = []
+    pending = list(reversed(children.get(-1, [])))
+    while pending:
+        node = pending.pop()
+        listed.append(node)
+        pending.extend(reversed(children.get(node, [])))
+    shift = 0 if has_root else 1
+    joint_of = {node: index + shift for index, node in enumerate(listed)}
+    rest = {node: source.world_from_node[node] for node in listed}
+    all_names = [] if has_root else ["root"]
+    parents = [] if has_root else [-1]
+    offsets = [] if has_root else [np.zeros(3)]
+    for node in listed:
+        above = _joint_above(source, node, chosen)
+        all_names.append(titles[node])
+        parents.append(joint_of[above] if above >= 0 else (-1 if has_root else 0))
+        offsets.append(rest[node][:3, 3] - (rest[above][:3, 3] if above >= 0 else 0.0))
+    if len(set(all_names)) != len(all_names):
+        raise invalid(source.file, "two joints share a name")
+    return Skeleton(tuple(all_names), tuple(parents), np.array(offsets, dtype=np.float64)), joint_of, rest
+
+
+def _joint_above(source: Source, node: int, chosen: set[int]) -> int:
+    node = source.parents[node]
+    while node >= 0 and node not in chosen:
+        node = source.parents[node]
+    return node
+
+
+def _skinned(
+    source: Source,
+    skin: int,
+    mesh: Mesh,
+    joint_of: dict[int, int],
+    world_from_node: dict[int, FloatArray],
+    joint_from_mesh: FloatArray,
+    bound: npt.NDArray[np.bool_],
+) -> Mesh:
+    """Take a skinned mesh into the character's joints; fills ``joint_from_mesh`` of joints that were not bound yet."""
+    entry = source.json["skins"][skin]
+    nodes = entry["joints"]
+    if "inverseBindMatrices" in entry:
+        inverse = accessor(source, entry["inverseBindMatrices"]).reshape(-1, 4, 4).transpose(0, 2, 1).astype(np.float64)
+    else:
+        inverse = np.tile(np.eye(4), (len(nodes), 1, 1))
+    table = np.array([joint_of[node] for node in nodes], dtype=np.int32)
+    basis = np.array([world_from_node[node] for node in nodes])
+    basis[:, :3, 3] = 0.0
+    # The joint's new frame is parallel to the world, so what turned it at rest moves into the bind matrix.
+    inverse = basis @ inverse
+    weights = mesh.weights / np.maximum(mesh.weights.sum(axis=1, keepdims=True), 1e-9)
+    joints = table[mesh.joints]
+    change = np.eye(4)
+    used = np.unique(mesh.joints[mesh.weights > 0.0])
+    known = [place for place in used if bound[table[place]]]
+    if known:
+        # Another skin has bound this joint: the same pose up to the mesh's own space, or it cannot be one character.
+        change = np.linalg.solve(joint_from_mesh[table[known[0]]], inverse[known[0]])
+        for place in known:
+            if np.abs(joint_from_mesh[table[place]] @ change - inverse[place]).max() > 1e-4:
+                raise invalid(source.file, f"mesh '{mesh.name}' is bound in another pose than the others")
+    back = np.linalg.inv(change)
+    fresh = np.flatnonzero(~bound[table])
+    joint_from_mesh[table[fresh]] = inverse[fresh] @ back
+    bound[table[fresh]] = True
+    return _moved(mesh, change, joints, weights.astype(np.float32))
+
+
+def _rigid(
+    source: Source,
+    node: int,
+    mesh: Mesh,
+    joint_of: dict[int, int],
+    joint_from_mesh: FloatArray,
+    skeleton: Skeleton,
+) -> Mesh:
+    """Bind a mesh that hangs from a node to the joint above it."""
+    above = node if node in joint_of else _joint_above(source, node, set(joint_of))
+    joint = joint_of.get(above, 0)
+    world_from_joint = np.eye(4)
+    world_from_joint[:3, 3] = _position(skeleton, joint)
+    change = np.linalg.solve(world_from_joint @ joint_from_mesh[joint], source.world_from_node[node])
+    joints = np.full((len(mesh.positions_m), 1), joint, dtype=np.int32)
+    return _moved(mesh, change, joints, np.ones((len(mesh.positions_m), 1), dtype=np.float32))
+
+
+def _moved(mesh: Mesh, change: FloatArray, joints: npt.NDArray[np.int32], weights: npt.NDArray[np.float32]) -> Mesh:
+    """Return a mesh with its vertices taken through a matrix and its skinning replaced."""
+    values = {field: getattr(mesh, field) for field in Mesh.__dataclass_fields__}
+    values.update(joints=joints, weights=weights)
+    if np.abs(change - np.eye(4)).max() > 1e-9:
+        turn = change[:3, :3]
+        across = np.linalg.inv(turn).T
+        values["positions_m"] = (mesh.positions_m @ turn.T + change[:3, 3]).astype(np.float32)
+        normals = mesh.normals @ across.T
+        values["normals"] = (normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-9)).astype(
+            np.float32
+        )
+        values["morphs"] = tuple(
+            type(morph)(morph.name, morph.vertices, (morph.deltas_m @ turn.T).astype(np.float32), morph.normal_deltas)
+            for morph in mesh.morphs
+        )
+    return Mesh(**values)
+
+
+def _position(skeleton: Skeleton, joint: int) -> FloatArray:
+    place = np.zeros(3)
+    while joint >= 0:
+        place = place + skeleton.offsets_m[joint]
+        joint = skeleton.parents[joint]
+    return place
+
+
+def _extras(source: Source) -> dict[str, Any]:
+    """Return what we wrote beside the scene, or on its first node; empty in a file of another program."""
+    scenes = source.json.get("scenes") or [{}]
+    holders = [scenes[source.json.get("scene", 0)], *source.json.get("nodes", [])[:1]]
+    for holder in holders:
+        found = holder.get("extras", {}).get("suisou")
+        if found is not None:
+            content: dict[str, Any] = json.loads(found) if isinstance(found, str) else found
+            return content
+    return {}

@@ -1,0 +1,127 @@
+"""Loading instrument models, and where their moving parts are for given values of the controls.
+
+Messages
+--------
+model.unreadable, model.invalid
+    See `app.rig.source`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+from app.rig import quaternion
+from app.rig.character import _moved
+from app.rig.model import InstrumentModel, Mesh
+from app.rig.source import build_mesh, invalid, read_source
+from instrument_maps.load import model_path
+from instrument_maps.model import ROOT, Control, InstrumentMap
+
+FloatArray = npt.NDArray[np.float64]
+
+
+def load_instrument(path: Path, instrument_map: InstrumentMap) -> InstrumentModel:
+    """Load an instrument's model.
+
+    The node that the map calls root gives the frame; nodes that the map's controls move follow, in its order. Every
+    other node is part of the nearest of these above it.
+
+    Raises
+    ------
+    FileError
+        The file cannot be read, or lacks a node the map names.
+    """
+    source = read_source(path)
+    try:
+        nodes = source.json.get("nodes", [])
+        names = [ROOT, *dict.fromkeys(control.node for control in instrument_map.controls)]
+        by_name = {node.get("name"): index for index, node in enumerate(nodes)}
+        absent = [name for name in names if name not in by_name]
+        if absent:
+            raise invalid(path, f"no node named {', '.join(absent)}")
+        root_from_world = np.linalg.inv(source.world_from_node[by_name[ROOT]])
+        node_of = {by_name[name]: index for index, name in enumerate(names)}
+        positions = np.array([(root_from_world @ source.world_from_node[by_name[name]])[:3, 3] for name in names])
+        meshes: list[Mesh] = []
+        for index, node in enumerate(nodes):
+            if "mesh" not in node:
+                continue
+            owner = index
+            while owner >= 0 and owner not in node_of:
+                owner = source.parents[owner]
+            name = source.json["meshes"][node["mesh"]].get("name") or node.get("name") or f"mesh_{index}"
+            mesh, _ = build_mesh(source, node["mesh"], name)
+            count = len(mesh.positions_m)
+            meshes.append(
+                _moved(
+                    mesh,
+                    root_from_world @ source.world_from_node[index],
+                    np.full((count, 1), node_of.get(owner, 0), dtype=np.int32),
+                    np.ones((count, 1), dtype=np.float32),
+                )
+            )
+    except (KeyError, IndexError, TypeError, ValueError) as error:
+        raise invalid(path, f"damaged: {error!r}") from error
+    return InstrumentModel(path.stem, tuple(names), positions, tuple(meshes))
+
+
+def bundled_instrument(instrument_map: InstrumentMap) -> InstrumentModel:
+    """Load the bundled model of a map. Raises MapError or FileError."""
+    return load_instrument(model_path(instrument_map), instrument_map)
+
+
+def control_transform(control: Control, values: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
+    """How a control's values move its node, in the root's frame.
+
+    Parameters
+    ----------
+    control : Control
+    values : (F,)
+        0..1.
+
+    Returns
+    -------
+    translations_m, rotations : (F, 3) and (F, 4) float64
+        A point p of the node at rest goes to ``rotate(rotation, p) + translation``.
+    """
+    values = np.asarray(values, dtype=np.float64)
+    motion = control.motion
+    axis = np.asarray(motion.axis, dtype=np.float64)
+    if motion.angle_rad is not None:
+        pivot = np.asarray(motion.pivot_m, dtype=np.float64)
+        rotations = quaternion.from_axis_angle(axis, values * motion.angle_rad)
+        return pivot - quaternion.rotate(rotations, pivot), rotations
+    return np.multiply.outer(values * (motion.travel_m or 0.0), axis), np.tile(quaternion.IDENTITY, (*values.shape, 1))
+
+
+def node_transforms(
+    model: InstrumentModel,
+    instrument_map: InstrumentMap,
+    controls: Mapping[str, npt.NDArray[np.floating]],
+    frames: int,
+) -> tuple[FloatArray, FloatArray]:
+    """Transforms of a model's nodes in the instrument's frame.
+
+    Parameters
+    ----------
+    controls : dict of str to (F,)
+        Values 0..1; a control that is absent is at 0.
+
+    Returns
+    -------
+    positions_m, rotations : (F, N, 3) and (F, N, 4) float64
+        ``instrument_from_node`` in the order of ``model.node_names``.
+    """
+    positions = np.tile(model.node_positions_m, (frames, 1, 1))
+    rotations = np.tile(quaternion.IDENTITY, (frames, len(model.node_names), 1))
+    for control in instrument_map.controls:
+        if control.name in controls:
+            node = model.node_names.index(control.node)
+            moved, turned = control_transform(control, controls[control.name])
+            positions[:, node] = quaternion.rotate(turned, positions[:, node]) + moved
+            rotations[:, node] = quaternion.multiply(turned, rotations[:, node])
+    return positions, rotations

@@ -1,0 +1,121 @@
+"""Forward kinematics of normalised skeletons, vectorised over frames, for the joints that are asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+import numpy.typing as npt
+
+from app.rig import quaternion
+from app.rig.model import Skeleton
+
+FloatArray = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class JointTransforms:
+    """World transforms of some joints.
+
+    Attributes
+    ----------
+    joints : tuple of int
+        Ascending (topological).
+    positions_m : (F, len(joints), 3) float64
+    rotations : (F, len(joints), 4) float64
+        ``world_from_joint``.
+    """
+
+    joints: tuple[int, ...]
+    positions_m: FloatArray
+    rotations: FloatArray
+
+    def place(self, joint: int) -> int:
+        """Return where a joint stands in the arrays; ValueError where it was not computed."""
+        return self.joints.index(joint)
+
+    def of(self, joint: int) -> tuple[FloatArray, FloatArray]:
+        """Return positions (F, 3) and rotations (F, 4) of one joint."""
+        place = self.place(joint)
+        return self.positions_m[:, place], self.rotations[:, place]
+
+    def matrices(self) -> FloatArray:
+        """Return ``world_from_joint`` as (F, len(joints), 3, 4) matrices."""
+        return np.concatenate([quaternion.to_matrix(self.rotations), self.positions_m[..., None]], axis=-1)
+
+
+def ancestors(skeleton: Skeleton, joint: int) -> tuple[int, ...]:
+    """Return the chain from the root to a joint, both included."""
+    chain = []
+    while joint >= 0:
+        chain.append(joint)
+        joint = skeleton.parents[joint]
+    return tuple(reversed(chain))
+
+
+def closure(skeleton: Skeleton, joints: Iterable[int]) -> tuple[int, ...]:
+    """Return these joints and all their ancestors, ascending."""
+    return tuple(sorted({above for joint in joints for above in ancestors(skeleton, joint)}))
+
+
+def rest_positions(skeleton: Skeleton) -> FloatArray:
+    """Return (J, 3) the joints' world positions in the rest pose."""
+    positions = np.array(skeleton.offsets_m, dtype=np.float64)
+    for joint, parent in enumerate(skeleton.parents):
+        if parent >= 0:
+            positions[joint] += positions[parent]
+    return positions
+
+
+def forward(
+    skeleton: Skeleton,
+    rotations: npt.NDArray[np.floating],
+    hips_m: npt.NDArray[np.floating] | None = None,
+    joints: Iterable[int] | None = None,
+) -> JointTransforms:
+    """Compute world transforms of joints and their ancestors.
+
+    Parameters
+    ----------
+    skeleton : Skeleton
+    rotations : (F, J, 4)
+        ``parent_from_joint`` of every joint.
+    hips_m : (F, 3), optional
+        Translation of the hips in the root's frame; the rest offset if absent.
+    joints : iterable of int, optional
+        All if absent.
+
+    Returns
+    -------
+    JointTransforms
+    """
+    wanted = closure(skeleton, range(len(skeleton.names)) if joints is None else joints)
+    place = {joint: index for index, joint in enumerate(wanted)}
+    frames = len(rotations)
+    hips = _hips(skeleton) if hips_m is not None else -1
+    # One contiguous plane per joint while walking down; frames come first only in the result.
+    turned = np.empty((len(wanted), frames, 4))
+    placed = np.empty((len(wanted), frames, 3))
+    for index, joint in enumerate(wanted):
+        local = rotations[:, joint]
+        offset = hips_m if joint == hips and hips_m is not None else skeleton.offsets_m[joint]
+        parent = skeleton.parents[joint]
+        if parent < 0:
+            turned[index] = local
+            placed[index] = offset
+        else:
+            above = place[parent]
+            turned[index] = quaternion.multiply(turned[above], local)
+            placed[index] = placed[above] + quaternion.rotate(turned[above], offset)
+    return JointTransforms(wanted, placed.transpose(1, 0, 2), turned.transpose(1, 0, 2))
+
+
+@lru_cache(maxsize=64)
+def _hips_index(names: tuple[str, ...]) -> int:
+    return names.index("hips")
+
+
+def _hips(skeleton: Skeleton) -> int:
+    return _hips_index(skeleton.names)

@@ -1,0 +1,211 @@
+"""Linear blend skinning of chosen vertices, with morph targets: frames by vertices."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+import numpy.typing as npt
+
+from app.rig import quaternion
+from app.rig.model import Character, Mesh
+from app.rig.skeleton import JointTransforms
+
+FloatArray = npt.NDArray[np.float64]
+IntArray = npt.NDArray[np.intp]
+
+
+@dataclass(frozen=True, eq=False)
+class Patch:
+    """Some vertices of a mesh, prepared for deforming.
+
+    Attributes
+    ----------
+    positions_m, normals : (V, 3) float64
+        In the mesh's bind space.
+    joints : (J,) int
+        Joints that carry any of the vertices.
+    weights : (V, J) float64
+    joint_from_mesh : (J, 3, 4) float64
+    morphs : dict of str to (V, 3) float64
+        Displacements of the morphs that move any of them.
+    """
+
+    positions_m: FloatArray
+    normals: FloatArray
+    joints: IntArray
+    weights: FloatArray
+    joint_from_mesh: FloatArray
+    morphs: Mapping[str, FloatArray]
+
+
+def mesh_named(character: Character, name: str) -> Mesh:
+    """Return a mesh of a character; KeyError where there is none of this name."""
+    for mesh in character.meshes:
+        if mesh.name == name:
+            return mesh
+    raise KeyError(name)
+
+
+def patch(character: Character, mesh: Mesh, vertices: npt.NDArray[np.integer]) -> Patch:
+    """Prepare vertices of one of a character's meshes for `deform`."""
+    vertices = np.asarray(vertices, dtype=np.intp)
+    used, weights = mesh.joints[vertices], mesh.weights[vertices].astype(np.float64)
+    joints = np.unique(used[weights > 0.0]).astype(np.intp)
+    dense = np.zeros((len(vertices), len(character.skeleton.names)))
+    np.add.at(dense, (np.arange(len(vertices))[:, None], used), weights)
+    morphs = {}
+    for morph in mesh.morphs:
+        deltas = np.zeros((len(vertices), 3))
+        rank = np.full(len(mesh.positions_m), -1, dtype=np.intp)
+        rank[morph.vertices] = np.arange(len(morph.vertices))
+        hit = rank[vertices] >= 0
+        if hit.any():
+            deltas[hit] = morph.deltas_m[rank[vertices[hit]]]
+            morphs[morph.name] = deltas
+    return Patch(
+        positions_m=mesh.positions_m[vertices].astype(np.float64),
+        normals=mesh.normals[vertices].astype(np.float64),
+        joints=joints,
+        weights=np.ascontiguousarray(dense[:, joints]),
+        joint_from_mesh=character.joint_from_mesh[joints, :3, :],
+        morphs=morphs,
+    )
+
+
+def deform(
+    part: Patch, transforms: JointTransforms, morphs: Mapping[str, npt.NDArray[np.floating]] | None = None
+) -> FloatArray:
+    """Deform the vertices of a patch.
+
+    Parameters
+    ----------
+    part : Patch
+    transforms : JointTransforms
+        Must hold every joint of the patch.
+    morphs : dict of str to (F,), optional
+        Weight curves by morph name.
+
+    Returns
+    -------
+    (F, V, 3) float64
+        World positions, metres.
+    """
+    matrices = skin_matrices(part.joints, part.joint_from_mesh, transforms)
+    positions = part.positions_m[None]
+    for name, deltas in part.morphs.items():
+        if morphs is not None and name in morphs:
+            positions = positions + np.multiply.outer(np.asarray(morphs[name], dtype=np.float64), deltas)
+    blended = np.tensordot(matrices, part.weights, axes=([1], [1]))  # (F, 3, 4, V)
+    result: FloatArray = (blended[:, :, :3] * positions.transpose(0, 2, 1)[:, None]).sum(axis=2)
+    result += blended[:, :, 3]
+    return np.ascontiguousarray(result.transpose(0, 2, 1))
+
+
+def skin_matrices(joints: IntArray, joint_from_mesh: FloatArray, transforms: JointTransforms) -> FloatArray:
+    """Return ``world_from_mesh`` of some joints, (F, J, 3, 4), for their inverse bind matrices (J, 3, 4)."""
+    places = np.searchsorted(np.asarray(transforms.joints), joints)
+    turn = quaternion.to_matrix(transforms.rotations[:, places])
+    result: FloatArray = turn @ joint_from_mesh
+    result[..., 3] += transforms.positions_m[:, places]
+    return result
+
+
+@dataclass(frozen=True, eq=False)
+class LandmarkSet:
+    """Landmarks prepared for `landmark_positions`.
+
+    The mean of linearly blended vertices is linear in the joints' matrices, so a landmark is kept as one weighted
+    homogeneous point per joint instead of its vertices.
+
+    Attributes
+    ----------
+    names : tuple of str
+    joints : (J,) int
+    joint_from_mesh : (J, 3, 4) float64
+    points : (J, 4, L) float64
+    normals : (J, 3, L) float64
+    morphs : dict of str to (J, 3, L) float64
+    """
+
+    names: tuple[str, ...]
+    joints: IntArray
+    joint_from_mesh: FloatArray
+    points: FloatArray
+    normals: FloatArray
+    morphs: Mapping[str, FloatArray]
+
+
+@lru_cache(maxsize=256)
+def landmark_set(character: Character, names: tuple[str, ...]) -> LandmarkSet:
+    """Prepare landmarks of a character; KeyError where one is missing. Cached by the character's identity."""
+    count = len(character.skeleton.names)
+    points, normals = np.zeros((count, 4, len(names))), np.zeros((count, 3, len(names)))
+    morphs: dict[str, FloatArray] = {}
+    for column, name in enumerate(names):
+        landmark = character.landmarks[name]
+        part = patch(character, mesh_named(character, landmark.mesh), landmark.vertices)
+        share = part.weights.T / len(landmark.vertices)
+        points[part.joints, :3, column] = share @ part.positions_m
+        points[part.joints, 3, column] = share.sum(axis=1)
+        normals[part.joints, :, column] = share @ part.normals
+        for morph, deltas in part.morphs.items():
+            morphs.setdefault(morph, np.zeros((count, 3, len(names))))[part.joints, :, column] = share @ deltas
+    joints = np.flatnonzero(np.any(points[:, 3] > 0.0, axis=1))
+    return LandmarkSet(
+        names=names,
+        joints=joints,
+        joint_from_mesh=character.joint_from_mesh[joints, :3, :],
+        points=points[joints],
+        normals=normals[joints],
+        morphs={name: deltas[joints] for name, deltas in morphs.items()},
+    )
+
+
+def landmark_positions(
+    character: Character,
+    names: Sequence[str],
+    transforms: JointTransforms,
+    morphs: Mapping[str, npt.NDArray[np.floating]] | None = None,
+) -> FloatArray:
+    """Positions of landmarks on the deformed meshes.
+
+    Parameters
+    ----------
+    character : Character
+    names : sequence of str
+        L landmarks.
+    transforms : JointTransforms
+        Must hold every joint that carries them (see `landmark_joints`).
+    morphs : dict of str to (F,), optional
+        Weight curves by morph name.
+
+    Returns
+    -------
+    (F, L, 3) float64
+        World positions, metres.
+    """
+    marks = landmark_set(character, tuple(names))
+    matrices = skin_matrices(marks.joints, marks.joint_from_mesh, transforms)
+    result = np.tensordot(matrices, marks.points, axes=([1, 3], [0, 1]))  # (F, 3, L)
+    for name, deltas in marks.morphs.items():
+        if morphs is not None and name in morphs:
+            moved = np.tensordot(matrices[..., :3], deltas, axes=([1, 3], [0, 1]))
+            result += np.asarray(morphs[name], dtype=np.float64)[:, None, None] * moved
+    return np.ascontiguousarray(result.transpose(0, 2, 1))
+
+
+def landmark_normals(character: Character, names: Sequence[str], transforms: JointTransforms) -> FloatArray:
+    """Mean outward unit normals (F, L, 3) of landmarks, without morphs."""
+    marks = landmark_set(character, tuple(names))
+    matrices = skin_matrices(marks.joints, marks.joint_from_mesh, transforms)
+    result = np.tensordot(matrices[..., :3], marks.normals, axes=([1, 3], [0, 1])).transpose(0, 2, 1)
+    unit: FloatArray = result / np.linalg.norm(result, axis=-1, keepdims=True)
+    return unit
+
+
+def landmark_joints(character: Character, names: Sequence[str]) -> tuple[int, ...]:
+    """Joints whose transforms `landmark_positions` needs for these landmarks, ascending."""
+    return tuple(landmark_set(character, tuple(names)).joints.tolist())
