@@ -1,0 +1,212 @@
+"""Checked access to a glTF document: fields, buffers, accessors.
+
+A document from anywhere may hold anything that JSON can, so every index, offset and size is checked before any byte is
+touched. Source: Khronos, "glTF 2.0 Specification", section 3.6.
+"""
+
+from __future__ import annotations
+
+import base64
+import binascii
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+import pygltflib
+
+from app.errors import FileError
+from app.formats.gltf.model import FloatArray, IntArray
+
+_COMPONENTS = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
+_WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
+
+# What decoding may take in all; accessors may overlap, so that a small file could ask for any amount.
+_MOST_BYTES = 2**31
+# An accessor without a buffer is all zeros and costs a file nothing.
+_MOST_ZEROS = 2**22
+
+# Extensions without which the file can still be read as it is meant here: they change materials only, or add meaning.
+_HARMLESS = ("KHR_materials_", "KHR_texture_transform", "VRMC_", "VRM")
+
+
+class Accessors:
+    """A document and its bytes; every method raises FileError for what is not as it should be."""
+
+    def __init__(self, document: pygltflib.GLTF2, file: str) -> None:
+        self.document = document
+        self.file = file
+        self._taken = 0
+        required = document.extensionsRequired
+        for name in required if isinstance(required, list) else []:
+            if not str(name).startswith(_HARMLESS):
+                raise FileError("gltf.unsupported", file=file, what=str(name))
+        self._buffers = [self._buffer(buffer, index) for index, buffer in enumerate(self.items("buffers"))]
+
+    # -------------------------------------------------------------------------------------------- checked fields
+
+    def damaged(self, what: str) -> FileError:
+        return FileError("gltf.damaged", file=self.file, what=what)
+
+    def items(self, name: str, owner: object = None) -> list[Any]:
+        values = getattr(self.document if owner is None else owner, name, None)
+        if values is None:
+            return []
+        if not isinstance(values, list) or any(value is None for value in values):
+            raise self.damaged(name)
+        return values
+
+    def mapping(self, owner: object, name: str) -> dict[str, Any]:
+        values = getattr(owner, name, None)
+        return values if isinstance(values, dict) else {}
+
+    def text(self, owner: object, name: str, otherwise: str) -> str:
+        value = getattr(owner, name, None)
+        return value if isinstance(value, str) and value else otherwise
+
+    def number(self, owner: object, name: str, otherwise: int | None = None) -> int:
+        """A count, offset or code: an integer that is not negative."""
+        value = getattr(owner, name, None)
+        if value is None and otherwise is not None:
+            return otherwise
+        if not isinstance(value, int) or isinstance(value, bool) or value < 0:
+            raise self.damaged(name)
+        return value
+
+    def index(self, value: object, count: int, what: str) -> int:
+        if not isinstance(value, int) or isinstance(value, bool) or not 0 <= value < count:
+            raise self.damaged(what)
+        return value
+
+    def optional_index(self, owner: object, name: str, count: int) -> int | None:
+        value = getattr(owner, name, None)
+        return None if value is None else self.index(value, count, name)
+
+    def floats(self, owner: object, name: str, otherwise: tuple[float, ...]) -> tuple[float, ...]:
+        values = getattr(owner, name, None)
+        if values is None or values == []:
+            return otherwise
+        return self.finite(values, len(otherwise), name)
+
+    def finite(self, values: object, count: int, what: str) -> tuple[float, ...]:
+        if not isinstance(values, list | tuple) or len(values) != count:
+            raise self.damaged(what)
+        if not all(isinstance(v, int | float) and not isinstance(v, bool) and abs(v) < 1e30 for v in values):
+            raise self.damaged(what)
+        return tuple(float(value) for value in values)
+
+    # ------------------------------------------------------------------------------------- buffers and accessors
+
+    def _buffer(self, buffer: object, index: int) -> bytes:
+        uri = getattr(buffer, "uri", None)
+        if uri is None:
+            data = self.document.binary_blob() if index == 0 else None
+        elif isinstance(uri, str) and uri.startswith("data:"):
+            try:
+                data = base64.b64decode(uri.partition(",")[2], validate=True)
+            except (binascii.Error, ValueError) as error:
+                raise self.damaged("data URI") from error
+        else:
+            raise FileError("gltf.external", file=self.file, uri=str(uri)[:200])
+        if data is None or len(data) < self.number(buffer, "byteLength"):
+            raise self.damaged("buffer")
+        return bytes(data)
+
+    def _take(self, size: int) -> None:
+        self._taken += size
+        if self._taken > _MOST_BYTES:
+            raise FileError("gltf.too_large", file=self.file)
+
+    def _view(self, number: object, offset: int, count: int, dtype: np.dtype[Any], width: int) -> npt.NDArray[Any]:
+        """Elements (count, width) of a buffer view, from an offset in bytes; a copy."""
+        views = self.items("bufferViews")
+        view = views[self.index(number, len(views), "bufferView")]
+        buffer = self._buffers[self.index(getattr(view, "buffer", None), len(self._buffers), "buffer")]
+        start, length = self.number(view, "byteOffset", 0), self.number(view, "byteLength")
+        element = dtype.itemsize * width
+        stride = self.number(view, "byteStride", 0) or element
+        if start + length > len(buffer) or (count and offset + stride * (count - 1) + element > length):
+            raise self.damaged("bufferView")
+        if stride < element:
+            raise self.damaged("byteStride")
+        self._take(count * element)
+        rows = np.ndarray((count, width), dtype, buffer, start + offset, (stride, dtype.itemsize)) if count else None
+        return np.empty((0, width), dtype) if rows is None else rows.copy()
+
+    def _accessor(self, number: object) -> tuple[Any, np.dtype[Any], int, int]:
+        """Accessor, its type, its numbers per element and its count."""
+        accessors = self.items("accessors")
+        accessor = accessors[self.index(number, len(accessors), "accessor")]
+        component = _COMPONENTS.get(self.number(accessor, "componentType"))
+        width = _WIDTHS.get(self.text(accessor, "type", ""))
+        if component is None or width is None:
+            raise self.damaged("accessor type")
+        return accessor, np.dtype(component), width, self.number(accessor, "count")
+
+    def _sparse(self, accessor: object, dtype: np.dtype[Any], width: int, count: int) -> tuple[IntArray, Any]:
+        """Changed elements of an accessor and their values."""
+        sparse = getattr(accessor, "sparse", None)
+        if sparse is None:
+            return np.empty(0, dtype=np.int64), np.empty((0, width), dtype)
+        changed = self.number(sparse, "count")
+        places, values = getattr(sparse, "indices", None), getattr(sparse, "values", None)
+        index_type = _COMPONENTS.get(self.number(places, "componentType"))
+        if index_type not in ("<u1", "<u2", "<u4"):
+            raise self.damaged("sparse indices")
+        offset = self.number(places, "byteOffset", 0)
+        indices = self._view(getattr(places, "bufferView", None), offset, changed, np.dtype(index_type), 1)
+        rows = indices[:, 0].astype(np.int64)
+        if changed and (rows[-1] >= count or (np.diff(rows) <= 0).any()):
+            raise self.damaged("sparse indices")
+        offset = self.number(values, "byteOffset", 0)
+        return rows, self._view(getattr(values, "bufferView", None), offset, changed, dtype, width)
+
+    def _scaled(self, accessor: object, values: npt.NDArray[Any]) -> FloatArray:
+        """Numbers that are meant: integers may stand for fractions."""
+        result = values.astype(np.float64)
+        if getattr(accessor, "normalized", False) is True and values.dtype.kind != "f":
+            result = np.maximum(result / np.iinfo(values.dtype).max, -1.0)
+        if not np.isfinite(result).all():
+            raise self.damaged("accessor value")
+        return result
+
+    def _elements(self, number: object) -> tuple[object, npt.NDArray[Any]]:
+        accessor, dtype, width, count = self._accessor(number)
+        rows, changed = self._sparse(accessor, dtype, width, count)
+        if getattr(accessor, "bufferView", None) is None:
+            if count > _MOST_ZEROS:
+                raise FileError("gltf.too_large", file=self.file)
+            self._take(count * width * dtype.itemsize)
+            values = np.zeros((count, width), dtype)
+        else:
+            offset = self.number(accessor, "byteOffset", 0)
+            values = self._view(accessor.bufferView, offset, count, dtype, width)
+        values[rows] = changed
+        return accessor, values
+
+    def real(self, number: object, width: int) -> FloatArray:
+        """Accessor as numbers, shape (N, width)."""
+        accessor, values = self._elements(number)
+        if values.shape[1] != width:
+            raise self.damaged("accessor type")
+        return self._scaled(accessor, values)
+
+    def whole(self, number: object, width: int) -> IntArray:
+        """Accessor as integers, shape (N, width)."""
+        _, values = self._elements(number)
+        if values.shape[1] != width or values.dtype.kind != "u":
+            raise self.damaged("accessor type")
+        return values.astype(np.int64)
+
+    def changes(self, number: object, count: int) -> tuple[IntArray, FloatArray]:
+        """Rows of a (count, 3) accessor that are not zero, without filling in the others where they are not stored."""
+        accessor, dtype, width, length = self._accessor(number)
+        if width != 3 or length != count:
+            raise self.damaged("morph target")
+        if getattr(accessor, "bufferView", None) is None:
+            rows, values = self._sparse(accessor, dtype, width, length)
+            deltas = self._scaled(accessor, values)
+        else:
+            deltas = self.real(number, 3)
+            rows = np.arange(count)
+        moved = deltas.any(axis=1)
+        return rows[moved], deltas[moved]

@@ -1,0 +1,158 @@
+"""What a glTF file holds, as plain values.
+
+Units are glTF's: metres, right-handed, Y up, quaternions xyzw.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+FloatArray = npt.NDArray[np.float64]
+IntArray = npt.NDArray[np.int64]
+
+
+@dataclass(frozen=True, eq=False)
+class GltfMorph:
+    """A morph target: the vertices it moves.
+
+    Attributes
+    ----------
+    name : str
+        From the mesh's ``extras.targetNames``; else ``morph_0`` ...
+    vertex_indices : ndarray of int64, shape (K,)
+    position_deltas : ndarray, shape (K, 3)
+    normal_deltas : ndarray, shape (K, 3), or None
+    """
+
+    name: str
+    vertex_indices: IntArray
+    position_deltas: FloatArray
+    normal_deltas: FloatArray | None
+
+
+@dataclass(frozen=True, eq=False)
+class GltfPrimitive:
+    """Triangles of one material.
+
+    Attributes
+    ----------
+    positions : ndarray, shape (V, 3)
+    normals : ndarray, shape (V, 3), or None
+    uvs : ndarray, shape (V, 2), or None
+        First set; v points down, as glTF has it.
+    triangles : ndarray of int64, shape (T, 3)
+    material : int or None
+    joint_indices : ndarray of int64, shape (V, 4 * sets)
+        Into the skin's joints; all sets side by side, no columns without a skin.
+    weights : ndarray, shape (V, 4 * sets)
+    morphs : tuple of GltfMorph
+    """
+
+    positions: FloatArray
+    normals: FloatArray | None
+    uvs: FloatArray | None
+    triangles: IntArray
+    material: int | None
+    joint_indices: IntArray
+    weights: FloatArray
+    morphs: tuple[GltfMorph, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class GltfMesh:
+    """A mesh; `extras` is what the file's author put there."""
+
+    name: str
+    primitives: tuple[GltfPrimitive, ...]
+    extras: Mapping[str, Any] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, eq=False)
+class GltfSkin:
+    """A skin: nodes that move a mesh.
+
+    Attributes
+    ----------
+    name : str
+    joints : tuple of int
+        Indices of nodes.
+    joint_from_mesh_bind : ndarray, shape (J, 4, 4)
+        The inverse bind matrices, for column vectors.
+    """
+
+    name: str
+    joints: tuple[int, ...]
+    joint_from_mesh_bind: FloatArray
+
+
+@dataclass(frozen=True)
+class GltfMaterial:
+    """A metallic-roughness surface; colours are linear."""
+
+    name: str
+    base_color_rgba: tuple[float, float, float, float]
+    metallic: float
+    roughness: float
+    emissive_rgb: tuple[float, float, float]
+    alpha_mode: str
+    double_sided: bool
+
+
+@dataclass(frozen=True, eq=False)
+class GltfNode:
+    """A node of the hierarchy.
+
+    Attributes
+    ----------
+    name : str
+    parent : int
+        -1: none.
+    translation : ndarray, shape (3,)
+    rotation_xyzw : ndarray, shape (4,)
+    scale : ndarray, shape (3,)
+    mesh : int or None
+    skin : int or None
+    extras : mapping
+    extensions : mapping
+    """
+
+    name: str
+    parent: int
+    translation: FloatArray
+    rotation_xyzw: FloatArray
+    scale: FloatArray
+    mesh: int | None
+    skin: int | None
+    extras: Mapping[str, Any] = field(default_factory=dict)
+    extensions: Mapping[str, Any] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, eq=False)
+class GltfModel:
+    """A whole file.
+
+    Attributes
+    ----------
+    nodes : tuple of GltfNode
+        In the file's order, which need not have parents first.
+    meshes, skins, materials : tuples
+    extensions : mapping
+        The document's, e.g. ``VRMC_vrm``, as parsed JSON.
+    extras : mapping
+        The document's.
+    scene_extras : mapping
+        Those of the scene that is shown.
+    """
+
+    nodes: tuple[GltfNode, ...]
+    meshes: tuple[GltfMesh, ...]
+    skins: tuple[GltfSkin, ...]
+    materials: tuple[GltfMaterial, ...]
+    extensions: Mapping[str, Any] = field(default_factory=dict)
+    extras: Mapping[str, Any] = field(default_factory=dict)
+    scene_extras: Mapping[str, Any] = field(default_factory=dict)

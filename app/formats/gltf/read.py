@@ -1,0 +1,279 @@
+"""glTF 2.0 files (``.glb``, or ``.gltf`` with everything inside) -> plain values.
+
+pygltflib reads the container and the document; here every index, offset and size is checked before any byte is
+touched, since characters come from anywhere. Nothing outside the file is ever opened. Units stay glTF's: metres,
+right-handed, Y up, quaternions xyzw. Source: Khronos, "glTF 2.0 Specification", sections 3.6 (buffers and accessors),
+3.7 (geometry, skins, morph targets) and 4 (GLB).
+
+Messages (all with ``file``): ``file.cannot_read`` (reason);
+``gltf.not_gltf``: "{file} is not a glTF 2.0 file";
+``gltf.damaged`` (what): "{file} is damaged: {what} is wrong";
+``gltf.external`` (uri): "{file} needs the file {uri} beside it; only files that hold everything themselves are read";
+``gltf.unsupported`` (what): "{file} uses {what}, which is not supported";
+``gltf.too_large``: "{file} describes more data than any character has".
+"""
+
+from __future__ import annotations
+
+import math
+import os
+import warnings
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pygltflib
+
+from app.errors import FileError
+from app.formats.gltf.accessors import Accessors
+from app.formats.gltf.model import (
+    FloatArray,
+    GltfMaterial,
+    GltfMesh,
+    GltfModel,
+    GltfMorph,
+    GltfNode,
+    GltfPrimitive,
+    GltfSkin,
+    IntArray,
+)
+
+_TRIANGLES, _STRIP, _FAN = 4, 5, 6
+
+
+def read_glb(path: str | os.PathLike[str]) -> GltfModel:
+    """Read a glTF file.
+
+    Raises
+    ------
+    FileError
+        If it cannot be read, is damaged, or needs another file.
+    """
+    file = os.fspath(path)
+    try:
+        data = Path(path).read_bytes()
+    except OSError as error:
+        raise FileError("file.cannot_read", file=file, reason=error.strerror or str(error)) from error
+    return decode_gltf(data, file)
+
+
+def decode_gltf(data: bytes, file: str) -> GltfModel:
+    """Model of a file's bytes, as `read_glb`."""
+    reader = _Reader(_document(data, file), file)
+    return GltfModel(
+        nodes=reader.nodes(),
+        meshes=tuple(reader.mesh(mesh, index) for index, mesh in enumerate(reader.items("meshes"))),
+        skins=tuple(reader.skin(skin) for skin in reader.items("skins")),
+        materials=tuple(reader.material(material) for material in reader.items("materials")),
+        extensions=reader.mapping(reader.document, "extensions"),
+        extras=reader.mapping(reader.document, "extras"),
+        scene_extras=reader.scene_extras(),
+    )
+
+
+def _document(data: bytes, file: str) -> pygltflib.GLTF2:
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # unknown chunks are to be skipped, says the specification
+            if data[:4] == b"glTF":
+                document = pygltflib.GLTF2.load_from_bytes(data)
+            else:
+                document = pygltflib.GLTF2.gltf_from_json(data.decode("utf-8"))
+    except Exception as error:  # the library promises nothing about damaged files
+        raise FileError("gltf.not_gltf", file=file) from error
+    if not isinstance(document, pygltflib.GLTF2) or not str(getattr(document.asset, "version", "")).startswith("2."):
+        raise FileError("gltf.not_gltf", file=file)
+    return document
+
+
+class _Reader(Accessors):
+    """Makes values of a checked document."""
+
+    def mesh(self, mesh: object, index: int) -> GltfMesh:
+        extras = self.mapping(mesh, "extras")
+        primitives = self.items("primitives", mesh)
+        names = extras.get("targetNames")
+        if not isinstance(names, list) and primitives:  # some exporters name them here
+            names = self.mapping(primitives[0], "extras").get("targetNames")
+        names = [str(name) for name in names] if isinstance(names, list) else []
+        return GltfMesh(
+            self.text(mesh, "name", f"mesh_{index}"),
+            tuple(self._primitive(primitive, names) for primitive in primitives),
+            extras,
+        )
+
+    def _primitive(self, primitive: object, names: list[str]) -> GltfPrimitive:
+        raw = getattr(primitive, "attributes", None)
+        attributes = vars(raw) if isinstance(raw, pygltflib.Attributes) else {}
+        positions = self.real(attributes.get("POSITION"), 3)
+        count = len(positions)
+
+        def optional(name: str, width: int) -> FloatArray | None:
+            if attributes.get(name) is None:
+                return None
+            values = self.real(attributes[name], width)
+            if len(values) != count:
+                raise self.damaged(name)
+            return values
+
+        sets = 0
+        while attributes.get(f"JOINTS_{sets}") is not None:
+            sets += 1
+        joints = [self.whole(attributes[f"JOINTS_{number}"], 4) for number in range(sets)]
+        weights = [optional(f"WEIGHTS_{number}", 4) for number in range(sets)]
+        if any(values is None for values in weights) or any(len(values) != count for values in joints):
+            raise self.damaged("JOINTS")
+        return GltfPrimitive(
+            positions=positions,
+            normals=optional("NORMAL", 3),
+            uvs=optional("TEXCOORD_0", 2),
+            triangles=self._triangles(primitive, count),
+            material=self.optional_index(primitive, "material", len(self.items("materials"))),
+            joint_indices=np.concatenate([np.empty((count, 0), np.int64), *joints], axis=1),
+            weights=np.concatenate([np.empty((count, 0)), *(w for w in weights if w is not None)], axis=1),
+            morphs=tuple(
+                self._morph(target, names[number] if number < len(names) else f"morph_{number}", count)
+                for number, target in enumerate(self.items("targets", primitive))
+            ),
+        )
+
+    def _triangles(self, primitive: object, count: int) -> IntArray:
+        number = getattr(primitive, "indices", None)
+        if number is None:
+            indices = np.arange(count)
+        else:
+            indices = self.whole(number, 1)[:, 0]
+            if indices.size and indices.max() >= count:
+                raise self.damaged("indices")
+        mode = self.number(primitive, "mode", _TRIANGLES)
+        if len(indices) < 3 and mode in (_TRIANGLES, _STRIP, _FAN):
+            return np.empty((0, 3), dtype=np.int64)
+        if mode == _TRIANGLES:
+            return indices[: len(indices) // 3 * 3].reshape(-1, 3)
+        if mode == _STRIP:
+            strip = np.stack([indices[:-2], indices[1:-1], indices[2:]], axis=1)
+            strip[1::2] = strip[1::2, [1, 0, 2]]
+            return strip
+        if mode == _FAN:
+            return np.stack([indices[1:-1], indices[2:], np.full(len(indices) - 2, indices[0])], axis=1)
+        raise FileError("gltf.unsupported", file=self.file, what="points or lines")
+
+    def _morph(self, target: object, name: str, count: int) -> GltfMorph:
+        attributes = target if isinstance(target, dict) else getattr(target, "__dict__", {})
+        rows, deltas = np.empty(0, dtype=np.int64), np.empty((0, 3))
+        if attributes.get("POSITION") is not None:
+            rows, deltas = self.changes(attributes["POSITION"], count)
+        if attributes.get("NORMAL") is None:
+            return GltfMorph(name, rows, deltas, None)
+        normal_rows, normal_deltas = self.changes(attributes["NORMAL"], count)
+        both = np.union1d(rows, normal_rows)
+        deltas_of_both = np.zeros((2, len(both), 3))
+        deltas_of_both[0, np.searchsorted(both, rows)] = deltas
+        deltas_of_both[1, np.searchsorted(both, normal_rows)] = normal_deltas
+        return GltfMorph(name, both, deltas_of_both[0], deltas_of_both[1])
+
+    def skin(self, skin: object) -> GltfSkin:
+        nodes = self.items("nodes")
+        joints = tuple(self.index(joint, len(nodes), "skin joint") for joint in self.items("joints", skin))
+        matrices = np.tile(np.eye(4), (len(joints), 1, 1))
+        number = getattr(skin, "inverseBindMatrices", None)
+        if number is not None:
+            values = self.real(number, 16)
+            if len(values) < len(joints):
+                raise self.damaged("inverseBindMatrices")
+            # stored column by column
+            matrices = values[: len(joints)].reshape(-1, 4, 4).transpose(0, 2, 1).copy()
+        return GltfSkin(self.text(skin, "name", ""), joints, matrices)
+
+    def material(self, material: object) -> GltfMaterial:
+        surface = getattr(material, "pbrMetallicRoughness", None)
+        red, green, blue, alpha = self.floats(surface, "baseColorFactor", (1.0, 1.0, 1.0, 1.0))
+        emissive = self.floats(material, "emissiveFactor", (0.0, 0.0, 0.0))
+        metallic, roughness = (
+            1.0 if getattr(surface, name, None) is None else self.finite([getattr(surface, name)], 1, name)[0]
+            for name in ("metallicFactor", "roughnessFactor")
+        )
+        return GltfMaterial(
+            name=self.text(material, "name", ""),
+            base_color_rgba=(red, green, blue, alpha),
+            metallic=metallic,
+            roughness=roughness,
+            emissive_rgb=(emissive[0], emissive[1], emissive[2]),
+            alpha_mode=self.text(material, "alphaMode", "OPAQUE"),
+            double_sided=getattr(material, "doubleSided", False) is True,
+        )
+
+    def nodes(self) -> tuple[GltfNode, ...]:
+        nodes = self.items("nodes")
+        parents = [-1] * len(nodes)
+        for number, node in enumerate(nodes):
+            for child in self.items("children", node):
+                if parents[self.index(child, len(nodes), "child")] != -1:
+                    raise self.damaged("node with two parents")
+                parents[child] = number
+        self._refuse_cycles(parents)
+        return tuple(self._node(node, number, parents[number]) for number, node in enumerate(nodes))
+
+    def _refuse_cycles(self, parents: list[int]) -> None:
+        children: list[list[int]] = [[] for _ in parents]
+        for number, parent in enumerate(parents):
+            if parent >= 0:
+                children[parent].append(number)
+        reached = [number for number, parent in enumerate(parents) if parent < 0]
+        for number in reached:  # grows while it is walked
+            reached += children[number]
+        if len(reached) != len(parents):
+            raise self.damaged("node that is its own ancestor")
+
+    def _node(self, node: object, number: int, parent: int) -> GltfNode:
+        translation: FloatArray = np.array(self.floats(node, "translation", (0.0, 0.0, 0.0)))
+        rotation: FloatArray = np.array(self.floats(node, "rotation", (0.0, 0.0, 0.0, 1.0)))
+        scale: FloatArray = np.array(self.floats(node, "scale", (1.0, 1.0, 1.0)))
+        length = math.sqrt(float(rotation @ rotation))
+        if length < 1e-6:
+            raise self.damaged("rotation")
+        rotation = rotation / length
+        if getattr(node, "matrix", None):
+            entries: FloatArray = np.array(self.finite(getattr(node, "matrix", None), 16, "matrix"))
+            matrix = entries.reshape(4, 4).T
+            translation, rotation, scale = self._parts(matrix)
+        return GltfNode(
+            name=self.text(node, "name", f"node_{number}"),
+            parent=parent,
+            translation=translation,
+            rotation_xyzw=rotation,
+            scale=scale,
+            mesh=self.optional_index(node, "mesh", len(self.items("meshes"))),
+            skin=self.optional_index(node, "skin", len(self.items("skins"))),
+            extras=self.mapping(node, "extras"),
+            extensions=self.mapping(node, "extensions"),
+        )
+
+    def _parts(self, matrix: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Translation, rotation and scale of a matrix; the specification allows no others."""
+        scale: FloatArray = np.sqrt((matrix[:3, :3] ** 2).sum(axis=0))
+        if not (scale > 1e-12).all():
+            raise self.damaged("matrix")
+        if np.linalg.det(matrix[:3, :3]) < 0:
+            scale[0] = -scale[0]
+        m = matrix[:3, :3] / scale
+        if np.abs(m.T @ m - np.eye(3)).max() > 1e-3:
+            raise self.damaged("matrix")
+        # Shepperd's method: the largest of the four possible divisors.
+        squares = np.array([m[0, 0], m[1, 1], m[2, 2], np.trace(m)])
+        largest = int(np.argmax(squares))
+        if largest == 3:
+            quaternion = np.array([m[2, 1] - m[1, 2], m[0, 2] - m[2, 0], m[1, 0] - m[0, 1], 1 + squares[3]])
+        else:
+            i, j, k = largest, (largest + 1) % 3, (largest + 2) % 3
+            quaternion = np.empty(4)
+            quaternion[i] = 1 - squares[3] + 2 * m[i, i]
+            quaternion[j], quaternion[k] = m[j, i] + m[i, j], m[k, i] + m[i, k]
+            quaternion[3] = m[k, j] - m[j, k]
+        return matrix[:3, 3].copy(), quaternion / np.linalg.norm(quaternion), scale
+
+    def scene_extras(self) -> dict[str, Any]:
+        scenes = self.items("scenes")
+        if not scenes:
+            return {}
+        return self.mapping(scenes[self.index(self.document.scene or 0, len(scenes), "scene")], "extras")
