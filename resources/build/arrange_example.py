@@ -9,7 +9,7 @@ What the arrangement does (quarters are counted from the start of the source, me
 
 - It takes the fugato, the homophonic middle part and the closing imitations: quarters 42 to 306.
 - The two sopranos, in one track of the source, become the trumpets: where two notes sound the upper goes to the first
-  trumpet, except where the second one's run crosses over it; where one sounds, `SECOND_TRUMPET_ALONE` says whose entry it is.
+  trumpet, except where the lines cross; where one sounds, `SECOND_TRUMPET_ALONE` says whose entry it is.
 - The first trombone plays the source's alto line, and in places the tenor's.
 - The second trombone plays the bass; what lies below E2 an octave higher.
 - A note of three quarters or more that another follows at once ends early, so that the player can breathe.

@@ -15,11 +15,13 @@ from pathlib import Path
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 
 import numpy as np
-from character_body import body_surface, mouth_surfaces
-from character_garments import garments, soles
+from character_body import mouth_surfaces, visible_body
+from character_face import brows, eyes, lashes
+from character_garments import measure, shirt, trousers
 from character_glb import Material, write_character
 from character_landmarks import landmarks
 from character_skeleton import FINGERS, fit_skeleton
+from character_shoes import shoes, soles
 from character_source import Phenotype, Source, load_model, load_source
 
 CHARACTERS_FOLDER = Path(__file__).resolve().parent.parent / "characters"
@@ -44,6 +46,10 @@ META = {
 }
 
 
+HANDS_AS_MEASURED = {"l-hand-scale-incr": -0.35, "r-hand-scale-incr": -0.35}
+"""Anny's hands are 6 % longer than the 0.108 of stature that people's are; this brings wrist to fingertip there."""
+
+
 @dataclass(frozen=True)
 class Character:
     """One file: its name, what anny is asked for, and the colours of its materials."""
@@ -52,6 +58,7 @@ class Character:
     title: str
     phenotype: Phenotype
     materials: dict[str, Material]
+    brow_thickness: float
 
 
 def _materials(skin: tuple[float, float, float], lips: tuple[float, float, float], hair: tuple[float, float, float]) -> dict[str, Material]:
@@ -61,6 +68,7 @@ def _materials(skin: tuple[float, float, float], lips: tuple[float, float, float
         "nails": Material((skin[0] * 1.02, skin[1] * 0.9, skin[2] * 0.88), 0.3),
         "mouth": Material((0.25, 0.05, 0.05), 0.5),
         "eye_white": Material((0.78, 0.76, 0.73), 0.15),
+        "limbus": Material((0.03, 0.02, 0.015), 0.15),
         "iris": Material((0.09, 0.045, 0.02), 0.15),
         "pupil": Material((0.004, 0.004, 0.004), 0.1),
         "teeth": Material((0.78, 0.72, 0.6), 0.25),
@@ -71,6 +79,7 @@ def _materials(skin: tuple[float, float, float], lips: tuple[float, float, float
         "lashes": Material((0.01, 0.008, 0.007), 0.7, two_sided=True),
         "shirt": Material((0.75, 0.75, 0.74), 0.8, two_sided=True),
         "trousers": Material((0.012, 0.012, 0.014), 0.85, two_sided=True),
+        "belt": Material((0.01, 0.008, 0.007), 0.4),
         "shoes": Material((0.008, 0.008, 0.008), 0.3),
         "buttons": Material((0.6, 0.58, 0.54), 0.3),
     }
@@ -93,10 +102,11 @@ CHARACTERS = (
                 "asian": 0.4,
                 "caucasian": 0.6,
             },
-            {},
+            HANDS_AS_MEASURED,
             1.68,
         ),
         _materials((0.61, 0.36, 0.25), (0.47, 0.17, 0.15), (0.035, 0.016, 0.008)),
+        brow_thickness=0.7,
     ),
     Character(
         "man_adult",
@@ -114,10 +124,11 @@ CHARACTERS = (
                 "asian": 0.3,
                 "caucasian": 0.7,
             },
-            {},
+            HANDS_AS_MEASURED,
             1.80,
         ),
         _materials((0.53, 0.30, 0.20), (0.40, 0.17, 0.14), (0.018, 0.010, 0.006)),
+        brow_thickness=1.1,
     ),
 )
 
@@ -133,15 +144,15 @@ def _finger_tips(source: Source) -> dict[str, np.ndarray]:
 def build(character: Character, source: Source, path: Path) -> None:
     """Write one character."""
     fit = fit_skeleton(source)
-    clothes = garments(source, fit)
-    full_body = body_surface(source, fit)
-    body = full_body.visible
-    surfaces = [body, *mouth_surfaces(source, fit), *clothes]
-    shoes = next(surface for surface in clothes if surface.name == "shoes")
+    tailoring = measure(source, fit)
+    body = visible_body(source, fit, tailoring)
+    footwear = shoes(tailoring, fit)
+    face = (*mouth_surfaces(source, fit), eyes(source, fit), brows(source, fit, character.brow_thickness), lashes(source, fit))
+    surfaces = [body, *face, shirt(tailoring, fit), trousers(tailoring, fit), footwear]
     floor = min(float(fit.to_t_pose(surface.positions, surface.weights)[:, 1].min()) for surface in surfaces)
     positions = fit.positions_t - np.array([0.0, floor, 0.0])
     fit = replace(fit, positions_t=positions)
-    suisou = {"landmarks": landmarks(body, fit, _finger_tips(source), soles(shoes, fit))}
+    suisou = {"landmarks": landmarks(body, fit, _finger_tips(source), soles(footwear, fit))}
     write_character(path, fit, positions, surfaces, character.materials, META | {"name": character.title}, suisou)
 
 

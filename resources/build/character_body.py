@@ -2,22 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
+from character_garments import Tailoring, above_collar
 from character_skeleton import SkeletonFit
 from character_source import Source
 from character_surface import Surface, compact, keep_triangles, split_seams, triangulate, vertex_normals
 
-EYE_MORPHS_ON_BALL = False
-
-
-@dataclass(frozen=True)
-class Body:
-    """The whole body's surface, from which clothes are made, and the part of it that clothes leave visible."""
-
-    whole: Surface
-    visible: Surface
+HAND_IN_CUFF_M, NECK_IN_COLLAR_M = 0.045, 0.02
 
 
 def surface_of(source: Source, fit: SkeletonFit, name: str, groups: tuple[str, ...], material: str, morphs: bool) -> Surface:
@@ -58,18 +49,18 @@ def _by_material(whole: Surface, source: Source) -> Surface:
     return Surface(**(whole.__dict__ | {"triangles": parts}))
 
 
-def body_surface(source: Source, fit: SkeletonFit) -> Body:
-    """The body, whole and as left visible by a shirt, trousers and shoes."""
+def visible_body(source: Source, fit: SkeletonFit, tailoring: Tailoring) -> Surface:
+    """Head, neck and hands: what shirt, trousers and shoes leave to be seen, and a little beneath their edges."""
     whole = _by_material(surface_of(source, fit, "body", ("body",), "skin", morphs=True), source)
-    hand_joints = [joint for joint, name in enumerate(fit.names) if "Hand" in name or "Proximal" in name or "Intermediate" in name or "Distal" in name or "Metacarpal" in name]
-    head_joints = [fit.index("head"), fit.index("neck"), fit.index("leftEye"), fit.index("rightEye")]
-    shown = (whole.weights[:, hand_joints].sum(axis=1) > 0.02) | (whole.weights[:, head_joints].sum(axis=1) > 0.25)
-    visible = keep_triangles(whole, {name: shown[faces].any(axis=1) for name, faces in whole.triangles.items()})
-    return Body(whole, visible)
+    t_pose = fit.to_t_pose(whole.positions, whole.weights)
+    hands = np.abs(t_pose[:, 0]) > tailoring.wrist_m - HAND_IN_CUFF_M
+    trunk = np.abs(t_pose[:, 0]) < tailoring.shoulder[0]
+    head = trunk & (above_collar(tailoring, t_pose) > -NECK_IN_COLLAR_M)
+    shown = hands | head
+    return keep_triangles(whole, {name: shown[faces].all(axis=1) for name, faces in whole.triangles.items()})
 
 
 def mouth_surfaces(source: Source, fit: SkeletonFit) -> tuple[Surface, ...]:
     teeth = surface_of(source, fit, "teeth", ("helper-upper-teeth", "helper-lower-teeth"), "teeth", morphs=True)
     tongue = surface_of(source, fit, "tongue", ("helper-tongue",), "tongue", morphs=True)
-    eyes = surface_of(source, fit, "eyes", ("helper-l-eye", "helper-r-eye"), "eye_white", morphs=False)
-    return tuple(compact(surface) for surface in (teeth, tongue, eyes))
+    return compact(teeth), compact(tongue)

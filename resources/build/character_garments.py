@@ -1,29 +1,346 @@
-"""Clothes as geometry of their own, from the base mesh's helper suit."""
+"""A concert shirt and trousers, draped over the base mesh's helper suit in the T-pose."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
+
 import numpy as np
-from character_body import surface_of
+from character_cloth import (
+    Cloth,
+    Profile,
+    border_loops,
+    catmull_clark,
+    cloth_surface,
+    cut,
+    folds,
+    grid_faces,
+    hang,
+    hull_profile,
+    join,
+    smoothed,
+    smoothstep,
+    to_triangles,
+)
 from character_skeleton import SkeletonFit
 from character_source import Source
-from character_surface import Surface, compact
+from character_surface import Surface
+from scipy.ndimage import gaussian_filter1d
+from scipy.interpolate import LinearNDInterpolator
+from scipy.spatial import cKDTree
+
+CUFF_LENGTH_M = 0.055
+WAISTBAND_M = 0.036
+NECK_HALF_WIDTH_M = 0.11
 
 
-def garments(source: Source, fit: SkeletonFit) -> tuple[Surface, ...]:
-    suit = surface_of(source, fit, "suit", ("helper-tights",), "suit", morphs=False)
-    height = float(source.vertices[source.groups["body"].vertices, 1].max())
-    triangles = suit.triangles["suit"]
-    y = suit.positions[triangles][:, :, 1].mean(axis=1) / height
-    parts = {"shirt": y > 0.60, "trousers": (y <= 0.60) & (y > 0.055), "shoes": y <= 0.055}
-    return tuple(
-        compact(Surface(**(suit.__dict__ | {"name": name, "triangles": {name: triangles[keep]}})))
-        for name, keep in parts.items()
+@dataclass(frozen=True)
+class Tailoring:
+    """A body's measures in the T-pose, metres, and the refined suit that clothes are cut from.
+
+    `suit` holds triangles; `arm` is each vertex' share of arm and hand bones; `trunk` the drape of the torso by height,
+    `collar_point` and `collar_normal` the plane of the collar's seam (normal towards the head).
+    """
+
+    suit: Cloth
+    arm: np.ndarray
+    trunk: Profile
+    belt_m: float
+    crotch_m: float
+    armpit_m: float
+    shoulder: np.ndarray
+    wrist_m: float
+    knee_m: float
+    foot_m: float
+    collar_point: np.ndarray
+    collar_normal: np.ndarray
+
+
+def _is_arm(name: str) -> bool:
+    return any(part in name for part in ("Arm", "Hand", "Thumb", "Index", "Middle", "Ring", "Little"))
+
+
+def measure(source: Source, fit: SkeletonFit) -> Tailoring:
+    """The measures of a body and its refined suit."""
+    group = source.groups["helper-tights"].vertices
+    used, faces = np.unique(group, return_inverse=True)
+    points = fit.to_t_pose(source.vertices[used], fit.weights[used])
+    suit = to_triangles(catmull_clark(Cloth(points, fit.weights[used], faces.reshape(group.shape))))
+    joint = {name: fit.positions_t[index] for index, name in enumerate(fit.names)}
+    arm = suit.weights[:, [index for index, name in enumerate(fit.names) if _is_arm(name)]].sum(axis=1)
+    trunk_points = suit.points[arm < 0.5]
+    belt = (joint["spine"][1] + joint["chest"][1]) / 2
+    middle = suit.points[np.abs(suit.points[:, 0]) < 0.01]
+    crotch = float(middle[middle[:, 1] > joint["leftUpperLeg"][1] * 0.7, 1].min())
+    shoulder = joint["leftUpperArm"]
+    levels = np.arange(crotch + 0.005, shoulder[1], 0.01)
+    centres = np.array(
+        [[0.0, np.ptp(z) / 2 + z.min()] for z in (trunk_points[np.abs(trunk_points[:, 1] - y) < 0.02, 2] for y in levels)]
+    )
+    trunk = hull_profile(trunk_points[:, 1], trunk_points[:, [0, 2]], levels, centres, 0.016)
+    nape = joint["neck"] + np.array([0.0, 0.020, -0.05])
+    notch = joint["leftShoulder"] * np.array([0.0, 1.0, 1.0]) + np.array([0.0, 0.032, 0.045])
+    across = notch - nape
+    normal = np.array([0.0, across[2], -across[1]])
+    return Tailoring(
+        suit=suit,
+        arm=arm,
+        trunk=smoothed(trunk, 1.5, 1.0),
+        belt_m=float(belt),
+        crotch_m=crotch,
+        armpit_m=float(shoulder[1] - 0.045 * joint["head"][1]),
+        shoulder=shoulder,
+        wrist_m=float(joint["leftHand"][0]),
+        knee_m=float(joint["leftLowerLeg"][1]),
+        foot_m=float(suit.points[:, 1].min()),
+        collar_point=nape,
+        collar_normal=normal / np.linalg.norm(normal),
     )
 
 
-def soles(shoes: Surface, fit: SkeletonFit) -> dict[str, dict[str, object]]:
-    """Vertices of each shoe that stand on the floor in the T-pose."""
-    t_pose = fit.to_t_pose(shoes.positions, shoes.weights)
-    low = t_pose[:, 1] < t_pose[:, 1].min() + 0.008
-    sides = {"left": low & (t_pose[:, 0] > 0), "right": low & (t_pose[:, 0] < 0)}
-    return {side: {"mesh": shoes.name, "vertices": [int(i) for i in np.flatnonzero(flags)]} for side, flags in sides.items()}
+def above_collar(tailoring: Tailoring, points: np.ndarray) -> np.ndarray:
+    """(N,) signed distance of T-pose points to the plane of the collar's seam, positive towards the head."""
+    return (points - tailoring.collar_point) @ tailoring.collar_normal
+
+
+def _weights_from(cloth: Cloth, points: np.ndarray) -> np.ndarray:
+    distances, nearest = cKDTree(cloth.points).query(points, k=4)
+    shares = 1.0 / (distances + 0.002) ** 2
+    weights = np.einsum("nk,nkj->nj", shares, cloth.weights[nearest])
+    return weights / weights.sum(axis=1, keepdims=True)
+
+
+def _move_out(points: np.ndarray, profile: Profile, axes: tuple[int, int, int], target: np.ndarray, share: np.ndarray) -> np.ndarray:
+    """Points moved from the profile's axis to the radius `target` (N,) where that is further out, by `share` (N,)."""
+    along, first, second = axes
+    angle, radius, centre = profile.polar(points[:, along], points[:, [first, second]])
+    grown = radius + np.maximum(target - radius, 0.0) * share
+    moved = points.copy()
+    moved[:, first] = centre[:, 0] + grown * np.cos(angle)
+    moved[:, second] = centre[:, 1] + grown * np.sin(angle)
+    return moved
+
+
+def _drape_torso(tailoring: Tailoring, cloth: Cloth, arm: np.ndarray) -> Cloth:
+    """The shirt's torso: spans hollows, falls from its widest place and is gathered into the belt."""
+    fall = smoothed(hang(tailoring.trunk, 0.25), 2.0, 1.5)
+    points = cloth.points
+    angle, radius, _ = fall.polar(points[:, 1], points[:, [0, 2]])
+    gather = smoothstep(points[:, 1], tailoring.belt_m - 0.005, tailoring.belt_m + 0.09)
+    at_belt = tailoring.trunk.radius_at(np.full(len(points), tailoring.belt_m), angle) + 0.003
+    loose = fall.radius_at(points[:, 1], angle) + 0.012
+    crease = folds(points[:, 1], angle, 0.11, seed=11) * 0.0035 * gather * (1 - smoothstep(points[:, 1], tailoring.belt_m + 0.1, tailoring.armpit_m))
+    vertical = folds(3.0 * angle / (2 * np.pi), np.zeros_like(angle), 0.23, seed=12) * 0.003 * gather * (1 - gather) * 4
+    target = at_belt + (loose - at_belt) * gather + crease + vertical
+    share = (1 - smoothstep(arm, 0.15, 0.6)) * (1 - smoothstep(points[:, 1], tailoring.armpit_m - 0.03, tailoring.shoulder[1] + 0.01))
+    return replace(cloth, points=_move_out(points, fall, (1, 0, 2), target, share))
+
+
+def _drape_sleeves(tailoring: Tailoring, cloth: Cloth, arm: np.ndarray) -> Cloth:
+    """Sleeves, roomy at the upper arm and gathered into the cuffs."""
+    points = cloth.points.copy()
+    start, end = tailoring.shoulder[0], tailoring.wrist_m
+    levels = np.arange(start, end + 0.02, 0.01)
+    centres = np.tile(tailoring.shoulder[[1, 2]], (len(levels), 1))
+    for sign in (1.0, -1.0):
+        own = (arm > 0.3) & (points[:, 0] * sign > 0)
+        mirrored = points[own] * np.array([sign, 1.0, 1.0])
+        solid = arm[own] > 0.9
+        sleeve = smoothed(hull_profile(mirrored[solid, 0], mirrored[solid][:, [1, 2]], levels, centres, 0.016), 2.0, 1.0)
+        angle, _, _ = sleeve.polar(mirrored[:, 0], mirrored[:, [1, 2]])
+        share = (mirrored[:, 0] - start) / (end - CUFF_LENGTH_M - start)
+        roomy = (0.064 - 0.016 * np.clip(share, 0, 1)) * tailoring.shoulder[1] / 1.34
+        gather = 1 - smoothstep(mirrored[:, 0], end - CUFF_LENGTH_M - 0.03, end - CUFF_LENGTH_M + 0.004)
+        bend = np.exp(-(((share - 0.55) / 0.25) ** 2))
+        crease = folds(mirrored[:, 0], angle, 0.10, seed=21 if sign > 0 else 22) * (0.001 + 0.0025 * bend)
+        target = np.maximum(sleeve.radius_at(mirrored[:, 0], angle) + 0.005, roomy * gather) + crease * gather
+        moved = _move_out(mirrored, sleeve, (0, 1, 2), target, smoothstep(arm[own], 0.6, 0.98))
+        points[own] = moved * np.array([sign, 1.0, 1.0])
+    return replace(cloth, points=points)
+
+
+def _cuffs(tailoring: Tailoring, fit: SkeletonFit) -> Cloth:
+    """Two buttoned cuffs, stiff on the forearm."""
+    parts = []
+    suit = tailoring.suit
+    for side, sign in (("left", 1.0), ("right", -1.0)):
+        along = suit.points[:, 0] * sign
+        ring = suit.points[np.abs(along - (tailoring.wrist_m - 0.03)) < 0.012][:, [1, 2]]
+        centre = ring.mean(axis=0)
+        profile = smoothed(hull_profile(np.zeros(len(ring)), ring, np.array([0.0, 1.0]), np.stack([centre, centre]), 2.0), 0.01, 4.0)
+        start, end = tailoring.wrist_m - CUFF_LENGTH_M - 0.004, tailoring.wrist_m + 0.010
+        rows = [(start, 0.002), (start, 0.0075), (start + 0.003, 0.009), (end - 0.002, 0.009), (end, 0.008), (end, 0.0065), (end - 0.02, 0.0055)]
+        angles = 2 * np.pi * np.arange(36) / 36
+        radius = profile.radius_at(np.zeros(36), angles)
+        points = np.concatenate(
+            [
+                np.stack(
+                    [np.full(36, sign * x), centre[0] + (radius + out) * np.cos(angles), centre[1] + (radius + out) * np.sin(angles)],
+                    axis=1,
+                )
+                for x, out in rows
+            ]
+        )
+        weights = np.zeros((len(points), len(fit.names)))
+        weights[:, fit.index(side + "LowerArm")] = 1.0
+        faces = grid_faces(len(rows), 36, closed=True)
+        parts.append(to_triangles(Cloth(points, weights, faces[:, ::-1] if sign > 0 else faces)))
+    return join(*parts)
+
+
+def _front(cloth: Cloth) -> LinearNDInterpolator:
+    """z of the foremost layer of a cloth over (x, y)."""
+    points = cloth.points[np.unique(cloth.faces)]
+    near = points[(np.abs(points[:, 0]) < 0.12) & (points[:, 2] > np.median(points[np.abs(points[:, 0]) < 0.12, 2]))]
+    return LinearNDInterpolator(near[:, :2], near[:, 2])
+
+
+def _neck_ring(tailoring: Tailoring, cloth: Cloth, height_m: float, angles: np.ndarray) -> np.ndarray:
+    """(N, 3) where the plane `height_m` above the collar's seam cuts a cloth, by angle about the neck (0 at the nape)."""
+    neck = cut(cloth, np.maximum(height_m - above_collar(tailoring, cloth.points), np.abs(cloth.points[:, 0]) - NECK_HALF_WIDTH_M))
+    ring = max((neck.points[loop] for loop in border_loops(neck.faces)), key=lambda points: points[:, 1].mean())
+    middle = tailoring.collar_point + np.array([0.0, 0.0, 0.05])
+    around = np.arctan2(ring[:, 0], middle[2] - ring[:, 2])
+    order = np.argsort(around)
+    found = np.stack([np.interp(angles, around[order], ring[order, axis], period=2 * np.pi) for axis in range(3)], axis=1)
+    return gaussian_filter1d(found, 1.5, axis=0, mode="wrap")
+
+
+def _collar(tailoring: Tailoring, shirt: Cloth, front: LinearNDInterpolator) -> Cloth:
+    """A turned-down collar on the shirt's neck seam, buttoned, its points spread."""
+    columns = np.linspace(-np.pi, np.pi, 73)
+    base = _neck_ring(tailoring, tailoring.suit, 0.0, columns)
+    upper = _neck_ring(tailoring, tailoring.suit, 0.030, columns)
+    outward = np.stack([np.sin(columns), np.zeros(73), -np.cos(columns)], axis=1)
+    up = tailoring.collar_normal * 0.8 + np.array([0.0, 0.2, 0.05])
+    throat = smoothstep(np.abs(columns), 0.62 * np.pi, np.pi)[:, None]
+    top = upper + outward * (0.004 + 0.002 * throat) + up * (0.006 - 0.006 * throat)
+    rise = top - base
+    proud = outward * (0.001 + 0.003 * throat)
+    rows = [base - up * 0.008 - outward * 0.001, base + proud, base + rise * 0.5 + proud, top]
+    rows += [top + up * 0.0025 + outward * 0.0025, top + outward * 0.0055]
+    length = 0.040 + 0.034 * throat
+    spread = np.sign(columns)[:, None] * np.array([1.0, 0.0, 0.0]) * 0.040 * throat**2
+    for share in (0.35, 0.7, 1.0):
+        fall = top + outward * (0.0055 + 0.003 * share) - rise * (length / 0.036) * share + spread * share
+        lying = front(fall[:, 0], fall[:, 1])
+        lying = np.where(np.isnan(lying), -1.0, lying)
+        fall[:, 2] = np.where(throat[:, 0] > 0.02, np.maximum(fall[:, 2], lying + 0.004), fall[:, 2])
+        rows.append(fall)
+    points = np.concatenate(rows)
+    weights = np.tile(_weights_from(shirt, base + outward * 0.001), (len(rows), 1))
+    return to_triangles(Cloth(points, weights, grid_faces(len(rows), 73, closed=False)))
+
+
+def _placket(tailoring: Tailoring, shirt: Cloth, front: LinearNDInterpolator, top_m: float) -> tuple[Cloth, Cloth]:
+    """The buttoned strip down the front, and its buttons."""
+    heights = np.linspace(top_m, tailoring.belt_m - 0.02, 40)
+    columns = np.array([-0.0165, -0.0155, 0.0, 0.0155, 0.0165])
+    lift = np.array([-0.0015, 0.0018, 0.0022, 0.0018, -0.0015])
+    x, y = np.meshgrid(columns, heights)
+    z = front(x.ravel(), y.ravel()) + np.tile(lift, len(heights))
+    points = np.stack([x.ravel(), y.ravel(), z], axis=1)
+    strip = to_triangles(Cloth(points, _weights_from(shirt, points), grid_faces(len(heights), 5, closed=False)[:, ::-1]))
+    buttons = []
+    angles = 2 * np.pi * np.arange(12) / 12
+    for height in np.arange(top_m - 0.03, tailoring.belt_m + 0.03, -0.085):
+        depth = float(front(0.0, height)) + 0.0022
+        rings = [(0.0055, 0.0), (0.0055, 0.0018), (0.0035, 0.0022), (0.0, 0.0016)]
+        disc = np.concatenate(
+            [np.stack([r * np.cos(angles), height + r * np.sin(angles), np.full(12, depth + out)], axis=1) for r, out in rings]
+        )
+        weights = np.tile(_weights_from(shirt, np.array([[0.0, height, depth]])), (len(disc), 1))
+        buttons.append(to_triangles(Cloth(disc, weights, grid_faces(len(rings), 12, closed=True))))
+    return strip, join(*buttons)
+
+
+def _band(profile: Profile, suit: Cloth, rows: list[tuple[float, float]], seed_rows: int = 72) -> Cloth:
+    """A ring round the waist from (height, distance from the drape) rows."""
+    angles = 2 * np.pi * np.arange(seed_rows) / seed_rows
+    level = float(np.mean([height for height, _ in rows]))
+    centre = np.array([np.interp(level, profile.levels, profile.centres[:, k]) for k in range(2)])
+    points = np.concatenate(
+        [
+            np.stack(
+                [centre[0] + radius * np.cos(angles), np.full(seed_rows, height), centre[1] + radius * np.sin(angles)],
+                axis=1,
+            )
+            for height, radius in ((h, profile.radius_at(np.full(seed_rows, h), angles) + out) for h, out in rows)
+        ]
+    )
+    # One weight for the whole height of a column: a belt does not shear.
+    column = _weights_from(suit, np.stack([points[:seed_rows, 0], np.full(seed_rows, level), points[:seed_rows, 2]], axis=1))
+    return to_triangles(Cloth(points, np.tile(column, (len(rows), 1)), grid_faces(len(rows), seed_rows, closed=True)[:, ::-1]))
+
+
+def shirt(tailoring: Tailoring, fit: SkeletonFit) -> Surface:
+    """The shirt: torso, sleeves, cuffs, collar, placket and buttons."""
+    suit = tailoring.suit
+    cloth = _drape_sleeves(tailoring, _drape_torso(tailoring, suit, tailoring.arm), tailoring.arm)
+    cloth = cut(cloth, cloth.points[:, 1] - (tailoring.belt_m - 0.045))
+    cloth = cut(cloth, tailoring.wrist_m - CUFF_LENGTH_M + 0.004 - np.abs(cloth.points[:, 0]))
+    cloth = cut(cloth, np.maximum(-above_collar(tailoring, cloth.points), np.abs(cloth.points[:, 0]) - NECK_HALF_WIDTH_M))
+    front = _front(cloth)
+    seam_front = tailoring.collar_point + 0.0
+    throat = cloth.points[(np.abs(cloth.points[:, 0]) < 0.01) & (cloth.points[:, 2] > seam_front[2] + 0.03)][:, 1].max()
+    strip, buttons = _placket(tailoring, cloth, front, float(throat) - 0.004)
+    whole = join(cloth, _cuffs(tailoring, fit), _collar(tailoring, cloth, front), strip)
+    return cloth_surface("shirt", {"shirt": whole, "buttons": buttons}, fit)
+
+
+def _leg_drape(tailoring: Tailoring, leg: np.ndarray, hip: np.ndarray) -> Profile:
+    """A left trouser leg: closed against the other one at the crotch, falling from the seat, tapered to the hem."""
+    levels = np.arange(tailoring.foot_m + 0.10, tailoring.crotch_m + 0.005, 0.01)
+    centres = np.tile([hip[0], hip[2] - 0.005], (len(levels), 1))
+    hulls = hull_profile(leg[:, 1], leg[:, [0, 2]], levels, centres, 0.016)
+    angles = 2 * np.pi * np.arange(hulls.radii.shape[1]) / hulls.radii.shape[1]
+    to_middle = np.where(np.cos(angles) < -0.6, (hip[0] - 0.003) / np.maximum(-np.cos(angles), 0.6), 0.0)
+    near_crotch = np.maximum(0.0, 1 - (tailoring.crotch_m - levels) / 0.03)[:, None] > 0
+    radii = np.where(near_crotch, np.maximum(hulls.radii, to_middle), hulls.radii)
+    slopes = 0.085 + 0.25 * smoothstep(levels, tailoring.crotch_m - 0.22, tailoring.crotch_m)
+    return smoothed(hang(replace(hulls, radii=radii), slopes), 3.0, 1.0)
+
+
+def trousers(tailoring: Tailoring, fit: SkeletonFit) -> Surface:
+    """Straight-cut trousers with a waistband and a belt."""
+    suit = tailoring.suit
+    points = suit.points
+    angle, _, _ = tailoring.trunk.polar(points[:, 1], points[:, [0, 2]])
+    drape = smoothed(hang(tailoring.trunk, 0.5), 2.0, 1.5)
+    share = smoothstep(points[:, 1], tailoring.crotch_m + 0.01, tailoring.crotch_m + 0.08) * (tailoring.arm < 0.3)
+    moved = _move_out(points, drape, (1, 0, 2), drape.radius_at(points[:, 1], angle) + 0.007, share)
+    joint = fit.positions_t[fit.index("leftUpperLeg")]
+    for sign in (1.0, -1.0):
+        own = (points[:, 0] * sign > 0) & (points[:, 1] < tailoring.crotch_m + 0.02)
+        leg = points[own] * np.array([sign, 1.0, 1.0])
+        profile = _leg_drape(tailoring, leg, joint)
+        leg_angle, _, _ = profile.polar(leg[:, 1], leg[:, [0, 2]])
+        low = 1 - smoothstep(leg[:, 1], tailoring.foot_m + 0.09, tailoring.foot_m + 0.22)
+        knee = np.exp(-(((leg[:, 1] - tailoring.knee_m) / 0.10) ** 2))
+        crease = folds(leg[:, 1], leg_angle, 0.07, seed=31 if sign > 0 else 32) * (0.0025 * low + 0.0012 * knee)
+        target = profile.radius_at(leg[:, 1], leg_angle) + 0.007 + crease
+        share = 1 - smoothstep(leg[:, 1], tailoring.crotch_m - 0.01, tailoring.crotch_m + 0.02)
+        draped = _move_out(leg, profile, (1, 0, 2), target, share)
+        draped[:, 0] = np.maximum(draped[:, 0], np.minimum(leg[:, 0], 0.003))
+        moved[own] = draped * np.array([sign, 1.0, 1.0])
+    weights = suit.weights.copy()
+    for side in ("left", "right"):
+        # Below the ankle cloth hangs from the shin, whatever the foot does.
+        shin = fit.index(side + "LowerLeg")
+        for bone in ("Foot", "Toes"):
+            weights[:, shin] += weights[:, fit.index(side + bone)]
+            weights[:, fit.index(side + bone)] = 0.0
+    cloth = Cloth(moved, weights, suit.faces)
+    cloth = cut(cloth, tailoring.belt_m - 0.005 - cloth.points[:, 1])
+    cloth = cut(cloth, cloth.points[:, 1] - (tailoring.foot_m + 0.115))
+    # The hem is let down to the shoe from where the ankle was cut off, a little lower behind.
+    top, cut_m, hem_m = tailoring.knee_m, tailoring.foot_m + 0.115, tailoring.foot_m + 0.028
+    points = cloth.points.copy()
+    low = points[:, 1] < top
+    reach = (top - points[low, 1]) / (top - cut_m)
+    slope = 0.08 * (points[low, 2] - joint[2]) * smoothstep(reach, 0.7, 1.0)
+    points[low, 1] = top - reach * (top - hem_m) + slope
+    cloth = replace(cloth, points=points)
+    belt = tailoring.belt_m
+    waistband = _band(tailoring.trunk, suit, [(belt - WAISTBAND_M, 0.005), (belt - WAISTBAND_M, 0.010), (belt, 0.010), (belt + 0.002, 0.008), (belt, 0.004)])
+    leather = [(belt - 0.033, 0.009), (belt - 0.032, 0.0125), (belt - 0.004, 0.0125), (belt - 0.003, 0.009)]
+    return cloth_surface("trousers", {"trousers": join(cloth, waistband), "belt": _band(tailoring.trunk, suit, leather)}, fit)

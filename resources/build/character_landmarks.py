@@ -96,16 +96,19 @@ def _lips(body: Surface) -> dict[str, np.ndarray]:
     upper, lower = lips[drop > drop.min() * 0.3], lips[drop < drop.min() * 0.7]
     centre_upper = upper[np.abs(body.positions[upper, 0]) < 0.006]
     centre_lower = lower[np.abs(body.positions[lower, 0]) < 0.006]
-    front = np.argsort(-body.positions[centre_upper, 2], kind="stable")[:6]
-    front_lower = np.argsort(-body.positions[centre_lower, 2], kind="stable")[:6]
+    def front(side: np.ndarray) -> np.ndarray:
+        facing = side[body.normals[side, 2] > 0.4]
+        middle = body.positions[facing].mean(axis=0) * np.array([0.0, 1.0, 1.0])
+        return _nearest(body.positions, middle, facing, PAD_VERTICES)
+
     gaps = np.linalg.norm(body.positions[centre_upper][:, None] - body.positions[centre_lower][None], axis=2)
     # The foremost place where the lips all but touch.
     score = gaps - 0.5 * (body.positions[centre_upper, 2][:, None] + body.positions[centre_lower, 2][None])
     pairs = np.argsort(score, axis=None, kind="stable")[:6]
     first, second = np.unravel_index(pairs, gaps.shape)
     return {
-        "upper": centre_upper[front],
-        "lower": centre_lower[front_lower],
+        "upper": front(centre_upper),
+        "lower": front(centre_lower),
         "contact": np.unique(np.concatenate([centre_upper[first], centre_lower[second]])),
     }
 

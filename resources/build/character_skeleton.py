@@ -113,6 +113,14 @@ class SkeletonFit:
         return np.einsum("nj,nja->na", weights, moved)
 
 
+    def to_rest_pose(self, points: np.ndarray, weights: np.ndarray) -> np.ndarray:
+        """The inverse of `to_t_pose`."""
+        rotations = np.swapaxes(self.world_from_joint_rest[:, :3, :3], 1, 2)
+        offsets = self.positions_t - np.einsum("jab,jb->ja", rotations, self.world_from_joint_rest[:, :3, 3])
+        blended = np.einsum("nj,jab->nab", weights, rotations)
+        return np.linalg.solve(blended, (points - weights @ offsets)[..., None])[..., 0]
+
+
 def _unit(vector: np.ndarray) -> np.ndarray:
     return vector / np.linalg.norm(vector)
 
