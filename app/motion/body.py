@@ -14,7 +14,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from app.motion.curve import Curve, FloatArray, Noise, bump, moves
+from app.motion.curve import Curve, FloatArray, Noise, bump, moves, through
 from app.motion.gaze import Gaze
 from app.motion.seed import generator
 from app.plan.model import BreathEvent, CueEvent, GestureEvent, PlayerParameters, PlayerPlan
@@ -30,6 +30,8 @@ QUICK_S = 0.6
 EXHALE_S = 3.0
 BREATH_LEAD_S = 0.03
 """The inhalation is complete this long before the breath's end."""
+RESIDUE_SHARE = 0.6
+"""RMS of the wandering that is always there, as a share of the sizes at amplitude 0."""
 NOISE_SHARE = 0.30
 """Wandering beside the planned gestures, as a share of their size."""
 LIFT_LAG = 0.6547
@@ -64,6 +66,8 @@ class BodyMotion:
         How full the lungs are; 1 after a full breath.
     lowered : array
         0 with the instrument at the lips, 1 with it lowered.
+    protraction_rad : dict of str to array
+        Each shoulder forwards, by side; what the contacts ask for.
     """
 
     forward_rad: dict[str, FloatArray]
@@ -81,6 +85,7 @@ class BodyMotion:
     eyes_pitch_rad: FloatArray
     inhaled: FloatArray
     lowered: FloatArray
+    protraction_rad: dict[str, FloatArray]
 
     def __getitem__(self, frames: slice) -> BodyMotion:
         """The same motion in some of its frames."""
@@ -100,7 +105,7 @@ class BodyMotion:
         nothing = dict.fromkeys(TRUNK, zero)
         held = {joint: np.array([np.deg2rad(posture.spine_deg.get(joint, 0.0))]) for joint in TRUNK}
         rest: dict[str, Any] = {member.name: zero for member in fields(cls)}
-        return cls(**(rest | {"forward_rad": held, "left_rad": nothing, "turn_rad": nothing}))
+        return cls(**(rest | {"forward_rad": held, "left_rad": nothing, "turn_rad": nothing, "protraction_rad": {}}))
 
 
 @dataclass(frozen=True)
@@ -121,7 +126,7 @@ class _Sizes:
         """Noise of this player's layer: the residue, and a share of the planned motion's size."""
         low_hz = self.body.sway.residual_hz
         noise = Noise.of(generator(self.player_id, self.parameters.seed, layer), 0.4 * low_hz, 2.5 * low_hz)
-        return noise.sample(times_s) * (scale[0] + NOISE_SHARE * (self.of(scale) - scale[0]))
+        return noise.sample(times_s) * (RESIDUE_SHARE * scale[0] + NOISE_SHARE * (self.of(scale) - scale[0]))
 
 
 def follow(
@@ -151,24 +156,23 @@ def follow(
     return moves(segments)
 
 
-def bobbing(events: Sequence[GestureEvent], times_s: FloatArray) -> FloatArray:
-    """Down-ness 0..1 of a body that bobs with the sway's beats: lowest on each beat, up between them."""
-    beats = [event for event in events if event.kind == "sway"]
-    segments: list[tuple[float, float, float]] = []
-    free_s = -np.inf
-    for event in beats:
-        start_s, length_s = max(event.start_s, free_s), event.end_s - max(event.start_s, free_s)
-        if length_s <= 0.0:
-            continue
-        size = min(1.0, length_s / QUICK_S)
-        if start_s > free_s:
-            segments.append((start_s - 0.5 * length_s if start_s - 0.5 * length_s >= free_s else free_s, start_s, size))
-        segments.append((start_s, start_s + 0.55 * length_s, 0.0))
-        segments.append((start_s + 0.55 * length_s, event.end_s, size))
-        free_s = event.end_s
-    if segments:
-        segments.append((free_s, free_s + 0.5, 0.0))
-    return moves(segments).sample(times_s)
+def bobbing(events: Sequence[GestureEvent], beat_ticks: int, times_s: FloatArray) -> FloatArray:
+    """Down-ness 0..1 of a body that bobs with the sway's beats: lowest on each beat, where its acceleration peaks."""
+    swings = [event for event in events if event.kind == "sway" and event.end_s > event.start_s]
+    if not swings:
+        return np.zeros(len(times_s))
+    start_s = np.array([event.start_s for event in swings])
+    length_s = np.array([event.end_s for event in swings]) - start_s
+    beats = np.maximum(1.0, np.round([(event.end_tick - event.start_tick) / beat_ticks for event in swings]))
+    size = np.square(np.minimum(1.0, length_s / beats / QUICK_S))
+    size *= 0.4 + 0.6 * np.abs([event.amount for event in swings])
+    inner = np.clip(np.searchsorted(start_s, times_s, side="right") - 1, 0, len(swings) - 1)
+    phase = (times_s - start_s[inner]) / length_s[inner]
+    ends = np.append(start_s, start_s[-1] + length_s[-1])
+    level = through(ends, np.append(size, 0.0)).sample(times_s)
+    within = (phase >= 0.0) & (phase <= 1.0)
+    down: FloatArray = np.where(within, level * (0.5 + 0.5 * np.cos(2.0 * np.pi * beats[inner] * phase)), level)
+    return down
 
 
 def lungs(breaths: Sequence[BreathEvent]) -> tuple[Curve, Curve]:
@@ -240,7 +244,13 @@ class _Sum:
 
 
 def body_motion(
-    plan: PlayerPlan, parameters: PlayerParameters, body: Body, posture: Posture, gaze: Gaze, times_s: FloatArray
+    plan: PlayerPlan,
+    parameters: PlayerParameters,
+    body: Body,
+    posture: Posture,
+    gaze: Gaze,
+    beat_ticks: int,
+    times_s: FloatArray,
 ) -> BodyMotion:
     """Sum of all layers at ascending ``times_s`` (F,), on top of the posture's own angles."""
     sizes = _Sizes(body, parameters, plan.player_id)
@@ -250,7 +260,7 @@ def body_motion(
     dip, lift = nods(plan.cues, times_s)
 
     aside = parameters.sway * follow(plan.gestures, "sway").sample(times_s)
-    down = parameters.sway * bobbing(plan.gestures, times_s) * (1.0 - np.clip(inhaled, 0.0, 1.0))
+    down = parameters.sway * bobbing(plan.gestures, beat_ticks, times_s) * (1.0 - np.clip(inhaled, 0.0, 1.0))
     weight = parameters.weight_shift * follow(plan.gestures, "weight_shift", body.weight_shift.transition_s).sample(
         times_s
     )
@@ -312,4 +322,5 @@ def body_motion(
         eyes_pitch_rad=gaze.pitch_rad.sample(times_s) - 0.5 * head_pitch,
         inhaled=inhaled,
         lowered=lowered,
+        protraction_rad={},
     )

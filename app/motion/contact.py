@@ -13,7 +13,7 @@ import numpy as np
 
 from app.motion.body import BodyMotion
 from app.motion.curve import FloatArray
-from app.motion.posture import STRAIGHTEST, Side, Trunk, exact_target
+from app.motion.posture import Side, Trunk, exact_target
 from app.rig import quaternion
 from app.rig.hold import HandHold, Hold, hand_targets
 from app.rig.ik import arm, solve_limb
@@ -26,8 +26,9 @@ CLEAR_M = 0.05
 """On its way down and up the instrument swings ahead by this much, clear of the chin."""
 AT_EASE = 0.965
 """Share of its length an arm reaches without help from the shoulder."""
-EASE_M = 0.010
+EASE_M = 0.008
 """The shoulder's help sets in over about this distance."""
+LEAST_LEVER_M = 0.05
 CLAVICLE_RAD = float(np.deg2rad(24.0))
 """Most the shoulder comes towards a far hand."""
 TURN_RAD = float(np.deg2rad(24.0))
@@ -67,7 +68,6 @@ def carry(
     motion: BodyMotion,
     morphs: Mapping[str, FloatArray],
     mouth_open: FloatArray,
-    lowering: FloatArray,
 ) -> Carried:
     """Place the instrument: its rim on the lips, or lowered before the body.
 
@@ -80,9 +80,8 @@ def carry(
     morphs : mapping of str to (F,)
     mouth_open : (F,) float64
         How far the mouth is open for a breath, 0..1: then the upper lip alone carries the rim.
-    lowering : (F,) float64
-        0 at the lips, 1 lowered.
     """
+    lowering = motion.lowered
     frames = len(lowering)
     contact_m, upper_m = hold.lips.contact_m(morphs, frames), hold.lips.upper_m(morphs, frames)
     lips_m = contact_m + (upper_m - contact_m) * mouth_open[:, None]
@@ -108,39 +107,102 @@ def carry(
     return Carried(position_m + (low_m - position_m) * share + swing, quaternion.slerp(rotation, low, lowering))
 
 
-def reach_turn(hold: Hold, skeleton: Skeleton, controls: Mapping[str, FloatArray], frames: int) -> FloatArray:
-    """How far the trunk turns (left positive) so that a far hand is reached, (F,) float64.
+@dataclass(frozen=True)
+class Help:
+    """What trunk and shoulders must add so that both hands are reached.
 
-    What the shoulder alone can give is left to it.
+    Attributes
+    ----------
+    turn_rad : (F,) float64
+        Of the trunk, left positive.
+    protraction_rad : dict of side to (F,) float64
+        Of each clavicle, forwards.
     """
-    total = np.zeros(frames)
-    for reach in hold.reach:
-        if reach.control is None or reach.control not in controls:
-            continue
-        clavicle_m, across_m = _shoulder_levers(skeleton, reach.side)
-        need_m = reach.shortfall_m + (1.0 - AT_EASE) * reach.arm_m
-        rest_m = need_m - 0.75 * clavicle_m * np.sin(CLAVICLE_RAD)
-        if np.all(rest_m <= -EASE_M):
-            continue
-        values = np.linspace(0.0, 1.0, 101)
-        soft_m = _softly_positive(np.interp(values, reach.values, rest_m))
-        lever_m = across_m * max(float(reach.direction[2]), 0.3)
-        turn = TURN_RAD * np.tanh(soft_m / (lever_m * TURN_RAD))
-        sign = 1.0 if reach.side == "right" else -1.0
-        total += sign * np.interp(controls[reach.control], values, turn)
-    return total
+
+    turn_rad: FloatArray
+    protraction_rad: dict[str, FloatArray]
 
 
-def _softly_positive(x: FloatArray) -> FloatArray:
-    result: FloatArray = 0.5 * (x + np.sqrt(x * x + EASE_M * EASE_M))
+def needed_help(
+    skeleton: Skeleton, hold: Hold, body: Trunk, carried: Carried, controls: Mapping[str, FloatArray]
+) -> Help:
+    """The help a body needs that has none yet; exactly 0 where the arms alone reach.
+
+    The shoulders help first; the trunk turns for what is left.
+    """
+    turn = np.zeros(len(body.chest_m))
+    protraction: dict[str, FloatArray] = {}
+    for hand in hold.hands:
+        target_m, _ = hand_targets(hand, carried.position_m, carried.rotation, controls)
+        girdle = _Girdle.of(skeleton, hand.side, body, target_m)
+        at_ease_m = AT_EASE * arm(skeleton, hand.side).length_m
+        distance_m = girdle.distance_m(0.0)
+        asked = girdle.turn_for(distance_m - softly_over(distance_m - at_ease_m, EASE_M))
+        protraction[hand.side] = softly_capped(asked, CLAVICLE_RAD, 0.15 * CLAVICLE_RAD)
+        short_m = softly_over(girdle.distance_m(CLAVICLE_RAD) - at_ease_m, EASE_M)
+        # Turning about the upright moves the shoulder by up x across; only what goes towards the hand counts.
+        across_m, ahead = girdle.root_m - body.chest_m, target_m - girdle.root_m
+        lever_m = np.abs(across_m[:, 2] * ahead[:, 0] - across_m[:, 0] * ahead[:, 2]) / distance_m
+        asked = softly_capped(short_m / np.maximum(lever_m, LEAST_LEVER_M), TURN_RAD, 0.2 * TURN_RAD)
+        turn += asked if hand.side == "right" else -asked
+    return Help(turn, protraction)
+
+
+def softly_over(x: FloatArray, ease: float) -> FloatArray:
+    """``max(x, 0)`` with a parabola between -ease and ease; exactly 0 below."""
+    result: FloatArray = np.where(x >= ease, x, np.square(np.maximum(x + ease, 0.0)) / (4.0 * ease))
     return result
 
 
-def _shoulder_levers(skeleton: Skeleton, side: Side) -> tuple[float, float]:
-    """Length of the clavicle, and how far the shoulder joint lies from the spine."""
-    upper, shoulder = skeleton.index(f"{side}UpperArm"), skeleton.index(f"{side}Shoulder")
-    offset = skeleton.offsets_m[upper]
-    return float(np.linalg.norm(offset)), abs(float(offset[0] + skeleton.offsets_m[shoulder][0]))
+def softly_capped(x: FloatArray, most: float, ease: float) -> FloatArray:
+    """``min(x, most)``, rounded where it bends."""
+    return most - softly_over(most - x, ease)
+
+
+@dataclass(frozen=True)
+class _Girdle:
+    """A clavicle that can come forwards about a fixed axis of the chest, and a target of its hand.
+
+    The squared distance from the shoulder joint to the target is ``square_m2 - 2 reach_m2 cos(phase_rad - turn)``.
+    """
+
+    root_m: FloatArray
+    square_m2: FloatArray
+    reach_m2: FloatArray
+    phase_rad: FloatArray
+
+    @classmethod
+    def of(cls, skeleton: Skeleton, side: Side, body: Trunk, target_m: FloatArray) -> _Girdle:
+        shoulder, clavicle = _clavicle(skeleton, side)
+        joint_m = body.chest_m + quaternion.rotate(body.chest, skeleton.offsets_m[shoulder])
+        there = quaternion.rotate(quaternion.conjugate(body.chest), target_m - joint_m)
+        ahead = np.cross(_forwards(clavicle), clavicle)
+        phase = np.arctan2(there @ ahead, there @ clavicle)
+        square_m2 = np.einsum("fi,fi->f", there, there) + clavicle @ clavicle
+        root_m = joint_m + quaternion.rotate(body.chest, clavicle)
+        return cls(root_m, square_m2, np.hypot(there @ ahead, there @ clavicle), phase)
+
+    def distance_m(self, turned_rad: float) -> FloatArray:
+        """From the shoulder to the target, with the clavicle so far forwards."""
+        cosine = np.cos(np.maximum(self.phase_rad - turned_rad, 0.0))
+        distance: FloatArray = np.sqrt(np.maximum(self.square_m2 - 2.0 * self.reach_m2 * cosine, 1e-9))
+        return distance
+
+    def turn_for(self, distance_m: FloatArray) -> FloatArray:
+        """The turn that brings the shoulder to this distance from the target, as near as it can."""
+        cosine = np.clip((self.square_m2 - distance_m * distance_m) / (2.0 * self.reach_m2), -1.0, 1.0)
+        return np.maximum(self.phase_rad - np.arccos(cosine), 0.0)
+
+
+def _clavicle(skeleton: Skeleton, side: Side) -> tuple[int, FloatArray]:
+    return skeleton.index(f"{side}Shoulder"), skeleton.offsets_m[skeleton.index(f"{side}UpperArm")]
+
+
+def _forwards(clavicle: FloatArray) -> FloatArray:
+    """Axis in the chest's frame about which a clavicle comes straight forwards."""
+    axis = np.cross(clavicle, Z_AXIS)
+    unit: FloatArray = axis / np.linalg.norm(axis)
+    return unit
 
 
 def solve_arms(
@@ -151,16 +213,14 @@ def solve_arms(
     motion: BodyMotion,
     carried: Carried,
     controls: Mapping[str, FloatArray],
-) -> tuple[dict[int, FloatArray], dict[Side, FloatArray]]:
-    """Rotations of clavicles, arms and hands by joint, and how far each hand stays from its place (F,), metres."""
+) -> dict[int, FloatArray]:
+    """Rotations of clavicles, arms and hands, by joint."""
     rotations: dict[int, FloatArray] = {}
-    misses: dict[Side, FloatArray] = {}
     with_chest = quaternion.multiply(body.chest, quaternion.conjugate(base.chest))
     for hand in hold.hands:
         targets = hand_targets(hand, carried.position_m, carried.rotation, controls)
-        solved, misses[hand.side] = _solve_arm(skeleton, hand, body, with_chest, motion, *targets)
-        rotations |= solved
-    return rotations, misses
+        rotations |= _solve_arm(skeleton, hand, body, with_chest, motion, *targets)
+    return rotations
 
 
 def _solve_arm(
@@ -171,35 +231,24 @@ def _solve_arm(
     motion: BodyMotion,
     target_m: FloatArray,
     target_rotation: FloatArray,
-) -> tuple[dict[int, FloatArray], FloatArray]:
+) -> dict[int, FloatArray]:
     side: Side = hand.side
     limb = arm(skeleton, side)
     sign = 1.0 if side == "left" else -1.0
-    shoulder = skeleton.index(f"{side}Shoulder")
-    clavicle = skeleton.offsets_m[limb.upper]
+    shoulder, clavicle = _clavicle(skeleton, side)
+    moved = quaternion.multiply(
+        quaternion.from_axis_angle(Z_AXIS, sign * motion.shoulders_rad),
+        quaternion.from_axis_angle(_forwards(clavicle), motion.protraction_rad[side]),
+    )
+    clavicle_world = quaternion.multiply(body.chest, moved)
     joint_m = body.chest_m + quaternion.rotate(body.chest, skeleton.offsets_m[shoulder])
-    lift = quaternion.from_axis_angle(Z_AXIS, sign * motion.shoulders_rad)
-    clavicle_world = quaternion.multiply(body.chest, lift)
-    root_m = joint_m + quaternion.rotate(clavicle_world, clavicle)
-    # The shoulder comes towards a hand that is far away.
-    line = target_m - root_m
-    distance = np.sqrt(np.einsum("fi,fi->f", line, line))
-    axis = np.cross(root_m - joint_m, line / distance[:, None])
-    lever_m = np.sqrt(np.einsum("fi,fi->f", axis, axis))
-    axis /= np.maximum(lever_m, 1e-9)[:, None]
-    need_m = _softly_positive(distance - AT_EASE * limb.length_m)
-    angle = CLAVICLE_RAD * np.tanh(need_m / np.maximum(lever_m * CLAVICLE_RAD, 1e-6))
-    clavicle_world = quaternion.multiply(quaternion.from_axis_angle(axis, angle), clavicle_world)
     root_m = joint_m + quaternion.rotate(clavicle_world, clavicle)
     out = np.tan(motion.elbows_rad)[:, None] * np.array([sign, 0.0, 0.0])
     pole = quaternion.rotate(with_chest, hand.elbow_direction + out)
     pose = solve_limb(limb, root_m, clavicle_world, exact_target(limb, root_m, target_m), target_rotation, pole)
-    line = target_m - root_m
-    distance = np.sqrt(np.einsum("fi,fi->f", line, line))
-    miss_m = np.maximum(distance - STRAIGHTEST * limb.length_m, 0.0)
     return {
-        shoulder: quaternion.multiply(quaternion.conjugate(body.chest), clavicle_world),
+        shoulder: moved,
         limb.upper: pose.upper,
         limb.lower: pose.lower,
         limb.end: pose.end,
-    }, miss_m
+    }

@@ -1,0 +1,179 @@
+"""From curves to poses: trunk, instrument, arms, legs and fingers of one player, chunk by chunk."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from fractions import Fraction
+
+import numpy as np
+from scipy.ndimage import maximum_filter1d, minimum_filter1d
+
+from app.motion.body import BodyMotion
+from app.motion.contact import Carried, carry, needed_help, solve_arms
+from app.motion.curve import FloatArray
+from app.motion.model import Motion
+from app.motion.posture import Stance, Trunk, hips_path, solve_legs, trunk
+from app.rig import quaternion
+from app.rig.hold import Hold, finger_rotations
+from app.rig.model import Skeleton
+from instrument_maps.model import Carriage, Lowered
+
+CHUNK = 4096
+"""Frames solved at once: few enough to stay in the processor's cache."""
+HELP_EASE_S = 0.30
+"""Trunk and shoulders come towards a far hand this long before it goes there, and back as long after."""
+REACH_TURN_SHARES = {"spine": 0.25, "chest": 0.40, "upperChest": 0.35}
+NECK_BACK_SHARES = {"neck": 0.5, "head": 0.5}
+
+
+@dataclass(frozen=True)
+class Player:
+    """Everything about a player that does not change with time.
+
+    ``base`` is the trunk in the posture before any motion, one frame.
+    """
+
+    skeleton: Skeleton
+    hold: Hold
+    place: Stance
+    carriage: Carriage
+    lowered: Lowered
+    base: Trunk
+
+
+@dataclass(frozen=True)
+class Curves:
+    """What the solvers start from, all sampled at the same frames.
+
+    Attributes
+    ----------
+    body : BodyMotion
+    controls, morphs : dict of str to (F,) float64
+    mouth_open : (F,) float64
+        How far the mouth is open for a breath.
+    """
+
+    body: BodyMotion
+    controls: dict[str, FloatArray]
+    morphs: dict[str, FloatArray]
+    mouth_open: FloatArray
+
+    def __len__(self) -> int:
+        return len(self.mouth_open)
+
+    def __getitem__(self, frames: slice) -> Curves:
+        return Curves(
+            self.body[frames],
+            {name: values[frames] for name, values in self.controls.items()},
+            {name: values[frames] for name, values in self.morphs.items()},
+            self.mouth_open[frames],
+        )
+
+
+def padding(fps: Fraction) -> int:
+    """Frames before and after the wanted ones that `solve` needs to look ahead and back."""
+    return 2 * math.ceil(HELP_EASE_S * fps)
+
+
+def solve(player: Player, curves: Curves, fps: Fraction, first_frame_s: float) -> Motion:
+    """Solve all poses.
+
+    Parameters
+    ----------
+    player : Player
+    curves : Curves
+        With `padding` frames more at both ends than are wanted.
+    fps : Fraction
+    first_frame_s : float
+        Time of the first wanted frame.
+    """
+    pad = padding(fps)
+    curves = replace(curves, body=_helped(player, curves, pad // 2))
+    curves = curves[pad : len(curves) - pad]
+    frames, joints = len(curves), len(player.skeleton.names)
+    rotations = np.zeros((frames, joints, 4), dtype=np.float32)
+    rotations[..., 3] = 1.0
+    hips_m = np.empty((frames, 3), dtype=np.float32)
+    instrument_m = np.empty((frames, 3), dtype=np.float32)
+    instrument = np.empty((frames, 4), dtype=np.float32)
+    fingers = list(player.hold.finger_joints)
+    for part in _parts(frames):
+        chunk = curves[part]
+        chunk_hips_m, local, carried = _pose(player, chunk)
+        hips_m[part], instrument_m[part], instrument[part] = chunk_hips_m, carried.position_m, carried.rotation
+        for joint, values in local.items():
+            rotations[part, joint] = values
+        rotations[part, fingers] = finger_rotations(player.hold, chunk.controls, len(chunk))
+    return Motion(
+        fps=fps,
+        first_frame_s=first_frame_s,
+        rotations=rotations,
+        hips_m=hips_m,
+        morphs={name: values.astype(np.float32) for name, values in curves.morphs.items()},
+        controls={name: values.astype(np.float32) for name, values in curves.controls.items()},
+        instrument_position_m=instrument_m,
+        instrument_rotation=instrument,
+    )
+
+
+def _parts(frames: int) -> Iterator[slice]:
+    for start in range(0, frames, CHUNK):
+        yield slice(start, min(start + CHUNK, frames))
+
+
+def _upper(player: Player, curves: Curves) -> tuple[FloatArray, FloatArray, Trunk, Carried]:
+    hips_m, hips = hips_path(player.place, player.skeleton, curves.body)
+    upper = trunk(player.skeleton, hips_m, hips, curves.body)
+    carried = carry(
+        player.hold, player.carriage, player.lowered, upper, player.base, curves.body, curves.morphs, curves.mouth_open
+    )
+    return hips_m, hips, upper, carried
+
+
+def _pose(player: Player, curves: Curves) -> tuple[FloatArray, dict[int, FloatArray], Carried]:
+    """Hips, local rotations by joint (fingers apart) and instrument."""
+    skeleton, motion = player.skeleton, curves.body
+    hips_m, hips, upper, carried = _upper(player, curves)
+    local = {skeleton.index("hips"): hips} | upper.local
+    local |= solve_arms(skeleton, player.hold, upper, player.base, motion, carried, curves.controls)
+    local |= solve_legs(player.place, skeleton, hips_m, hips)
+    looking = np.stack([motion.eyes_pitch_rad, motion.eyes_yaw_rad, np.zeros(len(curves))], axis=-1)
+    for name in ("leftEye", "rightEye"):
+        if name in skeleton.names:
+            local[skeleton.index(name)] = quaternion.from_rotation_vector(looking)
+    return hips_m, local, carried
+
+
+def _helped(player: Player, curves: Curves, half: int) -> BodyMotion:
+    """The body with trunk and shoulders brought towards far hands, slowly; neck and head turn back, so that the lips
+    stay where they are."""
+    parts = []
+    for part in _parts(len(curves)):
+        chunk = curves[part]
+        _, _, upper, carried = _upper(player, chunk)
+        parts.append(needed_help(player.skeleton, player.hold, upper, carried, chunk.controls))
+    motion = curves.body
+    turn = _eased(np.concatenate([part.turn_rad for part in parts]), half)
+    turns = dict(motion.turn_rad)
+    for shares, sign in ((REACH_TURN_SHARES, 1.0), (NECK_BACK_SHARES, -1.0)):
+        for joint, share in shares.items():
+            turns[joint] = turns[joint] + sign * share * turn
+    sides: list[str] = [hand.side for hand in player.hold.hands]
+    protraction = {side: _eased(np.concatenate([part.protraction_rad[side] for part in parts]), half) for side in sides}
+    return replace(motion, turn_rad=turns, protraction_rad=protraction)
+
+
+def _eased(needed: FloatArray, half: int) -> FloatArray:
+    """A slow move that is nowhere less than needed: the largest within ``half`` frames, then a smooth mean as wide.
+
+    The outer ``2 * half`` frames are not valid.
+    """
+    if not np.any(needed):
+        return needed
+    window = 2 * half + 1
+    held = maximum_filter1d(np.maximum(needed, 0.0), window) + minimum_filter1d(np.minimum(needed, 0.0), window)
+    weights = np.hanning(window + 2)
+    eased: FloatArray = np.convolve(held, weights / weights.sum(), mode="same")
+    return eased
