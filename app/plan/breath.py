@@ -272,9 +272,10 @@ def _cheapest_chain(
     level: float,
     lung_s: float,
 ) -> list[int]:
+    """Label by label: what is left of the best way so far, and what the catch breath adds, is the air of a place."""
     nodes = np.array([start, *places, end])
-    # What a catch breath draws, not what was left before it: a cautious player's reckoning.
-    air_s = np.array([level, *(_drawn(float(length_s[index])) for index in places), 0.0]) * lung_s
+    air_s = np.zeros(len(nodes))
+    air_s[0] = level * lung_s
     total = np.full(len(nodes), np.inf)
     total[0] = 0.0
     origin = np.zeros(len(nodes), dtype=np.int64)
@@ -282,8 +283,12 @@ def _cheapest_chain(
         needed = used[nodes[node]] - used[nodes[:node]]
         over = np.maximum(needed - air_s[:node], 0.0)
         ways = total[:node] + np.where(over > _EPSILON, TOO_LONG_COST * (1.0 + over), 0.0)
-        origin[node] = int(np.argmin(ways))
-        total[node] = ways[origin[node]] + (cost[node - 1] if node < len(nodes) - 1 else 0.0)
+        best = origin[node] = int(np.argmin(ways))
+        total[node] = ways[best]
+        if node < len(places) + 1:
+            total[node] += cost[node - 1]
+            left_s = max(air_s[best] - needed[best], 0.0)
+            air_s[node] = min(left_s + _drawn(float(length_s[nodes[node]])) * lung_s, lung_s)
     chain = []
     node = int(origin[-1])
     while node > 0:

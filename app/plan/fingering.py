@@ -2,7 +2,7 @@
 
 The search (Viterbi over the ranked fingerings of every note) keeps the first choice unless speed or a trill makes an
 alternate worth its intonation and its unfamiliarity. Afterwards every run of alternates and every phrase is compared
-with the first choices: one that travels further, takes longer or moves faster is played with first choices after all.
+with the first choices: one that travels further or needs a faster motion is played with first choices after all.
 
 Messages
 --------
@@ -93,7 +93,7 @@ class Motions:
     fingers : moves of valves and levers, counted (contrary ones and levers weighted)
     moves : the same, plainly counted
     slide_m : travel of slides, metres
-    needed_s : time the motion takes
+    needed_s : time the slide's motion takes
     share : part of the available time that the slide needs (over 1: it starts early)
     cost : what the search pays
     """
@@ -108,20 +108,17 @@ class Motions:
 
 @dataclass(frozen=True)
 class Travel:
-    """What a path of fingerings takes over a span of notes."""
+    """What a path of fingerings takes over a span of notes: travel of slides, moves of fingers where there is no slide
+    (beside one, a lever's moves are no travel), and the fastest motion, as a part of the time it has."""
 
-    moves: float
     slide_m: float
-    needed_s: float
+    moves: float
     peak_share: float
 
     def exceeds(self, other: Travel) -> bool:
-        """Whether this path goes further, takes longer or needs a faster motion than the other."""
-        further = self.slide_m > other.slide_m + _TOLERANCE or (
-            self.moves > other.moves + _TOLERANCE and self.slide_m > other.slide_m - _TOLERANCE
-        )
-        slower = self.needed_s > other.needed_s + _TOLERANCE or self.peak_share > other.peak_share + _TOLERANCE
-        return further or slower
+        """Whether this path goes further or needs a faster motion than the other."""
+        further = self.slide_m > other.slide_m + _TOLERANCE or self.moves > other.moves + _TOLERANCE
+        return further or self.peak_share > other.peak_share + _TOLERANCE
 
 
 @dataclass(frozen=True)
@@ -133,6 +130,11 @@ class FingeringProblem:
     pitch_index: IntArray
     controls: tuple[Control, ...]
     allowed: BoolArray
+
+    @property
+    def has_slide(self) -> bool:
+        """Whether a slide is among the controls of pitch."""
+        return any(control.kind == "slide" for control in self.controls)
 
     @cached_property
     def in_trill(self) -> BoolArray:
@@ -176,7 +178,6 @@ class FingeringProblem:
                 moved = np.abs(delta) > _MOVED
                 moves += moved
                 fingers += moved * (LEVER_COST if control.kind == "lever" else 1.0)
-                needed_s = np.maximum(needed_s, moved * control.move_window_s)
                 if control.kind == "press":
                     up |= delta < -_MOVED
                     down |= delta > _MOVED
@@ -206,9 +207,8 @@ class FingeringProblem:
         a, b = path[first:last], path[first + 1 : last + 1]
         motions = self.motions
         return Travel(
-            float(motions.moves[steps, a, b].sum()),
             float(motions.slide_m[steps, a, b].sum()),
-            float(motions.needed_s[steps, a, b].sum()),
+            0.0 if self.has_slide else float(motions.moves[steps, a, b].sum()),
             float(motions.share[steps, a, b].max(initial=0.0)),
         )
 

@@ -142,7 +142,7 @@ def weight_shifts(piece: Piece, frame: TimeFrame, seed: tuple[str | int, ...]) -
         if at_s >= frame.first_frame_s and (not starts or at_s - starts[-1][1] >= SHIFT_LEAST_S):
             starts.append((at, at_s))
     events = []
-    for (tick, start_s), (end_tick, end_s) in zip(starts, [*starts[1:], (last_tick, frame.end_s)], strict=True):
+    for (tick, start_s), (end_tick, end_s) in zip(starts, [*starts, (last_tick, frame.end_s)][1:], strict=True):
         if end_s <= start_s:
             continue
         amount = 2.0 * chance(*seed, "shift to", tick) - 1.0

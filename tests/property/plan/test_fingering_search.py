@@ -1,0 +1,147 @@
+"""The search against brute force, and against the first choices, on instruments made from acoustics alone."""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from app.plan.fingering import best_path, fingering_problem, plan_fingerings
+from app.plan.generate import Line
+from app.plan.line import line_times
+from instrument_maps.load import bundled_maps
+from instrument_maps.model import Fingering, InstrumentMap
+from tests.support.plan import PlainClock, PlainNote, slide, valves
+
+INSTRUMENTS = {
+    "valves": (valves(), 52, 80),
+    "slide": (slide(), 40, 68),
+    "trumpet": (bundled_maps()["trumpet_Bb"], 52, 87),
+    "trombone": (bundled_maps()["trombone_tenor_F_attachment"], 36, 77),
+}
+
+
+def phrases(low: int, high: int, most: int) -> st.SearchStrategy[tuple[PlainNote, ...]]:
+    """Lines of fast notes in small steps, with rests now and then."""
+
+    def build(first: int, steps: list[tuple[int, int, int]]) -> tuple[PlainNote, ...]:
+        notes, tick, pitch = [], 0, first
+        for index, (interval, length, rest) in enumerate(steps):
+            pitch = min(max(pitch + interval, low), high)
+            notes.append(PlainNote(f"1:{index + 1}", tick, length, pitch))
+            tick += length + rest
+        return tuple(notes)
+
+    interval = st.one_of(st.integers(-2, 2), st.integers(-12, 12))
+    step = st.tuples(interval, st.sampled_from([40, 60, 80, 120, 240, 480]), st.sampled_from([0, 0, 0, 0, 60, 480]))
+    return st.builds(build, st.integers(low, high), st.lists(step, min_size=1, max_size=most))
+
+
+def naive_cost(notes: tuple[PlainNote, ...], choice: list[Fingering], instrument: InstrumentMap) -> float:
+    """The documented costs, note by note, with plain floats: the slow and obvious second implementation."""
+    seconds = PlainClock().seconds
+    onset = [seconds(note.onset_tick) for note in notes]
+    end = [seconds(note.onset_tick + note.duration_tick) for note in notes]
+    pitch_controls = [control for control in instrument.controls if control.role == "pitch"]
+    cost = 0.0
+    for index, fingering in enumerate(choice):
+        first = instrument.fingerings_for(notes[index].pitch)[0]
+        cost += fingering.rank - 1
+        cost += max(abs(fingering.cents) - abs(first.cents), 0.0) / 20.0 * min((end[index] - onset[index]) / 0.25, 1.0)
+    trill = [False] * max(len(notes) - 1, 0)
+    for start in range(len(notes) - 3):
+        pitches = [note.pitch for note in notes[start : start + 4]]
+        quick = all(onset[start + k + 1] - onset[start + k] <= 0.15 for k in range(3))
+        if quick and pitches[0] == pitches[2] and pitches[1] == pitches[3] and 1 <= abs(pitches[0] - pitches[1]) <= 2:
+            trill[start : start + 3] = [True] * 3
+    hurried, moved_by = [], []
+    for index in range(len(notes) - 1):
+        a, b = choice[index], choice[index + 1]
+        step, gap = onset[index + 1] - onset[index], max(onset[index + 1] - end[index], 0.0)
+        fingers, ups, downs, slide_cost = 0.0, False, False, 0.0
+        share, change = 0.0, 0.0
+        for control in pitch_controls:
+            delta = b.controls.get(control.name, 0.0) - a.controls.get(control.name, 0.0)
+            if control.kind == "slide":
+                distance = abs(delta) * (control.motion.travel_m or 0.0)
+                share = distance / 2.5 / (gap + 0.5 * (end[index] - onset[index]))
+                smear = 1.0 if gap > 0.0 else 1.25
+                slide_cost += smear * 3.0 * min(max(share - 0.7, 0.0), 0.3)
+                slide_cost += 8.0 + 10.0 * (share - 1.0) if share > 1.0 else 0.0
+                change = delta
+            elif abs(delta) > 0.5:
+                fingers += 0.5 if control.kind == "lever" else 1.0
+                ups |= control.kind == "press" and delta < 0
+                downs |= control.kind == "press" and delta > 0
+        fingers += 0.5 if ups and downs else 0.0
+        hurry = max(0.085 / step - 1.0, 0.0)
+        if trill[index]:
+            hurry = max(hurry, 3.0 * max(0.15 / step - 1.0, 0.0))
+        cost += fingers * hurry + slide_cost * (3.0 if trill[index] else 1.0)
+        hurried.append(max(share - 0.7, 0.0))
+        moved_by.append(change)
+    for index in range(len(notes) - 2):
+        if moved_by[index] * moved_by[index + 1] < -1e-6:
+            cost += 0.5 * min(hurried[index], hurried[index + 1], 1.0)
+    return cost
+
+
+@given(st.sampled_from(sorted(INSTRUMENTS)), st.data())
+@settings(max_examples=80, deadline=None)
+def test_the_search_finds_the_cheapest_of_all_paths(name: str, data: st.DataObject) -> None:
+    instrument, low, high = INSTRUMENTS[name]
+    notes = data.draw(phrases(low, high, 6))
+    problem = fingering_problem(notes, line_times(Line("p", notes, instrument), PlainClock()), instrument, {})
+    path = best_path(problem)
+    ranked = [instrument.fingerings_for(note.pitch) for note in notes]
+    chosen = naive_cost(notes, [ways[column] for ways, column in zip(ranked, path.tolist(), strict=True)], instrument)
+    assert np.isclose(chosen, problem.path_cost(path), rtol=0.0, atol=1e-9)
+    cheapest = min(naive_cost(notes, list(choice), instrument) for choice in itertools.product(*ranked))
+    assert chosen <= cheapest + 1e-9
+
+
+@given(st.sampled_from(sorted(INSTRUMENTS)), st.data())
+@settings(max_examples=150, deadline=None)
+def test_no_phrase_travels_further_or_faster_than_the_first_choices(name: str, data: st.DataObject) -> None:
+    instrument, low, high = INSTRUMENTS[name]
+    notes = data.draw(phrases(low, high, 60))
+    times = line_times(Line("p", notes, instrument), PlainClock())
+    events, _ = plan_fingerings(notes, times, instrument, {})
+    slides = [control for control in instrument.controls if control.role == "pitch" and control.kind == "slide"]
+    presses = [control for control in instrument.controls if control.role == "pitch" and control.kind == "press"]
+    planned = [event.controls for event in events]
+    first = [instrument.fingerings_for(note.pitch)[0].controls for note in notes]
+
+    def travel(controls: list[dict[str, float]], start: int, end: int) -> tuple[float, int, float]:
+        metres, moves, fastest = 0.0, 0, 0.0
+        for index in range(start, end - 1):
+            for control in slides:
+                place = [controls[at].get(control.name, 0.0) for at in (index, index + 1)]
+                distance = abs(place[1] - place[0]) * (control.motion.travel_m or 0.0)
+                free_s = times.onset_s[index + 1] - times.onset_s[index] - 0.5 * times.duration_s[index]
+                metres += distance
+                fastest = max(fastest, distance / free_s)
+            for control in presses:
+                moves += controls[index].get(control.name, 0.0) != controls[index + 1].get(control.name, 0.0)
+        return metres, moves, fastest
+
+    silences = [float(times.onset_s[index + 1] - times.played_end_s[index]) for index in range(len(notes) - 1)]
+    cuts = [0, *(index + 1 for index, silence in enumerate(silences) if silence >= 0.25), len(notes)]
+    for start, end in itertools.pairwise(cuts):
+        for ours, table in zip(travel(planned, start, end), travel(first, start, end), strict=True):
+            assert ours <= table + 1e-6
+
+
+@given(st.data())
+@settings(max_examples=40, deadline=None)
+def test_a_pin_is_kept_wherever_it_is(data: st.DataObject) -> None:
+    instrument, low, high = INSTRUMENTS["trombone"]
+    notes = data.draw(phrases(low, high, 20))
+    index = data.draw(st.integers(0, len(notes) - 1))
+    label = data.draw(st.sampled_from([way.label for way in instrument.fingerings_for(notes[index].pitch)]))
+    times = line_times(Line("p", notes, instrument), PlainClock())
+    events, _ = plan_fingerings(notes, times, instrument, {notes[index].id: label})
+    assert events[index].label == label
+    assert [event.corrected for event in events] == [at == index for at in range(len(notes))]

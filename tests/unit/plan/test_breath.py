@@ -1,0 +1,193 @@
+"""T6 of the thesis at its boundary values, through tempi, tempo changes, thresholds and felt beats; catch breaths."""
+
+from __future__ import annotations
+
+import pytest
+
+from app.plan.breath import CATCH_MAX_S, CATCH_MIN_S, CATCH_NOTE_SHARE
+from app.plan.generate import Line, Piece, make_plans, time_frame
+from app.plan.model import BreathEvent, PlayerParameters, PlayerPlan
+from tests.support.plan import PlainClock, PlainMetre, PlainNote, even, line_of, valves
+
+Q = 480
+METRE = (PlainMetre(0, 4, 4),)
+
+
+def plan(
+    notes: tuple[PlainNote, ...],
+    clock: PlainClock | None = None,
+    felt: int | None = None,
+    preroll: float = 4.0,
+    **parameters: object,
+) -> PlayerPlan:
+    clock = clock or PlainClock()
+    piece = Piece(clock, METRE, felt)
+    line = Line("p", notes, valves(), PlayerParameters(**parameters))  # type: ignore[arg-type]
+    return make_plans(piece, (line,), time_frame((line,), clock, preroll, felt))["p"]
+
+
+def before(plan_: PlayerPlan, note_id: str) -> dict[str, BreathEvent]:
+    return {event.kind: event for event in plan_.breaths if event.id.endswith(note_id)}
+
+
+def with_rest(rest_tick: int, start: int = 4 * Q) -> tuple[PlainNote, ...]:
+    return line_of((start, Q, 65), (start + Q + rest_tick, Q, 67))
+
+
+@pytest.mark.parametrize("bpm", [60.0, 90.0, 120.0, 200.0])
+@pytest.mark.parametrize(
+    ("rest_beats", "breath_beats", "preparation_beats", "rule"),
+    [
+        (0.45, None, None, None),
+        (0.5, 0.5, None, "breath.rest_whole"),
+        (0.75, 0.75, None, "breath.rest_whole"),
+        (1.0, 1.0, None, "breath.last_beat"),
+        (1.5, 1.0, None, "breath.last_beat"),
+        (1.95, 1.0, None, "breath.last_beat"),
+        (2.0, 1.0, 1.0, "breath.prepared"),
+        (7.0, 1.0, 1.0, "breath.prepared"),
+    ],
+)
+def test_a_breath_follows_the_length_of_the_rest(
+    bpm: float, rest_beats: float, breath_beats: float | None, preparation_beats: float | None, rule: str | None
+) -> None:
+    rest = round(rest_beats * Q)
+    events = before(plan(with_rest(rest), PlainClock(((0, bpm),))), "1:2")
+    onset = 5 * Q + rest
+    if breath_beats is None:
+        assert events == {}
+        return
+    breath = events["breath"]
+    assert (breath.start_tick, breath.end_tick) == (onset - round(breath_beats * Q), onset)
+    assert breath.reason.id == rule
+    assert breath.start_s == pytest.approx(breath.start_tick / Q * 60.0 / bpm)
+    assert breath.end_s == pytest.approx(onset / Q * 60.0 / bpm)
+    if preparation_beats is None:
+        assert "preparation" not in events
+    else:
+        assert (events["preparation"].start_tick, events["preparation"].end_tick) == (onset - 2 * Q, onset - Q)
+
+
+def test_one_tick_decides() -> None:
+    assert before(plan(with_rest(Q // 2 - 1)), "1:2") == {}
+    assert before(plan(with_rest(Q // 2)), "1:2")["breath"].reason.id == "breath.rest_whole"
+    assert before(plan(with_rest(Q - 1)), "1:2")["breath"].reason.id == "breath.rest_whole"
+    assert before(plan(with_rest(Q)), "1:2")["breath"].reason.id == "breath.last_beat"
+    assert set(before(plan(with_rest(2 * Q - 1)), "1:2")) == {"breath"}
+    assert set(before(plan(with_rest(2 * Q)), "1:2")) == {"breath", "preparation"}
+
+
+def test_a_tempo_change_inside_the_rest_moves_seconds_not_beats() -> None:
+    # The rest is beats 5 to 8; from beat 7 on the tempo halves.
+    clock = PlainClock(((0, 120.0), (7 * Q, 60.0)))
+    events = before(plan(with_rest(3 * Q), clock), "1:2")
+    assert (events["preparation"].start_s, events["preparation"].end_s) == pytest.approx((3.0, 3.5))
+    assert (events["breath"].start_s, events["breath"].end_s) == pytest.approx((3.5, 4.5))
+
+
+def test_a_felt_beat_replaces_the_quarter() -> None:
+    # A dotted quarter in a fast 6/8: 2 quarters of rest are 1.33 felt beats, so there is no preparation.
+    events = before(plan(with_rest(2 * Q), felt=3 * Q // 2), "1:2")
+    assert set(events) == {"breath"}
+    assert events["breath"].start_tick == 7 * Q - 3 * Q // 2
+
+
+def test_thresholds_are_the_players() -> None:
+    rest = with_rest(Q)
+    assert before(plan(rest, breath_min_beats=1.5), "1:2") == {}
+    whole = before(plan(with_rest(3 * Q // 2), breath_last_beat_beats=1.6), "1:2")["breath"]
+    assert whole.start_tick == 5 * Q
+    assert whole.reason.id == "breath.rest_whole"
+    early = before(plan(with_rest(3 * Q // 2), breath_prepare_beats=1.5), "1:2")
+    assert (early["preparation"].start_tick, early["preparation"].end_tick) == (5 * Q, 5 * Q + Q // 2)
+
+
+def test_the_first_note_is_prepared_in_the_pre_roll() -> None:
+    events = before(plan(line_of((0, Q, 65))), "1:1")
+    assert (events["preparation"].start_s, events["preparation"].end_s) == (-1.0, -0.5)
+    assert (events["breath"].start_s, events["breath"].end_s) == (-0.5, 0.0)
+    assert events["breath"].reason.id == "breath.first"
+
+
+def test_a_short_pre_roll_has_no_room_to_prepare() -> None:
+    # One beat at 30 beats/min is 2 s: all there is.
+    events = before(plan(line_of((0, Q, 65)), PlainClock(((0, 30.0),)), preroll=1.0), "1:1")
+    assert set(events) == {"breath"}
+    assert events["breath"].start_s == -2.0
+
+
+def test_no_catch_breath_where_the_air_lasts() -> None:
+    plan_ = plan(even([65] * 16, Q))
+    assert len(plan_.breaths) == 2
+    assert plan_.problems == ()
+
+
+def test_a_catch_breath_is_taken_at_the_best_phrase_end() -> None:
+    # 14 s without a rest; a half note stands before the bar line at beat 16 (tick 7680).
+    notes = line_of(
+        *((index * Q, Q, 65 + index % 3) for index in range(14)),
+        (14 * Q, 2 * Q, 65),
+        *((index * Q, Q, 72 + index % 3) for index in range(16, 28)),
+    )
+    plan_ = plan(notes)
+    (catch,) = [event for event in plan_.breaths if event.reason.id == "breath.catch"]
+    assert catch.end_tick == 16 * Q
+    assert catch.end_s == pytest.approx(8.0)
+    length_s = catch.end_s - catch.start_s
+    assert CATCH_MIN_S <= length_s <= min(CATCH_MAX_S, CATCH_NOTE_SHARE * 1.0) + 1e-9
+    assert catch.reason.arguments["after_note"] == "1:15"
+    assert catch.reason.arguments["from_note_ms"] == round(length_s * 1000)
+    # The lips leave with the breath; the fingers and the sounding note stay.
+    assert plan_.embouchures[14].end_s == pytest.approx(catch.start_s)
+    assert plan_.fingerings[14].end_tick == 16 * Q
+    assert plan_.problems == ()
+
+
+def test_a_short_silence_serves_a_catch_breath_before_any_note_is_cut() -> None:
+    # A quarter of a beat at 60 is 0.25 s: less than the rest thresholds, enough for a catch breath.
+    notes = line_of(*((index * Q, Q - (Q // 4 if index == 8 else 0), 65) for index in range(13)))
+    plan_ = plan(notes, PlainClock(((0, 60.0),)))
+    catches = [event for event in plan_.breaths if event.reason.id == "breath.catch"]
+    assert [event.end_tick for event in catches] == [9 * Q]
+    assert catches[0].start_s == pytest.approx(8.75)
+    assert catches[0].reason.arguments["from_note_ms"] == 0
+
+
+def test_a_phrase_longer_than_a_lungful_is_flagged() -> None:
+    # 20 s of 16ths: no note is long enough to breathe out of.
+    plan_ = plan(even([65, 67] * 80, Q // 4))
+    (problem,) = plan_.problems
+    assert problem.message.id == "breath.too_long"
+    assert problem.note_id == "1:1"
+    assert problem.message.arguments["phrase_s"] == 20.0
+
+
+def test_loud_playing_needs_more_breaths_and_big_lungs_fewer() -> None:
+    notes = even([65] * 60, Q)
+    loud = tuple(PlainNote(note.id, note.onset_tick, note.duration_tick, note.pitch, 127) for note in notes[:-1])
+    loud += (PlainNote("1:60", 59 * Q, Q, 65, 126),)
+
+    def count(notes_: tuple[PlainNote, ...], **parameters: object) -> int:
+        return len(plan(notes_, **parameters).breaths)  # type: ignore[arg-type]
+
+    assert count(loud) > count(notes) > count(notes, lung_s=14.0)
+
+
+def test_players_of_one_part_breathe_in_different_places() -> None:
+    notes = even([65 + index % 5 for index in range(60)], Q)
+    twin = tuple(PlainNote(f"2:{index + 1}", n.onset_tick, n.duration_tick, n.pitch) for index, n in enumerate(notes))
+    clock = PlainClock()
+    lines = (Line("a", notes, valves()), Line("b", twin, valves()))
+    plans = make_plans(Piece(clock, METRE), lines, time_frame(lines, clock))
+    places = [{event.end_tick for event in plans[name].breaths if event.reason.id == "breath.catch"} for name in "ab"]
+    assert places[0]
+    assert places[1]
+    assert places[0].isdisjoint(places[1])
+
+
+def test_depth_grows_with_the_phrase_and_is_limited_by_time() -> None:
+    short = plan(line_of((0, Q, 65))).breaths[-1]
+    long = plan(even([65] * 16, Q)).breaths[-1]
+    hurried = before(plan(with_rest(Q // 2), PlainClock(((0, 200.0),))), "1:2")["breath"]
+    assert 0.0 < short.depth < long.depth <= 1.0
+    assert hurried.depth <= 0.3 + 1e-9

@@ -1,0 +1,80 @@
+"""Who leads, when the nod comes, and after which rests."""
+
+from __future__ import annotations
+
+import pytest
+
+from app.plan.generate import Line, Piece, make_plans, time_frame
+from app.plan.model import CueEvent, PlayerParameters
+from tests.support.plan import PlainClock, PlainMetre, line_of, slide, valves
+
+Q = 480
+HIGH = Line("high", line_of((0, 4 * Q, 72), (16 * Q, Q, 70), track=1), valves())
+LOW = Line("low", line_of((0, 4 * Q, 60), (16 * Q, Q, 75), track=2), valves())
+LATE = Line("late", line_of((2 * Q, 2 * Q, 50), (16 * Q, Q, 50), track=3), slide())
+
+
+def cues(
+    *lines: Line, clock: PlainClock | None = None, felt: int | None = None, preroll: float = 4.0
+) -> list[CueEvent]:
+    clock = clock or PlainClock()
+    piece = Piece(clock, (PlainMetre(0, 4, 4),), felt)
+    plans = make_plans(piece, lines, time_frame(lines, clock, preroll, felt))
+    found = [cue for plan in plans.values() for cue in plan.cues]
+    for name, plan in plans.items():
+        assert all(cue.player_id == name for cue in plan.cues)
+    return sorted(found, key=lambda cue: cue.start_s)
+
+
+def led(line: Line, leads: bool) -> Line:
+    return Line(line.player_id, line.notes, line.instrument_map, PlayerParameters(cue_leader=leads))
+
+
+def test_the_highest_part_that_enters_leads_each_entry() -> None:
+    first, second = cues(LOW, HIGH, LATE)
+    assert (first.player_id, first.id) == ("high", "cue:1:1")
+    assert (second.player_id, second.id) == ("low", "cue:2:2")
+    assert first.reason.id == "cue.start"
+    assert second.reason.id == "cue.after_rest"
+    assert second.reason.arguments["rest_s"] == 6.0
+
+
+def test_the_preparatory_beat_is_one_beat_before_the_entry() -> None:
+    first, _ = cues(HIGH)
+    assert (first.start_s, first.peak_s, first.end_s, first.beat_s) == (-0.75, -0.5, 0.0, 0.5)
+    assert (first.start_tick, first.end_tick) == (-720, 0)
+    slow, _ = cues(HIGH, clock=PlainClock(((0, 60.0),)))
+    assert slow.beat_s == 1.0
+    felt, _ = cues(HIGH, felt=3 * Q // 2)
+    assert felt.peak_s == -0.75
+
+
+def test_the_beat_is_the_tempo_at_the_entry() -> None:
+    _, second = cues(HIGH, clock=PlainClock(((0, 120.0), (10 * Q, 60.0))))
+    assert second.beat_s == pytest.approx(1.0)
+    assert second.peak_s == pytest.approx(10.0)
+
+
+def test_a_chosen_leader_gives_every_entry() -> None:
+    found = cues(HIGH, led(LOW, True), LATE)
+    assert [cue.player_id for cue in found] == ["low", "low"]
+    assert found[0].reason.arguments["leader_reason"] == "chosen"
+    found = cues(HIGH, LOW, led(LATE, True))
+    assert [cue.id for cue in found] == ["cue:@0", "cue:3:2"]
+
+
+def test_who_must_not_lead_does_not() -> None:
+    assert [cue.player_id for cue in cues(led(HIGH, False), LOW)] == ["low", "low"]
+    assert cues(led(HIGH, False)) == []
+
+
+@pytest.mark.parametrize(("rest_beats", "bpm", "expected"), [(7, 120.0, 1), (8, 120.0, 2), (4, 60.0, 2), (3, 60.0, 1)])
+def test_only_long_common_rests_need_a_new_start(rest_beats: int, bpm: float, expected: int) -> None:
+    line = Line("p", line_of((0, 4 * Q, 65), ((4 + rest_beats) * Q, Q, 65)), valves())
+    assert len(cues(line, clock=PlainClock(((0, bpm),)))) == expected
+    holding = Line("q", line_of((0, 40 * Q, 60), track=2), valves())
+    assert len(cues(line, holding, clock=PlainClock(((0, bpm),)))) == 1
+
+
+def test_no_notes_no_cue() -> None:
+    assert cues(Line("p", (), valves())) == []

@@ -1,0 +1,148 @@
+"""Fingerings: the thesis's table, the search against what players do, corrections, and flags."""
+
+from __future__ import annotations
+
+import pytest
+
+from app.plan.fingering import PHRASE_SILENCE_S, plan_fingerings, trill_steps
+from app.plan.generate import Line
+from app.plan.line import line_times
+from app.plan.model import FingeringEvent, Problem
+from instrument_maps.load import bundled_maps
+from instrument_maps.model import InstrumentMap
+from tests.support.plan import PlainClock, PlainNote, even, line_of, slide, valves
+
+TRUMPET = bundled_maps()["trumpet_Bb"]
+TROMBONE = bundled_maps()["trombone_tenor_F_attachment"]
+
+# Table 3.1 of the 2018 thesis: concert pitch, valves, slide position.
+TABLE_3_1 = [
+    (0x39, "2", "2"),
+    (0x3B, "123", "4"),
+    (0x3C, "13", "3"),
+    (0x3E, "12", "1"),
+    (0x40, "2", "2"),
+    (0x41, "0", "1"),
+    (0x43, "12", "2"),
+    (0x45, "2", "2"),
+]
+
+
+def plan(
+    notes: tuple[PlainNote, ...], instrument: InstrumentMap, pins: dict[str, str] | None = None, bpm: float = 120.0
+) -> tuple[tuple[FingeringEvent, ...], tuple[Problem, ...]]:
+    times = line_times(Line("p", notes, instrument), PlainClock(((0, bpm),)))
+    return plan_fingerings(notes, times, instrument, pins or {})
+
+
+def labels(notes: tuple[PlainNote, ...], instrument: InstrumentMap, **more: object) -> list[str]:
+    return [event.label for event in plan(notes, instrument, **more)[0]]  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(("pitch", "valve_label", "slide_label"), TABLE_3_1)
+def test_a_single_note_is_played_as_table_3_1_says(pitch: int, valve_label: str, slide_label: str) -> None:
+    notes = line_of((0, 480, pitch))
+    assert labels(notes, TRUMPET) == [valve_label]
+    assert labels(notes, TROMBONE) == [slide_label]
+
+
+def test_a_slow_scale_keeps_first_choices() -> None:
+    scale = list(range(52, 88))
+    assert {event.rank for event in plan(even(scale, 240), TRUMPET)[0]} == {1}
+    slow = list(range(36, 78))
+    assert {event.rank for event in plan(even(slow, 960), TROMBONE)[0]} == {1}
+
+
+def test_a_trill_shares_valves() -> None:
+    # 66 is 23 and 68 is 1: three fingers a step; 68 on 123 leaves one.
+    notes = even([66, 68] * 6, 120, start_tick=480)
+    events, _ = plan(notes, TRUMPET, bpm=150.0)
+    assert [event.label for event in events[2:-2]] == ["23", "123"] * 4
+    assert events[3].reason.id == "fingering.trill"
+    slow, _ = plan(even([66, 68] * 6, 480), TRUMPET)
+    assert {event.rank for event in slow} == {1}
+
+
+def test_alternating_thirds_are_no_trill() -> None:
+    times = line_times(Line("p", even([60, 64] * 6, 100), TRUMPET), PlainClock())
+    assert not trill_steps(times).any()
+    times = line_times(Line("p", even([60, 62] * 6, 100), TRUMPET), PlainClock())
+    assert trill_steps(times).all()
+    times = line_times(Line("p", even([60, 62, 64, 65, 67], 100), TRUMPET), PlainClock())
+    assert not trill_steps(times).any()
+
+
+def test_the_slide_takes_the_attachment_where_six_is_too_far() -> None:
+    # F 2 is 6, B flat 2 is 1: 0.46 m, 185 ms at 2.5 m/s; an eighth at 180 leaves 83 ms.
+    notes = even([46, 41, 46, 41, 46], 240)
+    assert labels(notes, TROMBONE, bpm=180.0) == ["1", "T1", "1", "T1", "1"]
+    assert labels(notes, TROMBONE, bpm=60.0) == ["1", "6", "1", "6", "1"]
+
+
+def test_a_slide_that_cannot_arrive_is_flagged_with_what_it_needs() -> None:
+    notes = even([40, 46], 120)
+    events, problems = plan(notes, slide(), {"1:1": "7", "1:2": "1"}, bpm=180.0)
+    assert [event.label for event in events] == ["7", "1"]
+    (problem,) = problems
+    assert problem.message.id == "fingering.starts_early"
+    assert problem.note_id == "1:2"
+    needed = events[0].controls["slide"] * 0.62 / 2.5
+    assert problem.message.arguments["needed_ms"] == round(needed * 1000)
+    assert problem.message.arguments["available_ms"] == round(0.5 * (60 / 180 / 4) * 1000)
+    assert problem.end_s - problem.start_s == pytest.approx(needed)
+
+
+def test_a_rest_before_the_note_gives_the_slide_time() -> None:
+    tight = line_of((0, 240, 46), (240, 240, 41))
+    free = line_of((0, 240, 46), (480, 240, 41))
+    assert labels(tight, TROMBONE, bpm=180.0)[1] == "T1"
+    assert labels(free, TROMBONE, bpm=180.0)[1] == "6"
+
+
+def test_intonation_controls_are_set_only_on_held_notes_of_their_fingerings() -> None:
+    # 60 is 13 (third slide), 62 is 12 (first slide), 65 is open.
+    events, _ = plan(line_of((0, 960, 60), (960, 960, 62), (1920, 960, 65), (2880, 120, 60)), TRUMPET)
+    assert set(events[0].controls) == {"valve_1", "valve_3", "third_slide"}
+    assert set(events[1].controls) == {"valve_1", "valve_2", "first_slide"}
+    assert events[2].controls == {}
+    assert set(events[3].controls) == {"valve_1", "valve_3"}
+
+
+def test_the_slide_place_includes_the_partials_intonation() -> None:
+    events, _ = plan(line_of((0, 480, 67), (480, 480, 69)), TROMBONE)
+    g4, a4 = (event.controls["slide"] * 0.62 for event in events)
+    assert [event.label for event in events] == ["2", "2"]
+    assert a4 - g4 == pytest.approx(0.026, abs=0.002)
+
+
+def test_a_note_out_of_range_is_flagged_and_played_an_octave_off() -> None:
+    events, problems = plan(line_of((0, 480, 40), (480, 480, 60)), TRUMPET)
+    assert events[0].label == TRUMPET.fingerings_for(52)[0].label
+    assert [problem.message.id for problem in problems] == ["fingering.out_of_range"]
+    assert problems[0].message.arguments == {"note": "1:1", "pitch": 40, "low": 52, "high": 87, "played_pitch": 52}
+
+
+def test_a_pin_wins_and_the_search_solves_around_it() -> None:
+    notes = even([46, 41, 46, 41, 46], 240)
+    events, problems = plan(notes, TROMBONE, {"1:2": "6"}, bpm=180.0)
+    assert events[1].label == "6"
+    assert events[1].corrected
+    assert events[1].reason.id == "fingering.by_hand"
+    assert events[3].label == "T1"
+    assert not events[3].corrected
+    assert {problem.note_id for problem in problems} == {"1:2", "1:3"}
+
+
+def test_a_pin_that_is_no_fingering_of_its_note_is_reported() -> None:
+    events, problems = plan(line_of((0, 480, 65)), TRUMPET, {"1:1": "2"})
+    assert events[0].label == "0"
+    assert not events[0].corrected
+    assert problems[0].message.id == "correction.no_such_fingering"
+
+
+def test_events_carry_their_notes_times_and_ids() -> None:
+    events, _ = plan(line_of((480, 480, 65), (900, 480, 67)), valves())
+    assert [event.id for event in events] == ["fingering:1:1", "fingering:1:2"]
+    assert (events[0].start_tick, events[0].end_tick) == (480, 900)
+    assert events[0].end_s == events[1].start_s == pytest.approx(900 / 960)
+    assert PHRASE_SILENCE_S > 0
