@@ -23,6 +23,7 @@ from app.formats.fbx.scene import FbxBone, FbxClip, FbxMaterial, FbxMesh, FbxSce
 EULER_ORDER = "ZYX"
 
 _FIRST_ID = 1_000_000
+_BESIDE_CM = 5e-4
 # Linear keys. The bits beside "linear" (4) and the tangent data are those that every reader has met before.
 _KEY_FLAGS = np.array([0x6104], dtype=np.int32)
 _KEY_DATA = np.array([0.0, 0.0, 9.419963346924634e-30, 0.0], dtype=np.float32)
@@ -130,10 +131,10 @@ def _properties(*properties: Element) -> Element:
 def _add_skeleton_and_meshes(graph: _Graph, scene: FbxScene) -> None:
     for bone in scene.bones:
         _add_bone(graph, bone)
-    materials: dict[FbxMaterial, int] = {}
-    mesh_ids = [_add_mesh(graph, mesh, materials) for mesh in scene.meshes]
     if scene.meshes:
-        binds = scene.meshes[0].world_from_bone_bind
+        binds = _unconnected_binds(scene)
+        materials: dict[FbxMaterial, int] = {}
+        mesh_ids = [_add_mesh(graph, mesh, binds, materials) for mesh in scene.meshes]
         nodes = [_pose_node(graph.bone_ids[index], bind) for index, bind in enumerate(binds)]
         nodes = [_pose_node(mesh_id, np.eye(4)) for mesh_id in mesh_ids] + nodes
         header = (Element("Type", ("BindPose",)), _integer("Version", 100), _integer("NbPoseNodes", len(nodes)))
@@ -165,7 +166,24 @@ def _model(translation_cm: FloatArray, rotation_degrees: FloatArray) -> tuple[El
     )
 
 
-def _add_mesh(graph: _Graph, mesh: FbxMesh, materials: dict[FbxMaterial, int]) -> int:
+def _unconnected_binds(scene: FbxScene) -> npt.NDArray[np.float64]:
+    """Bind transforms (J, 4, 4) in which no bone that changes its place lies exactly on its parent's y axis.
+
+    Blender takes the child at the end of that axis for connected and then drops its location keys, so such a bone is
+    bound a hundredth of a millimetre beside it.
+    """
+    binds = np.array(scene.meshes[0].world_from_bone_bind, dtype=np.float64)
+    moving = scene.clip.translations_cm if scene.clip is not None else ()
+    for index, bone in enumerate(scene.bones):
+        if index in moving and bone.parent >= 0:
+            parent_axes = binds[bone.parent, :3, :3]
+            beside = parent_axes.T @ (binds[index, :3, 3] - binds[bone.parent, :3, 3])
+            if np.hypot(beside[0], beside[2]) < _BESIDE_CM:
+                binds[index, :3, 3] += parent_axes[:, 0] * _BESIDE_CM * (2 if beside[0] >= 0 else -2)
+    return binds
+
+
+def _add_mesh(graph: _Graph, mesh: FbxMesh, binds: npt.NDArray[np.float64], materials: dict[FbxMaterial, int]) -> int:
     model = graph.add("Model", mesh.name, "Model", "Mesh", _model(np.zeros(3), np.zeros(3)))
     graph.connect(model, 0)
     shape = graph.add("Geometry", mesh.name, "Geometry", "Mesh", geometry(mesh))
@@ -174,7 +192,7 @@ def _add_mesh(graph: _Graph, mesh: FbxMesh, materials: dict[FbxMaterial, int]) -
         if material not in materials:
             materials[material] = graph.add("Material", material.name, "Material", "", _material(material))
         graph.connect(materials[material], model)
-    _add_skin(graph, mesh, shape)
+    _add_skin(graph, mesh, shape, binds)
     if mesh.morphs:
         _add_morphs(graph, mesh, shape)
     return model
@@ -208,12 +226,12 @@ def _material(material: FbxMaterial) -> tuple[Element, ...]:
     )
 
 
-def _add_skin(graph: _Graph, mesh: FbxMesh, shape: int) -> None:
+def _add_skin(graph: _Graph, mesh: FbxMesh, shape: int, binds: npt.NDArray[np.float64]) -> None:
     skin_children = (_integer("Version", 101), Element("Link_DeformAcuracy", (50.0,)))
     skin = graph.add("Deformer", mesh.name, "Deformer", "Skin", skin_children)
     graph.connect(skin, shape)
     for bone, indices, weights in skin_clusters(mesh):
-        bind = np.asarray(mesh.world_from_bone_bind[bone], dtype=np.float64)
+        bind = binds[bone]
         children = (
             _integer("Version", 100),
             Element("UserData", ("", "")),
