@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import argparse
 import os
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -15,14 +16,16 @@ from pathlib import Path
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 
 import numpy as np
-from character_body import mouth_surfaces, visible_body
+from character_body import ear_vertices, mouth_surfaces, visible_body
 from character_face import brows, eyes, lashes
 from character_garments import measure, shirt, trousers
 from character_glb import Material, write_character
+from character_hair import bun_hair, short_hair
 from character_landmarks import landmarks
-from character_skeleton import FINGERS, fit_skeleton
+from character_skeleton import FINGERS, SkeletonFit, fit_skeleton
 from character_shoes import shoes, soles
 from character_source import Phenotype, Source, load_model, load_source
+from character_surface import Surface
 
 CHARACTERS_FOLDER = Path(__file__).resolve().parent.parent / "characters"
 
@@ -59,6 +62,7 @@ class Character:
     phenotype: Phenotype
     materials: dict[str, Material]
     brow_thickness: float
+    hair: Callable[[Source, SkeletonFit, np.ndarray], Surface]
 
 
 def _materials(skin: tuple[float, float, float], lips: tuple[float, float, float], hair: tuple[float, float, float]) -> dict[str, Material]:
@@ -75,6 +79,7 @@ def _materials(skin: tuple[float, float, float], lips: tuple[float, float, float
         "gums": Material((0.42, 0.12, 0.11), 0.4),
         "tongue": Material((0.42, 0.13, 0.13), 0.45),
         "hair": Material(hair, 0.6, two_sided=True),
+        "hair_light": Material(tuple(1.7 * channel for channel in hair), 0.5, two_sided=True),
         "brows": Material(hair, 0.8, two_sided=True),
         "lashes": Material((0.01, 0.008, 0.007), 0.7, two_sided=True),
         "shirt": Material((0.75, 0.75, 0.74), 0.8, two_sided=True),
@@ -107,6 +112,7 @@ CHARACTERS = (
         ),
         _materials((0.61, 0.36, 0.25), (0.47, 0.17, 0.15), (0.035, 0.016, 0.008)),
         brow_thickness=0.7,
+        hair=bun_hair,
     ),
     Character(
         "man_adult",
@@ -129,6 +135,7 @@ CHARACTERS = (
         ),
         _materials((0.53, 0.30, 0.20), (0.40, 0.17, 0.14), (0.018, 0.010, 0.006)),
         brow_thickness=1.1,
+        hair=short_hair,
     ),
 )
 
@@ -148,7 +155,8 @@ def build(character: Character, source: Source, path: Path) -> None:
     body = visible_body(source, fit, tailoring)
     footwear = shoes(tailoring, fit)
     face = (*mouth_surfaces(source, fit), eyes(source, fit), brows(source, fit, character.brow_thickness), lashes(source, fit))
-    surfaces = [body, *face, shirt(tailoring, fit), trousers(tailoring, fit), footwear]
+    hair = character.hair(source, fit, ear_vertices(source))
+    surfaces = [body, *face, hair, shirt(tailoring, fit), trousers(tailoring, fit), footwear]
     floor = min(float(fit.to_t_pose(surface.positions, surface.weights)[:, 1].min()) for surface in surfaces)
     positions = fit.positions_t - np.array([0.0, floor, 0.0])
     fit = replace(fit, positions_t=positions)

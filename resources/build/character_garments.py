@@ -72,7 +72,7 @@ def measure(source: Source, fit: SkeletonFit) -> Tailoring:
     middle = suit.points[np.abs(suit.points[:, 0]) < 0.01]
     crotch = float(middle[middle[:, 1] > joint["leftUpperLeg"][1] * 0.7, 1].min())
     shoulder = joint["leftUpperArm"]
-    levels = np.arange(crotch + 0.005, shoulder[1], 0.01)
+    levels = np.arange(crotch - 0.06, shoulder[1], 0.01)
     centres = np.array(
         [[0.0, np.ptp(z) / 2 + z.min()] for z in (trunk_points[np.abs(trunk_points[:, 1] - y) < 0.02, 2] for y in levels)]
     )
@@ -195,14 +195,17 @@ def _front(cloth: Cloth) -> LinearNDInterpolator:
 
 
 def _neck_ring(tailoring: Tailoring, cloth: Cloth, height_m: float, angles: np.ndarray) -> np.ndarray:
-    """(N, 3) where the plane `height_m` above the collar's seam cuts a cloth, by angle about the neck (0 at the nape)."""
+    """(N, 3) where the plane `height_m` above the collar's seam cuts a cloth, by angle about the neck (0 at the nape; the last
+    angle is the first one, a turn later)."""
     neck = cut(cloth, np.maximum(height_m - above_collar(tailoring, cloth.points), np.abs(cloth.points[:, 0]) - NECK_HALF_WIDTH_M))
     ring = max((neck.points[loop] for loop in border_loops(neck.faces)), key=lambda points: points[:, 1].mean())
     middle = tailoring.collar_point + np.array([0.0, 0.0, 0.05])
     around = np.arctan2(ring[:, 0], middle[2] - ring[:, 2])
     order = np.argsort(around)
-    found = np.stack([np.interp(angles, around[order], ring[order, axis], period=2 * np.pi) for axis in range(3)], axis=1)
-    return gaussian_filter1d(found, 1.5, axis=0, mode="wrap")
+    once = angles[:-1]
+    found = np.stack([np.interp(once, around[order], ring[order, axis], period=2 * np.pi) for axis in range(3)], axis=1)
+    found = gaussian_filter1d(found, 1.5, axis=0, mode="wrap")
+    return np.concatenate([found, found[:1]])
 
 
 def _collar(tailoring: Tailoring, shirt: Cloth, front: LinearNDInterpolator) -> Cloth:
@@ -213,9 +216,9 @@ def _collar(tailoring: Tailoring, shirt: Cloth, front: LinearNDInterpolator) -> 
     outward = np.stack([np.sin(columns), np.zeros(73), -np.cos(columns)], axis=1)
     up = tailoring.collar_normal * 0.8 + np.array([0.0, 0.2, 0.05])
     throat = smoothstep(np.abs(columns), 0.62 * np.pi, np.pi)[:, None]
-    top = upper + outward * (0.004 + 0.002 * throat) + up * (0.006 - 0.006 * throat)
+    top = upper + outward * (0.004 + 0.005 * throat) + up * (0.006 - 0.006 * throat)
     rise = top - base
-    proud = outward * (0.001 + 0.003 * throat)
+    proud = outward * (0.001 + 0.006 * throat)
     rows = [base - up * 0.008 - outward * 0.001, base + proud, base + rise * 0.5 + proud, top]
     rows += [top + up * 0.0025 + outward * 0.0025, top + outward * 0.0055]
     length = 0.040 + 0.034 * throat
@@ -304,21 +307,23 @@ def trousers(tailoring: Tailoring, fit: SkeletonFit) -> Surface:
     """Straight-cut trousers with a waistband and a belt."""
     suit = tailoring.suit
     points = suit.points
-    angle, _, _ = tailoring.trunk.polar(points[:, 1], points[:, [0, 2]])
-    drape = smoothed(hang(tailoring.trunk, 0.5), 2.0, 1.5)
-    share = smoothstep(points[:, 1], tailoring.crotch_m + 0.01, tailoring.crotch_m + 0.08) * (tailoring.arm < 0.3)
-    moved = _move_out(points, drape, (1, 0, 2), drape.radius_at(points[:, 1], angle) + 0.007, share)
+    drape = smoothed(hang(tailoring.trunk, 0.4), 2.0, 1.5)
+    angle, radius, _ = drape.polar(points[:, 1], points[:, [0, 2]])
+    target = drape.radius_at(points[:, 1], angle) + 0.007
+    # Only the outside of the seat: what lies between the legs stays there.
+    share = smoothstep(points[:, 1], tailoring.crotch_m - 0.04, tailoring.crotch_m + 0.04) * (tailoring.arm < 0.3)
+    moved = _move_out(points, drape, (1, 0, 2), target, share * smoothstep(radius / target, 0.45, 0.8))
     joint = fit.positions_t[fit.index("leftUpperLeg")]
     for sign in (1.0, -1.0):
         own = (points[:, 0] * sign > 0) & (points[:, 1] < tailoring.crotch_m + 0.02)
-        leg = points[own] * np.array([sign, 1.0, 1.0])
-        profile = _leg_drape(tailoring, leg, joint)
+        leg = moved[own] * np.array([sign, 1.0, 1.0])
+        profile = _leg_drape(tailoring, points[own] * np.array([sign, 1.0, 1.0]), joint)
         leg_angle, _, _ = profile.polar(leg[:, 1], leg[:, [0, 2]])
         low = 1 - smoothstep(leg[:, 1], tailoring.foot_m + 0.09, tailoring.foot_m + 0.22)
         knee = np.exp(-(((leg[:, 1] - tailoring.knee_m) / 0.10) ** 2))
-        crease = folds(leg[:, 1], leg_angle, 0.07, seed=31 if sign > 0 else 32) * (0.0025 * low + 0.0012 * knee)
+        crease = folds(leg[:, 1], leg_angle, 0.07, seed=31 if sign > 0 else 32) * (0.0014 * low + 0.0012 * knee)
         target = profile.radius_at(leg[:, 1], leg_angle) + 0.007 + crease
-        share = 1 - smoothstep(leg[:, 1], tailoring.crotch_m - 0.01, tailoring.crotch_m + 0.02)
+        share = 1 - smoothstep(leg[:, 1], tailoring.crotch_m - 0.03, tailoring.crotch_m + 0.015)
         draped = _move_out(leg, profile, (1, 0, 2), target, share)
         draped[:, 0] = np.maximum(draped[:, 0], np.minimum(leg[:, 0], 0.003))
         moved[own] = draped * np.array([sign, 1.0, 1.0])
@@ -333,11 +338,11 @@ def trousers(tailoring: Tailoring, fit: SkeletonFit) -> Surface:
     cloth = cut(cloth, tailoring.belt_m - 0.005 - cloth.points[:, 1])
     cloth = cut(cloth, cloth.points[:, 1] - (tailoring.foot_m + 0.115))
     # The hem is let down to the shoe from where the ankle was cut off, a little lower behind.
-    top, cut_m, hem_m = tailoring.knee_m, tailoring.foot_m + 0.115, tailoring.foot_m + 0.028
+    top, cut_m, hem_m = tailoring.knee_m, tailoring.foot_m + 0.115, tailoring.foot_m + 0.046
     points = cloth.points.copy()
     low = points[:, 1] < top
     reach = (top - points[low, 1]) / (top - cut_m)
-    slope = 0.08 * (points[low, 2] - joint[2]) * smoothstep(reach, 0.7, 1.0)
+    slope = 0.16 * (points[low, 2] - joint[2]) * smoothstep(reach, 0.7, 1.0)
     points[low, 1] = top - reach * (top - hem_m) + slope
     cloth = replace(cloth, points=points)
     belt = tailoring.belt_m

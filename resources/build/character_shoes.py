@@ -26,7 +26,7 @@ SOLE_M = 0.018
 
 
 TOE_ROOM_M = 0.012
-TOP_LINE_M = 0.082
+TOP_LINE_M = 0.074
 
 
 def _upper(tailoring: Tailoring, foot: Cloth) -> Cloth:
