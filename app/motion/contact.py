@@ -24,14 +24,14 @@ X_AXIS, Y_AXIS, Z_AXIS = np.eye(3)
 
 CLEAR_M = 0.05
 """On its way down and up the instrument swings ahead by this much, clear of the chin."""
-AT_EASE = 0.965
+AT_EASE = 0.975
 """Share of its length an arm reaches without help from the shoulder."""
 EASE_M = 0.008
 """The shoulder's help sets in over about this distance."""
 LEAST_LEVER_M = 0.05
-CLAVICLE_RAD = float(np.deg2rad(24.0))
+CLAVICLE_RAD = float(np.deg2rad(27.0))
 """Most the shoulder comes towards a far hand."""
-TURN_RAD = float(np.deg2rad(24.0))
+TURN_RAD = float(np.deg2rad(42.0))
 """Most the trunk turns for a far hand."""
 
 

@@ -1,0 +1,57 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from app.motion.body import bobbing, follow, lowering, lungs
+from app.plan.model import GestureEvent
+from tests.unit.motion.events import REASON, TICKS, breath
+
+
+def gesture(kind: str, start_s: float, end_s: float, amount: float = 1.0) -> GestureEvent:
+    ticks = round(start_s * 2 * TICKS), round(end_s * 2 * TICKS)
+    return GestureEvent(f"{kind}{start_s}", kind, *ticks, start_s, end_s, amount, REASON)  # type: ignore[arg-type]
+
+
+def test_a_sway_is_where_it_goes_at_its_end() -> None:
+    swings = [gesture("sway", float(i), float(i + 1), amount) for i, amount in enumerate([0.8, -0.5, 0.3])]
+    values = follow(swings, "sway").sample(np.array([-1.0, 0.0, 1.0, 2.0, 3.0, 9.0]))
+    np.testing.assert_allclose(values, [0.0, 0.0, 0.8, -0.5, 0.3, 0.0], atol=1e-12)
+
+
+def test_a_weight_shift_goes_over_in_its_transition_and_stays() -> None:
+    shifts = [gesture("weight_shift", 1.0, 5.0, 1.0), gesture("weight_shift", 5.0, 9.0, -1.0)]
+    values = follow(shifts, "weight_shift", 1.2).sample(np.array([1.0, 1.6, 2.2, 4.9, 5.0, 5.6, 6.2]))
+    np.testing.assert_allclose(values, [0.0, 0.5, 1.0, 1.0, 1.0, 0.0, -1.0], atol=1e-12)
+
+
+def test_nothing_planned_is_nothing_done() -> None:
+    times_s = np.linspace(0.0, 10.0, 50)
+    assert not follow((), "sway").sample(times_s).any()
+    assert not bobbing((), TICKS, times_s).any()
+    assert not lowering((), 1.0, 1.0).sample(times_s).any()
+    assert not lungs(())[0].sample(times_s).any()
+
+
+@pytest.mark.parametrize("beats", [1, 2, 4])
+def test_a_bob_is_lowest_and_accelerates_most_on_every_beat(beats) -> None:
+    beat_s = 0.5
+    swings = [gesture("sway", i * beats * beat_s, (i + 1) * beats * beat_s) for i in range(8)]
+    times_s = np.arange(0.0, 8 * beats * beat_s, 1e-3)
+    down = bobbing(swings, TICKS, times_s)
+    for beat in np.arange(1, 8 * beats - 2):
+        near = np.abs(times_s - beat * beat_s) < 0.24
+        assert times_s[near][down[near].argmax()] == pytest.approx(beat * beat_s, abs=0.02)
+
+
+def test_the_instrument_is_up_again_when_the_gesture_ends() -> None:
+    curve = lowering([gesture("lower_instrument", 2.0, 8.0), gesture("lower_instrument", 10.0, 11.0)], 1.1, 1.2)
+    values = curve.sample(np.array([2.0, 3.1, 5.0, 6.8, 8.0, 9.0, 10.0, 10.47, 11.0]))
+    np.testing.assert_allclose(values[[0, 1, 2, 3, 4, 5, 6, 8]], [0, 1, 1, 1, 0, 0, 0, 0], atol=1e-9)
+
+
+def test_the_lungs_fill_over_a_breath_and_empty_over_the_phrase() -> None:
+    full, lean = lungs((breath(0.0, 0.5, 0.4, "preparation"), breath(0.5, 1.0, 1.0), breath(6.0, 6.3, 0.2)))
+    values = full.sample(np.array([0.5, 0.97, 1.0, 4.0, 6.0, 6.28]))
+    np.testing.assert_allclose(values, [0.0, 1.0, 1.0, 0.0, 0.0, 0.6], atol=1e-9)
+    np.testing.assert_allclose(lean.sample(np.array([0.0, 0.5, 0.9])), [0.0, 1.0, 0.0], atol=1e-9)

@@ -1,0 +1,97 @@
+from __future__ import annotations
+
+import msgspec
+import numpy as np
+import pytest
+
+from app.errors import Message
+from app.motion.face import breath_opening, face_morphs
+from app.motion.gaze import ENTRY_GUARD_S, plan_gaze
+from app.plan.model import EmbouchureEvent, ExpressionEvent, PlayerParameters, PlayerPlan
+from metadata.load import load_body, load_expressions
+from metadata.model import ARKIT_MORPHS
+from tests.unit.motion.events import REASON, breath, cue, fingerings, plan_of
+
+TIMES_S = np.arange(-2.0, 60.0, 1 / 240)
+
+
+def plan(**changes: object) -> PlayerPlan:
+    rows = [(0.5 * i, 0.5 * i + 0.5, {}) for i in range(20)] + [
+        (14.0 + 0.2 * i, 14.2 + 0.2 * i, {}) for i in range(200)
+    ]
+    made = plan_of(fingerings(rows), breaths=(breath(-0.5, 0.0), breath(13.4, 14.0, 0.5)), cues=(cue(0.0), cue(14.0)))
+    return msgspec.structs.replace(made, **changes)
+
+
+def face(made: PlayerPlan, times_s: np.ndarray = TIMES_S, **parameters: float) -> dict[str, np.ndarray]:
+    settings = PlayerParameters(**parameters)
+    opening = breath_opening(made).sample(times_s)
+    return face_morphs(made, settings, load_body(), load_expressions(), plan_gaze(made, 0), opening, times_s)
+
+
+def embouchure(tension: float, effort: float = 0.0, air: float = 0.0) -> tuple[EmbouchureEvent, ...]:
+    return (EmbouchureEvent("e", "n", 0.0, 5.0, tension, effort, air, Message("x")),)
+
+
+def test_only_arkit_names_move_and_stay_within_0_and_1() -> None:
+    morphs = face(plan(), embouchure_tension=2.0)
+    assert set(morphs) <= set(ARKIT_MORPHS)
+    for values in morphs.values():
+        assert values.min() >= 0.0
+        assert values.max() <= 1.0
+
+
+def test_high_notes_are_tighter_than_low_ones() -> None:
+    body = load_body().embouchure
+    middle = np.array([2.5])
+    for tension in (0.0, 0.4, 1.0):
+        morphs = face(plan(embouchures=embouchure(tension), tongues=(), breaths=()), middle)
+        for name in set(body.relaxed) | set(body.tight):
+            expected = (1 - tension) * body.relaxed.get(name, 0.0) + tension * body.tight.get(name, 0.0)
+            assert morphs[name][0] == pytest.approx(min(expected, 1.0), abs=1e-12)
+
+
+def test_the_lips_are_formed_at_the_onset_and_let_go_in_a_long_rest() -> None:
+    morphs = face(plan(), np.array([-1.5, 0.0, 12.0, 14.0]))
+    lips = morphs["mouthPucker"] + morphs["mouthPressLeft"]
+    assert lips[[0, 2]].max() == 0.0
+    assert lips[[1, 3]].min() > 0.15
+
+
+def test_the_mouth_opens_in_a_breath_and_is_shut_at_its_end() -> None:
+    opening = breath_opening(plan())
+    np.testing.assert_array_equal(opening.sample(np.array([-0.5, 0.0, 13.4, 14.0, 20.0])), 0.0)
+    deep, shallow = opening.sample(np.array([-0.25, 13.7]))
+    assert deep > shallow > 0.5
+
+
+def test_no_morph_jumps() -> None:
+    for name, values in face(plan()).items():
+        most = 40.0 if name.startswith("eye") else 15.0  # lids shut in 80 ms
+        assert np.abs(np.diff(values)).max() * 240 < most, name
+
+
+def test_what_is_not_for_playing_does_not_show_while_playing() -> None:
+    smile = ExpressionEvent("x", "smile", 0, 0, 2.0, 13.0, 1.0, 0.2, 0.2, REASON)
+    strained = msgspec.structs.replace(smile, id="y", expression="strained")
+    morphs = face(plan(expressions=(smile, strained)), np.array([5.0, 12.0]))
+    assert morphs["mouthSmileLeft"][0] == 0.0
+    assert morphs["mouthSmileLeft"][1] > 0.4
+    assert morphs["browDownLeft"][0] == pytest.approx(load_expressions()["strained"].weights["browDownLeft"])
+
+
+def test_blinks_come_as_often_as_peoples_and_not_on_an_entry() -> None:
+    made = plan()
+    starts_s = np.concatenate([plan_gaze(made, seed).blinks.start_s for seed in range(30)])
+    per_minute = len(starts_s) / 30 / ((made.time_frame.end_s - made.time_frame.first_frame_s) / 60)
+    assert 8 < per_minute < 25
+    for entry_s in (0.0, 14.0):
+        assert not np.any((starts_s > entry_s - ENTRY_GUARD_S) & (starts_s < entry_s + ENTRY_GUARD_S))
+
+
+def test_eyes_rest_on_the_music_and_go_up_at_a_cue() -> None:
+    gaze = plan_gaze(plan(), 3)
+    pitch = gaze.pitch_rad.sample(TIMES_S)
+    playing = (TIMES_S > 1.0) & (TIMES_S < 10.0)
+    assert np.median(pitch[playing]) > 0.1
+    assert gaze.pitch_rad.sample(np.array([13.4]))[0] < 0.05
