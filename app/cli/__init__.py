@@ -10,10 +10,12 @@ import io
 import os
 import sys
 from collections.abc import Callable, Sequence
-from importlib.metadata import PackageNotFoundError, version
 
-from app.cli import export, inspect, instruments
+import app.cli.export
+import app.cli.inspect
+import app.cli.instruments
 from app.cli.messages import error_text
+from app.cli.version import program_version
 from app.errors import AppError, UsageError
 
 DONE, BAD_INPUT, BAD_USE = 0, 1, 2
@@ -31,14 +33,6 @@ examples:
 """
 
 
-def program_version() -> str:
-    """The installed version; the one in the making where nothing is installed."""
-    try:
-        return version("suisou")
-    except PackageNotFoundError:
-        return "0+checkout"
-
-
 def parser() -> argparse.ArgumentParser:
     """The whole command line."""
     top = argparse.ArgumentParser(
@@ -49,8 +43,9 @@ def parser() -> argparse.ArgumentParser:
     )
     top.add_argument("--version", action="version", version=f"suisou {program_version()}")
     commands = top.add_subparsers(title="commands", dest="command", metavar="COMMAND")
-    for module in (inspect, export, instruments):
-        module.add_command(commands)
+    app.cli.inspect.add_command(commands)
+    app.cli.export.add_command(commands)
+    app.cli.instruments.add_command(commands)
     return top
 
 

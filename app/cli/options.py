@@ -5,7 +5,15 @@ from __future__ import annotations
 import argparse
 import math
 from fractions import Fraction
+from pathlib import Path
 from typing import TypeAlias
+
+from app.plan.generate import PREROLL_BEATS, PREROLL_LEAST_S
+from app.project.model import Project, project_from_score, with_settings
+from app.project.parameters import parameter_names, parse_settings
+from app.rig.character import characters
+from app.score.read import read_midi
+from instrument_maps.load import bundled_maps
 
 Commands: TypeAlias = "argparse._SubParsersAction[argparse.ArgumentParser]"
 """Where a sub-command declares itself."""
@@ -64,3 +72,37 @@ def beats(text: str) -> float:
     if not 0.0 <= number <= 64.0:
         raise argparse.ArgumentTypeError(f"{text!r} is not a number of beats from 0 to 64")
     return number
+
+
+def add_source_options(command: argparse.ArgumentParser) -> None:
+    """Declare the file and everything that decides what its players do."""
+    command.add_argument("file", type=Path, metavar="FILE", help="a Standard MIDI File")
+    command.add_argument(
+        "--set",
+        dest="settings",
+        action="append",
+        default=[],
+        metavar='"PLAYER.parameter=value"',
+        help=f"set a player's parameter; PLAYER may be a pattern such as '*'; repeatable. "
+        f"Parameters: {', '.join(parameter_names())}",
+    )
+    command.add_argument("--seed", type=whole_number, default=0, metavar="N", help="another performance (default 0)")
+    command.add_argument(
+        "--preroll",
+        type=beats,
+        default=PREROLL_BEATS,
+        metavar="BEATS",
+        help=f"beats before the first note, at least {PREROLL_LEAST_S:g} s (default {PREROLL_BEATS:g})",
+    )
+    command.add_argument("--encoding", metavar="NAME", help="of the file's texts (default: UTF-8, CP932 or Latin-1)")
+
+
+def open_project(arguments: argparse.Namespace) -> Project:
+    """Read the file and cast its players as the options say. Raises the errors of both."""
+    maps = bundled_maps()
+    score = read_midi(arguments.file, arguments.encoding, maps)
+    project = project_from_score(score, maps, seed=arguments.seed, preroll_beats=arguments.preroll)
+    settings = parse_settings(
+        arguments.settings, [player.name for player in project.players], maps, tuple(characters())
+    )
+    return with_settings(project, settings)

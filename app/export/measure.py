@@ -7,7 +7,7 @@ are) are known beside the files.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
@@ -138,6 +138,7 @@ def measure_player(
     body: Body,
     profile: SkeletonProfile,
     first_frame_s: float,
+    progress: Callable[[float], None] = lambda share: None,
 ) -> Measured:
     """Measure what was read back of one player's two files.
 
@@ -154,6 +155,8 @@ def measure_player(
         Human ranges, and the axes they are about.
     first_frame_s : float
         Time of the file's first frame.
+    progress : callable
+        Told the share 0..1 that is done; what it raises stops the work.
     """
     if player_scene.clip is None or instrument_scene.clip is None:
         raise ValueError("a file without a clip cannot be measured")
@@ -163,7 +166,7 @@ def measure_player(
     times_s = first_frame_s + np.arange(player.clip.frames) / float(fps)
     notes = [note for note in plan.fingerings if note.end_s > times_s[0] and note.start_s <= times_s[-1]]
     sounding = _within(times_s, [(note.start_s, note.end_s) for note in notes])
-    traces = _trace(player, held, character, instrument, sounding)
+    traces = _trace(player, held, character, instrument, sounding, progress)
     values = control_values(instrument, held)
     rotations = player.rotations(0, player.clip.frames)
     judge = ControlJudge(times_s, float(fps), first_frame_s, notes)
@@ -299,7 +302,12 @@ def sway_correlations(players: Mapping[str, FloatArray]) -> dict[str, float]:
 
 
 def _trace(
-    player: Playback, held: Playback, character: Character, instrument: InstrumentMap, sounding: BoolArray
+    player: Playback,
+    held: Playback,
+    character: Character,
+    instrument: InstrumentMap,
+    sounding: BoolArray,
+    progress: Callable[[float], None],
 ) -> _Traces:
     """One walk over all frames, a chunk at a time."""
     frames = player.clip.frames
@@ -334,6 +342,7 @@ def _trace(
                 depth_m[span] = np.maximum(
                     depth_m[span], part.depths_m(world, {name: nodes[name][span] for name in nodes}, first, last)
                 )
+        progress(last / frames)
     return _Traces(landmarks, nodes, torso, deviation_m, depth_m)
 
 

@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from app.export.playback import Playback, Surface
-from app.export.proxy import signed_distance
+from app.export.proxy import bounding_ball, signed_distance
 from app.formats.fbx.scene import FbxMesh
 from instrument_maps.model import Proxy
 
@@ -51,7 +51,9 @@ class Hands:
 
     def __init__(self, playback: Playback, mesh: FbxMesh, vertices: IntArray, proxy: Sequence[Proxy]) -> None:
         self._surface = Surface(playback, mesh, vertices)
-        self._proxy = tuple(proxy)
+        self._by_node: dict[str, list[tuple[Proxy, FloatArray, float]]] = {}
+        for body in proxy:
+            self._by_node.setdefault(body.node, []).append((body, *bounding_ball(body)))
         positions_m = np.asarray(mesh.vertices_cm, np.float64)[vertices] / 100.0
         strongest = np.asarray(mesh.joint_indices)[vertices, np.argmax(mesh.weights[vertices], axis=1)]
         self._groups = [
@@ -83,13 +85,22 @@ class Hands:
         node_from_world = {name: np.linalg.inv(matrix) for name, matrix in nodes.items()}
         near: dict[int, list[tuple[Proxy, npt.NDArray[np.bool_]]]] = {}
         radii = np.array([group.radius_m for group in self._groups])
-        for body in self._proxy:
-            distance = signed_distance(body, _moved(node_from_world[body.node], middles)) - radii
-            for index in np.flatnonzero((distance < 0.0).any(axis=0)).tolist():
-                near.setdefault(index, []).append((body, distance[:, index] < 0.0))
-        for index, bodies in near.items():
+        for node, bodies in self._by_node.items():
+            local = _moved(node_from_world[node], middles)
+            for body, sphere_m, sphere_radius_m in bodies:
+                # A ball around the body first: most groups are nowhere near most bodies.
+                reach_m = radii + sphere_radius_m
+                away = local - sphere_m
+                close = (np.einsum("ngi,ngi->ng", away, away) < reach_m**2).any(axis=0)
+                candidates = np.flatnonzero(close)
+                if not len(candidates):
+                    continue
+                inside = signed_distance(body, local[:, candidates]) < radii[candidates]
+                for column in np.flatnonzero(inside.any(axis=0)).tolist():
+                    near.setdefault(int(candidates[column]), []).append((body, inside[:, column]))
+        for index, touched in near.items():
             points = self._members[index].positions_m(world, first, last)
-            for body, frames in bodies:
+            for body, frames in touched:
                 local = _moved(node_from_world[body.node][frames], points[frames])
                 depth = -signed_distance(body, local).min(axis=1)
                 deepest[frames] = np.maximum(deepest[frames], depth)

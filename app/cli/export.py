@@ -1,0 +1,140 @@
+"""``suisou export``: a MIDI file to FBX and BVH files of its players."""
+
+from __future__ import annotations
+
+import argparse
+import signal
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from fractions import Fraction
+from pathlib import Path
+from types import FrameType
+from typing import TYPE_CHECKING, Final, Literal
+
+from app.cli.messages import text
+from app.cli.options import Commands, add_source_options, frame_rate, open_project, whole_number
+from app.cli.progress import Progress
+from app.cli.summary import summary
+from app.cli.version import program_version
+from app.errors import UsageError
+from app.plan.generate import PREROLL_LEAST_S
+from app.project.parameters import select_players
+
+if TYPE_CHECKING:
+    from app.performance.ensemble import Performance
+    from app.performance.span import FrameSpan
+
+Format = Literal["fbx", "bvh"]
+FORMATS: Final[tuple[Format, ...]] = ("fbx", "bvh")
+
+
+def add_command(commands: Commands) -> None:
+    """Declare the sub-command."""
+    command = commands.add_parser(
+        "export",
+        help="write the players and their instruments as FBX and BVH",
+        description="Writes per player a character that plays its part and its instrument, and a report.json that says "
+        "what the files hold. Either all files appear or none.",
+    )
+    add_source_options(command)
+    command.add_argument("--to", type=Path, required=True, metavar="DIR", help="folder for the files; made if needed")
+    command.add_argument(
+        "--format", dest="formats", action="append", choices=FORMATS, help="repeatable (default: both)"
+    )
+    command.add_argument(
+        "--fps",
+        type=frame_rate,
+        default=Fraction(60),
+        metavar="RATE",
+        help="frames per second: 24, 25, 29.97, 30, 60 or a fraction such as 30000/1001 (default 60)",
+    )
+    command.add_argument(
+        "--player", dest="players", action="append", default=[], metavar="NAME", help="only this player; repeatable"
+    )
+    command.add_argument("--from-bar", type=whole_number, metavar="N", help="first bar, as printed (a pickup is bar 0)")
+    command.add_argument("--to-bar", type=whole_number, metavar="N", help="last bar, inclusive")
+    command.set_defaults(run=export)
+
+
+def export(arguments: argparse.Namespace) -> None:
+    """Write the files and print what they hold."""
+    from app.export.run import Request
+    from app.export.run import export as write
+    from app.performance.ensemble import Performance
+
+    project = open_project(arguments)
+    performance = Performance(project)
+    chosen = select_players(arguments.players, [player.name for player in project.players])
+    progress = Progress(sys.stderr)
+    request = Request(
+        performance=performance,
+        players=tuple(project.players[index] for index in chosen),
+        folder=arguments.to,
+        formats=frozenset[Format](arguments.formats or FORMATS),
+        span=_span(performance, arguments),
+        bars=_bars(performance, arguments),
+        source=arguments.file.name,
+        creator=f"Suisou {program_version()}",
+    )
+    try:
+        with _terminable():
+            report = write(request, text, progress=progress)
+    finally:
+        progress.clear()
+    print(summary(report, arguments.to))
+
+
+@contextmanager
+def _terminable() -> Iterator[None]:
+    """Being told to end (SIGTERM) stops like Ctrl-C does, so that nothing half-written stays."""
+
+    def stop(number: int, frame: FrameType | None) -> None:
+        raise KeyboardInterrupt
+
+    before = signal.signal(signal.SIGTERM, stop)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
+
+
+def _bars(performance: Performance, arguments: argparse.Namespace) -> tuple[int, int] | None:
+    """First and last bar to export; None for the whole piece.
+
+    Raises
+    ------
+    UsageError
+        ``bars.none``: the piece does not have them, or they are in the wrong order.
+    """
+    if arguments.from_bar is None and arguments.to_bar is None:
+        return None
+    score = performance.project.score
+    lowest = 0 if score.pickup_ticks else 1
+    highest = score.bar_of_tick(max(score.end_tick - 1, 0))
+    first = lowest if arguments.from_bar is None else arguments.from_bar
+    last = highest if arguments.to_bar is None else arguments.to_bar
+    if not lowest <= first <= last <= highest:
+        raise UsageError("bars.none", first=first, last=last, lowest=lowest, highest=highest)
+    return first, last
+
+
+def _span(performance: Performance, arguments: argparse.Namespace) -> FrameSpan:
+    """The frames asked for: the bars with the pre-roll before them, or everything.
+
+    The plan is that of the whole piece, so that a cut shows what the whole would show. Up to the last bar the
+    performance's end belongs to it.
+    """
+    from app.performance.span import cut_span, whole_span
+
+    bars = _bars(performance, arguments)
+    frame = performance.time_frame
+    if bars is None:
+        return whole_span(frame, arguments.fps)
+    score, clock = performance.project.score, performance.piece.clock
+    first_tick, end_tick = score.tick_of_bar(bars[0]), score.tick_of_bar(bars[1] + 1)
+    preroll_ticks = arguments.preroll * performance.piece.beat_ticks
+    first_s = clock.seconds(float(first_tick))
+    start_s = min(clock.seconds(first_tick - preroll_ticks), first_s - PREROLL_LEAST_S)
+    end_s = frame.end_s if end_tick >= score.end_tick else clock.seconds(float(end_tick))
+    return cut_span(frame, arguments.fps, start_s, end_s)

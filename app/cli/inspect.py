@@ -1,0 +1,169 @@
+"""``suisou inspect``: what a file holds and what its players will do."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from typing import Any
+
+from app.cli.instruments import note_name
+from app.cli.messages import text
+from app.cli.options import Commands, add_source_options, open_project
+from app.cli.summary import columns
+from app.performance.ensemble import Performance
+from app.plan.model import BreathEvent, Clock, CueEvent, FingeringEvent, GestureEvent, Note
+from app.project.model import Player
+from instrument_maps.model import InstrumentMap
+
+Table = dict[str, Any]
+
+
+def add_command(commands: Commands) -> None:
+    """Declare the sub-command."""
+    command = commands.add_parser(
+        "inspect",
+        help="say what a MIDI file holds and what its players will do",
+        description="Reads a MIDI file and prints its players with fingerings, breaths, cues and gestures.",
+    )
+    add_source_options(command)
+    command.add_argument("--json", action="store_true", help="print one JSON object instead of tables")
+    command.set_defaults(run=inspect)
+
+
+def inspect(arguments: argparse.Namespace) -> None:
+    """Print the file's plan."""
+    performance = Performance(open_project(arguments))
+    if arguments.json:
+        print(json.dumps(inspection(performance), ensure_ascii=False, allow_nan=False, indent=1))
+    else:
+        print(tables(arguments.file.name, inspection(performance)))
+
+
+def inspection(performance: Performance) -> Table:
+    """Everything ``inspect --json`` prints: seconds are the performance's, beats are quarters from tick 0."""
+    project = performance.project
+    score = project.score
+    return {
+        "duration_s": score.tempo_map.seconds(float(score.end_tick)),
+        "ticks_per_beat": score.ticks_per_quarter,
+        "tempo": [{"tick": tick, "bpm": bpm} for tick, bpm in score.tempo_map.bpm],
+        "first_frame_s": performance.time_frame.first_frame_s,
+        "warnings": [
+            *(text(message) for message in score.warnings),
+            *(
+                f"{player.name}: {text(problem.message)}"
+                for player in project.players
+                for problem in performance.plan(player).problems
+            ),
+        ],
+        "unplayed": [
+            {"name": part.name, "reason": text(part.reason), "note_count": part.note_count} for part in score.unplayed
+        ],
+        "players": [_player(performance, player) for player in project.players],
+    }
+
+
+def _player(performance: Performance, player: Player) -> Table:
+    plan = performance.plan(player)
+    clock = performance.piece.clock
+    instrument = performance.instrument(player)
+    part = performance.project.part(player)
+    fingerings = {event.note_id: event for event in plan.fingerings}
+    return {
+        "name": player.name,
+        "instrument": player.instrument_id,
+        "part": part.name,
+        "notes": [_note(note, fingerings[note.id], instrument, clock) for note in part.notes],
+        "breaths": [_breath(event, clock) for event in plan.breaths],
+        "cues": [_cue(event, clock) for event in plan.cues],
+        "gestures": [_gesture(event, clock) for event in plan.gestures],
+    }
+
+
+def _note(note: Note, fingering: FingeringEvent, instrument: InstrumentMap, clock: Clock) -> Table:
+    onset_s = clock.seconds(float(note.onset_tick))
+    return {
+        "id": note.id,
+        "onset_tick": note.onset_tick,
+        "duration_tick": note.duration_tick,
+        "onset_s": onset_s,
+        "duration_s": clock.seconds(float(note.onset_tick + note.duration_tick)) - onset_s,
+        "pitch": note.pitch,
+        "velocity": note.velocity,
+        "fingering": fingering.label,
+        "controls": {
+            control.name: fingering.controls.get(control.name, control.rest_value) for control in instrument.controls
+        },
+    }
+
+
+def _breath(event: BreathEvent, clock: Clock) -> Table:
+    return {"kind": event.kind, **_span(event.start_s, event.end_s, clock), "reason": text(event.reason)}
+
+
+def _cue(event: CueEvent, clock: Clock) -> Table:
+    return {
+        **_span(event.start_s, event.end_s, clock),
+        "peak_s": event.peak_s,
+        "beat_s": event.beat_s,
+        "reason": text(event.reason),
+    }
+
+
+def _gesture(event: GestureEvent, clock: Clock) -> Table:
+    return {
+        "kind": event.kind,
+        **_span(event.start_s, event.end_s, clock),
+        "amount": event.amount,
+        "reason": text(event.reason),
+    }
+
+
+def _span(start_s: float, end_s: float, clock: Clock) -> Table:
+    quarter = clock.ticks_per_quarter
+    return {
+        "start_s": start_s,
+        "end_s": end_s,
+        "start_beat": clock.ticks(start_s) / quarter,
+        "end_beat": clock.ticks(end_s) / quarter,
+    }
+
+
+def tables(file: str, found: Table) -> str:
+    """The same for people: one line per player, then what is not played and what to look at."""
+    lines = [
+        f"{file}: {found['duration_s']:.2f} s, {len(found['players'])} players, "
+        f"{found['ticks_per_beat']} ticks per quarter, tempo {_tempo(found['tempo'])}",
+    ]
+    if found["players"]:
+        head = ("player", "instrument", "notes", "range", "breaths", "cues", "first fingerings")
+        lines += ["", *columns([head, *(_row(player) for player in found["players"])])]
+    if found["unplayed"]:
+        lines += ["", "not played:"]
+        lines += [f"  {part['name']} ({part['note_count']} notes): {part['reason']}" for part in found["unplayed"]]
+    if found["warnings"]:
+        lines += ["", "to look at:"]
+        lines += [f"  {warning}" for warning in found["warnings"]]
+    return "\n".join(lines)
+
+
+def _tempo(tempos: list[Table]) -> str:
+    values = [tempo["bpm"] for tempo in tempos]
+    if len(values) <= 1:
+        return f"{values[0]:.4g}" if values else "120"
+    return f"{min(values):.4g} to {max(values):.4g} ({len(values)} changes)"
+
+
+def _row(player: Table) -> tuple[str, ...]:
+    pitches = [note["pitch"] for note in player["notes"]]
+    span = f"{note_name(min(pitches))}-{note_name(max(pitches))}" if pitches else "-"
+    breaths = sum(breath["kind"] == "breath" for breath in player["breaths"])
+    return (
+        player["name"],
+        player["instrument"],
+        str(len(pitches)),
+        span,
+        str(breaths),
+        str(len(player["cues"])),
+        " ".join(note["fingering"] for note in player["notes"][:10]),
+    )

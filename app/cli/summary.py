@@ -1,0 +1,79 @@
+"""What an export wrote and how good it is, as a table for people."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+
+from app.export.measure import GRIP_MM, TOUCH_MM, PlayerMeasures, Spread
+from app.export.report import PlayerReport, Report, failures
+
+_HEAD = ("player", "notes", "controls", "fingers mm", "grips mm", "lips mm", "feet mm", "into mm", "breaths", "sway")
+
+
+def summary(report: Report, folder: Path) -> str:
+    """The table of measures, what was written, what is not played and what to look at."""
+    files = sum(len(player.files) for player in report.players) + 1
+    lines = [
+        f"{files} files in {folder}: {report.frames} frames at {report.fps_exact} frames/s; "
+        f"the sound starts at {-report.first_frame_s:.3f} s"
+    ]
+    if any(player.measures is not None for player in report.players):
+        lines += ["", *columns([_HEAD, *(_row(player) for player in report.players)])]
+        lines += ["(greatest distance at any frame of a sounding note, on the meshes read back; * beyond its bound)"]
+        for player in report.players:
+            wrong = failures(player)
+            if wrong:
+                lines.append(f"! {player.name}: {', '.join(wrong)}")
+    if report.unplayed:
+        lines += ["", "not played:"]
+        lines += [f"  {part.name} ({part.note_count} notes): {part.reason}" for part in report.unplayed]
+    if report.warnings:
+        lines += ["", "to look at:"]
+        lines += [f"  {warning}" for warning in report.warnings]
+    return "\n".join(lines)
+
+
+def columns(rows: Iterable[tuple[str, ...]]) -> list[str]:
+    """Rows with their cells one below the other: the first column left, the others right."""
+    table = list(rows)
+    widths = [max(len(row[column]) for row in table) for column in range(len(table[0]))]
+    return [
+        "  ".join(
+            [row[0].ljust(widths[0]), *(cell.rjust(width) for cell, width in zip(row[1:], widths[1:], strict=True))]
+        ).rstrip()
+        for row in table
+    ]
+
+
+def _row(player: PlayerReport) -> tuple[str, ...]:
+    measures = player.measures
+    if measures is None:
+        return (player.name, str(player.notes), *[""] * (len(_HEAD) - 2))
+    judged = sum(control.judged for control in measures.controls.values())
+    right = sum(control.right for control in measures.controls.values())
+    sway = "" if player.sway_correlation is None else f"{player.sway_correlation:.2f}"
+    return (
+        player.name,
+        str(player.notes),
+        f"{right}/{judged}",
+        _worst(_contacts(measures, TOUCH_MM)),
+        _worst(_contacts(measures, GRIP_MM)),
+        _worst([measures.lips]),
+        _worst(measures.feet.values()),
+        _worst([measures.penetration]),
+        f"{measures.breaths.shown}/{measures.breaths.planned}",
+        sway,
+    )
+
+
+def _contacts(measures: PlayerMeasures, bound_mm: float) -> list[Spread]:
+    return [spread for spread in measures.contacts.values() if spread.bound_mm == bound_mm]
+
+
+def _worst(spreads: Iterable[Spread]) -> str:
+    measured = [spread for spread in spreads if spread.frames]
+    if not measured:
+        return "-"
+    worst = max(measured, key=lambda spread: spread.max_mm / spread.bound_mm)
+    return f"{worst.max_mm:.2f}{'' if worst.kept else '*'}"

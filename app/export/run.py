@@ -1,0 +1,223 @@
+"""A performance to files: characters, instruments, report.
+
+Messages: ``export.nobody``: "there is no player to export"; ``work.stopped``.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+import msgspec
+
+from app.errors import Cancelled, FileError, Message
+from app.export.character import character_scene
+from app.export.folder import files_into
+from app.export.instrument import instrument_scene
+from app.export.measure import Measured, measure_player, sway_correlations
+from app.export.report import PlayerReport, Report, StagePlace, UnplayedPart, encode_report
+from app.export.skeleton import character_bvh
+from app.formats.atomic import atomic_write
+from app.formats.bvh import encode_bvh
+from app.formats.fbx.read import read_scene
+from app.formats.fbx.write import write_scene
+from app.motion.model import Motion
+from app.performance.ensemble import Performance
+from app.performance.motion import body_of, character_of, model_of, player_motion
+from app.performance.span import FrameSpan
+from app.project.model import Player
+from app.project.names import file_stems
+from metadata.load import load_skeleton
+
+Format = Literal["fbx", "bvh"]
+Progress = Callable[[float, str], None]
+"""Told the share 0..1 that is done and whose work it is."""
+
+_SHARES = {"motion": 0.1, "fbx": 0.3, "bvh": 0.1, "measures": 0.5}
+
+
+@dataclass(frozen=True)
+class Request:
+    """What to export.
+
+    Attributes
+    ----------
+    performance : Performance
+    players : tuple of Player
+        Those to export; names of files come from all the players, so that they do not depend on the choice.
+    folder : path
+    formats : frozenset of str
+        ``"fbx"``, ``"bvh"``.
+    span : FrameSpan
+    bars : (int, int) or None
+        First and last bar asked for, for the report.
+    source, creator : str
+        Name of the piece's file; program and version.
+    """
+
+    performance: Performance
+    players: tuple[Player, ...]
+    folder: Path
+    formats: frozenset[Format]
+    span: FrameSpan
+    bars: tuple[int, int] | None
+    source: str
+    creator: str
+
+
+def export(
+    request: Request,
+    wording: Callable[[Message], str],
+    stop_wanted: Callable[[], bool] = lambda: False,
+    progress: Progress = lambda share, label: None,
+) -> Report:
+    """Write the files of every player asked for, and ``report.json``: all of them, or none.
+
+    Parameters
+    ----------
+    request : Request
+    wording : callable
+        Words a message for the report.
+    stop_wanted, progress : callable
+
+    Raises
+    ------
+    FileError
+        ``export.nobody``; ``file.cannot_write``.
+    Cancelled
+        ``stop_wanted`` said so.
+    """
+    if not request.players:
+        raise FileError("export.nobody", file=request.source)
+    stems = _stems(request.performance)
+    reports: list[PlayerReport] = []
+    sways = {}
+    with files_into(request.folder) as folder:
+        for index, player in enumerate(request.players):
+
+            def told(share: float, done: int = index, name: str = player.name) -> None:
+                if stop_wanted():
+                    raise Cancelled("work.stopped")
+                progress((done + share) / len(request.players), name)
+
+            report, measured = _export_player(request, player, stems[player.id], folder, told)
+            reports.append(report)
+            if measured is not None:
+                sways[player.id] = measured.sway_rad
+        correlations = sway_correlations(sways)
+        report_value = _report(request, _with_sway(reports, request.players, correlations), wording)
+        with atomic_write(folder / "report.json") as stream:
+            stream.write(encode_report(report_value))
+    return report_value
+
+
+def _export_player(
+    request: Request, player: Player, stem: str, folder: Path, told: Callable[[float], None]
+) -> tuple[PlayerReport, Measured | None]:
+    told(0.0)
+    performance = request.performance
+    motion = player_motion(performance, player, request.span, progress=lambda share: told(_SHARES["motion"] * share))
+    done = _SHARES["motion"]
+    files: dict[str, str] = {}
+    measured = None
+    if "fbx" in request.formats:
+        files["character_fbx"], files["instrument_fbx"] = _write_fbx(request, player, stem, motion, folder)
+        done += _SHARES["fbx"]
+        told(done)
+    if "bvh" in request.formats:
+        files["character_bvh"] = f"{stem}.bvh"
+        with atomic_write(folder / files["character_bvh"]) as stream:
+            stream.write(encode_bvh(character_bvh(character_of(player), motion)))
+        done += _SHARES["bvh"]
+        told(done)
+    del motion  # the files are measured, not what they were made from
+    if "fbx" in request.formats:
+        measured = measure_player(
+            read_scene(folder / files["character_fbx"]),
+            read_scene(folder / files["instrument_fbx"]),
+            character_of(player),
+            performance.instrument(player),
+            performance.plan(player),
+            body_of(player),
+            load_skeleton(body_of(player).skeleton),
+            request.span.first_frame_s,
+            lambda share: told(done + (1.0 - done) * share),
+        )
+    told(1.0)
+    return _player_report(request, player, files, measured), measured
+
+
+def _write_fbx(request: Request, player: Player, stem: str, motion: Motion, folder: Path) -> tuple[str, str]:
+    """The player's two files; their names."""
+    instrument = request.performance.instrument(player)
+    names = f"{stem}.fbx", f"{stem}_{instrument.id}.fbx"
+    write_scene(folder / names[0], character_scene(character_of(player), motion, stem, request.creator))
+    write_scene(folder / names[1], instrument_scene(instrument, model_of(instrument), motion, stem, request.creator))
+    return names
+
+
+def _stems(performance: Performance) -> dict[str, str]:
+    """File stems by player id; the names are the same whoever is exported."""
+    players = performance.project.players
+    stems = file_stems([player.name for player in players])
+    return {player.id: stem for player, stem in zip(players, stems, strict=True)}
+
+
+def _player_report(request: Request, player: Player, files: dict[str, str], measured: Measured | None) -> PlayerReport:
+    plan = request.performance.plan(player)
+    span = request.span
+    place = player.stage
+    return PlayerReport(
+        name=player.name,
+        part=request.performance.project.part(player).name,
+        instrument=player.instrument_id,
+        character=player.character_id,
+        posture=player.parameters.posture,
+        files=files,
+        stage=StagePlace(round(place.x_m, 4), round(place.z_m, 4), round(math.degrees(place.turn_rad), 3)),
+        notes=sum(span.first_frame_s <= note.start_s < span.end_s for note in plan.fingerings),
+        measures=None if measured is None else measured.measures,
+        sway_correlation=None,
+    )
+
+
+def _with_sway(
+    reports: list[PlayerReport], players: tuple[Player, ...], correlations: dict[str, float]
+) -> tuple[PlayerReport, ...]:
+    if len(correlations) < 2:
+        return tuple(reports)
+    return tuple(
+        msgspec.structs.replace(report, sway_correlation=round(correlations[player.id], 4))
+        if player.id in correlations
+        else report
+        for report, player in zip(reports, players, strict=True)
+    )
+
+
+def _report(request: Request, players: tuple[PlayerReport, ...], wording: Callable[[Message], str]) -> Report:
+    project, span = request.performance.project, request.span
+    problems = [
+        f"{player.name}: {wording(problem.message)}"
+        for player in request.players
+        for problem in request.performance.plan(player).problems
+    ]
+    rate = span.fps
+    return Report(
+        version=request.creator,
+        source=request.source,
+        first_frame_s=span.first_frame_s,
+        fps=rate.numerator / rate.denominator,
+        fps_exact=str(rate),
+        frames=span.count,
+        end_s=span.end_s,
+        bars=request.bars,
+        seed=project.seed,
+        players=players,
+        warnings=(*(wording(message) for message in project.score.warnings), *problems),
+        unplayed=tuple(
+            UnplayedPart(part.name, wording(part.reason), part.note_count) for part in project.score.unplayed
+        ),
+    )

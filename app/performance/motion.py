@@ -1,0 +1,113 @@
+"""One player's motion at a frame rate, made piece by piece so that it can be watched and stopped.
+
+Messages: ``work.stopped`` (of `Cancelled`): "stopped; nothing was written".
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from app.errors import Cancelled
+from app.motion.model import Motion
+from app.motion.perform import perform
+from app.performance.cache import IdentityCache
+from app.performance.ensemble import Performance
+from app.performance.span import FrameSpan
+from app.project.model import Player
+from app.rig.character import bundled_character
+from app.rig.fit import fit_hold
+from app.rig.hold import Hold
+from app.rig.instrument import load_instrument
+from app.rig.model import Character, InstrumentModel
+from instrument_maps.load import model_path
+from instrument_maps.model import InstrumentMap
+from metadata.load import load_body
+from metadata.model import Body
+
+Progress = Callable[[float], None]
+"""Told the share 0..1 that is done."""
+StopWanted = Callable[[], bool]
+"""Asked now and then; true stops the work."""
+
+CHUNK = 16384
+"""Frames made between two questions whether to stop."""
+
+_MODELS: IdentityCache[InstrumentModel] = IdentityCache(16)
+_HOLDS: IdentityCache[Hold] = IdentityCache(64)
+
+
+def character_of(player: Player) -> Character:
+    """The character that plays. Raises UsageError where there is none of its id."""
+    return bundled_character(player.character_id)
+
+
+def body_of(player: Player) -> Body:
+    """How the player's kind of body moves."""
+    return load_body()
+
+
+def model_of(instrument: InstrumentMap) -> InstrumentModel:
+    """The model a map names; loaded once. Raises MapError or FileError."""
+    return _MODELS.get((instrument,), lambda: load_instrument(model_path(instrument), instrument))
+
+
+def hold_of(character: Character, instrument: InstrumentMap, model: InstrumentModel) -> Hold:
+    """How this body holds this instrument; fitted once."""
+    return _HOLDS.get((character, instrument, model), lambda: fit_hold(character, model, instrument))
+
+
+def player_motion(
+    performance: Performance,
+    player: Player,
+    span: FrameSpan,
+    stop_wanted: StopWanted = lambda: False,
+    progress: Progress = lambda share: None,
+) -> Motion:
+    """Make one player's motion over some frames. The same frames are the same bits in every span.
+
+    Raises
+    ------
+    Cancelled
+        ``stop_wanted`` said so.
+    """
+    instrument = performance.instrument(player)
+    character = character_of(player)
+    hold = hold_of(character, instrument, model_of(instrument))
+    pieces = []
+    for first in range(0, span.count, CHUNK):
+        if stop_wanted():
+            raise Cancelled("work.stopped")
+        pieces.append(
+            perform(
+                performance.plan(player),
+                player.parameters,
+                instrument,
+                character,
+                hold,
+                body_of(player),
+                beat_ticks=performance.piece.beat_ticks,
+                fps=span.fps,
+                frames=min(CHUNK, span.count - first),
+                first_frame=span.first + first,
+            )
+        )
+        progress(min(1.0, (first + CHUNK) / span.count))
+    return _joined(pieces)
+
+
+def _joined(pieces: list[Motion]) -> Motion:
+    if len(pieces) == 1:
+        return pieces[0]
+    first = pieces[0]
+    return Motion(
+        fps=first.fps,
+        first_frame_s=first.first_frame_s,
+        rotations=np.concatenate([piece.rotations for piece in pieces]),
+        hips_m=np.concatenate([piece.hips_m for piece in pieces]),
+        morphs={name: np.concatenate([piece.morphs[name] for piece in pieces]) for name in first.morphs},
+        controls={name: np.concatenate([piece.controls[name] for piece in pieces]) for name in first.controls},
+        instrument_position_m=np.concatenate([piece.instrument_position_m for piece in pieces]),
+        instrument_rotation=np.concatenate([piece.instrument_rotation for piece in pieces]),
+    )

@@ -1,0 +1,94 @@
+"""Who plays what: characters, places on the stage and amplitudes, chosen the same way in every run."""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from collections import Counter
+from collections.abc import Mapping, Sequence
+
+import msgspec
+
+SPACING_M = 1.3
+"""Between neighbours: room for a long instrument's bell and an elbow."""
+ARC_RAD = math.radians(150.0)
+"""How much of a circle the players stand on at most; the open side is the audience's."""
+LEAST_RADIUS_M = 1.1
+
+NATURAL_AMPLITUDE = 0.5
+AMPLITUDE_SPREAD = 0.12
+"""Players move by as much more or less than a natural amount (T7: random values so that they differ)."""
+
+
+FAR_REACH_M = 0.4
+"""A hand that travels this far works at the end of an arm."""
+
+
+class StagePosition(msgspec.Struct, frozen=True):
+    """Where a player stands: metres from the middle of the stage, the audience towards +Z, and the turn from +Z towards
+    +X in radians."""
+
+    x_m: float
+    z_m: float
+    turn_rad: float
+
+
+def stage_arc(count: int) -> tuple[StagePosition, ...]:
+    """Places of an ensemble on an arc open to the audience, in the order of the score from the audience's left (-X).
+
+    Everyone stands a neighbour's distance apart and faces the middle of the arc's opening, half way between a
+    colleague across and the audience.
+    """
+    if count < 2:
+        return (StagePosition(0.0, 0.0, 0.0),) * count
+    # The arc grows with its players: first in angle at the least radius, then in radius.
+    step = min(ARC_RAD / (count - 1), 2.0 * math.asin(min(1.0, SPACING_M / 2.0 / LEAST_RADIUS_M)))
+    radius = max(LEAST_RADIUS_M, SPACING_M / (2.0 * math.sin(step / 2.0)))
+    places = []
+    for index in range(count):
+        angle = (index - (count - 1) / 2.0) * step
+        places.append(StagePosition(radius * math.sin(angle), -radius * math.cos(angle), -angle / 2.0))
+    return tuple(places)
+
+
+def chance(*parts: str | int) -> float:
+    """A number in [0, 1) that depends on its arguments alone, the same on every machine and in every run."""
+    digest = hashlib.blake2b("\x1f".join(map(str, parts)).encode(), digest_size=8).digest()
+    return int.from_bytes(digest, "big") / 2.0**64
+
+
+def amplitude(seed: int, player_id: str) -> float:
+    """A player's own amount of motion, around the natural one."""
+    return round(NATURAL_AMPLITUDE + AMPLITUDE_SPREAD * (2.0 * chance("amplitude", seed, player_id) - 1.0), 3)
+
+
+def player_seed(seed: int, player_id: str) -> int:
+    """A player's own seed."""
+    return int(chance("player", seed, player_id) * 2**31)
+
+
+def choose_characters(travels_m: Sequence[float], arms_m: Mapping[str, float]) -> tuple[str, ...]:
+    """A character for every player: a far reach gets the longest arms, the others whoever is there least often.
+
+    Parameters
+    ----------
+    travels_m : sequence of float
+        How far each player's instrument asks a hand to travel.
+    arms_m : mapping of str to float
+        Length of arm of every character to choose from; at least one.
+
+    Returns
+    -------
+    tuple of str
+        Ids, in the order of the players.
+    """
+    longest = max(arms_m, key=lambda character: arms_m[character])
+    chosen = [longest if travel_m > FAR_REACH_M else None for travel_m in travels_m]
+    counts = Counter(character for character in chosen if character is not None)
+    result = []
+    for character in chosen:
+        if character is None:
+            character = min(arms_m, key=lambda candidate: counts[candidate])
+            counts[character] += 1
+        result.append(character)
+    return tuple(result)

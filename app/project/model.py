@@ -1,0 +1,148 @@
+"""The project: a score, who plays it and how, and what the animator corrected by hand. One immutable value."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+import msgspec
+import numpy as np
+
+from app.plan.corrections import Correction
+from app.plan.generate import PREROLL_BEATS
+from app.plan.model import PlayerParameters
+from app.project.casting import StagePosition, amplitude, choose_characters, player_seed, stage_arc
+from app.project.names import unique_names
+from app.project.parameters import Setting
+from app.project.parameters import with_settings as parameters_with
+from app.rig.character import bundled_character, characters
+from app.rig.model import Character
+from app.score.model import Part, Score
+from instrument_maps.model import Control, InstrumentMap
+
+
+class Player(msgspec.Struct, frozen=True):
+    """Somebody who plays one part.
+
+    Attributes
+    ----------
+    id : str
+        Stays the same whatever the player is called.
+    name : str
+        Unique in the project, also where case does not count.
+    part_id, instrument_id, character_id : str
+    parameters : PlayerParameters
+    stage : StagePosition
+    """
+
+    id: str
+    name: str
+    part_id: str
+    instrument_id: str
+    character_id: str
+    parameters: PlayerParameters
+    stage: StagePosition
+
+
+@dataclass(frozen=True)
+class Project:
+    """Everything a performance is made from.
+
+    Attributes
+    ----------
+    score : Score
+    players : tuple of Player
+        In the order of the score.
+    corrections : mapping of str to tuple of Correction
+        By player id.
+    seed : int
+        Another seed is another performance of the same plan.
+    preroll_beats : float
+        Before the first note.
+    """
+
+    score: Score
+    players: tuple[Player, ...]
+    corrections: Mapping[str, tuple[Correction, ...]] = field(default_factory=dict)
+    seed: int = 0
+    preroll_beats: float = PREROLL_BEATS
+
+    def part(self, player: Player) -> Part:
+        """What a player plays."""
+        return self._parts[player.part_id]
+
+    @property
+    def _parts(self) -> dict[str, Part]:
+        return {part.id: part for part in self.score.parts}
+
+
+def project_from_score(
+    score: Score, maps: Mapping[str, InstrumentMap], *, seed: int = 0, preroll_beats: float = PREROLL_BEATS
+) -> Project:
+    """Cast a score: a player for every part, with a name, a character, a place and a size of motion of their own.
+
+    Parameters
+    ----------
+    score : Score
+    maps : mapping of str to InstrumentMap
+        By id; every part names one of them.
+    seed : int
+    preroll_beats : float
+    """
+    parts = score.parts
+    instruments = [maps[part.map_id] for part in parts]
+    names = unique_names(part.name for part in parts)
+    cast = _characters(instruments)
+    places = stage_arc(len(parts))
+    players = tuple(
+        Player(
+            id=part.id,
+            name=name,
+            part_id=part.id,
+            instrument_id=instrument.id,
+            character_id=character,
+            parameters=PlayerParameters(amplitude=amplitude(seed, part.id), seed=player_seed(seed, part.id)),
+            stage=place,
+        )
+        for part, name, instrument, character, place in zip(parts, names, instruments, cast, places, strict=True)
+    )
+    return Project(score, players, seed=seed, preroll_beats=preroll_beats)
+
+
+def with_settings(project: Project, settings: Sequence[Setting]) -> Project:
+    """The project with what a person set for its players; ``None`` as instrument or character keeps the automatic
+    choice."""
+    players = list(project.players)
+    for index in range(len(players)):
+        own = [setting for setting in settings if setting.player == index]
+        chosen = {setting.parameter: setting.value for setting in own}
+        player = msgspec.structs.replace(players[index], parameters=parameters_with(players[index].parameters, own))
+        instrument, character = chosen.get("instrument"), chosen.get("character")
+        if isinstance(instrument, str):
+            player = msgspec.structs.replace(player, instrument_id=instrument)
+        if isinstance(character, str):
+            player = msgspec.structs.replace(player, character_id=character)
+        players[index] = player
+    return replace(project, players=tuple(players))
+
+
+def _characters(instruments: Sequence[InstrumentMap]) -> tuple[str, ...]:
+    """A character for each instrument, by the reach it asks for."""
+    travels_m = [
+        max((control.motion.travel_m or 0.0 for control in instrument.controls if _by_hand(control)), default=0.0)
+        for instrument in instruments
+    ]
+    return choose_characters(travels_m, {id: _arm_m(bundled_character(id)) for id in characters()})
+
+
+def _by_hand(control: Control) -> bool:
+    """Whether the whole hand travels with a control."""
+    return control.finger.endswith(".hand")
+
+
+def _arm_m(character: Character) -> float:
+    """Upper and lower arm."""
+    skeleton = character.skeleton
+    return float(
+        sum(np.linalg.norm(skeleton.offsets_m[skeleton.index(joint)]) for joint in ("rightLowerArm", "rightHand"))
+    )

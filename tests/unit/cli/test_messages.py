@@ -1,0 +1,81 @@
+"""Every message id in the program has an English template that its arguments fill, and no template is left over."""
+
+from __future__ import annotations
+
+import ast
+import re
+import string
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from app.cli.messages import TEMPLATES
+
+ROOT = Path(__file__).parents[3]
+SOURCES = sorted(path for folder in ("app", "instrument_maps", "metadata") for path in (ROOT / folder).rglob("*.py"))
+ID = re.compile(r"[a-z][a-z0-9_]*(\.[a-z][a-z0-9_]*)+")
+
+
+def calls(path: Path) -> Iterator[tuple[ast.Call, str, set[str] | None]]:
+    """Every call that makes a message or an error of our family with a literal id: call, id, names of its arguments.
+
+    The names are None where the arguments are not all written out at the call.
+    """
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if not isinstance(node, ast.Call) or not node.args:
+            continue
+        function = node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
+        first = node.args[0]
+        if not isinstance(first, ast.Constant) or not isinstance(first.value, str) or not ID.fullmatch(first.value):
+            continue
+        if function == "Message":
+            yield node, first.value, message_arguments(node)
+        elif function.endswith("Error") or function == "Cancelled":
+            names = {keyword.arg for keyword in node.keywords}
+            yield node, first.value, None if None in names else {str(name) for name in names}
+
+
+def message_arguments(node: ast.Call) -> set[str] | None:
+    arguments = node.args[1] if len(node.args) > 1 else None
+    if arguments is None:
+        return None if node.keywords else set()
+    if not isinstance(arguments, ast.Dict) or not all(isinstance(key, ast.Constant) for key in arguments.keys):
+        return None
+    return {str(key.value) for key in arguments.keys if isinstance(key, ast.Constant)}
+
+
+FOUND = [(path.relative_to(ROOT).as_posix(), *call) for path in SOURCES for call in calls(path)]
+LITERALS = {
+    node.value
+    for path in SOURCES
+    if path.name != "messages.py"
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+    if isinstance(node, ast.Constant) and isinstance(node.value, str) and ID.fullmatch(node.value)
+}
+
+
+def fields(template: str) -> set[str]:
+    return {name for _, name, _, _ in string.Formatter().parse(template) if name is not None}
+
+
+def test_messages_are_found_at_all() -> None:
+    assert len({id for _, _, id, _ in FOUND}) > 40
+
+
+@pytest.mark.parametrize("id", sorted({id for _, _, id, _ in FOUND}))
+def test_every_id_has_a_template(id: str) -> None:
+    assert id in TEMPLATES
+
+
+def test_no_template_is_left_over() -> None:
+    assert sorted(set(TEMPLATES) - LITERALS) == []
+
+
+def test_the_arguments_fill_the_templates() -> None:
+    missing = [
+        f"{path}:{call.lineno} {id}: {sorted(fields(TEMPLATES[id]) - names)}"
+        for path, call, id, names in FOUND
+        if names is not None and id in TEMPLATES and not fields(TEMPLATES[id]) <= names
+    ]
+    assert missing == []

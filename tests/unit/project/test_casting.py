@@ -1,0 +1,41 @@
+"""Characters, places and amplitudes: chosen alike in every run, different between players."""
+
+from __future__ import annotations
+
+import itertools
+import math
+
+import pytest
+
+from app.project.casting import SPACING_M, amplitude, choose_characters, player_seed, stage_arc
+
+
+@pytest.mark.parametrize("count", [1, 2, 3, 4, 5, 10, 31])
+def test_the_arc_is_open_to_the_audience(count: int) -> None:
+    places = stage_arc(count)
+    assert len(places) == count
+    assert [place.x_m for place in places] == sorted(place.x_m for place in places)
+    for place, mirrored in zip(places, reversed(places), strict=True):
+        assert place.x_m == pytest.approx(-mirrored.x_m)
+        assert place.turn_rad == pytest.approx(-mirrored.turn_rad)
+        assert abs(place.turn_rad) < math.pi / 2  # nobody turns the back to the audience
+        # Everyone is turned towards the middle.
+        assert place.x_m * place.turn_rad <= 0.0
+    for one, other in itertools.pairwise(places):
+        assert math.hypot(one.x_m - other.x_m, one.z_m - other.z_m) >= SPACING_M * 0.999
+
+
+def test_the_longest_arms_take_the_far_reach() -> None:
+    arms_m = {"a": 0.5, "b": 0.6}
+    assert choose_characters([0.0, 0.03, 0.62, 0.62], arms_m) == ("a", "a", "b", "b")
+    assert choose_characters([0.0, 0.0, 0.0], arms_m) == ("a", "b", "a")
+    assert choose_characters([], arms_m) == ()
+
+
+def test_players_differ_and_repeat() -> None:
+    sizes = [amplitude(1, f"part-{index}") for index in range(50)]
+    assert sizes == [amplitude(1, f"part-{index}") for index in range(50)]
+    assert len(set(sizes)) > 40
+    assert all(0.38 <= size <= 0.62 for size in sizes)
+    assert amplitude(1, "x") != amplitude(2, "x")
+    assert player_seed(0, "x") != player_seed(0, "y")
