@@ -132,11 +132,10 @@ def _decode(path: Path, type_: type[T]) -> T:
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise MapError("metadata.syntax", file=path.name, detail=str(error)) from error
     try:
-        # strict=False would read "1" as 1; str_keys are what TOML has anyway.
         return msgspec.convert(table, type_)
     except msgspec.ValidationError as error:
         text = str(error)
-        found = re.search(r"^(.*?)(?: - at `(?:key in )?\$?\.?(.*?)`)?$", text)
+        found = re.search(r"^(.*?)(?: - at (?:`key` in )?`\$?\.?(.*?)`)?$", text)
         detail, key = (found.group(1), found.group(2) or "") if found else (text, "")
         raise _invalid(path, key, detail) from error
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 import pytest
 
@@ -29,7 +31,7 @@ def tune(track: int = 1, bars: int = 32) -> tuple[PlainNote, ...]:
 
 def test_sway_goes_from_beat_to_beat_without_gaps() -> None:
     sways = of_kind(plans(Line("p", tune(), valves()))["p"], "sway")
-    for event, following in zip(sways, sways[1:], strict=False):
+    for event, following in itertools.pairwise(sways):
         assert event.end_tick == following.start_tick
         assert event.start_tick % Q == 0
     assert sways[0].start_s <= -2.0
@@ -77,7 +79,7 @@ def test_weight_rests_somewhere_from_shift_to_shift() -> None:
     shifts = of_kind(plans(Line("p", tune(bars=128), valves()))["p"], "weight_shift")
     assert 256.0 / 20.0 < len(shifts) < 256.0 / 4.0
     assert any(event.start_tick % Q for event in shifts)
-    for event, following in zip(shifts, shifts[1:], strict=False):
+    for event, following in itertools.pairwise(shifts):
         assert event.end_s == following.start_s
         assert following.start_s - event.start_s >= 3.0
         assert 0.2 <= abs(event.amount) <= 1.0

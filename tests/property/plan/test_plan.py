@@ -1,0 +1,141 @@
+"""What holds for every plan, whatever the notes, tempi and parameters are."""
+
+from __future__ import annotations
+
+import dataclasses
+
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from app.plan.breath import CATCH_MAX_S, CATCH_MIN_S, CATCH_NOTE_SHARE
+from app.plan.generate import Line, Piece, make_plans, time_frame
+from app.plan.model import PlayerParameters, PlayerPlan
+from instrument_maps.load import bundled_maps
+from tests.support.plan import PlainClock, PlainMetre, PlainNote, valves
+
+TUPLES = ("fingerings", "breaths", "tongues", "embouchures", "cues", "gestures", "expressions")
+MAPS = (valves(), *bundled_maps().values())
+
+lengths = st.sampled_from([1, 30, 60, 120, 240, 240, 480, 480, 960, 1920, 9600])
+rests = st.sampled_from([-30, -1, 0, 0, 0, 0, 1, 119, 120, 240, 480, 959, 960, 1000, 3000, 20000])
+
+
+@st.composite
+def tunes(draw: st.DrawFn, track: int = 1) -> tuple[PlainNote, ...]:
+    tick = draw(st.integers(0, 4000))
+    notes = []
+    for index in range(draw(st.integers(1, 40))):
+        length = draw(lengths)
+        notes.append(
+            PlainNote(f"{track}:{index + 1}", tick, length, draw(st.integers(30, 95)), draw(st.integers(1, 127)))
+        )
+        tick = max(tick + length + draw(rests), tick + 1)
+    return tuple(notes)
+
+
+clocks = st.builds(
+    lambda first, changes: PlainClock(((0, first), *sorted(dict(changes).items()))),
+    st.floats(30, 240),
+    st.lists(st.tuples(st.integers(1, 40000), st.floats(30, 240)), max_size=4),
+)
+parameters = st.builds(
+    PlayerParameters,
+    breath_min_beats=st.sampled_from([0.25, 0.5, 0.75]),
+    breath_last_beat_beats=st.sampled_from([1.0, 1.5]),
+    breath_prepare_beats=st.sampled_from([1.5, 2.0, 3.0]),
+    lung_s=st.sampled_from([3.0, 9.0, 20.0]),
+    seed=st.integers(0, 3),
+)
+felt_beats = st.sampled_from([None, None, 720, 240])
+
+
+@st.composite
+def pieces(draw: st.DrawFn) -> tuple[Piece, tuple[Line, ...]]:
+    metre = PlainMetre(0, draw(st.integers(2, 7)), draw(st.sampled_from([4, 8])))
+    piece = Piece(draw(clocks), (metre,), draw(felt_beats))
+    lines = tuple(
+        Line(f"p{track}", draw(tunes(track)), draw(st.sampled_from(MAPS)), draw(parameters))
+        for track in range(1, draw(st.integers(1, 3)) + 1)
+    )
+    return piece, lines
+
+
+def made(piece: Piece, lines: tuple[Line, ...]) -> dict[str, PlayerPlan]:
+    return make_plans(piece, lines, time_frame(lines, piece.clock, beat_ticks=piece.felt_beat_ticks))
+
+
+@given(pieces())
+@settings(max_examples=150, deadline=None)
+def test_breaths_end_at_onsets_and_never_lie_in_a_sounding_note(drawn: tuple[Piece, tuple[Line, ...]]) -> None:
+    piece, lines = drawn
+    for line, plan in zip(lines, made(piece, lines).values(), strict=True):
+        onsets_s = {note.id: piece.clock.seconds(float(note.onset_tick)) for note in line.notes}
+        for breath in plan.breaths:
+            assert breath.start_s < breath.end_s
+            assert breath.start_s >= plan.time_frame.first_frame_s - 1e-6
+            assert 0.0 < breath.depth <= 1.0
+            if breath.kind == "breath":
+                assert 0.0 <= onsets_s[breath.id.split(":", 1)[1]] - breath.end_s <= 0.05
+            catch = breath.reason.id == "breath.catch"
+            if catch:
+                assert CATCH_MIN_S - 1e-9 <= breath.end_s - breath.start_s <= CATCH_MAX_S + 1e-9
+            for index, note in enumerate(line.notes):
+                end_tick = note.onset_tick + note.duration_tick
+                if index + 1 < len(line.notes):
+                    end_tick = min(end_tick, line.notes[index + 1].onset_tick)
+                start_s, end_s = onsets_s[note.id], piece.clock.seconds(float(end_tick))
+                inside_s = min(end_s, breath.end_s) - max(start_s, breath.start_s)
+                allowed_s = CATCH_NOTE_SHARE * (end_s - start_s) if catch else 0.0
+                assert inside_s <= allowed_s + 1e-6
+
+
+@given(pieces())
+@settings(max_examples=60, deadline=None)
+def test_events_are_unique_ordered_reasoned_and_repeatable(drawn: tuple[Piece, tuple[Line, ...]]) -> None:
+    piece, lines = drawn
+    plans = made(piece, lines)
+    assert made(piece, lines) == plans
+    for line, plan in zip(lines, plans.values(), strict=True):
+        events = [event for name in TUPLES for event in getattr(plan, name)]
+        assert len({event.id for event in events}) == len(events)
+        for name in TUPLES:
+            starts = [event.start_s for event in getattr(plan, name)]
+            assert starts == sorted(starts)
+            if name != "tongues":
+                assert all(event.reason.id for event in getattr(plan, name))
+        assert len(plan.fingerings) == len(plan.embouchures) == len(line.notes)
+        for lips in plan.embouchures:
+            assert all(0.0 <= value <= 1.0 for value in (lips.tension, lips.effort, lips.air))
+        for fingering in plan.fingerings:
+            assert all(0.0 <= value <= 1.0 for value in fingering.controls.values())
+        for gesture in plan.gestures:
+            assert -1.0 <= gesture.amount <= 1.0
+            assert gesture.start_s < gesture.end_s
+        for face in plan.expressions:
+            assert 0.0 <= face.strength <= 1.0
+
+
+@given(pieces(), st.integers(1, 5))
+@settings(max_examples=60, deadline=None)
+def test_the_same_notes_a_bar_later_are_fingered_and_breathed_alike(
+    drawn: tuple[Piece, tuple[Line, ...]], bars: int
+) -> None:
+    piece, lines = drawn
+    steady = Piece(PlainClock(piece.clock.changes[:1]), piece.metres, piece.felt_beat_ticks)  # type: ignore[attr-defined]
+    metre = piece.metres[0]
+    shift = bars * 1920 * metre.numerator // metre.denominator
+    moved = tuple(
+        Line(
+            line.player_id,
+            tuple(dataclasses.replace(note, onset_tick=note.onset_tick + shift) for note in line.notes),  # type: ignore[type-var]
+            line.instrument_map,
+            line.parameters,
+        )
+        for line in lines
+    )
+    for here, later in zip(made(steady, lines).values(), made(steady, moved).values(), strict=True):
+        assert [(e.id, e.label, e.controls) for e in here.fingerings] == [
+            (e.id, e.label, e.controls) for e in later.fingerings
+        ]
+        rests = [(e.id, e.start_tick + shift, e.end_tick + shift) for e in here.breaths if "catch" not in e.reason.id]
+        assert rests == [(e.id, e.start_tick, e.end_tick) for e in later.breaths if "catch" not in e.reason.id]
