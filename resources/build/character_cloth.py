@@ -8,6 +8,7 @@ import numpy as np
 from character_skeleton import SkeletonFit
 from character_surface import Surface, compact, smooth_normals
 from scipy.ndimage import gaussian_filter1d
+from scipy.sparse import coo_array
 from scipy.spatial import ConvexHull
 
 
@@ -86,6 +87,20 @@ def cut(cloth: Cloth, height: np.ndarray) -> Cloth:
         return np.concatenate([values, ends])
 
     return drop_unused(Cloth(extended(cloth.points), extended(cloth.weights), np.concatenate(faces)))
+
+
+def relaxed(cloth: Cloth, share: np.ndarray, steps: int) -> Cloth:
+    """The cloth with its points drawn towards their neighbours' mean, by `share` (N,) in 0..1 at every step."""
+    edges = np.unique(np.sort(np.stack([cloth.faces, np.roll(cloth.faces, -1, axis=1)], axis=2).reshape(-1, 2), axis=1), axis=0)
+    count = len(cloth.points)
+    ones = np.ones(len(edges))
+    neighbours = coo_array((ones, (edges[:, 0], edges[:, 1])), shape=(count, count)).tocsr()
+    neighbours = neighbours + neighbours.T
+    degree = np.maximum(neighbours.sum(axis=1), 1)[:, None]
+    points = cloth.points
+    for _ in range(steps):
+        points = points + 0.5 * share[:, None] * (neighbours @ points / degree - points)
+    return replace(cloth, points=points)
 
 
 def drop_unused(cloth: Cloth) -> Cloth:

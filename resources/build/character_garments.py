@@ -17,6 +17,7 @@ from character_cloth import (
     hang,
     hull_profile,
     join,
+    relaxed,
     smoothed,
     smoothstep,
     to_triangles,
@@ -148,7 +149,7 @@ def _drape_sleeves(tailoring: Tailoring, cloth: Cloth, arm: np.ndarray) -> Cloth
         sleeve = smoothed(hull_profile(mirrored[solid, 0], mirrored[solid][:, [1, 2]], levels, centres, 0.016), 2.0, 1.0)
         angle, _, _ = sleeve.polar(mirrored[:, 0], mirrored[:, [1, 2]])
         share = (mirrored[:, 0] - start) / (end - CUFF_LENGTH_M - start)
-        roomy = (0.064 - 0.016 * np.clip(share, 0, 1)) * tailoring.shoulder[1] / 1.34
+        roomy = (0.058 - 0.013 * np.clip(share, 0, 1)) * tailoring.shoulder[1] / 1.34
         gather = 1 - smoothstep(mirrored[:, 0], end - CUFF_LENGTH_M - 0.03, end - CUFF_LENGTH_M + 0.004)
         bend = np.exp(-(((share - 0.55) / 0.25) ** 2))
         crease = folds(mirrored[:, 0], angle, 0.10, seed=21 if sign > 0 else 22) * (0.001 + 0.0025 * bend)
@@ -168,7 +169,7 @@ def _cuffs(tailoring: Tailoring, fit: SkeletonFit) -> Cloth:
         centre = ring.mean(axis=0)
         profile = smoothed(hull_profile(np.zeros(len(ring)), ring, np.array([0.0, 1.0]), np.stack([centre, centre]), 2.0), 0.01, 4.0)
         start, end = tailoring.wrist_m - CUFF_LENGTH_M - 0.004, tailoring.wrist_m + 0.010
-        rows = [(start, 0.002), (start, 0.0075), (start + 0.003, 0.009), (end - 0.002, 0.009), (end, 0.008), (end, 0.0065), (end - 0.02, 0.0055)]
+        rows = [(start, 0.001), (start, 0.0045), (start + 0.003, 0.0055), (end - 0.002, 0.0055), (end, 0.0045), (end, 0.0030), (end - 0.02, 0.0020)]
         angles = 2 * np.pi * np.arange(36) / 36
         radius = profile.radius_at(np.zeros(36), angles)
         points = np.concatenate(
@@ -291,16 +292,12 @@ def shirt(tailoring: Tailoring, fit: SkeletonFit) -> Surface:
 
 
 def _leg_drape(tailoring: Tailoring, leg: np.ndarray, hip: np.ndarray) -> Profile:
-    """A left trouser leg: closed against the other one at the crotch, falling from the seat, tapered to the hem."""
+    """A left trouser leg: falling from the seat, tapered to the hem."""
     levels = np.arange(tailoring.foot_m + 0.10, tailoring.crotch_m + 0.005, 0.01)
     centres = np.tile([hip[0], hip[2] - 0.005], (len(levels), 1))
     hulls = hull_profile(leg[:, 1], leg[:, [0, 2]], levels, centres, 0.016)
-    angles = 2 * np.pi * np.arange(hulls.radii.shape[1]) / hulls.radii.shape[1]
-    to_middle = np.where(np.cos(angles) < -0.6, (hip[0] - 0.003) / np.maximum(-np.cos(angles), 0.6), 0.0)
-    near_crotch = np.maximum(0.0, 1 - (tailoring.crotch_m - levels) / 0.03)[:, None] > 0
-    radii = np.where(near_crotch, np.maximum(hulls.radii, to_middle), hulls.radii)
     slopes = 0.085 + 0.25 * smoothstep(levels, tailoring.crotch_m - 0.22, tailoring.crotch_m)
-    return smoothed(hang(replace(hulls, radii=radii), slopes), 3.0, 1.0)
+    return smoothed(hang(hulls, slopes), 3.0, 1.0)
 
 
 def trousers(tailoring: Tailoring, fit: SkeletonFit) -> Surface:
@@ -334,7 +331,8 @@ def trousers(tailoring: Tailoring, fit: SkeletonFit) -> Surface:
         for bone in ("Foot", "Toes"):
             weights[:, shin] += weights[:, fit.index(side + bone)]
             weights[:, fit.index(side + bone)] = 0.0
-    cloth = Cloth(moved, weights, suit.faces)
+    near_crotch = np.exp(-(((moved[:, 1] - tailoring.crotch_m) / 0.07) ** 2)) * (tailoring.arm < 0.1)
+    cloth = relaxed(Cloth(moved, weights, suit.faces), near_crotch, 40)
     cloth = cut(cloth, tailoring.belt_m - 0.005 - cloth.points[:, 1])
     cloth = cut(cloth, cloth.points[:, 1] - (tailoring.foot_m + 0.115))
     # The hem is let down to the shoe from where the ankle was cut off, a little lower behind.
