@@ -51,9 +51,13 @@ class Hands:
 
     def __init__(self, playback: Playback, mesh: FbxMesh, vertices: IntArray, proxy: Sequence[Proxy]) -> None:
         self._surface = Surface(playback, mesh, vertices)
-        self._by_node: dict[str, list[tuple[Proxy, FloatArray, float]]] = {}
+        self._by_node: dict[str, list[Proxy]] = {}
         for body in proxy:
-            self._by_node.setdefault(body.node, []).append((body, *bounding_ball(body)))
+            self._by_node.setdefault(body.node, []).append(body)
+        self._balls_m = {
+            node: np.array([(*centre, radius) for centre, radius in map(bounding_ball, bodies)])
+            for node, bodies in self._by_node.items()
+        }
         positions_m = np.asarray(mesh.vertices_cm, np.float64)[vertices] / 100.0
         strongest = np.asarray(mesh.joint_indices)[vertices, np.argmax(mesh.weights[vertices], axis=1)]
         self._groups = [
@@ -87,11 +91,9 @@ class Hands:
         radii = np.array([group.radius_m for group in self._groups])
         for node, bodies in self._by_node.items():
             local = _moved(node_from_world[node], middles)
-            for body, sphere_m, sphere_radius_m in bodies:
-                # A ball around the body first: most groups are nowhere near most bodies.
-                reach_m = radii + sphere_radius_m
-                away = local - sphere_m
-                close = (np.einsum("ngi,ngi->ng", away, away) < reach_m**2).any(axis=0)
+            # A ball around each body first: most groups are nowhere near most bodies.
+            balls = _ever_within(local, self._balls_m[node], radii)
+            for body, close in zip(bodies, balls.T, strict=True):
                 candidates = np.flatnonzero(close)
                 if not len(candidates):
                     continue
@@ -105,6 +107,18 @@ class Hands:
                 depth = -signed_distance(body, local).min(axis=1)
                 deepest[frames] = np.maximum(deepest[frames], depth)
         return deepest
+
+
+def _ever_within(points: AnyFloatArray, balls: FloatArray, radii: FloatArray) -> npt.NDArray[np.bool_]:
+    """Whether a ball of radius (G,) about a point (n, G, 3) may meet a ball (S, 4) in any frame, (G, S).
+
+    Judged by a ball about all of a point's places: hands hardly move on what they hold.
+    """
+    low, high = points.min(axis=0), points.max(axis=0)
+    middle, wander = (low + high) / 2.0, np.linalg.norm(high - low, axis=-1) / 2.0
+    apart = np.linalg.norm(middle[:, None] - balls[:, :3], axis=-1)
+    near: npt.NDArray[np.bool_] = apart < (radii + wander)[:, None] + balls[:, 3]
+    return near
 
 
 def _moved(matrices: AnyFloatArray, points: AnyFloatArray) -> AnyFloatArray:
