@@ -53,9 +53,10 @@ def model_of(instrument: InstrumentMap) -> InstrumentModel:
     return _MODELS.get((instrument,), lambda: load_instrument(model_path(instrument), instrument))
 
 
-def hold_of(character: Character, instrument: InstrumentMap, model: InstrumentModel) -> Hold:
-    """How this body holds this instrument; fitted once."""
-    return _HOLDS.get((character, instrument, model), lambda: fit_hold(character, model, instrument))
+def hold_of(player: Player, instrument: InstrumentMap) -> Hold:
+    """How a player's body holds an instrument; fitted once for each pair."""
+    character, model, body = character_of(player), model_of(instrument), body_of(player)
+    return _HOLDS.get((character, model, instrument, body), lambda: fit_hold(character, model, instrument, body))
 
 
 def player_motion(
@@ -73,8 +74,8 @@ def player_motion(
         ``stop_wanted`` said so.
     """
     instrument = performance.instrument(player)
-    character = character_of(player)
-    hold = hold_of(character, instrument, model_of(instrument))
+    character, body = character_of(player), body_of(player)
+    hold = hold_of(player, instrument)
     pieces = []
     for first in range(0, span.count, CHUNK):
         if stop_wanted():
@@ -86,7 +87,7 @@ def player_motion(
                 instrument,
                 character,
                 hold,
-                body_of(player),
+                body,
                 beat_ticks=performance.piece.beat_ticks,
                 fps=span.fps,
                 frames=min(CHUNK, span.count - first),
