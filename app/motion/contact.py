@@ -13,7 +13,7 @@ import numpy as np
 
 from app.motion.body import BodyMotion
 from app.motion.curve import FloatArray
-from app.motion.posture import Side, Trunk, exact_target
+from app.motion.posture import Side, Trunk
 from app.rig import quaternion
 from app.rig.hold import HandHold, Hold, hand_targets
 from app.rig.ik import arm, solve_limb
@@ -24,7 +24,7 @@ X_AXIS, Y_AXIS, Z_AXIS = np.eye(3)
 
 CLEAR_M = 0.05
 """On its way down and up the instrument swings ahead by this much, clear of the chin."""
-AT_EASE = 0.975
+AT_EASE = 0.96
 """Share of its length an arm reaches without help from the shoulder."""
 EASE_M = 0.008
 """The shoulder's help sets in over about this distance."""
@@ -245,7 +245,7 @@ def _solve_arm(
     root_m = joint_m + quaternion.rotate(clavicle_world, clavicle)
     out = np.tan(motion.elbows_rad)[:, None] * np.array([sign, 0.0, 0.0])
     pole = quaternion.rotate(with_chest, hand.elbow_direction + out)
-    pose = solve_limb(limb, root_m, clavicle_world, exact_target(limb, root_m, target_m), target_rotation, pole)
+    pose = solve_limb(limb, root_m, clavicle_world, target_m, target_rotation, pole)
     return {
         shoulder: moved,
         limb.upper: pose.upper,

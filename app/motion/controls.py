@@ -9,12 +9,21 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from app.motion.curve import Curve, moves
+import numpy as np
+
+from app.motion.curve import Curve, minimum_jerk, moves
 from app.plan.model import FingeringEvent
 from instrument_maps.model import Control
 
 SLOWEST_FRAME_S = 1.0 / 24.0
 """A note is judged up to one frame after its onset; no move, however hurried, begins before that."""
+STILL_IN_PLACE_M = 0.004
+"""A slide this near its place is in its place."""
+UNSEEN_SHARE = 0.25
+"""Of a way so short that it is hardly seen at all, at most this share."""
+MOST_BACK_SHARE = 0.9
+"""Of a short rest, at most this share goes to the way back, however short the way out."""
+_PHASES = np.linspace(0.0, 0.5, 201)
 RELEASE_S = 0.12
 """A finger's way back to rest after a note, unhurried."""
 CARRY_BACK_S = 0.25
@@ -51,6 +60,16 @@ def window_s(control: Control, distance: float, duration_s: float, gap_s: float)
     return min(need, max(allowed, duration_s + gap_s - SLOWEST_FRAME_S))
 
 
+def unseen_s(control: Control, distance: float, window: float) -> float:
+    """How much earlier than its window a slide may begin: so that when the window opens it is still within
+    `STILL_IN_PLACE_M`. What looks like standing still is where the hand gathers speed, so it need not jerk."""
+    if control.motion.travel_m is None or control.max_speed_m_s is None:
+        return 0.0
+    share = STILL_IN_PLACE_M / (distance * control.motion.travel_m)
+    phase = float(np.interp(min(share, UNSEEN_SHARE), minimum_jerk(_PHASES), _PHASES))
+    return window * phase / (1.0 - phase)
+
+
 def control_curve(fingerings: Sequence[FingeringEvent], control: Control, beat_ticks: int) -> Curve:
     """The value 0..1 of one control through a player's notes.
 
@@ -75,7 +94,13 @@ def control_curve(fingerings: Sequence[FingeringEvent], control: Control, beat_t
         elif target != value:
             end_s = min(last.end_s, event.start_s)
             window = window_s(control, target - value, end_s - last.start_s, event.start_s - end_s)
-            segments.append((event.start_s - window, event.start_s, target))
+            early = unseen_s(control, abs(target - value), window)
+            start_s = max(
+                event.start_s - window - early,
+                last.start_s + SLOWEST_FRAME_S,
+                last.start_s + 0.3 * (event.start_s - last.start_s),
+            )
+            segments.append((min(start_s, event.start_s - window), event.start_s, target))
         value, last = target, event
     if last is not None:
         segments.append((last.end_s, last.end_s + _back_s(control, value), rest))
@@ -90,7 +115,8 @@ def control_curves(
 
 
 def _free_window_s(control: Control, distance: float) -> float:
-    return max(control.move_window_s, need_s(control, distance))
+    window = max(control.move_window_s, need_s(control, distance))
+    return window + unseen_s(control, abs(distance), window) if distance else window
 
 
 def _back_s(control: Control, value: float) -> float:
@@ -110,5 +136,6 @@ def _through_rest(
     out_s = _free_window_s(control, out) if out else 0.0
     if back_s + out_s > gap_s:  # a fast beat: hurry both ways, each by its share of the distance
         back_s = max(gap_s - out_s, gap_s * back / (back + out))
+        back_s = min(back_s, MOST_BACK_SHARE * gap_s) if out else gap_s
     back_end_s = min(end_s + back_s, onset_s)
     return [(end_s, back_end_s, rest), (max(onset_s - out_s, back_end_s), onset_s, target)]

@@ -22,7 +22,7 @@ from instrument_maps.model import Carriage, Lowered
 
 CHUNK = 4096
 """Frames solved at once: few enough to stay in the processor's cache."""
-HELP_EASE_S = 0.30
+HELP_EASE_S = 0.16
 """Trunk and shoulders come towards a far hand this long before it goes there, and back as long after."""
 REACH_TURN_SHARES = {"spine": 0.20, "chest": 0.42, "upperChest": 0.38}
 NECK_BACK_SHARES = {"neck": 0.5, "head": 0.5}
