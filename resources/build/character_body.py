@@ -11,14 +11,18 @@ from character_surface import Surface, compact, keep_triangles, split_seams, tri
 HAND_IN_CUFF_M, NECK_IN_COLLAR_M = 0.045, 0.02
 
 
-def surface_of(source: Source, fit: SkeletonFit, name: str, groups: tuple[str, ...], material: str, morphs: bool) -> Surface:
+def surface_of(
+    source: Source, fit: SkeletonFit, name: str, groups: tuple[str, ...], material: str, morphs: bool
+) -> Surface:
     """One surface from whole groups of the base mesh."""
     corners = np.concatenate([source.groups[group].vertices for group in groups])
     uv_corners = np.concatenate([source.groups[group].uvs for group in groups])
     origin, uv_index, faces = split_seams(corners, uv_corners)
     normals = vertex_normals(source.vertices, triangulate(corners, source.vertices))
     deltas = (
-        {label: delta[origin] for label, delta in zip(source.morph_names, source.morph_deltas, strict=True)} if morphs else {}
+        {label: delta[origin] for label, delta in zip(source.morph_names, source.morph_deltas, strict=True)}
+        if morphs
+        else {}
     )
     return Surface(
         name=name,
@@ -45,7 +49,12 @@ def _by_material(whole: Surface, source: Source) -> Surface:
     lips = _mask_at(source.masks["lips"], centres) > 0.5
     nails = (_mask_at(source.masks["fingernails"], centres) > 0.5) & ~lips
     mouth = (_mask_at(source.masks["inside-mouth"], centres) > 0.5) & ~lips & ~nails
-    parts = {"skin": triangles[~lips & ~nails & ~mouth], "lips": triangles[lips], "nails": triangles[nails], "mouth": triangles[mouth]}
+    parts = {
+        "skin": triangles[~lips & ~nails & ~mouth],
+        "lips": triangles[lips],
+        "nails": triangles[nails],
+        "mouth": triangles[mouth],
+    }
     return Surface(**(whole.__dict__ | {"triangles": parts}))
 
 

@@ -50,9 +50,7 @@ def catmull_clark(cloth: Cloth) -> Cloth:
     moved[:, 3:] = values[:, 3:]
     e = inverse.reshape(-1, 4) + count
     f = np.arange(len(quads)) + count + len(unique)
-    faces = np.concatenate(
-        [np.stack([quads[:, k], e[:, k], f, e[:, k - 1]], axis=1) for k in range(4)]
-    )
+    faces = np.concatenate([np.stack([quads[:, k], e[:, k], f, e[:, k - 1]], axis=1) for k in range(4)])
     result = np.concatenate([moved, edge_points, centres])
     weights = result[:, 3:]
     return Cloth(result[:, :3], weights / weights.sum(axis=1, keepdims=True), faces)
@@ -91,7 +89,9 @@ def cut(cloth: Cloth, height: np.ndarray) -> Cloth:
 
 def relaxed(cloth: Cloth, share: np.ndarray, steps: int) -> Cloth:
     """The cloth with its points drawn towards their neighbours' mean, by `share` (N,) in 0..1 at every step."""
-    edges = np.unique(np.sort(np.stack([cloth.faces, np.roll(cloth.faces, -1, axis=1)], axis=2).reshape(-1, 2), axis=1), axis=0)
+    edges = np.unique(
+        np.sort(np.stack([cloth.faces, np.roll(cloth.faces, -1, axis=1)], axis=2).reshape(-1, 2), axis=1), axis=0
+    )
     count = len(cloth.points)
     ones = np.ones(len(edges))
     neighbours = coo_array((ones, (edges[:, 0], edges[:, 1])), shape=(count, count)).tocsr()
@@ -109,7 +109,7 @@ def drop_unused(cloth: Cloth) -> Cloth:
 
 
 def border_loops(faces: np.ndarray) -> list[np.ndarray]:
-    """The open borders of a triangle or quad mesh as closed vertex loops, longest first, in the direction of the faces."""
+    """The open borders of a mesh as closed vertex loops, longest first, in the direction of the faces."""
     edges = np.stack([faces, np.roll(faces, -1, axis=1)], axis=2).reshape(-1, 2)
     forward = {(int(a), int(b)) for a, b in edges}
     following = {a: b for a, b in sorted(forward) if (b, a) not in forward}
@@ -174,7 +174,9 @@ class Profile:
         return low * (1 - u) + high * u
 
 
-def hull_profile(along: np.ndarray, across: np.ndarray, levels: np.ndarray, centres: np.ndarray, window_m: float) -> Profile:
+def hull_profile(
+    along: np.ndarray, across: np.ndarray, levels: np.ndarray, centres: np.ndarray, window_m: float
+) -> Profile:
     """The convex hull of every slice of a point cloud, as radii over 72 angles: how cloth spans hollows."""
     angles = 2 * np.pi * np.arange(72) / 72
     directions = np.stack([np.cos(angles), np.sin(angles)], axis=1)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 from character_cloth import grid_faces
 from character_skeleton import SkeletonFit
@@ -22,13 +20,17 @@ def eyes(source: Source, fit: SkeletonFit) -> Surface:
         centre = fit.world_from_joint_rest[joint, :3, 3]
         helper = source.vertices[np.unique(source.groups[f"helper-{letter}-eye"].vertices)]
         radius = float(np.ptp(helper[:, 0]) / 2)
-        edges = np.arcsin(np.array([0.0, PUPIL_M * 0.5, PUPIL_M, (PUPIL_M + IRIS_M) / 2, IRIS_M, LIMBUS_M, LIMBUS_M * 1.15]) / radius)
+        edges = np.arcsin(
+            np.array([0.0, PUPIL_M * 0.5, PUPIL_M, (PUPIL_M + IRIS_M) / 2, IRIS_M, LIMBUS_M, LIMBUS_M * 1.15]) / radius
+        )
         polar = np.concatenate([edges, np.linspace(edges[-1], np.radians(140), 12)[1:]])
         # The cornea stands a little proud of the white.
         bulge = 0.0009 * np.maximum(0.0, 1 - (polar / edges[-1]) ** 2)
         angles = 2 * np.pi * np.arange(32) / 32
         rings = [
-            centre + (radius + out) * np.stack([np.sin(p) * np.cos(angles), np.sin(p) * np.sin(angles), np.full(32, np.cos(p))], axis=1)
+            centre
+            + (radius + out)
+            * np.stack([np.sin(p) * np.cos(angles), np.sin(p) * np.sin(angles), np.full(32, np.cos(p))], axis=1)
             for p, out in zip(polar, bulge, strict=True)
         ]
         start = sum(len(part) for part in points)
@@ -53,7 +55,16 @@ def eyes(source: Source, fit: SkeletonFit) -> Surface:
     return compact(smooth_normals(surface))
 
 
-def _attached(name: str, material: str, source: Source, fit: SkeletonFit, corners: np.ndarray, shares: np.ndarray, offsets: np.ndarray, faces: np.ndarray) -> Surface:
+def _attached(
+    name: str,
+    material: str,
+    source: Source,
+    fit: SkeletonFit,
+    corners: np.ndarray,
+    shares: np.ndarray,
+    offsets: np.ndarray,
+    faces: np.ndarray,
+) -> Surface:
     """A surface whose vertices are shares (N, K) of base vertices (N, K) plus offsets (N, 3): it moves as they do."""
     positions = np.einsum("nk,nka->na", shares, source.vertices[corners]) + offsets
     morphs = {
@@ -91,10 +102,14 @@ def lashes(source: Source, fit: SkeletonFit) -> Surface:
                 start = len(corners)
                 corners += [[a, b, c, d]] * 3
                 shares += [[1 - low, low, 0, 0], [1 - high, high, 0, 0]]
-                shares.append([(1 - length) * (1 - middle), (1 - length) * middle, length * middle, length * (1 - middle)])
+                shares.append(
+                    [(1 - length) * (1 - middle), (1 - length) * middle, length * middle, length * (1 - middle)]
+                )
                 faces.append([start, start + 1, start + 2])
     count = len(corners)
-    return _attached("lashes", "lashes", source, fit, np.array(corners), np.array(shares), np.zeros((count, 3)), np.array(faces))
+    return _attached(
+        "lashes", "lashes", source, fit, np.array(corners), np.array(shares), np.zeros((count, 3)), np.array(faces)
+    )
 
 
 def _on_face(source: Source, triangles: np.ndarray, places: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -120,7 +135,10 @@ def brows(source: Source, fit: SkeletonFit, thickness: float) -> Surface:
     body = source.groups["body"]
     triangles = triangulate(body.vertices, source.vertices)
     head = fit.world_from_joint_rest[fit.index("head"), :3, 3]
-    triangles = triangles[(source.vertices[triangles][:, :, 1] > head[1]).all(axis=1) & (source.vertices[triangles][:, :, 2] > head[2]).all(axis=1)]
+    triangles = triangles[
+        (source.vertices[triangles][:, :, 1] > head[1]).all(axis=1)
+        & (source.vertices[triangles][:, :, 2] > head[2]).all(axis=1)
+    ]
     rng = np.random.Generator(np.random.PCG64(41))
     along = np.sort(rng.uniform(0, 1, BROW_HAIRS))
     up = rng.normal(0, 0.5, BROW_HAIRS).clip(-1, 1)
@@ -145,4 +163,13 @@ def brows(source: Source, fit: SkeletonFit, thickness: float) -> Surface:
         offsets += [lift + across, lift - across, lift + direction * length[:, None] + normal * 0.0007]
         index = start + np.arange(BROW_HAIRS)
         faces.append(np.stack([index, index + BROW_HAIRS, index + 2 * BROW_HAIRS], axis=1))
-    return _attached("brows", "brows", source, fit, np.concatenate(corners), np.concatenate(shares), np.concatenate(offsets), np.concatenate(faces))
+    return _attached(
+        "brows",
+        "brows",
+        source,
+        fit,
+        np.concatenate(corners),
+        np.concatenate(shares),
+        np.concatenate(offsets),
+        np.concatenate(faces),
+    )

@@ -25,8 +25,8 @@ from character_cloth import (
 from character_skeleton import SkeletonFit
 from character_source import Source
 from character_surface import Surface
-from scipy.ndimage import gaussian_filter1d
 from scipy.interpolate import LinearNDInterpolator
+from scipy.ndimage import gaussian_filter1d
 from scipy.spatial import cKDTree
 
 CUFF_LENGTH_M = 0.055
@@ -75,7 +75,10 @@ def measure(source: Source, fit: SkeletonFit) -> Tailoring:
     shoulder = joint["leftUpperArm"]
     levels = np.arange(crotch - 0.06, shoulder[1], 0.01)
     centres = np.array(
-        [[0.0, np.ptp(z) / 2 + z.min()] for z in (trunk_points[np.abs(trunk_points[:, 1] - y) < 0.02, 2] for y in levels)]
+        [
+            [0.0, np.ptp(z) / 2 + z.min()]
+            for z in (trunk_points[np.abs(trunk_points[:, 1] - y) < 0.02, 2] for y in levels)
+        ]
     )
     trunk = hull_profile(trunk_points[:, 1], trunk_points[:, [0, 2]], levels, centres, 0.016)
     nape = joint["neck"] + np.array([0.0, 0.020, -0.05])
@@ -110,7 +113,9 @@ def _weights_from(cloth: Cloth, points: np.ndarray) -> np.ndarray:
     return weights / weights.sum(axis=1, keepdims=True)
 
 
-def _move_out(points: np.ndarray, profile: Profile, axes: tuple[int, int, int], target: np.ndarray, share: np.ndarray) -> np.ndarray:
+def _move_out(
+    points: np.ndarray, profile: Profile, axes: tuple[int, int, int], target: np.ndarray, share: np.ndarray
+) -> np.ndarray:
     """Points moved from the profile's axis to the radius `target` (N,) where that is further out, by `share` (N,)."""
     along, first, second = axes
     angle, radius, centre = profile.polar(points[:, along], points[:, [first, second]])
@@ -125,14 +130,21 @@ def _drape_torso(tailoring: Tailoring, cloth: Cloth, arm: np.ndarray) -> Cloth:
     """The shirt's torso: spans hollows, falls from its widest place and is gathered into the belt."""
     fall = smoothed(hang(tailoring.trunk, 0.25), 2.0, 1.5)
     points = cloth.points
-    angle, radius, _ = fall.polar(points[:, 1], points[:, [0, 2]])
+    angle, _, _ = fall.polar(points[:, 1], points[:, [0, 2]])
     gather = smoothstep(points[:, 1], tailoring.belt_m - 0.005, tailoring.belt_m + 0.09)
     at_belt = tailoring.trunk.radius_at(np.full(len(points), tailoring.belt_m), angle) + 0.003
     loose = fall.radius_at(points[:, 1], angle) + 0.012
-    crease = folds(points[:, 1], angle, 0.11, seed=11) * 0.0035 * gather * (1 - smoothstep(points[:, 1], tailoring.belt_m + 0.1, tailoring.armpit_m))
+    crease = (
+        folds(points[:, 1], angle, 0.11, seed=11)
+        * 0.0035
+        * gather
+        * (1 - smoothstep(points[:, 1], tailoring.belt_m + 0.1, tailoring.armpit_m))
+    )
     vertical = folds(3.0 * angle / (2 * np.pi), np.zeros_like(angle), 0.23, seed=12) * 0.003 * gather * (1 - gather) * 4
     target = at_belt + (loose - at_belt) * gather + crease + vertical
-    share = (1 - smoothstep(arm, 0.15, 0.6)) * (1 - smoothstep(points[:, 1], tailoring.armpit_m - 0.03, tailoring.shoulder[1] + 0.01))
+    share = (1 - smoothstep(arm, 0.15, 0.6)) * (
+        1 - smoothstep(points[:, 1], tailoring.armpit_m - 0.03, tailoring.shoulder[1] + 0.01)
+    )
     return replace(cloth, points=_move_out(points, fall, (1, 0, 2), target, share))
 
 
@@ -146,7 +158,9 @@ def _drape_sleeves(tailoring: Tailoring, cloth: Cloth, arm: np.ndarray) -> Cloth
         own = (arm > 0.3) & (points[:, 0] * sign > 0)
         mirrored = points[own] * np.array([sign, 1.0, 1.0])
         solid = arm[own] > 0.9
-        sleeve = smoothed(hull_profile(mirrored[solid, 0], mirrored[solid][:, [1, 2]], levels, centres, 0.016), 2.0, 1.0)
+        sleeve = smoothed(
+            hull_profile(mirrored[solid, 0], mirrored[solid][:, [1, 2]], levels, centres, 0.016), 2.0, 1.0
+        )
         angle, _, _ = sleeve.polar(mirrored[:, 0], mirrored[:, [1, 2]])
         share = (mirrored[:, 0] - start) / (end - CUFF_LENGTH_M - start)
         roomy = (0.058 - 0.013 * np.clip(share, 0, 1)) * tailoring.shoulder[1] / 1.34
@@ -167,15 +181,29 @@ def _cuffs(tailoring: Tailoring, fit: SkeletonFit) -> Cloth:
         along = suit.points[:, 0] * sign
         ring = suit.points[np.abs(along - (tailoring.wrist_m - 0.03)) < 0.012][:, [1, 2]]
         centre = ring.mean(axis=0)
-        profile = smoothed(hull_profile(np.zeros(len(ring)), ring, np.array([0.0, 1.0]), np.stack([centre, centre]), 2.0), 0.01, 4.0)
+        profile = smoothed(
+            hull_profile(np.zeros(len(ring)), ring, np.array([0.0, 1.0]), np.stack([centre, centre]), 2.0), 0.01, 4.0
+        )
         start, end = tailoring.wrist_m - CUFF_LENGTH_M - 0.004, tailoring.wrist_m + 0.010
-        rows = [(start, 0.001), (start, 0.0045), (start + 0.003, 0.0055), (end - 0.002, 0.0055), (end, 0.0045), (end, 0.0030), (end - 0.02, 0.0020)]
+        rows = [
+            (start, 0.001),
+            (start, 0.0045),
+            (start + 0.003, 0.0055),
+            (end - 0.002, 0.0055),
+            (end, 0.0045),
+            (end, 0.0030),
+            (end - 0.02, 0.0020),
+        ]
         angles = 2 * np.pi * np.arange(36) / 36
         radius = profile.radius_at(np.zeros(36), angles)
         points = np.concatenate(
             [
                 np.stack(
-                    [np.full(36, sign * x), centre[0] + (radius + out) * np.cos(angles), centre[1] + (radius + out) * np.sin(angles)],
+                    [
+                        np.full(36, sign * x),
+                        centre[0] + (radius + out) * np.cos(angles),
+                        centre[1] + (radius + out) * np.sin(angles),
+                    ],
                     axis=1,
                 )
                 for x, out in rows
@@ -196,9 +224,12 @@ def _front(cloth: Cloth) -> LinearNDInterpolator:
 
 
 def _neck_ring(tailoring: Tailoring, cloth: Cloth, height_m: float, angles: np.ndarray) -> np.ndarray:
-    """(N, 3) where the plane `height_m` above the collar's seam cuts a cloth, by angle about the neck (0 at the nape; the last
-    angle is the first one, a turn later)."""
-    neck = cut(cloth, np.maximum(height_m - above_collar(tailoring, cloth.points), np.abs(cloth.points[:, 0]) - NECK_HALF_WIDTH_M))
+    """(N, 3) where the plane `height_m` above the collar's seam cuts a cloth, by angle about the neck (0 at the nape;
+    the last angle is the first one, a turn later)."""
+    neck = cut(
+        cloth,
+        np.maximum(height_m - above_collar(tailoring, cloth.points), np.abs(cloth.points[:, 0]) - NECK_HALF_WIDTH_M),
+    )
     ring = max((neck.points[loop] for loop in border_loops(neck.faces)), key=lambda points: points[:, 1].mean())
     middle = tailoring.collar_point + np.array([0.0, 0.0, 0.05])
     around = np.arctan2(ring[:, 0], middle[2] - ring[:, 2])
@@ -243,14 +274,19 @@ def _placket(tailoring: Tailoring, shirt: Cloth, front: LinearNDInterpolator, to
     x, y = np.meshgrid(columns, heights)
     z = front(x.ravel(), y.ravel()) + np.tile(lift, len(heights))
     points = np.stack([x.ravel(), y.ravel(), z], axis=1)
-    strip = to_triangles(Cloth(points, _weights_from(shirt, points), grid_faces(len(heights), 5, closed=False)[:, ::-1]))
+    strip = to_triangles(
+        Cloth(points, _weights_from(shirt, points), grid_faces(len(heights), 5, closed=False)[:, ::-1])
+    )
     buttons = []
     angles = 2 * np.pi * np.arange(12) / 12
     for height in np.arange(top_m - 0.03, tailoring.belt_m + 0.03, -0.085):
         depth = float(front(0.0, height)) + 0.0022
         rings = [(0.0055, 0.0), (0.0055, 0.0018), (0.0035, 0.0022), (0.0, 0.0016)]
         disc = np.concatenate(
-            [np.stack([r * np.cos(angles), height + r * np.sin(angles), np.full(12, depth + out)], axis=1) for r, out in rings]
+            [
+                np.stack([r * np.cos(angles), height + r * np.sin(angles), np.full(12, depth + out)], axis=1)
+                for r, out in rings
+            ]
         )
         weights = np.tile(_weights_from(shirt, np.array([[0.0, height, depth]])), (len(disc), 1))
         buttons.append(to_triangles(Cloth(disc, weights, grid_faces(len(rings), 12, closed=True))))
@@ -272,8 +308,12 @@ def _band(profile: Profile, suit: Cloth, rows: list[tuple[float, float]], seed_r
         ]
     )
     # One weight for the whole height of a column: a belt does not shear.
-    column = _weights_from(suit, np.stack([points[:seed_rows, 0], np.full(seed_rows, level), points[:seed_rows, 2]], axis=1))
-    return to_triangles(Cloth(points, np.tile(column, (len(rows), 1)), grid_faces(len(rows), seed_rows, closed=True)[:, ::-1]))
+    column = _weights_from(
+        suit, np.stack([points[:seed_rows, 0], np.full(seed_rows, level), points[:seed_rows, 2]], axis=1)
+    )
+    return to_triangles(
+        Cloth(points, np.tile(column, (len(rows), 1)), grid_faces(len(rows), seed_rows, closed=True)[:, ::-1])
+    )
 
 
 def shirt(tailoring: Tailoring, fit: SkeletonFit) -> Surface:
@@ -282,7 +322,9 @@ def shirt(tailoring: Tailoring, fit: SkeletonFit) -> Surface:
     cloth = _drape_sleeves(tailoring, _drape_torso(tailoring, suit, tailoring.arm), tailoring.arm)
     cloth = cut(cloth, cloth.points[:, 1] - (tailoring.belt_m - 0.045))
     cloth = cut(cloth, tailoring.wrist_m - CUFF_LENGTH_M + 0.004 - np.abs(cloth.points[:, 0]))
-    cloth = cut(cloth, np.maximum(-above_collar(tailoring, cloth.points), np.abs(cloth.points[:, 0]) - NECK_HALF_WIDTH_M))
+    cloth = cut(
+        cloth, np.maximum(-above_collar(tailoring, cloth.points), np.abs(cloth.points[:, 0]) - NECK_HALF_WIDTH_M)
+    )
     front = _front(cloth)
     seam_front = tailoring.collar_point + 0.0
     throat = cloth.points[(np.abs(cloth.points[:, 0]) < 0.01) & (cloth.points[:, 2] > seam_front[2] + 0.03)][:, 1].max()
@@ -344,6 +386,12 @@ def trousers(tailoring: Tailoring, fit: SkeletonFit) -> Surface:
     points[low, 1] = top - reach * (top - hem_m) + slope
     cloth = replace(cloth, points=points)
     belt = tailoring.belt_m
-    waistband = _band(tailoring.trunk, suit, [(belt - WAISTBAND_M, 0.005), (belt - WAISTBAND_M, 0.010), (belt, 0.010), (belt + 0.002, 0.008), (belt, 0.004)])
+    waistband = _band(
+        tailoring.trunk,
+        suit,
+        [(belt - WAISTBAND_M, 0.005), (belt - WAISTBAND_M, 0.010), (belt, 0.010), (belt + 0.002, 0.008), (belt, 0.004)],
+    )
     leather = [(belt - 0.033, 0.009), (belt - 0.032, 0.0125), (belt - 0.004, 0.0125), (belt - 0.003, 0.009)]
-    return cloth_surface("trousers", {"trousers": join(cloth, waistband), "belt": _band(tailoring.trunk, suit, leather)}, fit)
+    return cloth_surface(
+        "trousers", {"trousers": join(cloth, waistband), "belt": _band(tailoring.trunk, suit, leather)}, fit
+    )

@@ -47,7 +47,9 @@ class _Buffer:
         self.views.append(view)
         return len(self.views) - 1
 
-    def accessor(self, array: np.ndarray, component: int, kind: str, target: int | None = None, bounds: bool = False) -> int:
+    def accessor(
+        self, array: np.ndarray, component: int, kind: str, target: int | None = None, bounds: bool = False
+    ) -> int:
         typed = np.ascontiguousarray(array, dtype=_DTYPES[component])
         entry: dict[str, Any] = {
             "bufferView": self.view(typed, target),
@@ -168,7 +170,9 @@ EXPRESSIONS: Mapping[str, Mapping[str, float]] = {
 """VRM 1.0's preset expressions in ARKit shapes."""
 
 
-def _vrm(fit: SkeletonFit, meta: Mapping[str, Any], surfaces: Sequence[Surface], mesh_nodes: Mapping[str, int]) -> dict[str, Any]:
+def _vrm(
+    fit: SkeletonFit, meta: Mapping[str, Any], surfaces: Sequence[Surface], mesh_nodes: Mapping[str, int]
+) -> dict[str, Any]:
     def binds(shapes: Mapping[str, float]) -> list[dict[str, Any]]:
         return [
             {"node": mesh_nodes[surface.name], "index": list(surface.morphs).index(shape), "weight": weight}
@@ -215,9 +219,7 @@ def write_character(
         "name": "skin",
         "skeleton": 0,
         "joints": [joint + 1 for joint in range(len(fit.names))],
-        "inverseBindMatrices": buffer.accessor(
-            np.swapaxes(inverse_binds, 1, 2).reshape(-1, 16), FLOAT, "MAT4"
-        ),
+        "inverseBindMatrices": buffer.accessor(np.swapaxes(inverse_binds, 1, 2).reshape(-1, 16), FLOAT, "MAT4"),
     }
     mesh_nodes = {}
     for index, surface in enumerate(surfaces):

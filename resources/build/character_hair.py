@@ -53,7 +53,11 @@ def skull(source: Source, fit: SkeletonFit, ears: np.ndarray) -> Skull:
     front = points[points[:, 1] > eye[1] + 0.02, 2].max()
     centre = np.array([0.0, (top + eye[1]) / 2 - 0.005, (front + back) / 2])
     offsets = points - centre
-    near = (offsets[:, 1] > -0.13) & (np.linalg.norm(offsets, axis=1) > 0.05) & ((offsets[:, 2] < 0.06) | (offsets[:, 1] > -0.01))
+    near = (
+        (offsets[:, 1] > -0.13)
+        & (np.linalg.norm(offsets, axis=1) > 0.05)
+        & ((offsets[:, 2] < 0.06) | (offsets[:, 1] > -0.01))
+    )
     directions, distances = _unit(offsets[near]), np.linalg.norm(offsets[near], axis=1)
     fitted = RBFInterpolator(directions, distances, neighbors=24, smoothing=1e-3, kernel="linear")
     return Skull(centre, fitted, float(eye[1] - centre[1]))
@@ -68,12 +72,27 @@ def hairline(head: Skull, directions: np.ndarray, forehead_m: float) -> np.ndarr
     """(N,) height in metres of skin above the hairline at its azimuth; hair grows where it is positive."""
     degrees = np.degrees(_angles(directions))
     knots = [0, 25, 45, 58, 66, 76, 84, 100, 112, 125, 150, 180]
-    above_eyes = [forehead_m, forehead_m - 0.001, forehead_m - 0.012, forehead_m - 0.026, 0.024, -0.006, -0.002, 0.028, 0.006, -0.030, -0.052, -0.056]
+    above_eyes = [
+        forehead_m,
+        forehead_m - 0.001,
+        forehead_m - 0.012,
+        forehead_m - 0.026,
+        0.024,
+        -0.006,
+        -0.002,
+        0.028,
+        0.006,
+        -0.030,
+        -0.052,
+        -0.056,
+    ]
     height = directions[:, 1] * head.radius(directions) - head.eye_m
     return height - np.interp(degrees, knots, above_eyes)
 
 
-def _cap(source: Source, fit: SkeletonFit, head: Skull, ears: np.ndarray, forehead_m: float) -> tuple[np.ndarray, np.ndarray]:
+def _cap(
+    source: Source, fit: SkeletonFit, head: Skull, ears: np.ndarray, forehead_m: float
+) -> tuple[np.ndarray, np.ndarray]:
     """Positions and triangles of a close cap: the scalp's own skin, lifted."""
     body = source.groups["body"]
     triangles = triangulate(body.vertices, source.vertices)
@@ -88,21 +107,27 @@ def _cap(source: Source, fit: SkeletonFit, head: Skull, ears: np.ndarray, forehe
     return source.vertices[used] + directions[used] * lift[:, None], faces.reshape(-1, 3)
 
 
-def _lock(centres: np.ndarray, outward: np.ndarray, half_width: np.ndarray, height: np.ndarray, roll: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
+def _lock(
+    centres: np.ndarray, outward: np.ndarray, half_width: np.ndarray, height: np.ndarray, roll: float = 0.0
+) -> tuple[np.ndarray, np.ndarray]:
     """Positions and quads of one lock along (K, 3) centres."""
     tangent = _unit(np.gradient(centres, axis=0))
     across = _unit(np.cross(outward, tangent))
     normal = np.cross(tangent, across)
     if roll:
         across, normal = across * np.cos(roll) + normal * np.sin(roll), normal * np.cos(roll) - across * np.sin(roll)
-    rows = [
-        centres + across * (half_width * side)[:, None] + normal * (height * out)[:, None] for side, out in ARCH
-    ]
+    rows = [centres + across * (half_width * side)[:, None] + normal * (height * out)[:, None] for side, out in ARCH]
     points = np.stack(rows, axis=1).reshape(-1, 3)
     return points, grid_faces(len(centres), len(ARCH), closed=False)
 
 
-def _assemble(name: str, fit: SkeletonFit, cap: tuple[np.ndarray, np.ndarray], locks: list[tuple[np.ndarray, np.ndarray]], shades: np.ndarray) -> Surface:
+def _assemble(
+    name: str,
+    fit: SkeletonFit,
+    cap: tuple[np.ndarray, np.ndarray],
+    locks: list[tuple[np.ndarray, np.ndarray]],
+    shades: np.ndarray,
+) -> Surface:
     """Cap and locks as one mesh in two shades."""
     points, triangles = [cap[0]], {"hair": [cap[1]], "hair_light": []}
     start = len(cap[0])
@@ -158,7 +183,9 @@ def short_hair(source: Source, fit: SkeletonFit, ears: np.ndarray) -> Surface:
         turn = rng.normal(0, 0.22)
         for step in range(steps):
             share = step / (steps - 1)
-            path.append(head.at(direction[None], np.array([0.001 + rise * share**0.8 * (1 - 0.45 * share * (1 - front))]))[0])
+            path.append(
+                head.at(direction[None], np.array([0.001 + rise * share**0.8 * (1 - 0.45 * share * (1 - front))]))[0]
+            )
             normals.append(direction)
             away = direction - whorl
             sweep = np.array([0.55, 0.0, 0.35]) * top + np.array([0.0, -0.6, -0.25]) * (1 - top)
@@ -168,7 +195,9 @@ def short_hair(source: Source, fit: SkeletonFit, ears: np.ndarray) -> Surface:
             heading = heading * np.cos(turn) + side * np.sin(turn)
             direction = _unit(direction + heading * length / (steps - 1) / 0.1)
         share = np.linspace(0, 1, steps)
-        width = (0.0046 - 0.0012 * (1 - top)) * np.sqrt(np.maximum(1 - share**2.2, 0.0)) * np.minimum(0.55 + 2 * share, 1.0) + 0.0002
+        width = (0.0046 - 0.0012 * (1 - top)) * np.sqrt(np.maximum(1 - share**2.2, 0.0)) * np.minimum(
+            0.55 + 2 * share, 1.0
+        ) + 0.0002
         locks.append(_lock(np.array(path), np.array(normals), width, 0.35 * width, rng.normal(0, 0.25)))
     shades = rng.uniform(0, 1, len(locks)) < 0.35
     return _assemble("hair", fit, _cap(source, fit, head, ears, forehead), locks, shades)
@@ -211,7 +240,7 @@ def bun_hair(source: Source, fit: SkeletonFit, ears: np.ndarray) -> Surface:
     near_edge = (margin > 0.0005) & ((margin < 0.014) | (rng.uniform(0, 1, len(roots)) < 0.30))
     steps = np.linspace(0, 1, 10)
     locks = []
-    for root, room in zip(roots[near_edge], margin[near_edge], strict=True):
+    for root in roots[near_edge]:
         distance = float(np.arccos(np.clip(root @ knot, -1, 1)))
         if distance < 0.25:
             continue
@@ -220,7 +249,11 @@ def bun_hair(source: Source, fit: SkeletonFit, ears: np.ndarray) -> Surface:
         path = _slerp(root, knot, steps * 0.96)
         path = _unit(path + np.sin(np.pi * steps)[:, None] * np.array([0.0, 0.22, 0.0]) * side)
         volume = rng.uniform(0.003, 0.0065) * min(1.0, distance / 1.2)
-        lift = 0.0012 + volume * np.sin(np.pi * np.minimum(steps * 1.25 + 0.02, 1.0)) ** 0.6 + 0.006 * smoothstep(steps, 0.75, 1.0)
+        lift = (
+            0.0012
+            + volume * np.sin(np.pi * np.minimum(steps * 1.25 + 0.02, 1.0)) ** 0.6
+            + 0.006 * smoothstep(steps, 0.75, 1.0)
+        )
         gather = np.sin(np.clip(np.arccos(np.clip(path @ knot, -1, 1)), 0.15, np.pi / 2)) ** 0.8
         width = (0.0068 * gather * np.minimum(0.35 + 5 * steps, 1.0)) + 0.0003
         locks.append(_lock(head.at(path, lift), path, width, 0.30 * width, rng.normal(0, 0.12)))

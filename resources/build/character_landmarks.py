@@ -1,4 +1,4 @@
-"""Named places on a character's surface: what fingers press with, where the mouthpiece sits, what stands on the floor."""
+"""Named places on a character's surface: what fingers press with, where a mouthpiece sits, what stands on the floor."""
 
 from __future__ import annotations
 
@@ -32,13 +32,17 @@ def _patch(body: Surface, candidates: np.ndarray, origin: np.ndarray, direction:
     return _nearest(body.positions, surface_point, front, count)
 
 
-def _phalanx_length_m(fit: SkeletonFit, tips: dict[str, np.ndarray], joint: str, following: str | None, finger: str) -> float:
+def _phalanx_length_m(
+    fit: SkeletonFit, tips: dict[str, np.ndarray], joint: str, following: str | None, finger: str
+) -> float:
     start = fit.world_from_joint_rest[fit.index(joint), :3, 3]
     end = tips[finger] if following is None else fit.world_from_joint_rest[fit.index(following), :3, 3]
     return float(np.linalg.norm(end - start))
 
 
-def _finger(body: Surface, fit: SkeletonFit, tips: dict[str, np.ndarray], side: str, finger: str) -> dict[str, np.ndarray]:
+def _finger(
+    body: Surface, fit: SkeletonFit, tips: dict[str, np.ndarray], side: str, finger: str
+) -> dict[str, np.ndarray]:
     """Pads of all phalanges and the thumb's side of the outer two."""
     sign = 1.0 if side == "left" else -1.0
     joints = [side + finger + phalanx for phalanx in phalanges(finger)]
@@ -96,6 +100,7 @@ def _lips(body: Surface) -> dict[str, np.ndarray]:
     upper, lower = lips[drop > drop.min() * 0.3], lips[drop < drop.min() * 0.7]
     centre_upper = upper[np.abs(body.positions[upper, 0]) < 0.006]
     centre_lower = lower[np.abs(body.positions[lower, 0]) < 0.006]
+
     def front(side: np.ndarray) -> np.ndarray:
         facing = side[body.normals[side, 2] > 0.4]
         middle = body.positions[facing].mean(axis=0) * np.array([0.0, 1.0, 1.0])
@@ -113,7 +118,9 @@ def _lips(body: Surface) -> dict[str, np.ndarray]:
     }
 
 
-def landmarks(body: Surface, fit: SkeletonFit, tips: dict[str, np.ndarray], soles: dict[str, dict[str, object]]) -> dict[str, object]:
+def landmarks(
+    body: Surface, fit: SkeletonFit, tips: dict[str, np.ndarray], soles: dict[str, dict[str, object]]
+) -> dict[str, object]:
     """All landmarks by name; `tips` are the finger tips in the rest pose by "leftIndex" and the like."""
     found: dict[str, object] = {f"lips.{name}": _entry(body, vertices) for name, vertices in _lips(body).items()}
     for side in ("left", "right"):

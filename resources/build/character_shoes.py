@@ -47,12 +47,23 @@ def _sole(tailoring: Tailoring, upper: Cloth) -> Cloth:
     """A welted sole with the outline of the upper, a heel and a hollow under the arch."""
     low = upper.points[upper.points[:, 1] < tailoring.foot_m + 0.035][:, [0, 2]]
     centre = (low.max(axis=0) + low.min(axis=0)) / 2
-    outline = smoothed(hull_profile(np.zeros(len(low)), low, np.array([0.0, 1.0]), np.stack([centre, centre]), 2.0), 0.01, 0.8)
+    outline = smoothed(
+        hull_profile(np.zeros(len(low)), low, np.array([0.0, 1.0]), np.stack([centre, centre]), 2.0), 0.01, 0.8
+    )
     angles = 2 * np.pi * np.arange(72) / 72
     radius = outline.radius_at(np.zeros(72), angles)
     start, length = low[:, 1].min(), np.ptp(low[:, 1])
     rings = []
-    for shrink, level in ((-0.006, 0.014), (0.0005, 0.0125), (0.0035, 0.009), (0.0035, -SOLE_M + 0.001), (0.002, -SOLE_M), (0.012, -SOLE_M), (0.03, -SOLE_M), (9.0, -SOLE_M)):
+    for shrink, level in (
+        (-0.006, 0.014),
+        (0.0005, 0.0125),
+        (0.0035, 0.009),
+        (0.0035, -SOLE_M + 0.001),
+        (0.002, -SOLE_M),
+        (0.012, -SOLE_M),
+        (0.03, -SOLE_M),
+        (9.0, -SOLE_M),
+    ):
         inward = shrink if shrink > 0.0035 else 0.0
         reach = np.maximum(radius - inward, 0.0) + (shrink if not inward else 0.002)
         if shrink == 9.0:
@@ -66,7 +77,9 @@ def _sole(tailoring: Tailoring, upper: Cloth) -> Cloth:
         rings.append(np.stack([x, y, z], axis=1))
     points = np.concatenate(rings)
     nearest = cKDTree(upper.points).query(points)[1]
-    weights = gaussian_filter1d(upper.weights[nearest].reshape(len(rings), 72, -1), 2.0, axis=1, mode="wrap").reshape(len(points), -1)
+    weights = gaussian_filter1d(upper.weights[nearest].reshape(len(rings), 72, -1), 2.0, axis=1, mode="wrap").reshape(
+        len(points), -1
+    )
     weights = weights.reshape(len(rings), 72, -1)
     return to_triangles(Cloth(points, np.tile(weights[2], (len(rings), 1)), grid_faces(len(rings), 72, closed=True)))
 
@@ -87,4 +100,7 @@ def soles(surface: Surface, fit: SkeletonFit) -> dict[str, dict[str, object]]:
     t_pose = fit.to_t_pose(surface.positions, surface.weights)
     low = t_pose[:, 1] < t_pose[:, 1].min() + 0.004
     sides = {"left": low & (t_pose[:, 0] > 0), "right": low & (t_pose[:, 0] < 0)}
-    return {side: {"mesh": surface.name, "vertices": [int(i) for i in np.flatnonzero(flags)]} for side, flags in sides.items()}
+    return {
+        side: {"mesh": surface.name, "vertices": [int(i) for i in np.flatnonzero(flags)]}
+        for side, flags in sides.items()
+    }

@@ -1,12 +1,13 @@
 """VRM 1.0's humanoid skeleton fitted into an anny body.
 
-The joints' frames are world-aligned in the T-pose, so every node of the file has a translation and no rotation. The mesh
-stays in anny's rest pose (arms lowered, elbows and fingers a little bent); `SkeletonFit.world_from_joint_rest` says where
-each T-pose frame lies in that pose, and its inverse is the inverse bind matrix.
+The joints' frames are world-aligned in the T-pose, so every node of the file has a translation and no rotation. The
+mesh stays in anny's rest pose (arms lowered, elbows and fingers a little bent); `SkeletonFit.world_from_joint_rest`
+says where each T-pose frame lies in that pose, and its inverse is the inverse bind matrix.
 """
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass
 
 import numpy as np
@@ -26,7 +27,14 @@ _TRUNK = {
     "neck": ("neck01", "neck02", "neck03"),
     "head": ("head",),
 }
-_TRUNK_PARENTS = {"hips": None, "spine": "hips", "chest": "spine", "upperChest": "chest", "neck": "upperChest", "head": "neck"}
+_TRUNK_PARENTS = {
+    "hips": None,
+    "spine": "hips",
+    "chest": "spine",
+    "upperChest": "chest",
+    "neck": "upperChest",
+    "head": "neck",
+}
 
 
 def phalanges(finger: str) -> tuple[str, str, str]:
@@ -112,7 +120,6 @@ class SkeletonFit:
         moved = np.einsum("jab,nb->nja", rotations, points) + offsets
         return np.einsum("nj,nja->na", weights, moved)
 
-
     def to_rest_pose(self, points: np.ndarray, weights: np.ndarray) -> np.ndarray:
         """The inverse of `to_t_pose`."""
         rotations = np.swapaxes(self.world_from_joint_rest[:, :3, :3], 1, 2)
@@ -158,7 +165,7 @@ def _arm_frames(side: str, heads: dict[str, np.ndarray], tips: dict[str, np.ndar
     for finger in FINGERS:
         joints = [side + finger + phalanx for phalanx in phalanges(finger)]
         points = [heads[joint] for joint in joints] + [tips[side + finger]]
-        directions = [_unit(end - start) for start, end in zip(points, points[1:], strict=False)]
+        directions = [_unit(end - start) for start, end in itertools.pairwise(points)]
         if finger == "Thumb":
             straight = THUMB_DIRECTION * np.array([sign, 1.0, 1.0])
             for joint, direction in zip(joints, directions, strict=True):
@@ -209,9 +216,7 @@ def fit_skeleton(source: Source) -> SkeletonFit:
         rest[joint, :3, 3] = heads[name]
         above = parents[joint]
         positions[joint] = (
-            heads[name]
-            if parent is None
-            else positions[above] + rotations[parent].T @ (heads[name] - heads[parent])
+            heads[name] if parent is None else positions[above] + rotations[parent].T @ (heads[name] - heads[parent])
         )
         for member in members:
             weights[:, joint] += source.weights[:, bone[member]]

@@ -127,7 +127,9 @@ def load_source(model: anny.Anny, phenotype: Phenotype) -> Source:
     body = np.unique(groups["body"].vertices)
     low, high = 0.0, 1.0
     if not (
-        _body_height_m(model, phenotype, low, body) <= phenotype.height_m <= _body_height_m(model, phenotype, high, body)
+        _body_height_m(model, phenotype, low, body)
+        <= phenotype.height_m
+        <= _body_height_m(model, phenotype, high, body)
     ):
         raise ValueError(f"anny cannot make this body {phenotype.height_m} m tall")
     for _ in range(30):

@@ -43,7 +43,9 @@ def triangulate(quads: np.ndarray, points: np.ndarray) -> np.ndarray:
     two = np.where(first[:, None], np.stack([a, c, d], 1), np.stack([b, c, d], 1))
     triangles = np.stack([one, two], axis=1).reshape(-1, 3)
     keep = (
-        (triangles[:, 0] != triangles[:, 1]) & (triangles[:, 1] != triangles[:, 2]) & (triangles[:, 2] != triangles[:, 0])
+        (triangles[:, 0] != triangles[:, 1])
+        & (triangles[:, 1] != triangles[:, 2])
+        & (triangles[:, 2] != triangles[:, 0])
     )
     return triangles[keep]
 
@@ -110,6 +112,4 @@ def compact(surface: Surface) -> Surface:
 
 def keep_triangles(surface: Surface, keep: Mapping[str, np.ndarray]) -> Surface:
     """The surface with only the triangles whose flag is set, per material."""
-    return compact(
-        replace(surface, triangles={name: faces[keep[name]] for name, faces in surface.triangles.items()})
-    )
+    return compact(replace(surface, triangles={name: faces[keep[name]] for name, faces in surface.triangles.items()}))
