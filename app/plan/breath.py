@@ -18,7 +18,7 @@ breath.prepared(rest_beats, prepare_beats): "A rest of {rest_beats} beats (from 
 breath.preparation(rest_beats, prepare_beats): "A rest of {rest_beats} beats (from {prepare_beats}): getting ready to
     breathe."
 breath.catch(after_note, phrase_s, lung_s, from_note_ms): "A catch breath after note {after_note}: {phrase_s} s
-    without a rest ask for more than the {lung_s} s of a full lung; {from_note_ms} ms come out of that note's tail."
+    without a rest ask for more than the {lung_s} s of air there are; {from_note_ms} ms come out of that note's tail."
 breath.too_long(note, phrase_s, air_s, lung_s): "From note {note} on, {phrase_s} s must be played on one breath; it
     takes {air_s} s of air, and there are {lung_s}."
 """
@@ -117,9 +117,9 @@ def plan_breaths(
     for event in [*kept, *by_hand]:
         if event.kind == "breath":
             refill[index_of[_note_id(event)]] = max(0.0, _drawn(event.end_s - event.start_s) * _full(event))
-    catches = catch_places(notes, times, piece, parameters, refill, removed, taken, seed)
-    # The budget that made a catch breath necessary ends with the breath that follows it.
-    caught = [_catch(notes, times, piece, parameters, refill, index) for index in catches]
+    level = _levels(np.concatenate(([0.0], np.cumsum(air_used_s(times)))), parameters.lung_s, refill)
+    catches = catch_places(notes, times, piece, parameters, refill, level, removed, taken, seed)
+    caught = [_catch(notes, times, piece, level * parameters.lung_s, refill, index) for index in catches]
     for event, index in zip(caught, catches, strict=True):
         refill[index] = _drawn(event.end_s - event.start_s)
     events = tuple(sorted([*kept, *by_hand, *caught], key=lambda event: (event.start_s, event.end_s)))
@@ -225,6 +225,7 @@ def catch_places(
     piece: Piece,
     parameters: PlayerParameters,
     refill: FloatArray,
+    level: FloatArray,
     removed: frozenset[str],
     taken: frozenset[str],
     seed: tuple[str | int, ...],
@@ -239,10 +240,11 @@ def catch_places(
     ----------
     refill : (N,) float
         Part of the lungs that the breath before each note fills; 0 where there is none.
+    level : (N,) float
+        How full the lungs are at each note.
     """
     used = np.concatenate(([0.0], np.cumsum(air_used_s(times))))
     lung_s = parameters.lung_s
-    level = _levels(used, lung_s, refill)
     length_s = _catch_lengths_s(times)
     open_ = (length_s >= CATCH_MIN_S - _EPSILON) & (refill == 0.0)
     open_[0] = False
@@ -334,7 +336,7 @@ def _catch(
     notes: tuple[Note, ...],
     times: LineTimes,
     piece: Piece,
-    parameters: PlayerParameters,
+    air_s: FloatArray,
     refill: FloatArray,
     index: int,
 ) -> BreathEvent:
@@ -357,7 +359,7 @@ def _catch(
             {
                 "after_note": notes[index - 1].id,
                 "phrase_s": round(float(times.played_end_s[last - 1] - times.onset_s[first]), 2),
-                "lung_s": parameters.lung_s,
+                "lung_s": round(float(air_s[first]), 2),
                 "from_note_ms": round(from_note_s * 1000.0),
             },
         ),

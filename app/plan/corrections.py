@@ -11,6 +11,8 @@ correction.no_such_fingering(note, label): "{label} is not a fingering of note {
     chose."
 breath.inside_note(note): "This breath, placed by hand, lies inside the sounding note {note}."
 correction.by_hand(): "Set by hand."
+correction.empty_span(kind, anchor): "The correction ({kind}) for {anchor} ends before it begins; it does nothing."
+correction.unknown_expression(name, known): "There is no expression {name}; there are: {known}."
 """
 
 from __future__ import annotations
@@ -135,6 +137,62 @@ Correction: TypeAlias = (
 E = TypeVar("E", BreathEvent, CueEvent, GestureEvent, ExpressionEvent)
 
 
+REMOVABLE = ("breath", "preparation", "cue", "sway", "weight_shift", "bell_height", "lower_instrument", "expression")
+"""Kinds of event a `RemoveEvent` may leave out: the first part of their ids."""
+
+
+def sound_corrections(
+    corrections: tuple[Correction, ...], expressions: tuple[str, ...], at_s: float
+) -> tuple[tuple[Correction, ...], tuple[Problem, ...]]:
+    """The corrections that can be done, and a problem for each that cannot: a span that ends before it begins, an
+    expression that does not exist.
+
+    Parameters
+    ----------
+    expressions : tuple of str
+        Names of the expressions there are.
+    at_s : float
+        Where the problems are shown.
+    """
+    sound: list[Correction] = []
+    problems = []
+    for item in corrections:
+        if isinstance(item, ChangeExpression | AddExpression) and item.expression not in (None, *expressions):
+            message = Message(
+                "correction.unknown_expression", {"name": str(item.expression), "known": ", ".join(expressions)}
+            )
+        elif _is_empty(item):
+            message = Message("correction.empty_span", {"kind": _kind(item), "anchor": anchor(item)})
+        else:
+            sound.append(item)
+            continue
+        problems.append(Problem(message, None, at_s, at_s))
+    return tuple(sound), tuple(problems)
+
+
+def _is_empty(item: Correction) -> bool:
+    if isinstance(item, SetBreath):
+        return item.start_offset_tick >= item.end_offset_tick
+    if isinstance(item, SetCue):
+        return item.beats <= 0.0
+    if isinstance(item, AddGesture | AddExpression | ChangeGesture | ChangeExpression):
+        return item.start_tick is not None and item.end_tick is not None and item.start_tick >= item.end_tick
+    return False
+
+
+def _kind(item: Correction) -> str:
+    return str(item.__struct_config__.tag)
+
+
+def anchor(item: Correction) -> str:
+    """What a correction is tied to: a note, an event, or the name the animator gave."""
+    if isinstance(item, PinFingering | SetBreath | SetCue | SetEmbouchure):
+        return item.note_id
+    if isinstance(item, AddGesture | AddExpression):
+        return item.name
+    return item.event_id
+
+
 def removed_ids(corrections: tuple[Correction, ...]) -> frozenset[str]:
     """Ids of the events that must not appear."""
     return frozenset(item.event_id for item in corrections if isinstance(item, RemoveEvent))
@@ -182,12 +240,15 @@ def correct_gestures(
             continue
         start = event.start_tick if change.start_tick is None else change.start_tick
         end = event.end_tick if change.end_tick is None else change.end_tick
+        if start >= end:
+            # Only one end was set, and the generated other end has since moved past it: a correction wins.
+            start, end = (start, start + 1) if change.end_tick is None else (end - 1, end)
         result[index] = msgspec.structs.replace(
             event,
             start_tick=start,
             end_tick=end,
-            start_s=event.start_s if change.start_tick is None else clock.seconds(float(start)),
-            end_s=event.end_s if change.end_tick is None else clock.seconds(float(end)),
+            start_s=event.start_s if start == event.start_tick else clock.seconds(float(start)),
+            end_s=event.end_s if end == event.end_tick else clock.seconds(float(end)),
             amount=event.amount if change.amount is None else change.amount,
             reason=BY_HAND,
             corrected=True,
@@ -224,13 +285,16 @@ def correct_expressions(
             continue
         start = event.start_tick if change.start_tick is None else change.start_tick
         end = event.end_tick if change.end_tick is None else change.end_tick
+        if start >= end:
+            # Only one end was set, and the generated other end has since moved past it: a correction wins.
+            start, end = (start, start + 1) if change.end_tick is None else (end - 1, end)
         result[index] = msgspec.structs.replace(
             event,
             expression=event.expression if change.expression is None else change.expression,
             start_tick=start,
             end_tick=end,
-            start_s=event.start_s if change.start_tick is None else clock.seconds(float(start)),
-            end_s=event.end_s if change.end_tick is None else clock.seconds(float(end)),
+            start_s=event.start_s if start == event.start_tick else clock.seconds(float(start)),
+            end_s=event.end_s if end == event.end_tick else clock.seconds(float(end)),
             strength=event.strength if change.strength is None else change.strength,
             reason=BY_HAND,
             corrected=True,
@@ -269,15 +333,15 @@ def orphans(
     problems = []
     for item in corrections:
         if isinstance(item, PinFingering | SetBreath | SetCue | SetEmbouchure):
-            anchor, alive = item.note_id, item.note_id in note_ids
+            alive = item.note_id in note_ids
         elif isinstance(item, RemoveEvent):
-            anchor = item.event_id
-            alive = item.note_id in note_ids if item.note_id is not None else item.event_id in event_ids
+            known = item.note_id in note_ids if item.note_id is not None else item.event_id in event_ids
+            alive = known and item.event_id.split(":")[0] in REMOVABLE
         elif isinstance(item, ChangeGesture | ChangeExpression):
-            anchor, alive = item.event_id, item.event_id in event_ids
+            alive = item.event_id in event_ids
         else:
             continue
         if not alive:
-            kind = str(item.__struct_config__.tag)
-            problems.append(Problem(Message("correction.orphaned", {"kind": kind, "anchor": anchor}), None, at_s, at_s))
+            message = Message("correction.orphaned", {"kind": _kind(item), "anchor": anchor(item)})
+            problems.append(Problem(message, None, at_s, at_s))
     return tuple(problems)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import msgspec
+
 from app.plan.breath import BreathPlan, plan_breaths
 from app.plan.corrections import (
     Correction,
@@ -10,6 +12,7 @@ from app.plan.corrections import (
     correct_expressions,
     correct_gestures,
     orphans,
+    sound_corrections,
 )
 from app.plan.cue import plan_cues
 from app.plan.embouchure import plan_embouchures, plan_tongues
@@ -17,7 +20,8 @@ from app.plan.expression import plan_expressions
 from app.plan.fingering import plan_fingerings
 from app.plan.gesture import plan_gestures
 from app.plan.line import Line, LineTimes, Piece, line_times
-from app.plan.model import Clock, CueEvent, PlayerPlan, TimeFrame
+from app.plan.model import Clock, CueEvent, PlayerPlan, Problem, TimeFrame
+from metadata.load import load_expressions
 
 __all__ = ["Line", "Piece", "make_plans", "time_frame"]
 
@@ -60,18 +64,23 @@ def make_plans(piece: Piece, lines: tuple[Line, ...], frame: TimeFrame, seed: in
     dict of str to PlayerPlan
         By player id.
     """
+    expressions = tuple(load_expressions())
+    checked = [sound_corrections(line.corrections, expressions, frame.first_frame_s) for line in lines]
+    lines = tuple(
+        msgspec.structs.replace(line, corrections=sound) for line, (sound, _) in zip(lines, checked, strict=True)
+    )
     all_times = tuple(line_times(line, piece.clock) for line in lines)
     cues, cue_ids = plan_cues(lines, all_times, piece, frame)
     first_s = min((float(times.onset_s[0]) for times in all_times if len(times.onset_s)), default=0.0)
     taken: dict[tuple[tuple[int, int, int], ...], frozenset[tuple[int, int]]] = {}
     plans = {}
-    for line, times in zip(lines, all_times, strict=True):
+    for line, times, (_, unsound) in zip(lines, all_times, checked, strict=True):
         # Players of one part stagger their catch breaths; the key is what they play.
         part = tuple(zip(times.onset_tick.tolist(), times.played_end_tick.tolist(), times.pitch.tolist(), strict=True))
         places = taken.get(part, frozenset())
         ids = frozenset(note.id for note in line.notes if (note.onset_tick, note.pitch) in places)
         own_cues = tuple(cue for cue in cues if cue.player_id == line.player_id)
-        plan, breaths = _plan_line(piece, line, times, frame, own_cues, cue_ids, ids, seed, first_s)
+        plan, breaths = _plan_line(piece, line, times, frame, own_cues, cue_ids, ids, seed, first_s, unsound)
         plans[line.player_id] = plan
         caught = {(note.onset_tick, note.pitch) for note in line.notes if note.id in breaths.catch_notes}
         taken[part] = places | caught
@@ -88,6 +97,7 @@ def _plan_line(
     taken: frozenset[str],
     seed: int,
     swing_at_s: float,
+    unsound: tuple[Problem, ...],
 ) -> tuple[PlayerPlan, BreathPlan]:
     notes, instrument, parameters = line.notes, line.instrument_map, line.parameters
     corrections: tuple[Correction, ...] = line.corrections
@@ -113,6 +123,7 @@ def _plan_line(
     problems = (
         *fingering_problems,
         *breaths.problems,
+        *unsound,
         *orphans(corrections, note_ids, generated, frame.first_frame_s),
     )
     plan = PlayerPlan(

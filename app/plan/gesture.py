@@ -88,11 +88,13 @@ def sways(
     if chance(*seed, "swing") < 0.3 and beats * beat_s < 1.5 * SWING_S:
         # Some players take the tempo in longer swings than others.
         beats *= 2
-    length = beats * beat
-    phase = int(chance(*seed, "phase") * beats) * beat
-    first = int((clock.ticks(frame.first_frame_s) - phase) // length) - 1
-    last = int((clock.ticks(frame.end_s) - phase) // length) + 1
-    ticks = phase + length * np.arange(first, last + 1, dtype=np.int64)
+    first_tick, last_tick = int(clock.ticks(frame.first_frame_s)), int(np.ceil(clock.ticks(frame.end_s)))
+    margin = 2 * beats * beat
+    every = piece.beats(first_tick - margin, last_tick + margin)
+    # Counted from the piece's beginning, so that a longer pre-roll or a note added at the end changes nothing.
+    phase = (int(np.searchsorted(every, 0)) + int(chance(*seed, "phase") * beats)) % beats
+    ticks = every[phase::beats]
+    origin = int(np.searchsorted(ticks, 0))
     seconds = clock.seconds(ticks.astype(np.float64))
     playing = _sounding_share(times, seconds)
     flip = 1.0 if chance(*seed, "side") < 0.5 else -1.0
@@ -103,7 +105,7 @@ def sways(
         if end_s <= frame.first_frame_s or start_s >= frame.end_s:
             continue
         tick = int(ticks[index])
-        side = flip if (tick // length) % 2 == 0 else -flip
+        side = flip if (index - origin) % 2 == 0 else -flip
         size = 0.3 + 0.7 * chance(*seed, "sway", tick)
         if chance(*seed, "sway held", tick) < 0.12:
             side, size = -side, 0.5 * size
@@ -163,7 +165,7 @@ def bell_heights(notes: tuple[Note, ...], times: LineTimes, piece: Piece) -> lis
         return []
     weight = np.maximum(times.duration_s, 1e-3)
     mean = float(np.average(times.pitch, weights=weight))
-    beats = times.onset_tick // piece.beat_ticks
+    beats = np.searchsorted(piece.beats(int(times.onset_tick[0]), int(times.onset_tick[-1])), times.onset_tick, "right")
     starts = np.flatnonzero(np.insert(np.diff(beats) > 0, 0, True))
     sums = np.add.reduceat(times.pitch * weight, starts) / np.add.reduceat(weight, starts)
     heights = np.clip((sums - mean) / CONTOUR_SEMITONES, -1.0, 1.0)

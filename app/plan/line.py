@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import itertools
 from dataclasses import dataclass
 
 import msgspec
@@ -88,6 +89,14 @@ class Piece(msgspec.Struct, frozen=True):
             )
         low = max(int(np.searchsorted(ticks, first_tick, side="right")) - 1, 0)
         return ticks[low : int(np.searchsorted(ticks, last_tick, side="left"))]
+
+    def beats(self, first_tick: int, last_tick: int) -> IntArray:
+        """Ticks of the felt beats, counted anew in every bar, from before ``first_tick`` to after ``last_tick``."""
+        bars = self.bars(first_tick, last_tick + 1)
+        bars = np.append(bars, max(int(bars[-1]) + 1, last_tick + self.beat_ticks))
+        return np.concatenate(
+            [np.arange(low, high, self.beat_ticks, dtype=np.int64) for low, high in itertools.pairwise(bars.tolist())]
+        )
 
 
 @dataclass(frozen=True)

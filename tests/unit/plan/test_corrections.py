@@ -135,3 +135,27 @@ def test_removing_a_rests_breath_can_call_for_a_catch_breath() -> None:
     caught = [e for e in plan(RemoveEvent("breath:1:13", "1:13"), notes=notes).breaths if e.reason.id == "breath.catch"]
     assert caught
     assert all(event.id != "breath:1:13" for event in caught)
+
+
+@pytest.mark.parametrize(
+    ("correction", "rule"),
+    [
+        (SetBreath("1:4", 0, -Q), "correction.empty_span"),
+        (SetCue("1:5", 0.0), "correction.empty_span"),
+        (AddGesture("look", "sway", 4 * Q, 2 * Q, 0.7), "correction.empty_span"),
+        (ChangeExpression("expression:neutral", start_tick=5, end_tick=5), "correction.empty_span"),
+        (AddExpression("grin", "grimace", 0, Q), "correction.unknown_expression"),
+        (ChangeExpression("expression:neutral", expression="grimace"), "correction.unknown_expression"),
+        (RemoveEvent("fingering:1:1", "1:1"), "correction.orphaned"),
+    ],
+)
+def test_a_correction_that_cannot_be_done_is_a_problem_and_changes_nothing(correction: Correction, rule: str) -> None:
+    corrected, free = plan(correction), plan()
+    assert [problem.message.id for problem in corrected.problems] == [rule]
+    assert events(corrected) == events(free)
+
+
+def test_one_moved_end_wins_over_the_generated_other() -> None:
+    made = events(plan(ChangeGesture("bell_height:1:1", start_tick=100 * Q)))["bell_height:1:1"]
+    assert (made.start_tick, made.end_tick) == (100 * Q, 100 * Q + 1)  # type: ignore[attr-defined]
+    assert made.start_s < made.end_s  # type: ignore[attr-defined]

@@ -125,3 +125,16 @@ def test_a_player_without_notes_holds_the_instrument_down() -> None:
     (span,) = of_kind(plan, "lower_instrument")
     assert span.start_s < plan.time_frame.first_frame_s
     assert span.end_s > plan.time_frame.end_s
+
+
+def test_sway_follows_the_bars_through_a_pickup_and_odd_metres() -> None:
+    metres = (PlainMetre(0, 4, 4), PlainMetre(8 * Q, 7, 8))
+    piece = Piece(CLOCK, metres, bar_ticks=(Q // 2, 4 * Q + Q // 2, *range(8 * Q + Q // 2, 64 * Q, 7 * Q // 2)))
+    line = Line("p", tune(), valves())
+    plan = make_plans(piece, (line,), time_frame((line,), CLOCK))["p"]
+    beats = set(piece.beats(-10 * Q, 140 * Q).tolist())
+    assert set(piece.bars(-10 * Q, 140 * Q).tolist()) <= beats
+    sways = of_kind(plan, "sway")
+    assert {event.start_tick for event in sways} <= beats
+    for event, following in itertools.pairwise(sways):
+        assert event.end_tick == following.start_tick
