@@ -34,7 +34,7 @@ _ZLIB_LEVEL = 1
 _ARRAY_CODES = {"f4": b"f", "f8": b"d", "i4": b"i", "i8": b"l", "b1": b"b"}
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class PackedArray:
     """An array already in its file form; many elements may share one, so that it is compressed once."""
 
@@ -46,7 +46,7 @@ Property: TypeAlias = (
 )
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Element:
     """One record.
 
@@ -113,8 +113,17 @@ def _file_chunks(elements: Sequence[Element]) -> list[bytes | bytearray]:
     writer.file(elements)
     if writer.position > _LARGEST_OFFSET:
         writer = _Writer(LARGE_VERSION)
-        writer.file(elements)
+        writer.file([_of_version(element, LARGE_VERSION) for element in elements])
     return writer.chunks
+
+
+def _of_version(element: Element, version: int) -> Element:
+    """The record with the version that is said inside it, if it is the one that says it."""
+    if element.name != "FBXHeaderExtension" or element.children is None:
+        return element
+    said = Element("FBXVersion", (np.int32(version),))
+    children = tuple(said if child.name == "FBXVersion" else child for child in element.children)
+    return Element(element.name, element.properties, children)
 
 
 class _Writer:

@@ -177,6 +177,10 @@ def check_scene(scene: FbxScene) -> None:
             raise ValueError(f"mesh {mesh.name!r}: bound in another pose than {scene.meshes[0].name!r}")
     if scene.clip is not None:
         _check_clip(scene.clip, bone_count)
+        morphs = {morph.name for mesh in scene.meshes for morph in mesh.morphs}
+        unknown = sorted(set(scene.clip.morph_weights) - morphs)
+        if unknown:
+            raise ValueError(f"weights of morphs that no mesh has: {', '.join(unknown)}")
 
 
 def _check_mesh(mesh: FbxMesh, bone_count: int) -> None:
@@ -203,8 +207,8 @@ def _check_mesh(mesh: FbxMesh, bone_count: int) -> None:
     _check_indices(mesh, "joint_indices", mesh.joint_indices, bone_count)
     if mesh.face_materials is not None:
         _check_indices(mesh, "face_materials", mesh.face_materials, len(mesh.materials))
-    elif not mesh.materials:
-        raise ValueError(f"mesh {mesh.name!r}: no material")
+    if not mesh.materials or len(set(mesh.materials)) != len(mesh.materials):
+        raise ValueError(f"mesh {mesh.name!r}: no material, or one twice")
     _check_morphs(mesh, vertex_count)
     numbers = [mesh.vertices_cm, mesh.normals, mesh.weights, mesh.world_from_bone_bind]
     numbers += [morph.position_deltas_cm for morph in mesh.morphs]

@@ -1,0 +1,98 @@
+"""Several meshes -> one.
+
+A morph name that several meshes of a file share is many curves of one name: Unreal drives them all, but programs that
+know weights by name alone see doubles, and three.js copies every bone for every mesh. One mesh of several materials
+has none of that.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TypeVar
+
+import numpy as np
+import numpy.typing as npt
+
+from app.formats.fbx.scene import FbxMaterial, FbxMesh, FbxMorph, FloatArray, IntArray
+
+Number = TypeVar("Number", bound=np.generic)
+
+
+def join_meshes(meshes: Sequence[FbxMesh], name: str) -> FbxMesh:
+    """One mesh of all vertices, in the order given.
+
+    Parameters
+    ----------
+    meshes : sequence of FbxMesh
+        At least one, with polygons of the same number of corners, bound in the same pose.
+    name : str
+
+    Returns
+    -------
+    FbxMesh
+        Vertex v of the nth mesh becomes v plus the vertex counts of the meshes before it. Equal materials become one,
+        morphs of one name become one. Normals are per vertex if all were. Where only some have UVs, the others get
+        zeros.
+    """
+    counts = [len(mesh.vertices_cm) for mesh in meshes]
+    starts = (np.cumsum(counts) - counts).tolist()
+    materials: dict[FbxMaterial, int] = {}
+    for mesh in meshes:
+        for material in mesh.materials:
+            materials.setdefault(material, len(materials))
+    width = max(mesh.joint_indices.shape[1] for mesh in meshes)
+    by_corner = any(len(mesh.normals) != len(mesh.vertices_cm) for mesh in meshes)
+    uvs_by_corner = any(mesh.uvs is not None and len(mesh.uvs) != len(mesh.vertices_cm) for mesh in meshes)
+    return FbxMesh(
+        name=name,
+        vertices_cm=np.concatenate([mesh.vertices_cm for mesh in meshes]),
+        faces=np.concatenate([mesh.faces + start for mesh, start in zip(meshes, starts, strict=True)]),
+        normals=np.concatenate([_spread(mesh, mesh.normals, by_corner) for mesh in meshes]),
+        uvs=None
+        if all(mesh.uvs is None for mesh in meshes)
+        else np.concatenate([_uvs(mesh, uvs_by_corner) for mesh in meshes]),
+        materials=tuple(materials),
+        face_materials=np.concatenate([_face_materials(mesh, materials) for mesh in meshes]),
+        joint_indices=np.concatenate([_widened(mesh.joint_indices, width) for mesh in meshes]),
+        weights=np.concatenate([_widened(mesh.weights, width) for mesh in meshes]),
+        world_from_bone_bind=meshes[0].world_from_bone_bind,
+        morphs=_morphs(meshes, starts),
+    )
+
+
+def _spread(mesh: FbxMesh, values: FloatArray, by_corner: bool) -> FloatArray:
+    return values[mesh.faces.ravel()] if by_corner and len(values) == len(mesh.vertices_cm) else values
+
+
+def _uvs(mesh: FbxMesh, by_corner: bool) -> FloatArray:
+    return _spread(mesh, np.zeros((len(mesh.vertices_cm), 2)) if mesh.uvs is None else mesh.uvs, by_corner)
+
+
+def _face_materials(mesh: FbxMesh, materials: dict[FbxMaterial, int]) -> IntArray:
+    own = np.zeros(len(mesh.faces), dtype=np.int64) if mesh.face_materials is None else mesh.face_materials
+    return np.array([materials[material] for material in mesh.materials])[own]
+
+
+def _widened(values: npt.NDArray[Number], width: int) -> npt.NDArray[Number]:
+    return np.pad(values, ((0, 0), (0, width - values.shape[1])))
+
+
+def _morphs(meshes: Sequence[FbxMesh], starts: Sequence[int]) -> tuple[FbxMorph, ...]:
+    parts: dict[str, list[tuple[FbxMorph, int]]] = {}
+    for mesh, start in zip(meshes, starts, strict=True):
+        for morph in mesh.morphs:
+            parts.setdefault(morph.name, []).append((morph, start))
+    return tuple(_joined_morph(name, morphs) for name, morphs in parts.items())
+
+
+def _joined_morph(name: str, parts: Sequence[tuple[FbxMorph, int]]) -> FbxMorph:
+    normals = [
+        np.zeros_like(morph.position_deltas_cm) if morph.normal_deltas is None else morph.normal_deltas
+        for morph, _ in parts
+    ]
+    return FbxMorph(
+        name,
+        np.concatenate([morph.vertex_indices + start for morph, start in parts]),
+        np.concatenate([morph.position_deltas_cm for morph, _ in parts]),
+        np.concatenate(normals) if any(morph.normal_deltas is not None for morph, _ in parts) else None,
+    )
