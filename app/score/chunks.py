@@ -1,0 +1,157 @@
+"""The container of a Standard MIDI File: header and tracks as bytes, however carelessly written.
+
+Errors (all `FileError`)
+------------------------
+file.unreadable : file, detail
+    "{file}: cannot be read: {detail}"
+midi.empty : file
+    "{file}: the file is empty"
+midi.not_midi : file, byte, found
+    "{file}: not a MIDI file: byte {byte} has {found} where the header MThd belongs"
+midi.header_truncated : file, byte
+    "{file}: the file ends within its header, at byte {byte}"
+midi.bad_division : file, byte
+    "{file}: the time division at byte {byte} is 0, so the notes have no times"
+midi.no_tracks : file, byte, found
+    "{file}: no track: byte {byte} has {found} where a track MTrk belongs"
+
+Warnings
+--------
+midi.header_length : byte, length
+    "The header says that it is {length} bytes long and is not (byte {byte}); its first 6 bytes were taken"
+midi.unknown_format : format
+    "The file says it has the unknown format {format}; its tracks were taken as simultaneous"
+midi.format_0_tracks : tracks
+    "The file says it has one track (format 0) and has {tracks}; they were taken as simultaneous"
+midi.track_length : track, byte
+    "The length of track {track} (byte {byte}) is wrong; the track was read up to its real end"
+midi.tracks_missing : expected, found
+    "The header promises {expected} tracks, the file has {found}"
+midi.bytes_left_out : byte, count
+    "{count} bytes after the last track, from byte {byte}, are no part of a MIDI file and were left out"
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import msgspec
+
+from app.errors import FileError, Message
+
+_END_OF_TRACK = b"\xff\x2f\x00"
+
+
+class Track(msgspec.Struct, frozen=True):
+    """The events of one track as bytes, and where in the file they begin."""
+
+    data: bytes
+    first_byte: int
+
+
+class Container(msgspec.Struct, frozen=True):
+    """A MIDI file as far as its chunks go.
+
+    Attributes
+    ----------
+    format : int
+        0, 1 or 2.
+    division : int
+        As in the file: positive ticks per quarter, or negative SMPTE (signed 16 bits).
+    tracks : tuple of Track
+        At least one.
+    warnings : tuple of Message
+    """
+
+    format: int
+    division: int
+    tracks: tuple[Track, ...]
+    warnings: tuple[Message, ...]
+
+
+def read_container(path: Path) -> Container:
+    """Read the chunks of a MIDI file.
+
+    Chunks of other kinds are passed over, as the standard asks; a RIFF wrapper (``.rmi``) or a foreign header before
+    the file's own is too.
+
+    Raises
+    ------
+    FileError
+    """
+    file = str(path)
+    try:
+        data = path.read_bytes()
+    except OSError as error:
+        raise FileError("file.unreadable", file=file, detail=error.strerror or type(error).__name__) from error
+    if not data:
+        raise FileError("midi.empty", file=file)
+    start = data.find(b"MThd", 0, 4096)
+    if start < 0:
+        raise FileError("midi.not_midi", file=file, byte=0, found=repr(data[:4])[1:])
+    if len(data) < start + 14:
+        raise FileError("midi.header_truncated", file=file, byte=len(data))
+    length, format_, expected, division = (
+        int.from_bytes(data[start + first : start + last], "big")
+        for first, last in ((4, 8), (8, 10), (10, 12), (12, 14))
+    )
+    if division == 0:
+        raise FileError("midi.bad_division", file=file, byte=start + 12)
+    warnings: list[Message] = []
+    end = start + 8 + length
+    if length < 6 or not (_is_chunk_id(data[end : end + 4]) or end == len(data)):
+        warnings.append(Message("midi.header_length", {"byte": start + 4, "length": length}))
+        end = start + 14
+    tracks, track_warnings = _tracks(data, end, file)
+    warnings += track_warnings
+    if len(tracks) < expected:
+        warnings.append(Message("midi.tracks_missing", {"expected": expected, "found": len(tracks)}))
+    if format_ > 2:
+        warnings.append(Message("midi.unknown_format", {"format": format_}))
+        format_ = 1
+    if format_ == 0 and len(tracks) > 1:
+        warnings.append(Message("midi.format_0_tracks", {"tracks": len(tracks)}))
+    return Container(format_, division - 0x10000 if division & 0x8000 else division, tuple(tracks), tuple(warnings))
+
+
+def _tracks(data: bytes, first: int, file: str) -> tuple[list[Track], list[Message]]:
+    tracks: list[Track] = []
+    warnings: list[Message] = []
+    at = first
+    while len(data) - at >= 8:
+        kind = data[at : at + 4]
+        if not _is_chunk_id(kind):
+            break
+        begin = at + 8
+        end = begin + int.from_bytes(data[at + 4 : begin], "big")
+        if kind == b"MTrk":
+            real = _real_end(data, begin, end)
+            if real != end:
+                warnings.append(Message("midi.track_length", {"track": len(tracks) + 1, "byte": at + 4}))
+                end = real
+            tracks.append(Track(data[begin:end], begin))
+        elif end > len(data):
+            break
+        at = end
+    if not tracks:
+        raise FileError("midi.no_tracks", file=file, byte=first, found=repr(data[first : first + 4])[1:])
+    if any(data[at:]):
+        warnings.append(Message("midi.bytes_left_out", {"byte": at, "count": len(data) - at}))
+    return tracks, warnings
+
+
+def _real_end(data: bytes, begin: int, end: int) -> int:
+    """Where a track ends: where its length says if a chunk or the file's end is there, else at the next track."""
+    swallowed = data.find(_END_OF_TRACK + b"MTrk", begin, end)
+    if swallowed >= 0:
+        return swallowed + len(_END_OF_TRACK)
+    if end == len(data) or _is_chunk_id(data[end : end + 4]) or not any(data[end:]):
+        return min(end, len(data))
+    if data[begin:end].endswith(_END_OF_TRACK):
+        return end
+    following = data.find(b"MTrk", begin)
+    return following if following >= 0 else len(data)
+
+
+def _is_chunk_id(kind: bytes) -> bool:
+    return len(kind) == 4 and kind.isascii() and kind.decode("ascii").isprintable()

@@ -1,0 +1,191 @@
+"""What is played: the score and its parts, in ticks."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import Literal, TypeAlias
+
+import msgspec
+import numpy as np
+import numpy.typing as npt
+
+from app.errors import Message
+from app.score.tempo import TempoMap
+
+CurveKind: TypeAlias = Literal["breath", "volume", "expression", "aftertouch", "pitch_bend"]
+
+
+class Note(msgspec.Struct, frozen=True):
+    """A note as it sounds.
+
+    Attributes
+    ----------
+    id : str
+        ``"track:number"``, both counted from 1: the track in the file, the note in the order of the track's note-ons.
+        Unique in the score; splitting a track into voices does not change it.
+    onset_tick, duration_tick : int
+        The duration is at least 1.
+    pitch : int
+        Concert pitch, MIDI number.
+    velocity : int
+        1..127.
+    """
+
+    id: str
+    onset_tick: int
+    duration_tick: int
+    pitch: int
+    velocity: int
+
+    @property
+    def end_tick(self) -> int:
+        """The first tick at which the note no longer sounds."""
+        return self.onset_tick + self.duration_tick
+
+
+class ControllerCurve(msgspec.Struct, frozen=True):
+    """A controller over time: a step function, each value holds until the next tick.
+
+    Attributes
+    ----------
+    kind : {"breath", "volume", "expression", "aftertouch", "pitch_bend"}
+        MIDI controllers 2, 7 and 11; channel and key pressure; pitch bend.
+    ticks : tuple of int
+        Strictly ascending.
+    values : tuple of float
+        0..1; pitch bend -1..1 of whatever range the instrument is set to.
+    """
+
+    kind: CurveKind
+    ticks: tuple[int, ...]
+    values: tuple[float, ...]
+
+
+class Metre(msgspec.Struct, frozen=True):
+    """A time signature from one tick on; it begins a new bar."""
+
+    tick: int
+    numerator: int
+    denominator: int
+
+
+class Part(msgspec.Struct, frozen=True):
+    """What one player plays: one voice of one track.
+
+    Attributes
+    ----------
+    id : str
+        ``"track.channel.voice"``, each counted from 1; unique in the score.
+    name : str
+        What the file calls it, else its instrument; several parts may share a name.
+    track : int
+        The track in the file, counted from 0.
+    voice : int
+        Counted from 0, the highest; 0 in a track with one voice.
+    channel : int
+        0..15.
+    program : int or None
+        General MIDI program 0..127; None if the file does not say.
+    instrument : str or None
+        Id in the vocabulary of instruments; None if neither name nor program told.
+    map_id : str
+        The instrument map that plays it.
+    notes : tuple of Note
+        By onset, then pitch.
+    curves : tuple of ControllerCurve
+        Of the whole track; voices of one track share them.
+    """
+
+    id: str
+    name: str
+    track: int
+    voice: int
+    channel: int
+    program: int | None
+    instrument: str | None
+    map_id: str
+    notes: tuple[Note, ...]
+    curves: tuple[ControllerCurve, ...] = ()
+
+
+class UnplayedPart(msgspec.Struct, frozen=True):
+    """A part that nobody plays, and why."""
+
+    name: str
+    reason: Message
+    note_count: int
+
+
+class Score(msgspec.Struct, frozen=True, dict=True):
+    """A piece: everything that its players and its listeners share.
+
+    Attributes
+    ----------
+    title : str
+    ticks_per_quarter : int
+    tempo_map : TempoMap
+    metres : tuple of Metre
+        By tick, at least one, the first at tick 0.
+    pickup_ticks : int
+        Length of an incomplete first bar, 0 if there is none. A MIDI file has no mark for it; it is known where the
+        file gives the first bar a metre of its own, or restates the metre before a bar is over.
+    parts : tuple of Part
+    unplayed : tuple of UnplayedPart
+    warnings : tuple of Message
+    """
+
+    title: str
+    ticks_per_quarter: int
+    tempo_map: TempoMap
+    metres: tuple[Metre, ...] = (Metre(0, 4, 4),)
+    pickup_ticks: int = 0
+    parts: tuple[Part, ...] = ()
+    unplayed: tuple[UnplayedPart, ...] = ()
+    warnings: tuple[Message, ...] = ()
+
+    @cached_property
+    def end_tick(self) -> int:
+        """Where the last note of the parts ends; 0 without notes."""
+        return max((note.end_tick for part in self.parts for note in part.notes), default=0)
+
+    @cached_property
+    def _first_bars(self) -> tuple[int, ...]:
+        """The number of the bar with which each metre begins."""
+        numbers = [0 if self.pickup_ticks else 1]
+        for metre, following in zip(self.metres, self.metres[1:], strict=False):
+            length = following.tick - metre.tick
+            bars = -(-length * metre.denominator // (4 * self.ticks_per_quarter * metre.numerator))
+            numbers.append(numbers[-1] + bars)
+        return tuple(numbers)
+
+    @property
+    def bar_starts(self) -> npt.NDArray[np.int64]:
+        """Ticks at which the bars begin, to the bar in which the last note ends; int64.
+
+        The first is the pickup (bar 0) if there is one, else bar 1.
+        """
+        first = self._first_bars[0]
+        last = self.bar_of_tick(max(self.end_tick - 1, 0))
+        return np.array([self.tick_of_bar(bar) for bar in range(first, last + 1)], np.int64)
+
+    def tick_of_bar(self, bar: int) -> int:
+        """The tick at which a bar begins. Bars count from 1, a pickup is bar 0; before and after, the metre goes on."""
+        index = 0
+        while index + 1 < len(self.metres) and self._first_bars[index + 1] <= bar:
+            index += 1
+        metre = self.metres[index]
+        # The bar line after a pickup does not come a whole bar later: it is the second metre's own tick.
+        return metre.tick + (bar - self._first_bars[index]) * 4 * self.ticks_per_quarter * metre.numerator // (
+            metre.denominator
+        )
+
+    def bar_of_tick(self, tick: int) -> int:
+        """The bar in which a tick lies; numbers as in `tick_of_bar`."""
+        index = 0
+        while index + 1 < len(self.metres) and self.metres[index + 1].tick <= tick:
+            index += 1
+        metre = self.metres[index]
+        # The largest k with floor(k * bar) <= tick - start, where a bar need not be a whole number of ticks.
+        whole = 4 * self.ticks_per_quarter * metre.numerator
+        bar = ((tick - metre.tick + 1) * metre.denominator - 1) // whole
+        return self._first_bars[index] + bar

@@ -1,0 +1,219 @@
+"""Tracks to parts: which instrument a track is for, which map plays it, and how many players it needs.
+
+A name beats a program; what an instrument is called in the track's name beats its instrument name. Channel 10 is
+percussion unless a name says otherwise.
+
+Reasons for not playing a part
+------------------------------
+score.no_map : instrument
+    "there is no instrument map for {instrument} yet"
+score.percussion : instrument
+    "{instrument} is percussion"
+score.not_wind : instrument
+    "{instrument} is not a wind instrument"
+score.outside_ranges : lowest, highest
+    "neither its name nor its program says what it is, and no instrument map reaches its notes ({lowest} to {highest})"
+
+Warnings
+--------
+score.substituted : part, instrument, map
+    "{part}: there is no instrument map for {instrument}; {map} plays it instead"
+score.chosen_by_range : part, map
+    "{part}: neither its name nor its program says what it is; {map} plays it because the range fits"
+score.chosen_by_range_partly : part, map, outside, total
+    "{part}: neither its name nor its program says what it is; {map} plays it, though {outside} of {total} notes lie outside its range"
+score.voices : part, voices
+    "{part}: up to {voices} notes sound together, so {voices} players share it"
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import msgspec
+
+from app.errors import Message
+from app.score.model import ControllerCurve, Note, Part, UnplayedPart
+from app.score.tempo import TempoMap
+from app.score.voices import split_voices
+from instrument_maps.vocabulary import Instrument, vocabulary
+
+PERCUSSION_CHANNEL = 9
+_NEEDED_SHARE = 0.5
+
+
+class MapChoice(msgspec.Struct, frozen=True):
+    """What an instrument map can be chosen for.
+
+    Attributes
+    ----------
+    map_id : str
+    plays, substitutes_for : tuple of str
+        Ids in the vocabulary of instruments: its own, and those it may stand in for.
+    concert_low, concert_high : int
+        Its range at concert pitch, both included, MIDI numbers.
+    """
+
+    map_id: str
+    plays: tuple[str, ...]
+    substitutes_for: tuple[str, ...]
+    concert_low: int
+    concert_high: int
+
+
+class Stream(msgspec.Struct, frozen=True):
+    """The notes of one track on one channel, as read.
+
+    Attributes
+    ----------
+    track : int
+        Counted from 0.
+    channel : int
+    name, instrument_name : str
+        The track's texts for people, empty if there are none.
+    program : int or None
+    onset_ticks, end_ticks, pitches, velocities, numbers : list of int
+        One entry per note, by onset; ``numbers`` is the note's place among the track's note-ons, from 1.
+    curves : tuple of ControllerCurve
+    """
+
+    track: int
+    channel: int
+    name: str
+    instrument_name: str
+    program: int | None
+    onset_ticks: list[int]
+    end_ticks: list[int]
+    pitches: list[int]
+    velocities: list[int]
+    numbers: list[int]
+    curves: tuple[ControllerCurve, ...]
+
+    def notes(self) -> list[Note]:
+        """The notes, in the same order."""
+        prefix = f"{self.track + 1}:"
+        return [
+            Note(prefix + str(number), onset, end - onset, pitch, velocity)
+            for number, onset, end, pitch, velocity in zip(
+                self.numbers, self.onset_ticks, self.end_ticks, self.pitches, self.velocities, strict=True
+            )
+        ]
+
+
+def recognised(stream: Stream) -> Instrument | None:
+    """The instrument that names or numbers give to a track; None if they give none."""
+    words = vocabulary()
+    for text in (stream.name, stream.instrument_name):
+        found = words.by_name(text) if text else None
+        if found is not None:
+            return found
+    if stream.channel == PERCUSSION_CHANNEL:
+        return words.instruments["drums"]
+    return None if stream.program is None else words.by_program(stream.program)
+
+
+def parts_of(
+    streams: Sequence[Stream], maps: Sequence[MapChoice], tempo_map: TempoMap
+) -> tuple[tuple[Part, ...], tuple[UnplayedPart, ...], tuple[Message, ...]]:
+    """Sort tracks into parts with players and parts without, and say what was guessed.
+
+    Parameters
+    ----------
+    streams : sequence of Stream
+    maps : sequence of MapChoice
+        Earlier ones are preferred where all else is equal.
+    tempo_map : TempoMap
+    """
+    parts: list[Part] = []
+    unplayed: list[UnplayedPart] = []
+    warnings: list[Message] = []
+    for stream in streams:
+        instrument = recognised(stream)
+        name = stream.name or stream.instrument_name or (instrument.names[0] if instrument else "")
+        by_range = instrument is None or instrument.any_pitch
+        candidates = maps if by_range or instrument is None else _maps_for(instrument, maps)
+        reason = _refusal(stream, instrument, candidates)
+        if reason is not None:
+            unplayed.append(UnplayedPart(name or f"Track {stream.track + 1}", reason, len(stream.pitches)))
+            continue
+        voices = split_voices(stream.notes(), tempo_map)
+        first = len(parts)
+        for voice, notes in enumerate(voices):
+            chosen = _best_by_range([note.pitch for note in notes], candidates)
+            label = name or _name_of(chosen)
+            parts.append(
+                Part(
+                    id=f"{stream.track + 1}.{stream.channel + 1}.{voice + 1}",
+                    name=label,
+                    track=stream.track,
+                    voice=voice,
+                    channel=stream.channel,
+                    program=stream.program,
+                    instrument=instrument.id if instrument is not None else None,
+                    map_id=chosen.map_id,
+                    notes=notes,
+                    curves=stream.curves,
+                )
+            )
+        mine = parts[first:]
+        if len(mine) > 1:
+            warnings.append(Message("score.voices", {"part": mine[0].name, "voices": len(mine)}))
+        if by_range:
+            warnings += [_range_warning(part, maps) for part in mine]
+        elif instrument is not None:
+            for map_id in dict.fromkeys(part.map_id for part in mine):
+                if not any(choice.map_id == map_id and instrument.id in choice.plays for choice in maps):
+                    arguments = {"part": mine[0].name, "instrument": instrument.names[0], "map": map_id}
+                    warnings.append(Message("score.substituted", {**arguments}))
+    return tuple(parts), tuple(unplayed), tuple(warnings)
+
+
+def _maps_for(instrument: Instrument, maps: Sequence[MapChoice]) -> list[MapChoice]:
+    """The maps that play an instrument, else those that stand in for it."""
+    return [choice for choice in maps if instrument.id in choice.plays] or [
+        choice for choice in maps if instrument.id in choice.substitutes_for
+    ]
+
+
+def _refusal(stream: Stream, instrument: Instrument | None, candidates: Sequence[MapChoice]) -> Message | None:
+    """Why nobody plays a track; None if somebody does."""
+    if instrument is not None and not instrument.any_pitch:
+        if instrument.kind != "wind":
+            id_ = "score.percussion" if instrument.kind == "percussion" else "score.not_wind"
+            return Message(id_, {"instrument": instrument.names[0]})
+        return None if candidates else Message("score.no_map", {"instrument": instrument.names[0]})
+    if max((_share(stream.pitches, choice) for choice in candidates), default=0.0) <= _NEEDED_SHARE:
+        return Message("score.outside_ranges", {"lowest": min(stream.pitches), "highest": max(stream.pitches)})
+    return None
+
+
+def _share(pitches: Sequence[int], choice: MapChoice) -> float:
+    """How many of the notes a map reaches, 0..1."""
+    return sum(choice.concert_low <= pitch <= choice.concert_high for pitch in pitches) / len(pitches)
+
+
+def _best_by_range(pitches: Sequence[int], candidates: Sequence[MapChoice]) -> MapChoice:
+    """The map that reaches most of the notes; among equals the one whose limits they stay away from furthest."""
+    lowest, highest = min(pitches), max(pitches)
+
+    def rank(choice: MapChoice) -> tuple[float, int]:
+        return _share(pitches, choice), min(lowest - choice.concert_low, choice.concert_high - highest)
+
+    return max(candidates, key=rank)
+
+
+def _range_warning(part: Part, maps: Sequence[MapChoice]) -> Message:
+    choice = next(choice for choice in maps if choice.map_id == part.map_id)
+    outside = sum(not choice.concert_low <= note.pitch <= choice.concert_high for note in part.notes)
+    if outside == 0:
+        return Message("score.chosen_by_range", {"part": part.name, "map": part.map_id})
+    return Message(
+        "score.chosen_by_range_partly",
+        {"part": part.name, "map": part.map_id, "outside": outside, "total": len(part.notes)},
+    )
+
+
+def _name_of(choice: MapChoice) -> str:
+    """The English name of the instrument that a map plays."""
+    known = vocabulary().instruments
+    return next((known[id_].names[0] for id_ in choice.plays if id_ in known), choice.map_id)

@@ -1,0 +1,257 @@
+"""Reads a MIDI file into a score.
+
+How the three formats are taken: format 0 is split by channel, and so is any track that uses several channels; the tracks
+of format 1 sound together; the patterns of format 2 follow one another in the order of the file, each beginning where the
+one before ends, with the tempo it left.
+
+What a note is: a note-on with velocity 0 is a note-off. A note-off ends the *oldest* note of its pitch and channel
+that still sounds (first in, first out), so notes of one pitch may overlap. A note-off and a note-on at one tick are two
+notes in a row. "All notes off" and "all sound off" end what sounds on the channel, the end of the track ends the rest.
+A note of no length lasts one tick.
+
+The errors are those of `app.score.chunks`, and:
+
+midi.unknown_encoding : file, encoding
+    "{file}: there is no text encoding '{encoding}'"
+midi.track_unreadable : file, track, byte, detail
+    "{file}: track {track}, which begins at byte {byte}, cannot be read: {detail}"
+
+The warnings are those of `app.score.chunks`, `app.score.repair` and `app.score.parts`, and:
+
+midi.smpte_rate : rate
+    "The file counts time in frames of 1/{rate} s, which is no SMPTE rate; it was taken literally"
+midi.patterns : patterns
+    "The file has {patterns} independent patterns (format 2); they follow one another"
+midi.hanging_notes : track, count
+    "{count} notes of track {track} never end; they end with the track"
+midi.zero_length_notes : track, count
+    "{count} notes of track {track} have no length; they last one tick"
+midi.impossible_metre : track, tick
+    "Track {track} has an impossible time signature at tick {tick}; it was left out"
+midi.impossible_tempo : track, tick
+    "Track {track} has an impossible tempo at tick {tick}; it was left out"
+"""
+
+from __future__ import annotations
+
+import codecs
+import io
+import re
+from collections.abc import Sequence
+from fractions import Fraction
+from pathlib import Path
+
+import mido
+import msgspec
+
+from app.errors import FileError, Message
+from app.score.chunks import Container, Track, read_container
+from app.score.model import Metre, Score
+from app.score.parts import MapChoice, Stream, parts_of
+from app.score.repair import Repaired, last_system_message, repaired
+from app.score.tempo import TempoChange, TempoMap
+from app.score.texts import decoded
+from app.score.tracks import TrackEvents, gather
+
+# What mido raises on bytes it does not understand, found by reading it and by fuzzing.
+_MIDO_ERRORS = (OSError, EOFError, ValueError, LookupError, TypeError, AttributeError, mido.KeySignatureError)
+
+# LilyPond names a track "staff:voice"; "\\new" is a staff without a name.
+_LILYPOND_NAME = re.compile(r"^([^:]*):([^:]*)$")
+
+_SMPTE_RATES = {24: Fraction(24), 25: Fraction(25), 29: Fraction(30000, 1001), 30: Fraction(30)}
+_LARGEST_DENOMINATOR = 64
+
+
+def read_midi(path: Path, *, encoding: str | None = None, maps: Sequence[MapChoice]) -> Score:
+    """Read a MIDI file.
+
+    Parameters
+    ----------
+    path : Path
+    encoding : str, optional
+        Of the file's texts; otherwise guessed text by text (`app.score.texts`).
+    maps : sequence of MapChoice
+        The instruments that can be played.
+
+    Raises
+    ------
+    FileError
+        If it cannot be read; what can be read in part opens, and the score's warnings say what was left out.
+    """
+    if encoding is not None:
+        try:
+            codecs.lookup(encoding)
+        except LookupError as error:
+            raise FileError("midi.unknown_encoding", file=str(path), encoding=encoding) from error
+    container = read_container(path)
+    warnings = list(container.warnings)
+    tracks: list[TrackEvents] = []
+    begin = 0
+    for index, track in enumerate(container.tracks):
+        messages, problems = _messages(track, index, str(path))
+        warnings += problems
+        events = gather(messages, begin if container.format == 2 else 0)
+        begin = events.end_tick
+        warnings += _note_warnings(events, index)
+        tracks.append(events)
+    if container.format == 2 and len(tracks) > 1:
+        warnings.append(Message("midi.patterns", {"patterns": len(tracks)}))
+    tempo_map, tempo_warnings = _tempo_map(container, tracks)
+    metres, pickup_ticks, metre_warnings = _metres(tracks, tempo_map.ticks_per_quarter)
+    parts, unplayed, part_warnings = parts_of(_streams(tracks, encoding), maps, tempo_map)
+    return Score(
+        title=_title(tracks, encoding) or path.stem,
+        ticks_per_quarter=tempo_map.ticks_per_quarter,
+        tempo_map=tempo_map,
+        metres=metres,
+        pickup_ticks=pickup_ticks,
+        parts=parts,
+        unplayed=unplayed,
+        warnings=(*warnings, *tempo_warnings, *metre_warnings, *part_warnings),
+    )
+
+
+def _messages(track: Track, index: int, file: str) -> tuple[mido.MidiTrack, list[Message]]:
+    """The messages of one track, repaired as far as needed."""
+    until = last_system_message(track.data)
+    repair = repaired(track.data, until) if until else None
+    try:
+        messages = _parsed(repair.data if repair else track.data)
+    except _MIDO_ERRORS:
+        repair = repaired(track.data)
+        try:
+            messages = _parsed(repair.data)
+        except _MIDO_ERRORS as error:
+            raise FileError(
+                "midi.track_unreadable",
+                file=file,
+                track=index + 1,
+                byte=track.first_byte,
+                detail=str(error) or type(error).__name__,
+            ) from error
+    return messages, _repair_warnings(repair, track, index) if repair else []
+
+
+def _parsed(data: bytes) -> mido.MidiTrack:
+    header = b"MThd" + bytes([0, 0, 0, 6, 0, 0, 0, 1, 1, 0xE0]) + b"MTrk" + len(data).to_bytes(4, "big")
+    return mido.MidiFile(file=io.BytesIO(header + data), clip=True, charset="latin-1").tracks[0]
+
+
+def _repair_warnings(repair: Repaired, track: Track, index: int) -> list[Message]:
+    warnings = []
+    if repair.skipped:
+        byte = track.first_byte + repair.first_skipped
+        warnings.append(
+            Message("midi.bytes_not_understood", {"track": index + 1, "byte": byte, "count": repair.skipped})
+        )
+    if repair.truncated_at is not None:
+        byte = track.first_byte + repair.truncated_at
+        warnings.append(Message("midi.track_truncated", {"track": index + 1, "byte": byte}))
+    return warnings
+
+
+def _note_warnings(events: TrackEvents, index: int) -> list[Message]:
+    counts = (("midi.hanging_notes", events.hanging), ("midi.zero_length_notes", events.zero_length))
+    return [Message(id_, {"track": index + 1, "count": count}) for id_, count in counts if count]
+
+
+def _tempo_map(container: Container, tracks: Sequence[TrackEvents]) -> tuple[TempoMap, list[Message]]:
+    division = container.division
+    if division < 0:
+        rate, ticks_per_frame = 256 - (division >> 8 & 0xFF), division & 0xFF
+        frames_per_second = _SMPTE_RATES.get(rate, Fraction(rate))
+        warnings = [] if rate in _SMPTE_RATES else [Message("midi.smpte_rate", {"rate": rate})]
+        return TempoMap.of_smpte(float(frames_per_second * max(ticks_per_frame, 1))), warnings
+    changes: list[TempoChange] = []
+    warnings = []
+    for index, events in enumerate(tracks):
+        for tick, tempo in events.tempos:
+            if tempo > 0:
+                changes.append(TempoChange(tick, tempo))
+            else:
+                warnings.append(Message("midi.impossible_tempo", {"track": index + 1, "tick": tick}))
+    return TempoMap.of_changes(division, changes), warnings
+
+
+def _metres(tracks: Sequence[TrackEvents], ticks_per_quarter: int) -> tuple[tuple[Metre, ...], int, list[Message]]:
+    """The metres, the length of the pickup and what had to be left out.
+
+    A metre restated at a bar line says nothing and falls away; restated within a bar it begins a new one.
+    """
+    latest = {0: Metre(0, 4, 4)}
+    warnings = []
+    for index, events in enumerate(tracks):
+        for tick, numerator, denominator in events.metres:
+            if numerator > 0 and 0 < denominator <= _LARGEST_DENOMINATOR:
+                latest[tick] = Metre(tick, numerator, denominator)
+            else:
+                warnings.append(Message("midi.impossible_metre", {"track": index + 1, "tick": tick}))
+    kept: list[Metre] = []
+    for tick in sorted(latest):
+        metre = latest[tick]
+        if kept:
+            last = kept[-1]
+            same = (last.numerator, last.denominator) == (metre.numerator, metre.denominator)
+            bars = Fraction((tick - last.tick) * last.denominator, 4 * ticks_per_quarter * last.numerator)
+            if same and bars.denominator == 1:
+                continue
+        kept.append(metre)
+    pickup_ticks = 0
+    if len(kept) > 1:
+        first_length = kept[1].tick
+        full = Fraction(4 * ticks_per_quarter * kept[1].numerator, kept[1].denominator)
+        one_bar = Fraction(4 * ticks_per_quarter * kept[0].numerator, kept[0].denominator)
+        if first_length < full and first_length <= one_bar:
+            pickup_ticks = first_length
+    return tuple(kept), pickup_ticks, warnings
+
+
+def _title(tracks: Sequence[TrackEvents], encoding: str | None) -> str:
+    """The name of the first track, if it is the piece's and not a player's."""
+    first = tracks[0]
+    if first.channels and len(tracks) > 1:
+        return ""
+    return decoded(first.name, encoding)
+
+
+def _streams(tracks: Sequence[TrackEvents], encoding: str | None) -> list[Stream]:
+    lilypond = any(b"LilyPond" in text for text in tracks[0].texts)
+    streams = []
+    for index, events in enumerate(tracks):
+        name = decoded(events.name, encoding)
+        if lilypond and (match := _LILYPOND_NAME.match(name)):
+            name = "" if match[1].startswith("\\") else match[1].strip()
+        if len(tracks) == 1:
+            name = name if len(events.channels) == 1 else ""
+        for channel, notes in sorted(events.channels.items()):
+            streams.append(
+                Stream(
+                    track=index,
+                    channel=channel,
+                    name=name,
+                    instrument_name=decoded(events.instrument_name, encoding),
+                    program=_program(tracks, index, channel, notes.onset_ticks[0]),
+                    onset_ticks=notes.onset_ticks,
+                    end_ticks=notes.end_ticks,
+                    pitches=notes.pitches,
+                    velocities=notes.velocities,
+                    numbers=notes.numbers,
+                    curves=events.curves(channel),
+                )
+            )
+    return streams
+
+
+def _program(tracks: Sequence[TrackEvents], index: int, channel: int, first_onset: int) -> int | None:
+    """The program with which a track's first note on a channel sounds.
+
+    It is the track's own if it gives any, for the channels of large scores are shared by tracks. Else it is
+    what the other tracks give the channel, if they agree.
+    """
+    own = tracks[index].programs.get(channel)
+    if own:
+        before = [program for tick, program in own if tick <= first_onset]
+        return before[-1] if before else own[0][1]
+    others = {program for events in tracks for _, program in events.programs.get(channel, ())}
+    return others.pop() if len(others) == 1 else None

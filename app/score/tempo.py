@@ -1,0 +1,127 @@
+"""Tempo map: musical ticks to seconds and back, exactly piecewise linear."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import TypeAlias, overload
+
+import msgspec
+import numpy as np
+import numpy.typing as npt
+
+Floats: TypeAlias = npt.NDArray[np.float64]
+
+DEFAULT_MICROSECONDS_PER_QUARTER = 500_000
+
+
+class TempoChange(msgspec.Struct, frozen=True):
+    """A tempo from one tick on.
+
+    Attributes
+    ----------
+    tick : int
+        Where it begins.
+    microseconds_per_quarter : float
+        Integral in files that count ticks per quarter; what SMPTE files give is rarely integral.
+    """
+
+    tick: int
+    microseconds_per_quarter: float
+
+
+class TempoMap(msgspec.Struct, frozen=True, dict=True):
+    """Ticks to seconds and back.
+
+    Tick 0 is second 0. The first tempo extends backwards, so that the pre-roll has times too; the last one extends
+    forwards. A file whose division is SMPTE (frames per second and ticks per frame) has no quarters: one constant tempo
+    of 120 quarters per minute stands in, as nearly as whole ticks per quarter allow, and ticks keep their exact duration.
+
+    Attributes
+    ----------
+    ticks_per_quarter : int
+    changes : tuple of TempoChange
+        By tick, one per tick, at least one, the first at tick 0.
+    """
+
+    ticks_per_quarter: int
+    changes: tuple[TempoChange, ...] = (TempoChange(0, DEFAULT_MICROSECONDS_PER_QUARTER),)
+
+    @classmethod
+    def of_changes(cls, ticks_per_quarter: int, changes: list[TempoChange]) -> TempoMap:
+        """Build a map from changes in any order; of several at one tick the last counts, and repetitions fall away."""
+        latest = {0: float(DEFAULT_MICROSECONDS_PER_QUARTER)}
+        for change in sorted(changes, key=lambda change: change.tick):
+            latest[change.tick] = change.microseconds_per_quarter
+        kept: list[TempoChange] = []
+        for tick, tempo in latest.items():
+            if not kept or kept[-1].microseconds_per_quarter != tempo:
+                kept.append(TempoChange(tick, tempo))
+        return cls(ticks_per_quarter, tuple(kept))
+
+    @classmethod
+    def of_smpte(cls, ticks_per_second: float) -> TempoMap:
+        """Build the map of a file with SMPTE division: a constant number of ticks per second."""
+        ticks_per_quarter = max(1, round(ticks_per_second / 2))
+        return cls(ticks_per_quarter, (TempoChange(0, 1e6 * ticks_per_quarter / ticks_per_second),))
+
+    @cached_property
+    def _table(self) -> tuple[Floats, Floats, Floats]:
+        """Ticks and seconds where each tempo begins, and its seconds per tick; each float64, shape (changes,)."""
+        ticks = np.array([change.tick for change in self.changes], np.float64)
+        slopes = np.array([change.microseconds_per_quarter for change in self.changes], np.float64)
+        slopes = slopes / (1e6 * self.ticks_per_quarter)
+        starts = np.concatenate(([0.0], np.cumsum(np.diff(ticks) * slopes[:-1])))
+        return ticks, starts, slopes
+
+    @cached_property
+    def bpm(self) -> tuple[tuple[int, float], ...]:
+        """The tempo changes as (tick, quarters per minute)."""
+        return tuple((change.tick, 60e6 / change.microseconds_per_quarter) for change in self.changes)
+
+    @overload
+    def seconds(self, ticks: float) -> float: ...
+    @overload
+    def seconds(self, ticks: npt.NDArray[np.floating] | npt.NDArray[np.integer]) -> Floats: ...
+    def seconds(self, ticks: float | npt.NDArray[np.floating] | npt.NDArray[np.integer]) -> float | Floats:
+        """Seconds at ticks.
+
+        Parameters
+        ----------
+        ticks : float or array of any shape
+            May be negative and fractional.
+
+        Returns
+        -------
+        float, or float64 array of the same shape
+        """
+        at, starts, slopes = self._table
+        return _piecewise(ticks, at, starts, slopes)
+
+    @overload
+    def ticks(self, seconds: float) -> float: ...
+    @overload
+    def ticks(self, seconds: npt.NDArray[np.floating] | npt.NDArray[np.integer]) -> Floats: ...
+    def ticks(self, seconds: float | npt.NDArray[np.floating] | npt.NDArray[np.integer]) -> float | Floats:
+        """Ticks at seconds, fractional: the inverse of `seconds`.
+
+        Parameters
+        ----------
+        seconds : float or array of any shape
+            May be negative.
+
+        Returns
+        -------
+        float, or float64 array of the same shape
+        """
+        at, starts, slopes = self._table
+        return _piecewise(seconds, starts, at, 1.0 / slopes)
+
+
+def _piecewise(
+    x: float | npt.NDArray[np.floating] | npt.NDArray[np.integer], knots: Floats, values: Floats, slopes: Floats
+) -> float | Floats:
+    """A piecewise linear function whose outer pieces extend; ``values`` are at the ``knots``, ``slopes`` after them."""
+    places = np.asarray(x, np.float64)
+    piece = np.maximum(np.searchsorted(knots, places, side="right") - 1, 0)
+    result = values[piece] + (places - knots[piece]) * slopes[piece]
+    return float(result) if result.ndim == 0 else result
