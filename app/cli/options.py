@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TypeAlias
 
 from app.plan.generate import PREROLL_BEATS, PREROLL_LEAST_S
-from app.project.model import Project, project_from_score, with_settings
+from app.project.model import Project, map_choices, project_from_score, with_settings
 from app.project.parameters import parameter_names, parse_settings
 from app.rig.character import characters
 from app.score.read import read_midi
@@ -100,7 +100,7 @@ def add_source_options(command: argparse.ArgumentParser) -> None:
 def open_project(arguments: argparse.Namespace) -> Project:
     """Read the file and cast its players as the options say. Raises the errors of both."""
     maps = bundled_maps()
-    score = read_midi(arguments.file, arguments.encoding, maps)
+    score = read_midi(arguments.file, encoding=arguments.encoding, maps=map_choices(maps.values()))
     project = project_from_score(score, maps, seed=arguments.seed, preroll_beats=arguments.preroll)
     settings = parse_settings(
         arguments.settings, [player.name for player in project.players], maps, tuple(characters())

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import msgspec
@@ -18,6 +18,7 @@ from app.project.parameters import with_settings as parameters_with
 from app.rig.character import bundled_character, characters
 from app.rig.model import Character
 from app.score.model import Part, Score
+from app.score.parts import MapChoice
 from instrument_maps.model import Control, InstrumentMap
 
 
@@ -107,6 +108,20 @@ def project_from_score(
         for part, name, instrument, character, place in zip(parts, names, instruments, cast, places, strict=True)
     )
     return Project(score, players, seed=seed, preroll_beats=preroll_beats)
+
+
+def map_choices(maps: Iterable[InstrumentMap]) -> tuple[MapChoice, ...]:
+    """What the maps can be chosen for, as the score's reader wants to know it."""
+    return tuple(
+        MapChoice(
+            map_id=instrument.id,
+            plays=instrument.plays,
+            substitutes_for=instrument.substitutes_for,
+            concert_low=instrument.range.low,
+            concert_high=instrument.range.high,
+        )
+        for instrument in maps
+    )
 
 
 def with_settings(project: Project, settings: Sequence[Setting]) -> Project:

@@ -1,0 +1,258 @@
+"""The commands as a person meets them: what they print, how they end, and that no traceback is ever shown."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import mido
+import pytest
+
+from app.cli import main
+
+ROOT = Path(__file__).parents[3]
+MIDI = ROOT / "tests" / "data" / "midi"
+QUARTET = ROOT / "resources" / "examples" / "quartet.mid"
+LUTKIN = MIDI / "ensemble" / "brass_quartet_lutkin_2tpt_tbn_tuba.mid"
+
+Run = Callable[..., tuple[int, str, str]]
+
+
+@pytest.fixture
+def run(capsys: pytest.CaptureFixture[str]) -> Run:
+    def call(*arguments: str | Path) -> tuple[int, str, str]:
+        capsys.readouterr()
+        status = main([str(argument) for argument in arguments])
+        captured = capsys.readouterr()
+        assert "Traceback" not in captured.err
+        return status, captured.out, captured.err
+
+    return call
+
+
+def suisou(*arguments: str | Path, **options: Any) -> subprocess.CompletedProcess[bytes]:
+    return subprocess.run(
+        [sys.executable, "-m", "app", *map(str, arguments)], cwd=ROOT, capture_output=True, check=False, **options
+    )
+
+
+def named_piece(path: Path, *names: str) -> Path:
+    """Two bars of trumpet for every name."""
+    file = mido.MidiFile(type=1, ticks_per_beat=480, charset="utf-8")
+    for number, name in enumerate(names):
+        track = mido.MidiTrack()
+        track.append(mido.MetaMessage("track_name", name=name))
+        track.append(mido.Message("program_change", program=56, channel=number))
+        for pitch in (70, 72, 74, 75):
+            track.append(mido.Message("note_on", note=pitch, velocity=80, channel=number))
+            track.append(mido.Message("note_off", note=pitch, time=480, channel=number))
+        file.tracks.append(track)
+    file.save(path)
+    return path
+
+
+def test_help_and_version(run: Run) -> None:
+    assert run()[0] == 0
+    status, out, _ = run("--help")
+    assert status == 0
+    assert all(command in out for command in ("inspect", "export", "instruments", "--version"))
+    for command in ("inspect", "export", "instruments"):
+        assert run(command, "--help")[0] == 0
+    status, out, _ = run("--version")
+    assert status == 0
+    assert out.startswith("suisou ")
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["dance"],
+        ["inspect"],
+        ["export", QUARTET],
+        ["export", QUARTET, "--to", "x", "--fps", "fast"],
+        ["export", QUARTET, "--to", "x", "--format", "obj"],
+        ["export", QUARTET, "--to", "x", "--from-bar", "0.5"],
+        ["export", QUARTET, "--to", "x", "--from-bar", "9", "--to-bar", "3"],
+        ["export", QUARTET, "--to", "x", "--from-bar", "99999"],
+        ["export", QUARTET, "--to", "x", "--player", "nobody"],
+        ["inspect", QUARTET, "--set", "x"],
+        ["inspect", QUARTET, "--set", "nobody.amplitude=1"],
+        ["inspect", QUARTET, "--set", "*.amplitude=7"],
+        ["inspect", QUARTET, "--set", "*.volume=7"],
+        ["inspect", QUARTET, "--preroll", "-3"],
+        ["inspect", QUARTET, "--seed", "x"],
+    ],
+)
+def test_bad_use_ends_with_2(run: Run, arguments: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    status, out, err = run(*arguments)
+    assert status == 2
+    assert out == ""
+    assert err.strip()
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_an_unknown_player_is_told_who_there_is(run: Run) -> None:
+    names = [player["name"] for player in json.loads(run("inspect", QUARTET, "--json")[1])["players"]]
+    assert len(names) == 4
+    _, _, err = run("inspect", QUARTET, "--set", "nobody.amplitude=1")
+    assert all(name in err for name in names)
+
+
+def test_inspect_has_exactly_these_keys(run: Run) -> None:
+    status, out, _ = run("inspect", QUARTET, "--json")
+    assert status == 0
+    found = json.loads(out)
+    assert set(found) == {
+        "duration_s", "ticks_per_beat", "tempo", "first_frame_s", "warnings", "unplayed", "players",
+    }  # fmt: skip
+    assert set(found["tempo"][0]) == {"tick", "bpm"}
+    for player in found["players"]:
+        assert set(player) == {"name", "instrument", "part", "notes", "breaths", "cues", "gestures"}
+        assert player["notes"]
+        for note in player["notes"]:
+            assert set(note) == {
+                "id", "onset_tick", "duration_tick", "onset_s", "duration_s", "pitch", "velocity", "fingering",
+                "controls",
+            }  # fmt: skip
+            assert all(0.0 <= value <= 1.0 for value in note["controls"].values())
+        for breath in player["breaths"]:
+            assert {"kind", "start_s", "end_s", "start_beat", "end_beat"} <= set(breath)
+            assert breath["kind"] in ("preparation", "breath")
+            assert breath["start_s"] < breath["end_s"]
+            assert breath["start_beat"] < breath["end_beat"]
+    assert found["first_frame_s"] <= -2.0
+    assert [len(player["cues"]) > 0 for player in found["players"]].count(True) >= 1
+
+
+def test_seconds_follow_the_tempo_that_mido_reads(run: Run) -> None:
+    found = json.loads(run("inspect", LUTKIN, "--json")[1])
+    assert found["ticks_per_beat"] == mido.MidiFile(LUTKIN).ticks_per_beat
+    onsets = {round(note["onset_s"], 6) for player in found["players"] for note in player["notes"]}
+    time_s, truth = 0.0, set()
+    for message in mido.MidiFile(LUTKIN):
+        time_s += message.time
+        if message.type == "note_on" and message.velocity:
+            truth.add(round(time_s, 6))
+    assert all(min(abs(onset - other) for other in truth) < 1e-5 for onset in onsets)
+
+
+def test_what_has_no_map_is_listed(run: Run) -> None:
+    found = json.loads(run("inspect", LUTKIN, "--json")[1])
+    assert len(found["players"]) == 3
+    assert [set(part) for part in found["unplayed"]] == [{"name", "reason", "note_count"}]
+    assert found["unplayed"][0]["note_count"] > 0
+    assert found["unplayed"][0]["reason"]
+
+
+def test_settings_change_the_plan(run: Run) -> None:
+    plain = json.loads(run("inspect", QUARTET, "--json")[1])
+    same = json.loads(run("inspect", QUARTET, "--json")[1])
+    assert plain == same
+    changed = json.loads(run("inspect", QUARTET, "--json", "--set", "*.breath_min_beats=3")[1])
+    assert [p["notes"] for p in changed["players"]] == [p["notes"] for p in plain["players"]]
+    assert [p["breaths"] for p in changed["players"]] != [p["breaths"] for p in plain["players"]]
+    name = plain["players"][0]["name"]
+    swapped = json.loads(
+        run("inspect", QUARTET, "--json", "--set", f"{name}.instrument=trombone_tenor_F_attachment")[1]
+    )
+    assert swapped["players"][0]["instrument"] == "trombone_tenor_F_attachment"
+    assert {note["fingering"][-1] for note in swapped["players"][0]["notes"]} <= set("1234567")
+
+
+def test_the_table_for_people(run: Run) -> None:
+    status, out, _ = run("inspect", LUTKIN)
+    assert status == 0
+    assert "trumpet" in out.lower()
+    assert "not played" in out
+
+
+@pytest.mark.parametrize("path", sorted((MIDI / "corrupt").glob("*.mid")), ids=lambda path: path.stem)
+@pytest.mark.parametrize("command", ["inspect", "export"])
+def test_corrupt_files_end_in_a_sentence(run: Run, path: Path, command: str, tmp_path: Path) -> None:
+    options = ["--to", tmp_path / "out", "--fps", "24"] if command == "export" else ["--json"]
+    status, out, err = run(command, path, *options)
+    if status == 0:
+        assert command == "export" or json.loads(out)["warnings"]
+    else:
+        assert status == 1
+        assert len(err.strip().splitlines()) == 1
+        assert path.name in err
+        assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("path", sorted((MIDI / "awkward").glob("*.mid")), ids=lambda path: path.stem)
+def test_awkward_files_open(run: Run, path: Path) -> None:
+    status, out, err = run("inspect", path, "--json")
+    assert (status, err) == (0, "")
+    json.loads(out)
+
+
+@pytest.mark.parametrize("what", ["missing", "folder", "text"])
+def test_what_is_no_midi_file(run: Run, what: str, tmp_path: Path) -> None:
+    path = tmp_path / "thing.mid"
+    if what == "folder":
+        path.mkdir()
+    elif what == "text":
+        path.write_text("hello")
+    status, _, err = run("inspect", path)
+    assert status == 1
+    assert "thing.mid" in err
+
+
+def test_names_from_a_file_stay_names(run: Run, tmp_path: Path) -> None:
+    names = ["../../evil", "CON", "Trumpet 🎺", "Trumpet 🎺", "a/b\\c:d", ""]
+    piece = named_piece(tmp_path / "piece.mid", *names)
+    status, out, _ = run("inspect", piece, "--json")
+    assert status == 0
+    found = [player["name"] for player in json.loads(out)["players"]]
+    assert len({name.casefold() for name in found}) == len(names)
+    assert {"../../evil", "CON", "Trumpet 🎺 1", "Trumpet 🎺 2"} <= set(found)
+
+
+def test_pipes_get_utf8_whatever_the_system_says(tmp_path: Path) -> None:
+    piece = named_piece(tmp_path / "piece.mid", "トランペット 🎺")
+    environment = {**os.environ, "PYTHONIOENCODING": "ascii", "LC_ALL": "C"}
+    done = suisou("inspect", piece, "--json", env=environment)
+    assert done.returncode == 0
+    assert json.loads(done.stdout.decode("utf-8"))["players"][0]["name"] == "トランペット 🎺"
+
+
+def test_a_reader_that_leaves_early_is_no_error() -> None:
+    command = f'"{sys.executable}" -m app inspect "{QUARTET}" --json | head -c 100; exit ${{PIPESTATUS[0]}}'
+    done = subprocess.run(["bash", "-c", command], cwd=ROOT, capture_output=True, check=False)
+    assert done.returncode == 0
+    assert done.stderr == b""
+
+
+def test_instruments_are_listed_and_checked(run: Run, tmp_path: Path) -> None:
+    status, out, _ = run("instruments")
+    assert status == 0
+    assert "trumpet_Bb" in out
+    good = ROOT / "instrument_maps" / "trumpet_Bb.toml"
+    assert run("instruments", "check", good)[0] == 0
+    broken = tmp_path / "trumpet_Bb.toml"
+    broken.write_text(good.read_text(encoding="utf-8").replace("schema_version = 1", "schema_version = "), "utf-8")
+    status, out, err = run("instruments", "check", broken)
+    assert status == 1
+    assert "line" in out
+    assert "not valid" in err
+    broken.write_text(good.read_text(encoding="utf-8") + '\nnonsense = "x"\n', "utf-8")
+    status, out, _ = run("instruments", "check", broken)
+    assert status == 1
+    assert "nonsense" in out
+    assert run("instruments", "check", tmp_path / "absent.toml")[0] == 1
+
+
+def test_no_window_toolkit_is_loaded() -> None:
+    code = (
+        "import sys; from app.cli import main; main(['instruments']); "
+        "print([name for name in sys.modules if 'Qt' in name or 'PySide' in name])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, check=True)
+    assert done.stdout.decode().splitlines()[-1] == "[]"

@@ -1,0 +1,42 @@
+"""Loudness from controllers, against a sum over every tick."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from app.performance.loudness import note_loudness
+from app.score.model import ControllerCurve, Note, Part
+
+
+def part(notes: list[tuple[int, int]], *curves: ControllerCurve) -> Part:
+    made = tuple(Note(f"1:{n}", onset, length, 60, 80) for n, (onset, length) in enumerate(notes, 1))
+    return Part("1.1.1", "x", 0, 0, 0, None, None, "m", made, curves)
+
+
+@given(st.lists(st.tuples(st.integers(1, 40), st.floats(0, 1)), min_size=1, max_size=8))
+def test_the_mean_is_the_mean_over_ticks(steps: list[tuple[int, float]]) -> None:
+    ticks = np.cumsum([gap for gap, _ in steps])
+    values = [value for _, value in steps]
+    made = part([(0, 50), (60, 90)], ControllerCurve("breath", tuple(ticks.tolist()), tuple(values)))
+    each = [values[max(int(np.searchsorted(ticks, tick, side="right")) - 1, 0)] for tick in range(150)]
+    expected = (float(np.mean(each[0:50])), float(np.mean(each[60:150])))
+    found = note_loudness(made)
+    if found:
+        assert found == pytest.approx(expected)
+    else:
+        assert len(set(each)) == 1 or max(expected) == 0.0
+
+
+def test_a_level_that_is_set_once_says_nothing() -> None:
+    assert note_loudness(part([(0, 10)], ControllerCurve("volume", (0,), (0.8,)))) == ()
+    assert note_loudness(part([(100, 10)], ControllerCurve("volume", (0, 50), (0.1, 0.8)))) == ()
+    assert note_loudness(part([])) == ()
+
+
+def test_breath_speaks_before_volume() -> None:
+    breath = ControllerCurve("breath", (0, 10), (0.2, 0.6))
+    volume = ControllerCurve("volume", (0, 5), (1.0, 0.9))
+    assert note_loudness(part([(0, 20)], volume, breath)) == pytest.approx((0.4,))
