@@ -30,38 +30,11 @@ import numpy as np
 
 from app.errors import Argument, Message
 from app.plan.corrections import BY_HAND, Correction, SetBreath, removed_ids, without_removed
-from app.plan.line import MEZZOFORTE, IntArray, LineTimes, Piece, chance
+from app.plan.line import IntArray, LineTimes, Piece
+from app.plan.lungs import EPSILON, air_used_s, catch_lengths_s, catch_places, drawn, levels
 from app.plan.model import BreathEvent, FloatArray, Note, PlayerParameters, Problem, TimeFrame
 
-FULL_BREATH_S = 0.5
-"""Time a trained player needs to fill the lungs."""
-CATCH_MIN_S = 0.15
-CATCH_MAX_S = 0.4
-CATCH_NOTE_SHARE = 1.0 / 3.0
-"""A catch breath takes at most this part of the note before it."""
 LEAST_DEPTH = 0.3
-LOUDNESS_RANGE = (0.6, 1.6)
-"""Air used by the softest and the loudest note, mezzoforte being 1."""
-
-# How good a place for a catch breath is (added up; the cost of a place is PLACE_COST minus this).
-PLACE_COST = 6.0
-LONG_NOTE = 1.5
-"""After a note at least twice as long as the notes around."""
-BAR_LINE = 1.0
-"""Before a bar's first note."""
-ON_BEAT = 0.4
-LEAP = 0.7
-"""Before a leap of a fourth or more."""
-SILENCE = 1.5
-"""A short silence is there already."""
-SLURRED = -2.0
-"""Between notes that overlap: the slur would be broken."""
-JITTER = 0.2
-"""Players differ where places are equally good."""
-TAKEN_COST = 3.0
-"""Where another player of the same part breathes: players stagger."""
-TOO_LONG_COST = 1000.0
-_EPSILON = 1e-9
 
 
 class BreathPlan(msgspec.Struct, frozen=True):
@@ -116,12 +89,12 @@ def plan_breaths(
     refill = np.zeros(len(notes))
     for event in [*kept, *by_hand]:
         if event.kind == "breath":
-            refill[index_of[_note_id(event)]] = max(0.0, _drawn(event.end_s - event.start_s) * _full(event))
-    level = _levels(np.concatenate(([0.0], np.cumsum(air_used_s(times)))), parameters.lung_s, refill)
+            refill[index_of[_note_id(event)]] = max(0.0, drawn(event.end_s - event.start_s) * _full(event))
+    level = levels(air_used_s(times), parameters.lung_s, refill)
     catches = catch_places(notes, times, piece, parameters, refill, level, removed, taken, seed)
     caught = [_catch(notes, times, piece, level * parameters.lung_s, refill, index) for index in catches]
     for event, index in zip(caught, catches, strict=True):
-        refill[index] = _drawn(event.end_s - event.start_s)
+        refill[index] = drawn(event.end_s - event.start_s)
     events = tuple(sorted([*kept, *by_hand, *caught], key=lambda event: (event.start_s, event.end_s)))
     early_end_s: dict[int, float] = {}
     problems = []
@@ -212,126 +185,6 @@ def _rest_reason(index: int, rest: float, long: bool, prepared: bool, parameters
     )
 
 
-def air_used_s(times: LineTimes) -> FloatArray:
-    """(N,): air each note takes, in seconds of playing at mezzoforte."""
-    low, high = LOUDNESS_RANGE
-    rate = np.interp(times.loudness, [0.0, MEZZOFORTE, 1.0], [low, 1.0, high])
-    return times.duration_s * rate
-
-
-def catch_places(
-    notes: tuple[Note, ...],
-    times: LineTimes,
-    piece: Piece,
-    parameters: PlayerParameters,
-    refill: FloatArray,
-    level: FloatArray,
-    removed: frozenset[str],
-    taken: frozenset[str],
-    seed: tuple[str | int, ...],
-) -> list[int]:
-    """Indices of the notes before which a catch breath is needed.
-
-    Between two breaths that the rests give, the cheapest chain of places such that no stretch takes more air than
-    there is (a shortest path; the cost of a place falls with how good a phrase end it is). Where nothing helps, the
-    stretch stays.
-
-    Parameters
-    ----------
-    refill : (N,) float
-        Part of the lungs that the breath before each note fills; 0 where there is none.
-    level : (N,) float
-        How full the lungs are at each note.
-    """
-    used = np.concatenate(([0.0], np.cumsum(air_used_s(times))))
-    lung_s = parameters.lung_s
-    length_s = _catch_lengths_s(times)
-    open_ = (length_s >= CATCH_MIN_S - _EPSILON) & (refill == 0.0)
-    open_[0] = False
-    breaths = np.flatnonzero(refill > 0.0)
-    starts = np.unique(np.concatenate(([0], breaths)))
-    ends = np.append(starts[1:], len(notes))
-    result: list[int] = []
-    for start, end in zip(starts.tolist(), ends.tolist(), strict=True):
-        if used[end] - used[start] <= level[start] * lung_s + _EPSILON:
-            continue
-        places = [
-            index for index in range(start + 1, end) if open_[index] and f"breath:{notes[index].id}" not in removed
-        ]
-        if places:
-            cost = _place_costs(notes, times, piece, places, taken, seed)
-            result += _cheapest_chain(used, places, cost, length_s, start, end, float(level[start]), lung_s)
-    return result
-
-
-def _cheapest_chain(
-    used: FloatArray,
-    places: list[int],
-    cost: FloatArray,
-    length_s: FloatArray,
-    start: int,
-    end: int,
-    level: float,
-    lung_s: float,
-) -> list[int]:
-    """Label by label: what is left of the best way so far, and what the catch breath adds, is the air of a place."""
-    nodes = np.array([start, *places, end])
-    air_s = np.zeros(len(nodes))
-    air_s[0] = level * lung_s
-    total = np.full(len(nodes), np.inf)
-    total[0] = 0.0
-    origin = np.zeros(len(nodes), dtype=np.int64)
-    for node in range(1, len(nodes)):
-        needed = used[nodes[node]] - used[nodes[:node]]
-        over = np.maximum(needed - air_s[:node], 0.0)
-        ways = total[:node] + np.where(over > _EPSILON, TOO_LONG_COST * (1.0 + over), 0.0)
-        best = origin[node] = int(np.argmin(ways))
-        total[node] = ways[best]
-        if node < len(places) + 1:
-            total[node] += cost[node - 1]
-            left_s = max(air_s[best] - needed[best], 0.0)
-            air_s[node] = min(left_s + _drawn(float(length_s[nodes[node]])) * lung_s, lung_s)
-    chain = []
-    node = int(origin[-1])
-    while node > 0:
-        chain.append(int(nodes[node]))
-        node = int(origin[node])
-    return chain[::-1]
-
-
-def _place_costs(
-    notes: tuple[Note, ...],
-    times: LineTimes,
-    piece: Piece,
-    places: list[int],
-    taken: frozenset[str],
-    seed: tuple[str | int, ...],
-) -> FloatArray:
-    at = np.array(places)
-    duration = times.duration_s
-    around = np.array([np.median(duration[max(index - 4, 0) : index + 4]) for index in places])
-    onset = times.onset_tick[at]
-    bars = piece.bars(int(times.onset_tick[0]), int(times.onset_tick[-1]) + 1)
-    good: FloatArray = LONG_NOTE * (duration[at - 1] >= 2.0 * around)
-    good += BAR_LINE * np.isin(onset, bars)
-    bar = bars[np.maximum(np.searchsorted(bars, onset, side="right") - 1, 0)]
-    good += ON_BEAT * ((onset - bar) % piece.beat_ticks == 0)
-    good += LEAP * (np.abs(times.pitch[at] - times.pitch[at - 1]) >= 5)
-    good += SILENCE * (times.silence_tick[at] > 0)
-    good += SLURRED * times.overlaps_next[at - 1]
-    good += np.array([JITTER * chance(*seed, "catch", int(tick)) for tick in onset])
-    good -= TAKEN_COST * np.array([notes[index].id in taken for index in places])
-    return np.asarray(PLACE_COST - good, dtype=np.float64)
-
-
-def _catch_lengths_s(times: LineTimes) -> FloatArray:
-    """(N,): how long a catch breath before each note may be: the silence there, else also a part of the note before."""
-    gap = np.maximum(times.onset_s - np.insert(times.played_end_s[:-1], 0, times.onset_s[0]), 0.0)
-    before = np.insert(times.duration_s[:-1], 0, 0.0)
-    length = np.where(gap >= CATCH_MIN_S, gap, gap + CATCH_NOTE_SHARE * before)
-    return np.asarray(np.minimum(length, CATCH_MAX_S), dtype=np.float64)
-
-
 def _catch(
     notes: tuple[Note, ...],
     times: LineTimes,
@@ -341,7 +194,7 @@ def _catch(
     index: int,
 ) -> BreathEvent:
     onset_s = float(times.onset_s[index])
-    start_s = onset_s - float(_catch_lengths_s(times)[index])
+    start_s = onset_s - float(catch_lengths_s(times)[index])
     breaths = np.flatnonzero(refill > 0.0)
     first = breaths[breaths < index].max(initial=0)
     last = breaths[breaths > index].min(initial=len(notes))
@@ -366,30 +219,12 @@ def _catch(
     )
 
 
-def _drawn(length_s: float) -> float:
-    """Part of the lungs that a breath of this length fills."""
-    return min(length_s / FULL_BREATH_S, 1.0)
-
-
 def _full(event: BreathEvent) -> float:
     return event.depth if event.corrected else 1.0
 
 
 def _note_id(event: BreathEvent) -> str:
     return event.id.split(":", 1)[1]
-
-
-def _levels(used: FloatArray, lung_s: float, refill: FloatArray) -> FloatArray:
-    """(N,): how full the lungs are (0..1) at each note's onset, after the breath before it."""
-    level = np.empty(len(refill))
-    # Nobody enters on empty lungs: without any breath before the first note (removed by hand) a normal one is assumed.
-    here = 0.5 if refill[0] == 0.0 else 0.0
-    for index in range(len(refill)):
-        if index:
-            here = max(here - (used[index] - used[index - 1]) / lung_s, 0.0)
-        here = min(here + refill[index], 1.0)
-        level[index] = here
-    return level
 
 
 def _with_depths(
@@ -400,7 +235,7 @@ def _with_depths(
     index_of: dict[str, int],
 ) -> tuple[BreathEvent, ...]:
     """Depths by what the phrase to come needs, within what the time allows. Those set by hand stay."""
-    used = np.concatenate(([0.0], np.cumsum(air_used_s(times))))
+    used = air_used_s(times)
     breaths = np.append(np.flatnonzero(refill > 0.0), len(refill))
     result = []
     for event in events:
@@ -408,7 +243,7 @@ def _with_depths(
             index = index_of[_note_id(event)]
             until = int(breaths[np.searchsorted(breaths, index, side="right")])
             need = (used[until] - used[index]) / parameters.lung_s
-            most = 1.0 if event.kind == "preparation" else _drawn(event.end_s - event.start_s)
+            most = 1.0 if event.kind == "preparation" else drawn(event.end_s - event.start_s)
             depth = min(max(LEAST_DEPTH + (1.0 - LEAST_DEPTH) * need, LEAST_DEPTH), max(most, LEAST_DEPTH), 1.0)
             event = msgspec.structs.replace(event, depth=round(float(depth), 4))
         result.append(event)
@@ -418,14 +253,14 @@ def _with_depths(
 def _too_long(
     notes: tuple[Note, ...], times: LineTimes, parameters: PlayerParameters, refill: FloatArray
 ) -> list[Problem]:
-    used = np.concatenate(([0.0], np.cumsum(air_used_s(times))))
-    level = _levels(used, parameters.lung_s, refill)
+    used = air_used_s(times)
+    level = levels(used, parameters.lung_s, refill)
     starts: IntArray = np.unique(np.concatenate(([0], np.flatnonzero(refill > 0.0))))
     ends = np.append(starts[1:], len(notes))
     problems = []
     for start, end in zip(starts.tolist(), ends.tolist(), strict=True):
         air_s = float(used[end] - used[start])
-        if air_s > level[start] * parameters.lung_s + _EPSILON:
+        if air_s > level[start] * parameters.lung_s + EPSILON:
             start_s, end_s = float(times.onset_s[start]), float(times.played_end_s[end - 1])
             arguments = {
                 "note": notes[start].id,

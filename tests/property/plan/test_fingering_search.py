@@ -8,9 +8,10 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.plan.fingering import best_path, fingering_problem, plan_fingerings
+from app.plan.fingering import plan_fingerings
 from app.plan.generate import Line
 from app.plan.line import line_times
+from app.plan.search import best_path, fingering_problem
 from instrument_maps.load import bundled_maps
 from instrument_maps.model import Fingering, InstrumentMap
 from tests.support.plan import PlainClock, PlainNote, slide, valves

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from app.plan.breath import CATCH_MAX_S, CATCH_MIN_S, CATCH_NOTE_SHARE
 from app.plan.generate import Line, Piece, make_plans, time_frame
+from app.plan.lungs import CATCH_MAX_S, CATCH_MIN_S, CATCH_NOTE_SHARE
 from app.plan.model import BreathEvent, PlayerParameters, PlayerPlan
 from tests.support.plan import PlainClock, PlainMetre, PlainNote, even, line_of, valves
 
