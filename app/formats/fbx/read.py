@@ -133,8 +133,8 @@ class _Graph:
     def floats(self, element: Element, name: str, width: int) -> Float64Array:
         """Array of doubles in rows."""
         values = self._array(element, name, "f").astype(np.float64)
-        if len(values) % width:
-            raise FileError("fbx.contradiction", file=self.file, detail=f"{name} is not made of {width}s")
+        if len(values) % width or not np.isfinite(values).all():
+            raise FileError("fbx.contradiction", file=self.file, detail=f"{name} is not made of finite {width}s")
         return values.reshape(-1, width)
 
     def integers(self, element: Element, name: str) -> npt.NDArray[np.int64]:
@@ -209,7 +209,7 @@ def _placement(graph: _Graph, model: _Object) -> tuple[Float64Array, Float64Arra
     if any(value != 1.0 for value in _numbers(properties.get("Lcl Scaling", ()))):
         raise FileError("fbx.unsupported", file=graph.file, what=f"scaling of {model.name}")
     vectors = [_numbers(properties.get(name, (0.0, 0.0, 0.0))) for name in ("Lcl Translation", "Lcl Rotation")]
-    if any(len(vector) != 3 for vector in vectors):
+    if any(len(vector) != 3 or not np.isfinite(vector).all() for vector in vectors):
         raise FileError("fbx.missing", file=graph.file, what=f"place of {model.name}")
     return np.array(vectors[0]), np.array(vectors[1])
 

@@ -205,6 +205,8 @@ class _Reader(Accessors):
 
     def nodes(self) -> tuple[GltfNode, ...]:
         nodes = self.items("nodes")
+        if not nodes:  # the library takes any JSON for a document without anything
+            raise self.damaged("nodes")
         parents = [-1] * len(nodes)
         for number, node in enumerate(nodes):
             for child in self.items("children", node):

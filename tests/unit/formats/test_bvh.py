@@ -1,0 +1,144 @@
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from fractions import Fraction
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from app.errors import FileError
+from app.formats.bvh import BvhClip, decode_bvh, encode_bvh, read_bvh, write_bvh
+from tests.unit.formats import scenes
+
+
+def clip(frames: int = 20, fps: Fraction = Fraction(60)) -> BvhClip:
+    """Seven joints whose children do not follow their parents directly."""
+    parents = (-1, 0, 0, 1, 2, 1, 4)
+    generator = np.random.default_rng(4)
+    return BvhClip(
+        names=("hips", "spine", "leg", "neck", "knee", "arm", "foot"),
+        parents=parents,
+        offsets_cm=np.vstack([np.zeros(3), generator.normal(scale=20, size=(6, 3))]),
+        end_sites_cm={3: np.array([0.0, 12.0, 0.0]), 5: np.array([9.0, 0, 0]), 6: np.array([0.0, 0.0, 7.5])},
+        fps=fps,
+        root_translation_cm=generator.normal(scale=50, size=(frames, 3)),
+        rotations_xyzw=scenes.rotations(5, frames, 7, 1.5),
+    )
+
+
+DEPTH_FIRST = (0, 1, 3, 5, 2, 4, 6)
+
+
+@pytest.mark.parametrize("fps", [Fraction(24), Fraction(30000, 1001), Fraction(60), Fraction(37, 2)], ids=str)
+def test_a_clip_comes_back(fps: Fraction, tmp_path: Path) -> None:
+    given = clip(fps=fps)
+    write_bvh(
+        tmp_path / "a.bvh", given.names, given.parents, given.offsets_cm, given.fps,
+        given.root_translation_cm, given.rotations_xyzw, given.end_sites_cm,
+    )  # fmt: skip
+    found = read_bvh(tmp_path / "a.bvh")
+    order = [given.names.index(name) for name in found.names]
+    assert tuple(order) == DEPTH_FIRST
+    above = [found.names[parent] if parent >= 0 else None for parent in found.parents]
+    assert above == [given.names[given.parents[joint]] if joint else None for joint in order]
+    assert found.fps == fps
+    np.testing.assert_allclose(found.offsets_cm, given.offsets_cm[order], atol=1e-6)
+    np.testing.assert_allclose(found.root_translation_cm, given.root_translation_cm, atol=1e-6)
+    turned = Rotation.from_quat(found.rotations_xyzw.reshape(-1, 4)).inv() * Rotation.from_quat(
+        given.rotations_xyzw[:, order].reshape(-1, 4)
+    )
+    assert turned.magnitude().max() < 1e-7
+    ends = {found.names[joint]: end for joint, end in found.end_sites_cm.items()}
+    assert sorted(ends) == ["arm", "foot", "neck"]
+    np.testing.assert_allclose(ends["foot"], [0, 0, 7.5])
+
+
+def test_the_dialect_is_what_every_reader_takes() -> None:
+    text = encode_bvh(clip(frames=3, fps=Fraction(30000, 1001))).decode()
+    assert re.search(r"ROOT hips\n\{\n\tOFFSET 0\.000000 0\.000000 0\.000000\n\tCHANNELS 6 ", text)
+    assert text.count("position") == 3
+    assert text.count("CHANNELS 3 Zrotation Xrotation Yrotation") == 6
+    assert text.count("End Site") == 3
+    frame_time = re.search(r"Frame Time: (\d+\.\d{10,})\n", text)
+    assert frame_time is not None
+    assert abs(float(frame_time[1]) - 1001 / 30000) < 1e-15
+    rows = text.split(frame_time[0])[1].splitlines()
+    assert len(rows) == 3
+    assert all(len(row.split(" ")) == 3 + 3 * 7 for row in rows)
+
+
+def test_rotations_are_z_x_y_by_scipy() -> None:
+    given = clip(frames=50)
+    rows = encode_bvh(given).decode().split("Frame Time:")[1].splitlines()[1:]
+    table = np.array([row.split() for row in rows], dtype=float)
+    for column, joint in enumerate(DEPTH_FIRST):
+        angles = table[:, 3 + 3 * column : 6 + 3 * column]
+        by_scipy = Rotation.from_euler("ZXY", angles, degrees=True)
+        assert (by_scipy.inv() * Rotation.from_quat(given.rotations_xyzw[:, joint])).magnitude().max() < 1e-7
+
+
+def test_other_rotation_orders_are_read() -> None:
+    text = encode_bvh(clip(frames=5)).decode()
+    other = text.replace("CHANNELS 3 Zrotation Xrotation Yrotation", "CHANNELS 3 Xrotation Yrotation Zrotation")
+    found = decode_bvh(other, "x.bvh")
+    values = np.array(text.split("Frame Time:")[1].splitlines()[1].split(), dtype=float)[6:9]
+    by_scipy = Rotation.from_euler("XYZ", values, degrees=True)
+    assert (by_scipy.inv() * Rotation.from_quat(found.rotations_xyzw[0, 1])).magnitude() < 1e-12
+
+
+GOOD = clip()
+CONTRADICTIONS = {
+    "no joint": replace(GOOD, names=(), parents=()),
+    "a second root": replace(GOOD, parents=(-1, 0, -1, 1, 2, 1, 4)),
+    "a parent after its child": replace(GOOD, parents=(-1, 0, 4, 1, 2, 1, 4)),
+    "a name twice": replace(GOOD, names=("hips", "spine", "leg", "neck", "knee", "arm", "hips")),
+    "a name with a blank": replace(GOOD, names=("hips", "spine", "left leg", "neck", "knee", "arm", "foot")),
+    "a leaf without an end": replace(GOOD, end_sites_cm={3: np.zeros(3)}),
+    "offsets of other joints": replace(GOOD, offsets_cm=np.zeros((3, 3))),
+    "no frame": replace(GOOD, rotations_xyzw=np.zeros((0, 7, 4)), root_translation_cm=np.zeros((0, 3))),
+    "other frames": replace(GOOD, root_translation_cm=np.zeros((3, 3))),
+    "a place without end": replace(GOOD, root_translation_cm=np.full((20, 3), np.inf)),
+    "a rotation that is none": replace(GOOD, rotations_xyzw=np.full((20, 7, 4), np.nan)),
+}
+
+
+@pytest.mark.parametrize("name", CONTRADICTIONS)
+def test_a_contradiction_is_refused(name: str) -> None:
+    with pytest.raises(ValueError, match=r"."):
+        encode_bvh(CONTRADICTIONS[name])
+
+
+TEXT = encode_bvh(clip(frames=2)).decode()
+
+
+@pytest.mark.parametrize(
+    ("text", "problem"),
+    [
+        ("", "bvh.truncated"),
+        ("something else", "bvh.syntax"),
+        ("HIERARCHY", "bvh.truncated"),
+        (TEXT.split("MOTION")[0].rstrip()[:-1], "bvh.truncated"),
+        (TEXT.replace("ROOT", "JOINT"), "bvh.syntax"),
+        (TEXT.replace("OFFSET 0.000000 0.000000 0.000000", "OFFSET 0 zero 0", 1), "bvh.syntax"),
+        (TEXT.replace("CHANNELS 3", "CHANNELS 4", 1), "bvh.syntax"),
+        (TEXT.replace("CHANNELS 3 Zrotation", "CHANNELS 3 Xrotation", 1), "bvh.unsupported"),
+        (TEXT.replace("CHANNELS 3 Z", "CHANNELS 4 Xposition Z", 1), "bvh.unsupported"),
+        (TEXT.replace("MOTION", "MOTION\nMOTION"), "bvh.motion"),
+        (TEXT.replace("Frames: 2", "Frames: 3"), "bvh.motion"),
+        (TEXT.replace("Frames: 2", "Frames: -2"), "bvh.motion"),
+        (TEXT.replace("Frame Time: 0", "Frame Time: -"), "bvh.motion"),
+        (re.sub("Frame Time: .*", "Frame Time: nan", TEXT), "bvh.motion"),
+        (TEXT + "1.0\n", "bvh.motion"),
+        (TEXT + "word\n", "bvh.motion"),
+        ("HIERARCHY\n" + "JOINT a\n{\n" * 5, "bvh.syntax"),
+        ("HIERARCHY\nROOT a\n{\n" + "JOINT a\n{\n" * 5000, "bvh.unsupported"),
+    ],
+)
+def test_damage_is_named(text: str, problem: str) -> None:
+    with pytest.raises(FileError) as raised:
+        decode_bvh(text, "bad.bvh")
+    assert raised.value.message.id == problem
+    assert raised.value.message.arguments["file"] == "bad.bvh"
