@@ -29,12 +29,14 @@ Vector: TypeAlias = tuple[float, float, float]
 Hand: TypeAlias = Literal["left", "right"]
 
 FINGERS = ("thumb", "index", "middle", "ring", "little")
+PLACES = ("pad", "side", "pad_middle", "side_middle")
 PARTS = frozenset(
     f"{hand}.{part}"
     for hand in ("left", "right")
-    for part in (*(f"{finger}.{place}" for finger in FINGERS for place in ("pad", "side")), "palm", "thumb_web")
+    for part in (*(f"{finger}.{place}" for finger in FINGERS for place in PLACES), "palm", "thumb_web")
 )
-"""Body landmarks a contact may name, e.g. ``right.index.pad``, ``left.palm``."""
+"""Body landmarks a contact may name: ``right.index.pad`` (of the last phalanx), ``left.ring.pad_middle`` (of the
+one before it), ``left.palm``."""
 
 MOVERS = frozenset(f"{hand}.{mover}" for hand in ("left", "right") for mover in (*FINGERS, "hand"))
 """What may move a control: a finger, or a whole hand (a playing slide)."""

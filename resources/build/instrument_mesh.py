@@ -82,8 +82,11 @@ def bend(corners: Sequence[ArrayLike], radii: float | Sequence[float], step_m: f
         start, end = corner + back * cut - centre, corner + ahead * cut - centre
         count = max(4, int(np.ceil(radius * turn / step_m)))
         for share in np.linspace(0, 1, count + 1):
-            line.append(centre + (np.sin((1 - share) * turn) * start + np.sin(share * turn) * end) / np.sin(turn)
-                        if turn < 3.1 else centre + start * np.cos(share * turn) + end * np.sin(share * turn))
+            line.append(
+                centre + (np.sin((1 - share) * turn) * start + np.sin(share * turn) * end) / np.sin(turn)
+                if turn < 3.1
+                else centre + start * np.cos(share * turn) + end * np.sin(share * turn)
+            )
     line.append(points[-1])
     return _apart(np.array(line))
 
@@ -250,7 +253,9 @@ def _skin(
         for k in range(sides):
             quad = (first + k, first + k + 1, second + k + 1, second + k)
             if radius[rings[low][0]] > 1e-9:
-                faces.append((quad[0], quad[1], quad[2]) if radius[rings[high][0]] > 1e-9 else (quad[0], quad[1], quad[3]))
+                faces.append(
+                    (quad[0], quad[1], quad[2]) if radius[rings[high][0]] > 1e-9 else (quad[0], quad[1], quad[3])
+                )
             if radius[rings[high][0]] > 1e-9:
                 faces.append((quad[0], quad[2], quad[3]))
     flat_normals = np.vstack(normals)
@@ -258,7 +263,9 @@ def _skin(
     return Shape(np.vstack(points), flat_normals, np.vstack(uvs), np.array(faces, np.int64))
 
 
-def torus(centre: ArrayLike, axis: ArrayLike, radius: float, thick: float, *, sides: int = 14, around: int = 36) -> Shape:
+def torus(
+    centre: ArrayLike, axis: ArrayLike, radius: float, thick: float, *, sides: int = 14, around: int = 36
+) -> Shape:
     """A ring."""
     middle, direction = np.asarray(centre, float), unit(axis)
     across = np.eye(3)[np.argmin(np.abs(direction))]
@@ -309,9 +316,7 @@ def _tube_proxies(line: Array, radius: Array, tolerance_m: float = 0.0012) -> li
             kind = "cylinder" if start == 0 and end == len(line) - 1 else "capsule"
             found.append({"shape": kind, "a_m": a, "b_m": b, "radius_m": thick})
         else:
-            found.append(
-                {"shape": "cone", "a_m": a, "b_m": b, "radius_a_m": radius[start], "radius_b_m": radius[end]}
-            )
+            found.append({"shape": "cone", "a_m": a, "b_m": b, "radius_a_m": radius[start], "radius_b_m": radius[end]})
     return found
 
 
@@ -360,7 +365,5 @@ def _turned_proxies(
             thick = float(max(radius[outer[start : end + 1]]))
             found.append({"shape": "cylinder", "a_m": places[start], "b_m": places[end], "radius_m": thick})
         else:
-            found.append(
-                {"shape": "cone", "a_m": places[start], "b_m": places[end], "radius_a_m": r, "radius_b_m": s}
-            )
+            found.append({"shape": "cone", "a_m": places[start], "b_m": places[end], "radius_a_m": r, "radius_b_m": s})
     return found

@@ -33,10 +33,10 @@ GOOSENECK = LOWER + 0.030 * ACROSS
 BELL = LOWER + 0.165 * ACROSS
 BELL_Z, BELL_R = 0.335, 0.108
 REAR_Z = -0.180
-BELL_STAY_Z = 0.030
+BELL_STAY_Z = 0.0185
 RECEIVER_R = 0.0108
-TRIGGER_PIVOT = LOWER + 0.0190 * ACROSS + np.array([0, 0, 0.004])
-TRIGGER_PAD = LOWER + 0.0470 * ACROSS + np.array([0, 0, 0.0085])
+TRIGGER_PIVOT = LOWER + 0.0190 * ACROSS + np.array([0, 0, -0.008])
+TRIGGER_PAD = LOWER + 0.0420 * ACROSS + 0.014 * OUT + np.array([0, 0, -0.004])
 TRIGGER_RAD = 0.30
 ROTOR_Z = -0.085
 
@@ -117,7 +117,9 @@ def _outer_slide(model: Model) -> None:
     model.add("felt", turned(tip, Z, bumper), node=node)
     nipple = LOWER + 0.0075 * DOWN + (BOW_Z + 0.010) * Z
     model.add("lacquered_brass", turned(nipple, DOWN, [(0, 0), (0, 0.0042), (0.004, 0.0042), (0.004, 0)]), node=node)
-    model.add("cork", turned(nipple + 0.004 * DOWN, DOWN, [(0, 0), (0, 0.0036), (0.0015, 0.0036), (0.0015, 0)]), node=node)
+    model.add(
+        "cork", turned(nipple + 0.004 * DOWN, DOWN, [(0, 0), (0, 0.0036), (0.0015, 0.0036), (0.0015, 0)]), node=node
+    )
     arm = bend([nipple + 0.0060 * DOWN, nipple + 0.0064 * DOWN - 0.022 * Z, nipple + 0.0030 * DOWN - 0.052 * Z], 0.02)
     model.add("nickel_silver", tube(arm, 0.0026, flat=(0.6, 1.3), side=DOWN, sides=12), node=node)
 
@@ -135,8 +137,13 @@ def _gooseneck(model: Model) -> None:
     sleeve = [(0, 0), (0, 0.0102), (0.0015, 0.0106), (0.006, 0.0106), (0.0075, 0.0100), (0.042, 0.0100), (0.042, 0)]
     for foot, size in ((GOOSENECK, 1.0), (BELL, 1.22)):
         model.add("nickel_silver", turned(foot - 0.122 * Z, -Z, [(z, r * size) for z, r in sleeve]))
-    model.add("nickel_silver", _brace(tuple(LOWER + 0.0100 * ACROSS + BELL_STAY_Z * Z), _bell_edge(BELL_STAY_Z), 0.0033))
-    model.add("nickel_silver", _brace(tuple(GOOSENECK + 0.0100 * ACROSS - 0.132 * Z), tuple(BELL - 0.0122 * ACROSS - 0.132 * Z), 0.0033))
+    model.add(
+        "nickel_silver", _brace(tuple(LOWER + 0.0100 * ACROSS + BELL_STAY_Z * Z), _bell_edge(BELL_STAY_Z), 0.0033)
+    )
+    model.add(
+        "nickel_silver",
+        _brace(tuple(GOOSENECK + 0.0100 * ACROSS - 0.132 * Z), tuple(BELL - 0.0122 * ACROSS - 0.132 * Z), 0.0033),
+    )
 
 
 def _bell_edge(z: float) -> tuple[float, float, float]:
@@ -158,7 +165,10 @@ def _bell(model: Model) -> None:
     rear = GOOSENECK + 0.5 * (BELL - GOOSENECK) + (REAR_Z - float(np.linalg.norm(BELL - GOOSENECK)) / 2) * Z
     weight = [(0, 0), (0, 0.0150), (0.0015, 0.0165), (0.0095, 0.0165), (0.0110, 0.0150), (0.0110, 0)]
     bar = REAR_Z + 0.006
-    model.add("nickel_silver", _brace(tuple(GOOSENECK + 0.0090 * ACROSS + bar * Z), tuple(BELL - 0.0108 * ACROSS + bar * Z), 0.0030))
+    model.add(
+        "nickel_silver",
+        _brace(tuple(GOOSENECK + 0.0090 * ACROSS + bar * Z), tuple(BELL - 0.0108 * ACROSS + bar * Z), 0.0030),
+    )
     middle = GOOSENECK + 0.5 * (BELL - GOOSENECK) + bar * Z
     model.add("nickel_silver", turned(middle - 0.0055 * OUT, OUT, weight, sides=36))
     model.add("lacquered_brass", turned(rear - 0.006 * Z, -Z, [(0, 0), (0, 0.006), (0.006, 0.004), (0.006, 0)]))
@@ -189,16 +199,16 @@ def _attachment(model: Model) -> None:
     radius = 0.0085
     first = bend([at(0.010, 0, -0.085), at(0.030, 0, -0.085), at(0.030, 0, -0.160)], 0.016)
     turn_1 = half_circle(at(0.030, 0, -0.160), at(0.054, 0, -0.160), -Z, 16)
-    turn_2 = half_circle(at(0.054, 0, -0.010), at(0.102, 0, -0.010), Z, 20)
+    turn_2 = half_circle(at(0.054, 0, -0.045), at(0.102, 0, -0.045), Z, 20)
     turn_3 = half_circle(at(0.102, 0, -0.162), at(0.078, 0, -0.162), -Z, 16)
-    back = bend([at(0.078, 0, -0.060), at(0.078, 0, -0.040), at(0.072, -0.0205, -0.028), at(0.030, -0.0205, -0.028),
-                 at(0.006, -0.0205, -0.040), at(0.002, -0.0140, -0.080)], [0.012, 0.012, 0.014, 0.016])  # fmt: skip
+    back = bend([at(0.078, 0, -0.085), at(0.078, 0, -0.066), at(0.070, -0.0205, -0.056), at(0.030, -0.0205, -0.050),
+                 at(0.006, -0.0205, -0.056), at(0.002, -0.0140, -0.085)], [0.012, 0.012, 0.014, 0.016])  # fmt: skip
     model.add("lacquered_brass", tube(joined(first, turn_1, turn_2, turn_3, back), radius, sides=22))
     sleeve = [(0, 0), (0, 0.0094), (0.0015, 0.0098), (0.006, 0.0098), (0.0075, 0.0092), (0.050, 0.0092), (0.050, 0)]
     for across in (0.102, 0.078):
         model.add("nickel_silver", turned(at(across, 0, -0.098), -Z, sleeve))
     model.add("nickel_silver", _brace(tuple(at(0.0625, 0, -0.100)), tuple(at(0.0690, 0, -0.100)), 0.0028))
-    model.add("nickel_silver", _brace(tuple(at(0.1105, 0, -0.060)), tuple(at(0.1225, 0, -0.060)), 0.0026))
+    model.add("nickel_silver", _brace(tuple(at(0.1105, 0, -0.080)), tuple(at(0.1225, 0, -0.080)), 0.0026))
 
 
 def _trigger(model: Model) -> None:
@@ -207,7 +217,9 @@ def _trigger(model: Model) -> None:
     post = [(-0.010, 0), (-0.010, 0.0030), (0.010, 0.0030), (0.010, 0)]
     model.add("nickel_silver", turned(pivot, OUT, post, sides=18))
     for side in (-1, 1):
-        model.add("nickel_silver", plate(pivot - 0.0065 * ACROSS + 0.0085 * side * OUT, (0.007, 0.0012, 0.004), ACROSS, OUT))
+        model.add(
+            "nickel_silver", plate(pivot - 0.0065 * ACROSS + 0.0085 * side * OUT, (0.007, 0.0012, 0.004), ACROSS, OUT)
+        )
     barrel = [(-0.0068, 0), (-0.0068, 0.0042), (0.0068, 0.0042), (0.0068, 0)]
     model.add("nickel_silver", turned(pivot, OUT, barrel, sides=20), node=node)
     arm = bend([pivot, pivot + 0.010 * ACROSS + 0.001 * Z, TRIGGER_PAD - 0.004 * ACROSS + 0.0012 * Z], 0.012)
@@ -215,7 +227,10 @@ def _trigger(model: Model) -> None:
     paddle = [(0, 0), (0, 0.0070), (0.0006, 0.0082), (0.0026, 0.0086), (0.0034, 0.0080), (0.0034, 0)]
     model.add("nickel_silver", turned(TRIGGER_PAD, Z, paddle, sides=32), node=node)
     link_end = GOOSENECK + 0.0265 * OUT + (ROTOR_Z + 0.012) * Z
-    model.add("nickel_silver", turned(GOOSENECK + ROTOR_Z * Z, OUT, [(0.0235, 0), (0.0235, 0.0095), (0.0265, 0.0095), (0.0265, 0)]))
+    model.add(
+        "nickel_silver",
+        turned(GOOSENECK + ROTOR_Z * Z, OUT, [(0.0235, 0), (0.0235, 0.0095), (0.0265, 0.0095), (0.0265, 0)]),
+    )
     model.add("nickel_silver", tube([pivot + 0.0085 * OUT, link_end], 0.0015, sides=12))
 
 
@@ -224,7 +239,13 @@ def contacts() -> list[dict[str, object]]:
     found: list[dict[str, object]] = []
 
     def touch(
-        part: str, node: str, centre: Array, radius: float, normal: Array, control: str | None = None, grip: str = "firm"
+        part: str,
+        node: str,
+        centre: Array,
+        radius: float,
+        normal: Array,
+        control: str | None = None,
+        grip: str = "firm",
     ) -> None:
         direction = normal / np.linalg.norm(normal)
         found.append(
@@ -243,9 +264,7 @@ def contacts() -> list[dict[str, object]]:
     touch("right.index.pad", "slide", bar + 0.034 * DOWN, STAY_R, Z + 0.2 * LEFT, "slide")
     touch("right.middle.pad", "slide", bar + 0.053 * DOWN, STAY_R, Z + 0.2 * LEFT, "slide")
     touch("left.thumb.pad", "trigger", TRIGGER_PAD, 0.0, -Z, "trigger")
-    touch("left.index.pad", "root", 0.067 * Z, 0.0084, -0.94 * DOWN - 0.34 * LEFT)
-    inner = INNER_BRACE_Z * Z
-    for finger, place in (("middle", 0.024), ("ring", 0.0425), ("little", 0.061)):
-        touch(f"left.{finger}.pad", "root", inner + place * DOWN, STAY_R, Z - 0.35 * LEFT)
-    touch("left.palm", "root", LOWER + 0.050 * Z, 0.0126, LEFT, grip="resting")
+    touch("left.index.pad", "root", 0.066 * Z, 0.0084, 0.8 * LEFT - 0.6 * DOWN)
+    # ring and little finger close around the lower leg as far as the hand's size lets them: no fixed touch
+    touch("left.middle.pad", "root", INNER_BRACE_Z * Z + 0.050 * DOWN, STAY_R, Z - 0.8 * LEFT)
     return found

@@ -10,7 +10,18 @@ from __future__ import annotations
 
 import numpy as np
 
-from resources.build.instrument_mesh import Array, Model, bend, half_circle, joined, plate, resampled, torus, tube, turned
+from resources.build.instrument_mesh import (
+    Array,
+    Model,
+    bend,
+    half_circle,
+    joined,
+    plate,
+    resampled,
+    torus,
+    tube,
+    turned,
+)
 
 X, Y, Z = np.eye(3)
 VALVE_X = 0.018
@@ -26,11 +37,11 @@ BELL_R = 0.0615
 TAIL_Y = -0.078
 FIRST_Y = (-0.036, -0.060)
 THIRD_Y = (-0.052, -0.076)
-SADDLE = np.array([VALVE_X + 0.004, FIRST_Y[0] + 0.0062 + 0.0093, 0.166])
+SADDLE = np.array([VALVE_X + 0.004, FIRST_Y[0] + 0.0062 + 0.0093, 0.1755])
 SADDLE_R, SADDLE_THICK = 0.0108, 0.0015
-RING = np.array([VALVE_X + 0.004, THIRD_Y[0] + 0.0062 + 0.0128, 0.312])
+RING = np.array([VALVE_X + 0.004, THIRD_Y[0] + 0.0062 + 0.0128, 0.3035])
 RING_R, RING_THICK = 0.0120, 0.0017
-HOOK = np.array([0.0, 0.0165, 0.2890])
+HOOK = np.array([0.0, 0.0165, 0.2850])
 HOOK_R = 0.0105
 SLIDE_X = VALVE_X + 0.004
 
@@ -104,11 +115,27 @@ def _brace(start: tuple[float, float, float], end: tuple[float, float, float], t
 def _water_key(model: Model, node: str, place: Array, back: Array) -> None:
     """Nipple, lever and thumb plate under a bow."""
     down = -Y
-    model.add("lacquered_brass", turned(place - 0.001 * down, down, [(0, 0), (0, 0.0035), (0.004, 0.0035), (0.004, 0)]), node=node)
-    model.add("cork", turned(place + 0.003 * down, down, [(0, 0), (0, 0.0030), (0.0014, 0.0030), (0.0014, 0)]), node=node)
-    arm = bend([place + 0.0048 * down, place + 0.0052 * down + 0.014 * back, place + 0.0022 * down + 0.032 * back], 0.012)
+    model.add(
+        "lacquered_brass",
+        turned(place - 0.001 * down, down, [(0, 0), (0, 0.0035), (0.004, 0.0035), (0.004, 0)]),
+        node=node,
+    )
+    model.add(
+        "cork", turned(place + 0.003 * down, down, [(0, 0), (0, 0.0030), (0.0014, 0.0030), (0.0014, 0)]), node=node
+    )
+    arm = bend(
+        [place + 0.0048 * down, place + 0.0052 * down + 0.014 * back, place + 0.0022 * down + 0.032 * back], 0.012
+    )
     model.add("nickel_silver", tube(arm, 0.0022, flat=(0.6, 1.2), side=Y, sides=12), node=node)
-    model.add("nickel_silver", tube([place + 0.003 * down + 0.013 * back - 0.0042 * X, place + 0.003 * down + 0.013 * back + 0.0042 * X], 0.0017, sides=12), node=node)
+    model.add(
+        "nickel_silver",
+        tube(
+            [place + 0.003 * down + 0.013 * back - 0.0042 * X, place + 0.003 * down + 0.013 * back + 0.0042 * X],
+            0.0017,
+            sides=12,
+        ),
+        node=node,
+    )
 
 
 def _valves(model: Model) -> None:
@@ -131,14 +158,25 @@ def _valves(model: Model) -> None:
         model.add("silver", turned(foot, Y, bottom, sides=40))
         model.add("felt", turned(foot, Y, [(0.0378, 0), (0.0378, 0.0062), (0.0404, 0.0062), (0.0404, 0)]))
         node = f"valve_{index}"
-        model.add("silver", turned(foot, Y, [(0.020, 0), (0.020, 0.0026), (0.0615, 0.0026), (0.0615, 0)], sides=18), node=node)
-        model.add("nickel_silver", turned(foot, Y, [(-0.065, 0), (-0.065, 0.0084), (0.020, 0.0084), (0.020, 0)]), node=node)
+        model.add(
+            "silver", turned(foot, Y, [(0.020, 0), (0.020, 0.0026), (0.0615, 0.0026), (0.0615, 0)], sides=18), node=node
+        )
+        model.add(
+            "nickel_silver", turned(foot, Y, [(-0.065, 0), (-0.065, 0.0084), (0.020, 0.0084), (0.020, 0)]), node=node
+        )
         button = [
             (0.0590, 0), (0.0590, 0.0034), (0.0600, 0.0050), (0.0612, 0.0078), (0.0622, 0.0085), (0.0664, 0.0085),
             (0.0674, 0.0080), (0.0678, 0.0074), (0.0676, 0.0070), (0.0676, 0),
         ]  # fmt: skip
         model.add("silver", turned(foot, Y, button, sides=36), node=node)
-        pearl = [(0.0670, 0), (0.0670, 0.0071), (0.0677, 0.0071), (0.0679, 0.0066), (BUTTON_TOP_Y, 0.0050), (BUTTON_TOP_Y, 0)]
+        pearl = [
+            (0.0670, 0),
+            (0.0670, 0.0071),
+            (0.0677, 0.0071),
+            (0.0679, 0.0066),
+            (BUTTON_TOP_Y, 0.0050),
+            (BUTTON_TOP_Y, 0),
+        ]
         model.add("pearl", turned(foot, Y, pearl, sides=36), node=node)
     for low, high, y in ((0, 1, -0.045), (1, 2, -0.040), (0, 1, -0.066), (1, 2, -0.064)):
         knuckle = [(VALVE_X, y, VALVE_Z[low]), (VALVE_X, y, VALVE_Z[high])]
@@ -154,7 +192,9 @@ def bell_radius(distance: Array) -> Array:
 
 def _bell(model: Model) -> None:
     mid = (TAIL_Y) / 2
-    tail = bend([(VALVE_X, TAIL_Y, VALVE_Z[0]), (0.023, TAIL_Y, 0.192), (BELL_X, TAIL_Y, 0.158), (BELL_X, TAIL_Y, 0.131)], 0.03)
+    tail = bend(
+        [(VALVE_X, TAIL_Y, VALVE_Z[0]), (0.023, TAIL_Y, 0.192), (BELL_X, TAIL_Y, 0.158), (BELL_X, TAIL_Y, 0.131)], 0.03
+    )
     bow = half_circle((BELL_X, TAIL_Y, 0.130), (BELL_X, 0, 0.130), -Z, 32)
     line = joined(tail, bow)
     share = np.linspace(0, 1, len(line))
@@ -180,10 +220,16 @@ def _first_slide(model: Model) -> None:
         model.add("nickel_silver", tube([(x, y, 0.156), (x, y, 0.199)], 0.0055))
         model.add("nickel_silver", turned((x, y, 0.1905), Z, [(0, 0), (0, 0.0066), (0.012, 0.0066), (0.012, 0)]))
     bow = half_circle((x, FIRST_Y[0], 0.1520), (x, FIRST_Y[1], 0.1520), -Z)
-    model.add("lacquered_brass", tube(joined((x, FIRST_Y[0], 0.1890), bow, (x, FIRST_Y[1], 0.1890)), 0.0062), node="first_slide")
+    model.add(
+        "lacquered_brass",
+        tube(joined((x, FIRST_Y[0], 0.1890), bow, (x, FIRST_Y[1], 0.1890)), 0.0062),
+        node="first_slide",
+    )
     angles = np.radians(np.linspace(168, 372, 26))
     cradle = SADDLE + SADDLE_R * np.column_stack([np.zeros_like(angles), np.sin(angles), np.cos(angles)])
-    model.add("nickel_silver", tube(cradle, SADDLE_THICK, flat=(1.0, 3.2), side=Y, sides=16, proxy=False), node="first_slide")
+    model.add(
+        "nickel_silver", tube(cradle, SADDLE_THICK, flat=(1.0, 3.2), side=Y, sides=16, proxy=False), node="first_slide"
+    )
     _strap_proxies(model, "first_slide", cradle, SADDLE_THICK, 3.2 * SADDLE_THICK)
 
 
@@ -206,11 +252,20 @@ def _second_slide(model: Model) -> None:
     upper, lower = np.array([VALVE_X, -0.038, z]), np.array([VALVE_X, -0.060, z])
     for start in (upper, lower):
         model.add("nickel_silver", tube([start + 0.006 * ahead, start + 0.030 * ahead], 0.0056))
-        model.add("nickel_silver", turned(start + 0.007 * ahead, ahead, [(0, 0), (0, 0.0066), (0.011, 0.0066), (0.011, 0)]))
+        model.add(
+            "nickel_silver", turned(start + 0.007 * ahead, ahead, [(0, 0), (0, 0.0066), (0.011, 0.0066), (0.011, 0)])
+        )
     bow = half_circle(upper + 0.034 * ahead, lower + 0.034 * ahead, ahead)
     model.add("lacquered_brass", tube(joined(upper + 0.020 * ahead, bow, lower + 0.020 * ahead), 0.0062))
     knob = (upper + lower) / 2 + (0.034 + 0.011 + 0.0058) * ahead
-    model.add("nickel_silver", turned(knob, ahead, [(0, 0), (0, 0.0022), (0.004, 0.0018), (0.0055, 0.0042), (0.008, 0.0044), (0.009, 0.0030), (0.009, 0)]))
+    model.add(
+        "nickel_silver",
+        turned(
+            knob,
+            ahead,
+            [(0, 0), (0, 0.0022), (0.004, 0.0018), (0.0055, 0.0042), (0.008, 0.0044), (0.009, 0.0030), (0.009, 0)],
+        ),
+    )
 
 
 def _third_slide(model: Model) -> None:
@@ -219,10 +274,20 @@ def _third_slide(model: Model) -> None:
         model.add("nickel_silver", tube([(x, y, 0.266), (x, y, 0.352)], 0.0055))
         model.add("nickel_silver", turned((x, y, 0.267), Z, [(0, 0), (0, 0.0066), (0.026, 0.0066), (0.026, 0)]))
     bow = half_circle((x, THIRD_Y[0], 0.3700), (x, THIRD_Y[1], 0.3700), Z)
-    model.add("lacquered_brass", tube(joined((x, THIRD_Y[0], 0.2945), bow, (x, THIRD_Y[1], 0.2945)), 0.0062), node="third_slide")
+    model.add(
+        "lacquered_brass",
+        tube(joined((x, THIRD_Y[0], 0.2945), bow, (x, THIRD_Y[1], 0.2945)), 0.0062),
+        node="third_slide",
+    )
     model.add("nickel_silver", torus(RING, X, RING_R, RING_THICK), node="third_slide")
-    model.add("nickel_silver", plate((x, THIRD_Y[0] + 0.0062, RING[2]), (0.0025, 0.0012, 0.006), X, Y), node="third_slide")
-    model.add("lacquered_brass", _brace((x, THIRD_Y[0] - 0.006, 0.355), (x, THIRD_Y[1] + 0.006, 0.355), 0.0018), node="third_slide")
+    model.add(
+        "nickel_silver", plate((x, THIRD_Y[0] + 0.0062, RING[2]), (0.0025, 0.0012, 0.006), X, Y), node="third_slide"
+    )
+    model.add(
+        "lacquered_brass",
+        _brace((x, THIRD_Y[0] - 0.006, 0.355), (x, THIRD_Y[1] + 0.006, 0.355), 0.0018),
+        node="third_slide",
+    )
     _water_key(model, "third_slide", np.array([x, THIRD_Y[1] - 0.0060, 0.366]), back=-Z)
 
 
@@ -244,7 +309,9 @@ def contacts() -> list[dict[str, object]]:
     found: list[dict[str, object]] = []
 
     def touch(part: str, node: str, place: tuple[Array, Array], control: str | None = None, grip: str = "firm") -> None:
-        found.append({"part": part, "node": node, "point": place[0], "normal": place[1], "control": control, "grip": grip})
+        found.append(
+            {"part": part, "node": node, "point": place[0], "normal": place[1], "control": control, "grip": grip}
+        )
 
     for finger, index in (("index", 1), ("middle", 2), ("ring", 3)):
         top = np.array([VALVE_X, BUTTON_TOP_Y, VALVE_Z[index - 1]])
@@ -253,11 +320,16 @@ def contacts() -> list[dict[str, object]]:
     inside = np.array([0, 0.30, -0.954])
     inside /= np.linalg.norm(inside)
     touch("right.little.pad", "root", (HOOK - (HOOK_R - 0.0011) * inside, inside))
-    touch("left.palm", "root", _on(np.array([VALVE_X, -0.046, VALVE_Z[1]]), CASING_R, X), grip="resting")
-    touch("left.index.pad", "root", _on(np.array([VALVE_X, -0.0185, VALVE_Z[2]]), CASING_R, np.array([-0.45, 0, 0.893])))
-    touch("left.middle.pad", "root", _on(np.array([VALVE_X, -0.0355, VALVE_Z[2]]), CASING_R, np.array([-0.30, 0, 0.954])))
-    front = np.array([0, -0.5, -0.866])
-    touch("left.ring.pad", "third_slide", (RING - (RING_R - RING_THICK) * front, front), "third_slide")
-    back = np.array([0, 0.5, 0.866])
-    touch("left.thumb.pad", "first_slide", (SADDLE - (SADDLE_R - SADDLE_THICK) * back, back), "first_slide")
+    touch("left.palm", "root", _on(np.array([VALVE_X, -0.073, VALVE_Z[1]]), CASING_R, X), grip="resting")
+    touch(
+        "left.index.pad", "root", _on(np.array([VALVE_X, -0.0185, VALVE_Z[2]]), CASING_R, np.array([-0.42, 0, 0.907]))
+    )
+    touch(
+        "left.middle.pad", "root", _on(np.array([VALVE_X, -0.0355, VALVE_Z[2]]), CASING_R, np.array([-0.42, 0, 0.907]))
+    )
+    within = np.array([0, 0.65, 0.76])
+    within /= np.linalg.norm(within)
+    touch("left.ring.pad", "third_slide", (RING - (RING_R - RING_THICK) * within, within), "third_slide")
+    ahead = np.array([0, 0.6, -0.8])
+    touch("left.thumb.pad", "first_slide", (SADDLE - (SADDLE_R - SADDLE_THICK) * ahead, ahead), "first_slide")
     return found
