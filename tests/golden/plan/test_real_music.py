@@ -1,0 +1,90 @@
+"""Plans of music that others wrote and engraved: fingerings stay what players use, breaths stay out of notes."""
+
+from __future__ import annotations
+
+import itertools
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+from app.performance.ensemble import Performance
+from app.plan.generate import Line
+from app.plan.line import line_times
+from app.plan.model import PlayerPlan
+from app.project.model import map_choices, project_from_score
+from app.score.read import read_midi
+from instrument_maps.load import bundled_maps
+
+ENSEMBLE = Path(__file__).parents[2] / "data" / "midi" / "ensemble"
+FILES = sorted(path.name for path in ENSEMBLE.glob("*.mid"))
+
+
+@cache
+def performance(name: str) -> Performance:
+    maps = bundled_maps()
+    score = read_midi(ENSEMBLE / name, maps=map_choices(maps.values()))
+    return Performance(project_from_score(score, maps))
+
+
+def played(name: str) -> list[tuple[Line, PlayerPlan]]:
+    made = performance(name)
+    return [(line, made.plans[line.player_id]) for line in made.lines]
+
+
+def test_the_arban_study_keeps_its_first_choices() -> None:
+    ((_, plan),) = played("solo_cornet_arban_first_study10.mid")
+    assert sum(event.rank == 1 for event in plan.fingerings) >= 0.95 * len(plan.fingerings)
+
+
+def test_nothing_is_excused_in_the_lutkin_quartet() -> None:
+    assert [plan.problems for _, plan in played("brass_quartet_lutkin_2tpt_tbn_tuba.mid")] == [(), (), ()]
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_no_phrase_travels_further_or_faster_than_the_table(name: str) -> None:
+    for line, plan in played(name):
+        instrument = line.instrument_map
+        times = line_times(line, performance(name).piece.clock)
+        slides = [control for control in instrument.controls if control.role == "pitch" and control.kind == "slide"]
+        presses = [control for control in instrument.controls if control.role == "pitch" and control.kind == "press"]
+        ours = [event.controls for event in plan.fingerings]
+        table = [instrument.fingerings_for(note.pitch)[0].controls for note in line.notes]
+        silences = (times.onset_s[1:] - times.played_end_s[:-1]).tolist()
+        cuts = [0, *(index + 1 for index, silence in enumerate(silences) if silence >= 0.25), len(line.notes)]
+        for start, end in itertools.pairwise(cuts):
+            sums = []
+            for controls in (ours, table):
+                metres, moves, fastest = 0.0, 0, 0.0
+                for a, b, index in zip(controls[start:end], controls[start + 1 : end], range(start, end), strict=False):
+                    for control in slides:
+                        way = abs(b.get(control.name, 0.0) - a.get(control.name, 0.0)) * (control.motion.travel_m or 0)
+                        free_s = times.onset_s[index + 1] - times.onset_s[index] - 0.5 * times.duration_s[index]
+                        metres, fastest = metres + way, max(fastest, way / free_s)
+                    moves += sum(a.get(control.name, 0.0) != b.get(control.name, 0.0) for control in presses)
+                sums.append((metres, moves, fastest))
+            for here, there in zip(*sums, strict=True):
+                assert here <= there + 1e-6
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_every_rest_serves_by_the_thesis_and_no_breath_cuts_a_note(name: str) -> None:
+    quarter = performance(name).project.score.ticks_per_quarter
+    for line, plan in played(name):
+        breaths = {event.id: event for event in plan.breaths}
+        for before, note in itertools.pairwise(line.notes):
+            rest = (note.onset_tick - before.onset_tick - before.duration_tick) / quarter
+            breath = breaths.get(f"breath:{note.id}")
+            if rest < 0.5:
+                assert breath is None or breath.reason.id == "breath.catch"
+                continue
+            assert breath is not None
+            assert breath.end_tick == note.onset_tick
+            assert breath.start_tick == note.onset_tick - round(quarter * min(rest, 1.0))
+            preparation = breaths.get(f"preparation:{note.id}")
+            assert (preparation is not None) == (rest >= 2.0)
+            if preparation is not None:
+                assert (preparation.start_tick, preparation.end_tick) == (
+                    note.onset_tick - 2 * quarter,
+                    note.onset_tick - quarter,
+                )
