@@ -1,33 +1,105 @@
-"""Whether a map and its model agree: the nodes exist and lie where the map's frames need them."""
+"""Whether a map and its model agree: nodes that exist and rest as they should, touch points on their surface."""
 
 from __future__ import annotations
 
-import struct
 from collections.abc import Iterator
 from pathlib import Path
 
+import numpy as np
+import numpy.typing as npt
+
+from app.errors import FileError
+from app.formats.gltf import GltfModel, read_glb
 from instrument_maps.model import ROOT, InstrumentMap
+from instrument_maps.surface import nearest_point
 from instrument_maps.validate import Problem
+
+FloatArray = npt.NDArray[np.float64]
+
+SURFACE_M = 0.001
+"""A touch point further from the surface than this hangs in the air or lies inside."""
 
 
 def model_problems(instrument: InstrumentMap, path: Path) -> Iterator[Problem]:
     """Yield what is wrong with the model of a map, as key paths of the map."""
-    import pygltflib
-
-    try:
-        model = pygltflib.GLTF2.load(str(path)) if path.is_file() else None
-    except (OSError, ValueError, KeyError, TypeError, struct.error) as error:
-        yield "model", f"'{instrument.model}' cannot be read: {error}"
-        return
-    if model is None:
+    if not path.is_file():
         yield "model", f"there is no file '{instrument.model}' beside the map or among the bundled models"
         return
-    nodes = {node.name: node for node in model.nodes if node.name}
-    if ROOT not in nodes:
+    try:
+        model = read_glb(path)
+    except FileError as error:
+        details = ", ".join(f"{value}" for key, value in error.message.arguments.items() if key != "file")
+        yield "model", f"'{instrument.model}' cannot be read: {error.message.id}{f' ({details})' if details else ''}"
+        return
+    names = {node.name: index for index, node in enumerate(model.nodes)}
+    if ROOT not in names:
         yield "model", f"'{instrument.model}' has no node named '{ROOT}'"
+        return
+    missing = set()
+    places = root_from_node(model, names[ROOT])
     for index, control in enumerate(instrument.controls):
-        node = nodes.get(control.node)
-        if node is None:
+        if control.node not in names:
+            missing.add(control.node)
             yield f"controls[{index}].node", f"'{instrument.model}' has no node named '{control.node}'"
-        elif (node.rotation or [0, 0, 0, 1])[3] not in (1, -1) or (node.scale or [1, 1, 1]) != [1, 1, 1] or node.matrix:
+        elif not np.allclose(places[names[control.node]][:3, :3], np.eye(3), atol=1e-4):
             yield f"controls[{index}].node", f"'{control.node}' must rest unturned and unscaled in '{instrument.model}'"
+    yield from _touches(instrument, model, missing)
+
+
+def _touches(instrument: InstrumentMap, model: GltfModel, missing: set[str]) -> Iterator[Problem]:
+    surfaces = node_triangles(instrument, model)
+    for index, contact in enumerate(instrument.contacts):
+        if contact.node in missing or contact.node not in surfaces:
+            continue
+        triangles = surfaces[contact.node]
+        if not len(triangles):
+            yield f"contacts[{index}].node", f"'{contact.node}' has no surface in '{instrument.model}'"
+            continue
+        distance_m, normal = nearest_point(triangles, np.array(contact.position_m))
+        if distance_m > SURFACE_M:
+            yield f"contacts[{index}].position_m", f"is {distance_m * 1000:.1f} mm off the surface of '{contact.node}'"
+        elif normal @ np.array(contact.normal) < 0.5:
+            yield f"contacts[{index}].normal", f"does not point out of the surface of '{contact.node}'"
+
+
+def root_from_node(model: GltfModel, root: int) -> FloatArray:
+    """Rest transforms of all nodes in the frame of the node ``root``, (N, 4, 4)."""
+    local = np.tile(np.eye(4), (len(model.nodes), 1, 1))
+    for index, node in enumerate(model.nodes):
+        x, y, z, w = node.rotation_xyzw / np.linalg.norm(node.rotation_xyzw)
+        turn = np.array(
+            [
+                [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+                [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+            ]
+        )
+        local[index, :3, :3] = turn * node.scale
+        local[index, :3, 3] = node.translation
+    world = local.copy()
+    for index, node in enumerate(model.nodes):
+        above = node.parent
+        while above >= 0:
+            world[index] = local[above] @ world[index]
+            above = model.nodes[above].parent
+    places: FloatArray = np.linalg.inv(world[root]) @ world
+    return places
+
+
+def node_triangles(instrument: InstrumentMap, model: GltfModel) -> dict[str, FloatArray]:
+    """Triangles (T, 3, 3) that move with each node the map speaks of, in the frame of that node."""
+    names = {node.name: index for index, node in enumerate(model.nodes)}
+    places = root_from_node(model, names[ROOT])
+    wanted = {names[name]: name for name in (ROOT, *(control.node for control in instrument.controls)) if name in names}
+    found: dict[str, list[FloatArray]] = {name: [] for name in wanted.values()}
+    for index, node in enumerate(model.nodes):
+        owner = index
+        while owner >= 0 and owner not in wanted:
+            owner = model.nodes[owner].parent
+        if node.mesh is None or owner < 0:
+            continue
+        owner_from_node = np.linalg.inv(places[owner]) @ places[index]
+        for primitive in model.meshes[node.mesh].primitives:
+            points = primitive.positions @ owner_from_node[:3, :3].T + owner_from_node[:3, 3]
+            found[wanted[owner]].append(points[primitive.triangles])
+    return {name: np.concatenate(parts) if parts else np.zeros((0, 3, 3)) for name, parts in found.items()}

@@ -7,6 +7,7 @@ map) that stand for them when a hand is checked against the instrument.
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
@@ -117,7 +118,7 @@ def lengths(line: Array) -> Array:
 def resampled(line: Array, step_m: float) -> Array:
     """The line with no two neighbours further apart than ``step_m``."""
     out = [line[0]]
-    for a, b in zip(line, line[1:], strict=False):
+    for a, b in itertools.pairwise(line):
         count = max(1, int(np.ceil(np.linalg.norm(b - a) / step_m)))
         out.extend(a + (b - a) * share for share in np.linspace(0, 1, count + 1)[1:])
     return np.array(out)

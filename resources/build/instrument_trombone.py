@@ -9,7 +9,19 @@ from __future__ import annotations
 
 import numpy as np
 
-from resources.build.instrument_mesh import Array, Model, bend, half_circle, joined, plate, resampled, tube, turned
+from resources.build.instrument_mesh import (
+    Array,
+    Model,
+    Shape,
+    bend,
+    half_circle,
+    joined,
+    plate,
+    resampled,
+    torus,
+    tube,
+    turned,
+)
 from resources.build.instrument_trumpet import _brace
 
 X, Y, Z = np.eye(3)
@@ -87,7 +99,7 @@ def _inner_slide(model: Model) -> None:
     model.add("nickel_silver", _stay(INNER_BRACE_Z, 0.0082, SLIDE_WIDTH - 0.0095))
 
 
-def _stay(z: float, start: float, end: float):  # noqa: ANN202
+def _stay(z: float, start: float, end: float) -> Shape:
     """A round slide brace between the two legs, from ``start`` to ``end`` along `DOWN`."""
     flange = [
         (start - 0.002, 0), (start - 0.002, 0.0080), (start + 0.0012, 0.0078), (start + 0.0035, 0.0056),
@@ -124,7 +136,7 @@ def _outer_slide(model: Model) -> None:
     model.add("nickel_silver", tube(arm, 0.0026, flat=(0.6, 1.3), side=DOWN, sides=12), node=node)
 
 
-def _end_stay(z: float):  # noqa: ANN202
+def _end_stay(z: float) -> Shape:
     return _brace(tuple(0.0080 * DOWN + z * Z), tuple((SLIDE_WIDTH - 0.0080) * DOWN + z * Z), 0.0030)
 
 
@@ -176,7 +188,6 @@ def _bell(model: Model) -> None:
     flare_z = BELL_Z - np.geomspace(0.0006, BELL_Z - 0.06, 46)[::-1]
     flare = joined(straight, BELL + flare_z[:, None] * Z)
     model.add("lacquered_brass", tube(flare, bell_radius(BELL_Z - flare[:, 2]), sides=72, closed=False))
-    from resources.build.instrument_mesh import torus
 
     model.add("lacquered_brass", torus(BELL + BELL_Z * Z, Z, BELL_R - 0.0008, 0.0014, around=80, sides=12))
     inner_z = BELL_Z - np.geomspace(0.0006, 0.30, 40)

@@ -13,6 +13,7 @@ import numpy as np
 from resources.build.instrument_mesh import (
     Array,
     Model,
+    Shape,
     bend,
     half_circle,
     joined,
@@ -99,7 +100,7 @@ def _leadpipe_and_tuning_slide(model: Model) -> None:
     _water_key(model, "root", np.array([0, low - 0.0066, 0.381]), back=-Z)
 
 
-def _brace(start: tuple[float, float, float], end: tuple[float, float, float], thick: float = 0.0022):  # noqa: ANN202
+def _brace(start: tuple[float, float, float], end: tuple[float, float, float], thick: float = 0.0022) -> Shape:
     """A turned stay between two tubes, with a flange at either end and a bead in the middle."""
     a, b = np.array(start), np.array(end)
     length = float(np.linalg.norm(b - a))

@@ -1,0 +1,47 @@
+"""The nearest point of a triangle mesh."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+FloatArray = npt.NDArray[np.float64]
+
+
+def nearest_point(triangles: FloatArray, point: FloatArray) -> tuple[float, FloatArray]:
+    """Find how far a point is from a mesh.
+
+    Parameters
+    ----------
+    triangles : (T, 3, 3) float64
+        Corners, counter-clockwise seen from outside.
+    point : (3,) float64
+
+    Returns
+    -------
+    distance_m : float
+    normal : (3,) float64
+        Unit normal of the nearest triangle.
+
+    Notes
+    -----
+    The nearest point of a triangle lies on its face, where the point's foot falls inside it, else on one of its
+    edges (Ericson, Real-Time Collision Detection, 5.1.5).
+    """
+    a, b, c = triangles[:, 0], triangles[:, 1], triangles[:, 2]
+    normals = np.cross(b - a, c - a)
+    areas = np.linalg.norm(normals, axis=1)
+    normals = normals / np.maximum(areas, 1e-30)[:, None]
+    height = np.einsum("ti,ti->t", point - a, normals)
+    foot = point - height[:, None] * normals
+    inside = areas > 1e-14
+    edge_m = np.full(len(triangles), np.inf)
+    for start, end in ((a, b), (b, c), (c, a)):
+        along = end - start
+        inside &= np.einsum("ti,ti->t", np.cross(along, foot - start), normals) >= 0.0
+        share = np.einsum("ti,ti->t", point - start, along) / np.maximum(np.einsum("ti,ti->t", along, along), 1e-30)
+        on_edge = start + np.clip(share, 0.0, 1.0)[:, None] * along
+        edge_m = np.minimum(edge_m, np.linalg.norm(point - on_edge, axis=1))
+    distance = np.where(inside, np.abs(height), edge_m)
+    nearest = int(np.argmin(distance))
+    return float(distance[nearest]), normals[nearest]

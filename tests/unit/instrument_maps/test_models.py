@@ -1,0 +1,220 @@
+"""The bundled models against the maps: sizes, sound meshes, touch points on them, bodies around them."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+import pytest
+
+from app.export.proxy import bounding_ball, signed_distance
+from app.formats.gltf import GltfModel, read_glb
+from instrument_maps.check_model import model_problems, node_triangles
+from instrument_maps.load import bundled_maps, model_path
+from instrument_maps.model import ROOT, InstrumentMap
+from instrument_maps.surface import nearest_point
+
+FloatArray = npt.NDArray[np.float64]
+
+MAPS = [pytest.param(instrument, id=name) for name, instrument in bundled_maps().items()]
+MODELS = {name: read_glb(model_path(instrument)) for name, instrument in bundled_maps().items()}
+SURFACES = {name: node_triangles(instrument, MODELS[name]) for name, instrument in bundled_maps().items()}
+
+
+def origins(model: GltfModel) -> dict[str, FloatArray]:
+    return {node.name: node.translation for node in model.nodes}
+
+
+def everything(instrument: InstrumentMap) -> FloatArray:
+    """All triangles at rest in the root frame."""
+    places = origins(MODELS[instrument.id])
+    return np.concatenate([triangles + places[name] for name, triangles in SURFACES[instrument.id].items()])
+
+
+def radius_about(points: FloatArray, x: float, y: float) -> FloatArray:
+    return np.hypot(points[:, 0] - x, points[:, 1] - y)
+
+
+@pytest.mark.parametrize("instrument", MAPS)
+def test_map_and_model_agree(instrument: InstrumentMap) -> None:
+    assert list(model_problems(instrument, model_path(instrument))) == []
+
+
+@pytest.mark.parametrize("instrument", MAPS)
+def test_touch_points_lie_on_the_mesh_with_normals_outward(instrument: InstrumentMap) -> None:
+    for contact in instrument.contacts:
+        distance_m, normal = nearest_point(SURFACES[instrument.id][contact.node], np.array(contact.position_m))
+        assert distance_m < 0.0005, contact
+        assert normal @ np.array(contact.normal) > math.cos(math.radians(30)), contact
+
+
+@pytest.mark.parametrize("instrument", MAPS)
+def test_meshes_are_sound(instrument: InstrumentMap) -> None:
+    model = MODELS[instrument.id]
+    total = 0
+    for mesh in model.meshes:
+        for primitive in mesh.primitives:
+            assert primitive.normals is not None
+            assert primitive.uvs is not None
+            assert np.allclose(np.linalg.norm(primitive.normals, axis=1), 1, atol=1e-4)
+            assert primitive.uvs.min() >= 0
+            assert primitive.uvs.max() <= 1
+            corners = primitive.positions[primitive.triangles]
+            faces = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+            area = np.linalg.norm(faces, axis=1)
+            real = area > 1e-10
+            facing = np.einsum(
+                "ti,tki->tk", faces / np.maximum(area, 1e-20)[:, None], primitive.normals[primitive.triangles]
+            )
+            assert np.mean(facing[real].min(axis=1) > 0) > 0.999  # counter-clockwise seen from outside
+            assert real.mean() > 0.97
+            total += len(primitive.triangles)
+    assert 15_000 < total < 60_000
+    materials = {material.name for material in model.materials}
+    assert "lacquered_brass" in materials
+    assert "silver" in materials
+
+
+@pytest.mark.parametrize("instrument", MAPS)
+def test_mouthpiece_frame_is_the_rim(instrument: InstrumentMap) -> None:
+    points = everything(instrument).reshape(-1, 3)
+    mouthpiece = instrument.mouthpiece
+    rim = points[np.abs(points[:, 2]) < 1e-5]
+    assert mouthpiece.position_m == (0, 0, 0)
+    assert np.allclose(radius_about(rim, 0, 0), mouthpiece.rim_radius_m, atol=2e-4)
+    cup = points[(np.abs(points[:, 2] - 0.006) < 0.003) & (radius_about(points, 0, 0) < 0.03)]
+    assert radius_about(cup, 0, 0).max() == pytest.approx(mouthpiece.rim_outer_radius_m, abs=5e-4)
+    # nothing of the instrument is where the player's lips and nose are
+    before = points[(points[:, 2] < -1e-5) & (np.abs(points[:, 0]) < 0.03) & (np.abs(points[:, 1]) < 0.04)]
+    assert len(before) == 0
+
+
+def test_trumpet_has_real_sizes() -> None:
+    instrument = bundled_maps()["trumpet_Bb"]
+    points = everything(instrument).reshape(-1, 3)
+    assert 0.48 < np.ptp(points[:, 2]) < 0.55  # with the mouthpiece
+    rim = points[points[:, 2] > points[:, 2].max() - 0.002]
+    assert np.ptp(rim[:, 0]) == pytest.approx(0.123, abs=0.002)
+    places = origins(MODELS[instrument.id])
+    valves = [places[f"valve_{k}"] for k in (1, 2, 3)]
+    assert np.allclose(np.diff(valves, axis=0), [0, 0, 0.0275], atol=1e-6)
+    for k in (1, 2, 3):
+        motion = instrument.control(f"valve_{k}").motion
+        assert motion.travel_m is not None
+        assert 0.016 <= motion.travel_m <= 0.017
+    # the leadpipe passes right of the valves, the bell left of them
+    bell = rim.mean(axis=0)
+    assert 0 < valves[0][0] < bell[0]
+
+
+def test_trombone_has_real_sizes() -> None:
+    instrument = bundled_maps()["trombone_tenor_F_attachment"]
+    points = everything(instrument).reshape(-1, 3)
+    assert np.ptp(points[:, 2]) == pytest.approx(1.15, abs=0.03)
+    bell = points[np.abs(points[:, 2] - 0.335) < 0.0005]
+    bell = bell[bell[:, 0] > 0.05]
+    size = np.linalg.norm(bell - (bell.max(axis=0) + bell.min(axis=0)) / 2, axis=1).max() * 2
+    assert size == pytest.approx(0.216, abs=0.004)
+    assert bell.mean(axis=0)[0] > 0.1  # on the player's left
+    slide = instrument.control("slide").motion
+    assert slide.travel_m is not None
+    assert origins(MODELS[instrument.id])["slide"][2] == pytest.approx(0.15, abs=0.01)
+    # at the end of its travel the outer slide still covers the inner one
+    outer_start = (SURFACES[instrument.id]["slide"][..., 2] + 0.15).min()
+    legs = SURFACES[instrument.id][ROOT].reshape(-1, 3)
+    inner_end = legs[radius_about(legs, 0, 0) < 0.0080][:, 2].max()
+    assert inner_end - (outer_start + slide.travel_m) > 0.03
+
+
+def moved(instrument: InstrumentMap, name: str, value: float) -> FloatArray:
+    """Triangles of a control's node in the root frame at a value."""
+    control = instrument.control(name)
+    origin = origins(MODELS[instrument.id])[control.node]
+    triangles = SURFACES[instrument.id][control.node]
+    axis = np.array(control.motion.axis)
+    if control.motion.travel_m is not None:
+        return triangles + origin + axis * control.motion.travel_m * value
+    assert control.motion.angle_rad is not None
+    assert control.motion.pivot_m is not None
+    assert np.allclose(control.motion.pivot_m, origin, atol=1e-5)
+    angle = control.motion.angle_rad * value
+    cross = np.cross(axis, triangles)
+    along = (triangles @ axis)[..., None] * axis
+    return triangles * math.cos(angle) + cross * math.sin(angle) + along * (1 - math.cos(angle)) + origin
+
+
+def test_buttons_stay_above_the_caps_and_pistons_inside_the_casings() -> None:
+    instrument = bundled_maps()["trumpet_Bb"]
+    casing = SURFACES[instrument.id][ROOT].reshape(-1, 3)
+    for k in (1, 2, 3):
+        origin = origins(MODELS[instrument.id])[f"valve_{k}"]
+        around = casing[radius_about(casing[:, [0, 2]], origin[0], origin[2]) < 0.008]
+        pressed = moved(instrument, f"valve_{k}", 1.0).reshape(-1, 3)
+        button = pressed[radius_about(pressed[:, [0, 2]], origin[0], origin[2]) > 0.0075]
+        button = button[button[:, 1] > 0.03]
+        assert button[:, 1].min() > around[:, 1].max()
+        assert pressed[:, 1].min() > around[:, 1].min()
+
+
+def test_trigger_moves_its_pad_forward_by_a_thumbs_stroke() -> None:
+    instrument = bundled_maps()["trombone_tenor_F_attachment"]
+    contact = next(c for c in instrument.contacts if c.control == "trigger")
+    motion = instrument.control("trigger").motion
+    assert motion.angle_rad is not None
+    arm = np.array(contact.position_m)
+    stroke = np.cross(np.array(motion.axis), arm) * motion.angle_rad
+    assert 0.005 < stroke[2] < 0.015
+    assert stroke @ np.array(contact.normal) < 0  # away from the thumb
+
+
+def nearest_body_m(instrument: InstrumentMap, points: FloatArray) -> FloatArray:
+    """Signed distance of points of the root frame to the collision bodies at rest."""
+    places = origins(MODELS[instrument.id])
+    return np.min([signed_distance(body, points - places[body.node]) for body in instrument.proxy], axis=0)
+
+
+@pytest.mark.parametrize("instrument", MAPS)
+def test_bodies_hold_the_mesh_near_the_hands(instrument: InstrumentMap) -> None:
+    places = origins(MODELS[instrument.id])
+    triangles = everything(instrument)
+    centres = triangles.mean(axis=1)
+    for contact in instrument.contacts:
+        touch = np.array(contact.position_m) + places[contact.node]
+        near = centres[np.linalg.norm(centres - touch, axis=1) < 0.06]
+        assert len(near) > 50
+        outside = nearest_body_m(instrument, near)
+        assert outside.max() < 0.002, contact
+        # and the touch point itself is on their surface, so that a finger there does not go into them
+        assert abs(nearest_body_m(instrument, touch[None])[0]) < 0.002, contact
+
+
+@pytest.mark.parametrize("instrument", MAPS)
+def test_bodies_are_not_fatter_than_the_mesh_near_the_hands(instrument: InstrumentMap) -> None:
+    places = origins(MODELS[instrument.id])
+    triangles = everything(instrument)
+    rng = np.random.default_rng(7)
+    for contact in instrument.contacts:
+        touch = np.array(contact.position_m) + places[contact.node]
+        samples = touch + rng.uniform(-0.03, 0.03, (600, 3))
+        samples = samples[np.abs(nearest_body_m(instrument, samples)) < 0.0015]
+        reach = np.all((triangles.min(axis=1) < touch + 0.04) & (triangles.max(axis=1) > touch - 0.04), axis=1)
+        near = triangles[reach]
+        far = [sample for sample in samples if nearest_point(near, sample)[0] > 0.0035]
+        assert len(far) <= 0.02 * len(samples), contact
+
+
+@pytest.mark.parametrize("instrument", MAPS)
+def test_bodies_hold_the_whole_mesh(instrument: InstrumentMap) -> None:
+    centres = everything(instrument).mean(axis=1)[::7]
+    outside = nearest_body_m(instrument, centres)
+    assert np.mean(outside < 0.002) > 0.97
+    balls = [bounding_ball(body) for body in instrument.proxy]
+    assert all(np.isfinite(centre).all() and radius > 0 for centre, radius in balls)
+    assert len(balls) < 260
+
+
+def test_models_are_small_enough_to_ship() -> None:
+    for instrument in bundled_maps().values():
+        assert Path(model_path(instrument)).stat().st_size < 3_000_000
