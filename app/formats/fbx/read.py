@@ -13,10 +13,8 @@ Messages, beside those of `app.formats.fbx.decode` (all with ``file``):
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
-from typing import TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -25,12 +23,10 @@ from app.errors import FileError
 from app.formats import euler
 from app.formats.fbx import ticks
 from app.formats.fbx.decode import read_elements
-from app.formats.fbx.encode import Element, Property
+from app.formats.fbx.encode import Element
+from app.formats.fbx.graph import FbxObject, Float64Array, ObjectGraph, numbers, properties_of
 from app.formats.fbx.scene import FbxBone, FbxClip, FbxMaterial, FbxMesh, FbxMorph, FbxScene, check_scene
 from app.formats.fbx.write import EULER_ORDER
-
-T = TypeVar("T")
-Float64Array = npt.NDArray[np.float64]
 
 # Frames times bones, and vertices times influences: far beyond any real file, small enough for any computer.
 _MOST_VALUES = 2**25
@@ -62,7 +58,7 @@ def read_scene(path: str | os.PathLike[str]) -> FbxScene:
 def decode_scene(data: bytes, file: str) -> FbxScene:
     """Scene of a file's bytes, as `read_scene`."""
     root = read_elements(data, file)
-    graph = _Graph(root, file)
+    graph = ObjectGraph(root, file)
     bones, bone_of_model = _bones(graph)
     meshes = tuple(_mesh(graph, model, bone_of_model) for model in graph.of_kind("Model", "Mesh"))
     clip = _clip(graph, root, bones, bone_of_model)
@@ -75,99 +71,10 @@ def decode_scene(data: bytes, file: str) -> FbxScene:
     return scene
 
 
-# ---------------------------------------------------------------------------------------------------- object graph
-
-
-@dataclass(frozen=True)
-class _Object:
-    id: int
-    kind: str
-    name: str
-    sub_class: str
-    element: Element
-
-
-class _Graph:
-    """Objects by id, and what hangs from what."""
-
-    def __init__(self, root: Element, file: str) -> None:
-        self.file = file
-        self.objects: dict[int, _Object] = {}
-        self.children: dict[int, list[tuple[int, str]]] = {}
-        self.parents: dict[int, list[tuple[int, str]]] = {}
-        for element in self.section(root, "Objects").children or ():
-            number, name, sub_class = (*element.properties, None, None, None)[:3]
-            if not isinstance(number, np.int64) or not isinstance(name, str) or not isinstance(sub_class, str):
-                raise FileError("fbx.missing", file=file, what=f"id or name of a {element.name}")
-            key = int(number)
-            self.objects[key] = _Object(key, element.name, name.split("\0")[0], sub_class, element)
-        for element in self.section(root, "Connections").children or ():
-            _, child, parent, target = (*element.properties, None, None, None, None)[:4]
-            if not isinstance(child, np.int64) or not isinstance(parent, np.int64):
-                raise FileError("fbx.missing", file=file, what="end of a connection")
-            to_property = target if isinstance(target, str) else ""
-            self.children.setdefault(int(parent), []).append((int(child), to_property))
-            self.parents.setdefault(int(child), []).append((int(parent), to_property))
-
-    def section(self, root: Element, name: str) -> Element:
-        found = root.child(name)
-        if found is None:
-            raise FileError("fbx.missing", file=self.file, what=name)
-        return found
-
-    def of_kind(self, kind: str, sub_class: str) -> list[_Object]:
-        return [o for o in self.objects.values() if o.kind == kind and o.sub_class == sub_class]
-
-    def below(self, parent: _Object, kind: str, sub_class: str | None = None) -> list[_Object]:
-        """Objects of a kind that are connected to `parent`, in the file's order."""
-        linked = (self.objects.get(child) for child, _ in self.children.get(parent.id, ()))
-        return [o for o in linked if o is not None and o.kind == kind and sub_class in (None, o.sub_class)]
-
-    def _array(self, element: Element, name: str, kind: str) -> npt.NDArray[np.generic]:
-        child = element.child(name)
-        values = child.properties[0] if child is not None and child.properties else None
-        if not isinstance(values, np.ndarray) or values.dtype.kind != kind:
-            raise FileError("fbx.missing", file=self.file, what=f"{name} of a {element.name}")
-        return values
-
-    def floats(self, element: Element, name: str, width: int) -> Float64Array:
-        """Array of doubles in rows."""
-        values = self._array(element, name, "f").astype(np.float64)
-        if len(values) % width or not np.isfinite(values).all():
-            raise FileError("fbx.contradiction", file=self.file, detail=f"{name} is not made of finite {width}s")
-        return values.reshape(-1, width)
-
-    def integers(self, element: Element, name: str) -> npt.NDArray[np.int64]:
-        return self._array(element, name, "i").astype(np.int64)
-
-    def matrix(self, element: Element, name: str) -> Float64Array:
-        values = self.floats(element, name, 16)
-        if len(values) != 1:
-            raise FileError("fbx.contradiction", file=self.file, detail=f"{name} is not a matrix")
-        return values.reshape(4, 4).T
-
-    def only(self, element: Element, kind: type[T]) -> T:
-        """The one property of a record."""
-        if len(element.properties) != 1 or not isinstance(element.properties[0], kind):
-            raise FileError("fbx.missing", file=self.file, what=f"value of {element.name}")
-        return element.properties[0]
-
-
-def _properties(element: Element) -> dict[str, tuple[Property, ...]]:
-    """Values of the Properties70 block, by name."""
-    block = element.child("Properties70")
-    rows = [row.properties for row in (block.children or () if block is not None else ())]
-    return {row[0]: row[4:] for row in rows if len(row) >= 4 and isinstance(row[0], str)}
-
-
-def _numbers(values: tuple[Property, ...]) -> list[float]:
-    return [float(value) for value in values if isinstance(value, float | np.integer | np.floating)]
-
-
 # ------------------------------------------------------------------------------------------------------------ bones
 
 
-def _bones(graph: _Graph) -> tuple[tuple[FbxBone, ...], dict[int, int]]:
+def _bones(graph: ObjectGraph) -> tuple[tuple[FbxBone, ...], dict[int, int]]:
     """Bones with parents first, and the index of each model."""
     models = graph.of_kind("Model", "LimbNode")
     is_bone = {model.id for model in models}
@@ -194,21 +101,21 @@ def _bones(graph: _Graph) -> tuple[tuple[FbxBone, ...], dict[int, int]]:
     return tuple(bones), index
 
 
-def _bone(graph: _Graph, model: _Object, parent: int) -> FbxBone:
+def _bone(graph: ObjectGraph, model: FbxObject, parent: int) -> FbxBone:
     translation, rotation = _placement(graph, model)
     quaternion = euler.quaternions(rotation[::-1], EULER_ORDER)
     return FbxBone(model.name, parent, translation, quaternion)
 
 
-def _placement(graph: _Graph, model: _Object) -> tuple[Float64Array, Float64Array]:
+def _placement(graph: ObjectGraph, model: FbxObject) -> tuple[Float64Array, Float64Array]:
     """Local translation and Euler angles of a model that has nothing else."""
-    properties = _properties(model.element)
+    properties = properties_of(model.element)
     for name in _NOT_SUPPORTED:
-        if any(_numbers(properties.get(name, ()))):
+        if any(numbers(properties.get(name, ()))):
             raise FileError("fbx.unsupported", file=graph.file, what=f"{name} of {model.name}")
-    if any(value != 1.0 for value in _numbers(properties.get("Lcl Scaling", ()))):
+    if any(value != 1.0 for value in numbers(properties.get("Lcl Scaling", ()))):
         raise FileError("fbx.unsupported", file=graph.file, what=f"scaling of {model.name}")
-    vectors = [_numbers(properties.get(name, (0.0, 0.0, 0.0))) for name in ("Lcl Translation", "Lcl Rotation")]
+    vectors = [numbers(properties.get(name, (0.0, 0.0, 0.0))) for name in ("Lcl Translation", "Lcl Rotation")]
     if any(len(vector) != 3 or not np.isfinite(vector).all() for vector in vectors):
         raise FileError("fbx.missing", file=graph.file, what=f"place of {model.name}")
     return np.array(vectors[0]), np.array(vectors[1])
@@ -217,7 +124,7 @@ def _placement(graph: _Graph, model: _Object) -> tuple[Float64Array, Float64Arra
 # ----------------------------------------------------------------------------------------------------------- meshes
 
 
-def _mesh(graph: _Graph, model: _Object, bone_of_model: dict[int, int]) -> FbxMesh:
+def _mesh(graph: ObjectGraph, model: FbxObject, bone_of_model: dict[int, int]) -> FbxMesh:
     if any(np.concatenate(_placement(graph, model))):
         raise FileError("fbx.unsupported", file=graph.file, what=f"place of the mesh {model.name}")
     shapes = graph.below(model, "Geometry", "Mesh")
@@ -243,7 +150,7 @@ def _mesh(graph: _Graph, model: _Object, bone_of_model: dict[int, int]) -> FbxMe
     )
 
 
-def _layer(graph: _Graph, element: Element, name: str, mapping: str) -> Element:
+def _layer(graph: ObjectGraph, element: Element, name: str, mapping: str) -> Element:
     layer = graph.section(element, name)
     given = layer.child("MappingInformationType")
     if given is None or graph.only(given, str) != mapping:
@@ -251,7 +158,7 @@ def _layer(graph: _Graph, element: Element, name: str, mapping: str) -> Element:
     return layer
 
 
-def _faces(graph: _Graph, element: Element, name: str) -> npt.NDArray[np.int64]:
+def _faces(graph: ObjectGraph, element: Element, name: str) -> npt.NDArray[np.int64]:
     corners = graph.integers(element, "PolygonVertexIndex")
     ends = np.flatnonzero(corners < 0)
     width = int(ends[0]) + 1 if len(ends) else 0
@@ -260,7 +167,7 @@ def _faces(graph: _Graph, element: Element, name: str) -> npt.NDArray[np.int64]:
     return np.where(corners < 0, -corners - 1, corners).reshape(-1, width)
 
 
-def _uvs(graph: _Graph, element: Element) -> Float64Array | None:
+def _uvs(graph: ObjectGraph, element: Element) -> Float64Array | None:
     if element.child("LayerElementUV") is None:
         return None
     layer = _layer(graph, element, "LayerElementUV", "ByPolygonVertex")
@@ -270,14 +177,14 @@ def _uvs(graph: _Graph, element: Element) -> Float64Array | None:
     return uvs[indices]
 
 
-def _face_materials(graph: _Graph, element: Element, face_count: int) -> npt.NDArray[np.int64]:
+def _face_materials(graph: ObjectGraph, element: Element, face_count: int) -> npt.NDArray[np.int64]:
     layer = graph.section(element, "LayerElementMaterial")
     indices = graph.integers(layer, "Materials")
     return np.repeat(indices, face_count) if len(indices) == 1 else indices
 
 
-def _material(material: _Object) -> FbxMaterial:
-    properties = {name: _numbers(values) for name, values in _properties(material.element).items()}
+def _material(material: FbxObject) -> FbxMaterial:
+    properties = {name: numbers(values) for name, values in properties_of(material.element).items()}
 
     def color(name: str) -> tuple[float, float, float]:
         values = properties.get(name, [])
@@ -296,7 +203,7 @@ def _material(material: _Object) -> FbxMaterial:
 
 
 def _skin(
-    graph: _Graph, shape: _Object, vertex_count: int, bone_of_model: dict[int, int]
+    graph: ObjectGraph, shape: FbxObject, vertex_count: int, bone_of_model: dict[int, int]
 ) -> tuple[npt.NDArray[np.int64], Float64Array, Float64Array]:
     """Joints and weights by vertex, the strongest first, and the bind pose of every bone."""
     binds = _bind_pose(graph, bone_of_model)
@@ -330,7 +237,7 @@ def _skin(
     return joint_indices, slot_weights, binds
 
 
-def _bind_pose(graph: _Graph, bone_of_model: dict[int, int]) -> Float64Array:
+def _bind_pose(graph: ObjectGraph, bone_of_model: dict[int, int]) -> Float64Array:
     binds = np.full((len(bone_of_model), 4, 4), np.nan)
     for pose in graph.of_kind("Pose", "BindPose"):
         for node in pose.element.children or ():
@@ -341,7 +248,7 @@ def _bind_pose(graph: _Graph, bone_of_model: dict[int, int]) -> Float64Array:
     return binds
 
 
-def _morphs(graph: _Graph, shape: _Object) -> tuple[FbxMorph, ...]:
+def _morphs(graph: ObjectGraph, shape: FbxObject) -> tuple[FbxMorph, ...]:
     morphs = []
     for deformer in graph.below(shape, "Deformer", "BlendShape"):
         for channel in graph.below(deformer, "Deformer", "BlendShapeChannel"):
@@ -358,12 +265,14 @@ def _morphs(graph: _Graph, shape: _Object) -> tuple[FbxMorph, ...]:
 # -------------------------------------------------------------------------------------------------------- animation
 
 
-def _clip(graph: _Graph, root: Element, bones: tuple[FbxBone, ...], bone_of_model: dict[int, int]) -> FbxClip | None:
+def _clip(
+    graph: ObjectGraph, root: Element, bones: tuple[FbxBone, ...], bone_of_model: dict[int, int]
+) -> FbxClip | None:
     stacks = graph.of_kind("AnimationStack", "")
     if not stacks:
         return None
-    settings = _properties(graph.section(root, "GlobalSettings"))
-    mode, custom = _numbers(settings.get("TimeMode", ())), _numbers(settings.get("CustomFrameRate", ()))
+    settings = properties_of(graph.section(root, "GlobalSettings"))
+    mode, custom = numbers(settings.get("TimeMode", ())), numbers(settings.get("CustomFrameRate", ()))
     fps = ticks.rate(int(mode[0]) if mode else 0, custom[0] if custom else 0.0)
     if fps is None:
         raise FileError("fbx.missing", file=graph.file, what="frame rate")
@@ -390,7 +299,7 @@ def _clip(graph: _Graph, root: Element, bones: tuple[FbxBone, ...], bone_of_mode
     return FbxClip(stacks[0].name, fps, frames, rotations, translations, weights)
 
 
-def _curves(graph: _Graph, stack: _Object, fps: Fraction) -> tuple[int, dict[tuple[int, str], Float64Array]]:
+def _curves(graph: ObjectGraph, stack: FbxObject, fps: Fraction) -> tuple[int, dict[tuple[int, str], Float64Array]]:
     """Number of frames, and the values (F, channels) of every animated property."""
     times: npt.NDArray[np.int64] | None = None
     result: dict[tuple[int, str], Float64Array] = {}

@@ -18,6 +18,16 @@ from app.formats.fbx import encode, ticks
 from app.formats.fbx.encode import Element, PackedArray, Property, encode_elements, pack_array, write_elements
 from app.formats.fbx.geometry import geometry, morph_geometry, skin_clusters
 from app.formats.fbx.scene import FbxBone, FbxClip, FbxMaterial, FbxMesh, FbxScene, FloatArray, check_scene
+from app.formats.fbx.sections import (
+    definitions,
+    documents,
+    global_settings,
+    header,
+    integer,
+    property_block,
+    property_row,
+    takes,
+)
 
 # FBX calls this order XYZ: x turns first, so the matrix is Rz Ry Rx.
 EULER_ORDER = "ZYX"
@@ -64,17 +74,17 @@ def scene_elements(scene: FbxScene) -> tuple[Element, ...]:
         last_tick = _add_clip(graph, scene, scene.clip)
     take = scene.clip.name if scene.clip is not None else ""
     return (
-        _header(scene.creator),
+        header(scene.creator),
         Element("FileId", (encode.FILE_ID,)),
         Element("CreationTime", (encode.CREATION_TIME,)),
         Element("Creator", (scene.creator,)),
-        _global_settings(scene.clip, last_tick),
-        _documents(graph, take),
+        global_settings(scene.clip, last_tick),
+        documents(graph.new_id(), take),
         Element("References", (), ()),
-        _definitions(graph),
+        definitions(graph.objects),
         Element("Objects", (), tuple(graph.objects)),
         Element("Connections", (), tuple(graph.connections)),
-        _takes(take, last_tick),
+        takes(take, last_tick),
     )
 
 
@@ -108,21 +118,9 @@ class _Graph:
             self.connections.append(Element("C", ("OP", *ends, to_property)))
 
 
-def _integer(name: str, value: int) -> Element:
-    return Element(name, (np.int32(value),))
-
-
-def _property(name: str, kind: str, label: str, flags: str, *values: Property) -> Element:
-    return Element("P", (name, kind, label, flags, *values))
-
-
 def _vector(name: str, values: FloatArray) -> Element:
     """A transform property that may be animated; its kind is called like the property."""
-    return _property(name, name, "", "A", *(float(value) for value in values))
-
-
-def _properties(*properties: Element) -> Element:
-    return Element("Properties70", (), properties)
+    return property_row(name, name, "", "A", *(float(value) for value in values))
 
 
 # --------------------------------------------------------------------------------------------- skeleton and meshes
@@ -137,7 +135,7 @@ def _add_skeleton_and_meshes(graph: _Graph, scene: FbxScene) -> None:
         mesh_ids = [_add_mesh(graph, mesh, binds, materials) for mesh in scene.meshes]
         nodes = [_pose_node(graph.bone_ids[index], bind) for index, bind in enumerate(binds)]
         nodes = [_pose_node(mesh_id, np.eye(4)) for mesh_id in mesh_ids] + nodes
-        header = (Element("Type", ("BindPose",)), _integer("Version", 100), _integer("NbPoseNodes", len(nodes)))
+        header = (Element("Type", ("BindPose",)), integer("Version", 100), integer("NbPoseNodes", len(nodes)))
         graph.add("Pose", "BindPose", "Pose", "BindPose", (*header, *nodes))
 
 
@@ -153,10 +151,10 @@ def _add_bone(graph: _Graph, bone: FbxBone) -> None:
 
 def _model(translation_cm: FloatArray, rotation_degrees: FloatArray) -> tuple[Element, ...]:
     return (
-        _integer("Version", 232),
-        _properties(
-            _property("InheritType", "enum", "", "", np.int32(1)),
-            _property("DefaultAttributeIndex", "int", "Integer", "", np.int32(0)),
+        integer("Version", 232),
+        property_block(
+            property_row("InheritType", "enum", "", "", np.int32(1)),
+            property_row("DefaultAttributeIndex", "int", "Integer", "", np.int32(0)),
             _vector("Lcl Translation", translation_cm),
             _vector("Lcl Rotation", rotation_degrees),
             _vector("Lcl Scaling", np.ones(3)),
@@ -200,17 +198,17 @@ def _add_mesh(graph: _Graph, mesh: FbxMesh, binds: npt.NDArray[np.float64], mate
 
 def _material(material: FbxMaterial) -> tuple[Element, ...]:
     def color(name: str, rgb: tuple[float, float, float]) -> Element:
-        return _property(name, "Color", "", "A", *(float(value) for value in rgb))
+        return property_row(name, "Color", "", "A", *(float(value) for value in rgb))
 
     def number(name: str, value: float) -> Element:
-        return _property(name, "Number", "", "A", float(value))
+        return property_row(name, "Number", "", "A", float(value))
 
     transparency = 1.0 - material.opacity
     return (
-        _integer("Version", 102),
+        integer("Version", 102),
         Element("ShadingModel", ("Phong",)),
-        _integer("MultiLayer", 0),
-        _properties(
+        integer("MultiLayer", 0),
+        property_block(
             color("DiffuseColor", material.diffuse_rgb),
             number("DiffuseFactor", 1.0),
             color("EmissiveColor", (0.0, 0.0, 0.0)),
@@ -227,13 +225,13 @@ def _material(material: FbxMaterial) -> tuple[Element, ...]:
 
 
 def _add_skin(graph: _Graph, mesh: FbxMesh, shape: int, binds: npt.NDArray[np.float64]) -> None:
-    skin_children = (_integer("Version", 101), Element("Link_DeformAcuracy", (50.0,)))
+    skin_children = (integer("Version", 101), Element("Link_DeformAcuracy", (50.0,)))
     skin = graph.add("Deformer", mesh.name, "Deformer", "Skin", skin_children)
     graph.connect(skin, shape)
     for bone, indices, weights in skin_clusters(mesh):
         bind = binds[bone]
         children = (
-            _integer("Version", 100),
+            integer("Version", 100),
             Element("UserData", ("", "")),
             Element("Indexes", (indices,)),
             Element("Weights", (weights,)),
@@ -256,11 +254,11 @@ def _pose_node(node: int, world_from_node: FloatArray) -> Element:
 
 def _add_morphs(graph: _Graph, mesh: FbxMesh, shape: int) -> None:
     # Unreal cuts the deformer's name off the front of a channel's name, so it must not be one.
-    deformer = graph.add("Deformer", f"{mesh.name}_morphs", "Deformer", "BlendShape", (_integer("Version", 100),))
+    deformer = graph.add("Deformer", f"{mesh.name}_morphs", "Deformer", "BlendShape", (integer("Version", 100),))
     graph.connect(deformer, shape)
     for morph in mesh.morphs:
         children = (
-            _integer("Version", 100),
+            integer("Version", 100),
             Element("DeformPercent", (0.0,)),
             Element("FullWeights", (np.array([100.0]),)),
         )
@@ -279,12 +277,12 @@ def _add_clip(graph: _Graph, scene: FbxScene, clip: FbxClip) -> int:
     key_ticks = ticks.frame_ticks(clip.fps, clip.frames)
     last_tick = int(key_ticks[-1])
     spans = [
-        _property(name, "KTime", "Time", "", np.int64(tick))
+        property_row(name, "KTime", "Time", "", np.int64(tick))
         for name, tick in zip(
             ("LocalStart", "LocalStop", "ReferenceStart", "ReferenceStop"), (0, last_tick, 0, last_tick), strict=True
         )
     ]
-    stack = graph.add("AnimationStack", clip.name, "AnimStack", "", (_properties(*spans),))
+    stack = graph.add("AnimationStack", clip.name, "AnimStack", "", (property_block(*spans),))
     layer = graph.add("AnimationLayer", "BaseLayer", "AnimLayer", "", ())
     graph.connect(layer, stack)
     curves = _Curves(graph, layer, pack_array(key_ticks), clip.frames)
@@ -307,7 +305,7 @@ class _Curves:
     def __init__(self, graph: _Graph, layer: int, times: PackedArray, frames: int) -> None:
         self._graph = graph
         self._layer = layer
-        self._before = (_integer("KeyVer", 4008), Element("KeyTime", (times,)))
+        self._before = (integer("KeyVer", 4008), Element("KeyTime", (times,)))
         # All four are needed: without them the FBX SDK crashes.
         self._after = (
             Element("KeyAttrFlags", (pack_array(_KEY_FLAGS),)),
@@ -320,10 +318,10 @@ class _Curves:
     ) -> None:
         """Animate one property; `values` has a row of frames per channel."""
         defaults = [
-            _property(f"d|{channel}", "Number", "", "A", float(row[0]))
+            property_row(f"d|{channel}", "Number", "", "A", float(row[0]))
             for channel, row in zip(channels, values, strict=True)
         ]
-        node = self._graph.add("AnimationCurveNode", name, "AnimCurveNode", "", (_properties(*defaults),))
+        node = self._graph.add("AnimationCurveNode", name, "AnimCurveNode", "", (property_block(*defaults),))
         self._graph.connect(node, self._layer)
         self._graph.connect(node, target, target_property)
         for channel, row in zip(channels, values.astype(np.float32), strict=True):
@@ -336,93 +334,3 @@ class _Curves:
 def _pack_keys(row: npt.NDArray[np.float32]) -> PackedArray:
     """Keys of one channel. One that rests is compressed to nothing; the noise of a moving one is not worth the time."""
     return pack_array(row, compress=bool((row == row[0]).all()))
-
-
-# -------------------------------------------------------------------------------------------------- the other parts
-
-
-def _header(creator: str) -> Element:
-    stamp = tuple(
-        _integer(name, value)
-        for name, value in (
-            ("Version", 1000), ("Year", 1970), ("Month", 1), ("Day", 1),
-            ("Hour", 10), ("Minute", 0), ("Second", 0), ("Millisecond", 0),
-        )
-    )  # fmt: skip
-    texts = ("Title", "Subject", "Author", "Keywords", "Revision", "Comment")
-    meta = (_integer("Version", 100), *(Element(name, ("",)) for name in texts))
-    vendor = [
-        _property(f"{when}|{what}", "KString", "", "", value)
-        for when in ("Original", "LastSaved")
-        for what, value in (("ApplicationVendor", "Suisou"), ("ApplicationName", creator))
-    ]
-    info = (
-        Element("Type", ("UserData",)),
-        _integer("Version", 100),
-        Element("MetaData", (), meta),
-        _properties(*vendor),
-    )
-    return Element(
-        "FBXHeaderExtension",
-        (),
-        (
-            _integer("FBXHeaderVersion", 1003),
-            _integer("FBXVersion", encode.VERSION),
-            _integer("EncryptionType", 0),
-            Element("CreationTimeStamp", (), stamp),
-            Element("Creator", (creator,)),
-            Element("SceneInfo", ("GlobalInfo\0\x01SceneInfo", "UserData"), info),
-        ),
-    )
-
-
-def _global_settings(clip: FbxClip | None, last_tick: int) -> Element:
-    axes = (
-        ("UpAxis", 1), ("UpAxisSign", 1), ("FrontAxis", 2), ("FrontAxisSign", 1), ("CoordAxis", 0),
-        ("CoordAxisSign", 1), ("OriginalUpAxis", 1), ("OriginalUpAxisSign", 1),
-    )  # fmt: skip
-    properties = [_property(name, "int", "Integer", "", np.int32(value)) for name, value in axes]
-    properties += [
-        _property("UnitScaleFactor", "double", "Number", "", 1.0),
-        _property("OriginalUnitScaleFactor", "double", "Number", "", 1.0),
-    ]
-    if clip is not None:
-        properties += [
-            _property("TimeMode", "enum", "", "", np.int32(ticks.time_mode(clip.fps))),
-            _property("TimeSpanStart", "KTime", "Time", "", np.int64(0)),
-            _property("TimeSpanStop", "KTime", "Time", "", np.int64(last_tick)),
-            _property("CustomFrameRate", "double", "Number", "", float(clip.fps)),
-        ]
-    return Element("GlobalSettings", (), (_integer("Version", 1000), _properties(*properties)))
-
-
-def _documents(graph: _Graph, take: str) -> Element:
-    document = Element(
-        "Document",
-        (np.int64(graph.new_id()), "Scene", "Scene"),
-        (
-            _properties(
-                _property("SourceObject", "object", "", ""),
-                _property("ActiveAnimStackName", "KString", "", "", take),
-            ),
-            Element("RootNode", (np.int64(0),)),
-        ),
-    )
-    return Element("Documents", (), (_integer("Count", 1), document))
-
-
-def _definitions(graph: _Graph) -> Element:
-    counts = {"GlobalSettings": 1}
-    for element in graph.objects:
-        counts[element.name] = counts.get(element.name, 0) + 1
-    types = (Element("ObjectType", (kind,), (_integer("Count", count),)) for kind, count in counts.items())
-    return Element("Definitions", (), (_integer("Version", 100), _integer("Count", sum(counts.values())), *types))
-
-
-def _takes(take: str, last_tick: int) -> Element:
-    children: tuple[Element, ...] = (Element("Current", (take,)),)
-    if take:
-        span = (np.int64(0), np.int64(last_tick))
-        details = (Element("FileName", (f"{take}.tak",)), Element("LocalTime", span), Element("ReferenceTime", span))
-        children += (Element("Take", (take,), details),)
-    return Element("Takes", (), children)

@@ -1,0 +1,111 @@
+"""Objects of a decoded FBX file and what hangs from what; every access is checked.
+
+Messages as in `app.formats.fbx.read`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TypeVar
+
+import numpy as np
+import numpy.typing as npt
+
+from app.errors import FileError
+from app.formats.fbx.encode import Element, Property
+
+T = TypeVar("T")
+Float64Array = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class FbxObject:
+    """An object of the file: its kind, name and record."""
+
+    id: int
+    kind: str
+    name: str
+    sub_class: str
+    element: Element
+
+
+class ObjectGraph:
+    """Objects by id, and what hangs from what."""
+
+    def __init__(self, root: Element, file: str) -> None:
+        self.file = file
+        self.objects: dict[int, FbxObject] = {}
+        self.children: dict[int, list[tuple[int, str]]] = {}
+        self.parents: dict[int, list[tuple[int, str]]] = {}
+        for element in self.section(root, "Objects").children or ():
+            number, name, sub_class = (*element.properties, None, None, None)[:3]
+            if not isinstance(number, np.int64) or not isinstance(name, str) or not isinstance(sub_class, str):
+                raise FileError("fbx.missing", file=file, what=f"id or name of a {element.name}")
+            key = int(number)
+            self.objects[key] = FbxObject(key, element.name, name.split("\0")[0], sub_class, element)
+        for element in self.section(root, "Connections").children or ():
+            _, child, parent, target = (*element.properties, None, None, None, None)[:4]
+            if not isinstance(child, np.int64) or not isinstance(parent, np.int64):
+                raise FileError("fbx.missing", file=file, what="end of a connection")
+            to_property = target if isinstance(target, str) else ""
+            self.children.setdefault(int(parent), []).append((int(child), to_property))
+            self.parents.setdefault(int(child), []).append((int(parent), to_property))
+
+    def section(self, root: Element, name: str) -> Element:
+        """The child record of that name."""
+        found = root.child(name)
+        if found is None:
+            raise FileError("fbx.missing", file=self.file, what=name)
+        return found
+
+    def of_kind(self, kind: str, sub_class: str) -> list[FbxObject]:
+        """Objects of a kind and class, in the file's order."""
+        return [o for o in self.objects.values() if o.kind == kind and o.sub_class == sub_class]
+
+    def below(self, parent: FbxObject, kind: str, sub_class: str | None = None) -> list[FbxObject]:
+        """Objects of a kind that are connected to `parent`, in the file's order."""
+        linked = (self.objects.get(child) for child, _ in self.children.get(parent.id, ()))
+        return [o for o in linked if o is not None and o.kind == kind and sub_class in (None, o.sub_class)]
+
+    def _array(self, element: Element, name: str, kind: str) -> npt.NDArray[np.generic]:
+        child = element.child(name)
+        values = child.properties[0] if child is not None and child.properties else None
+        if not isinstance(values, np.ndarray) or values.dtype.kind != kind:
+            raise FileError("fbx.missing", file=self.file, what=f"{name} of a {element.name}")
+        return values
+
+    def floats(self, element: Element, name: str, width: int) -> Float64Array:
+        """Array of doubles in rows."""
+        values = self._array(element, name, "f").astype(np.float64)
+        if len(values) % width or not np.isfinite(values).all():
+            raise FileError("fbx.contradiction", file=self.file, detail=f"{name} is not made of finite {width}s")
+        return values.reshape(-1, width)
+
+    def integers(self, element: Element, name: str) -> npt.NDArray[np.int64]:
+        """Array of integers."""
+        return self._array(element, name, "i").astype(np.int64)
+
+    def matrix(self, element: Element, name: str) -> Float64Array:
+        """A 4 x 4 matrix for column vectors."""
+        values = self.floats(element, name, 16)
+        if len(values) != 1:
+            raise FileError("fbx.contradiction", file=self.file, detail=f"{name} is not a matrix")
+        return values.reshape(4, 4).T
+
+    def only(self, element: Element, kind: type[T]) -> T:
+        """The one property of a record."""
+        if len(element.properties) != 1 or not isinstance(element.properties[0], kind):
+            raise FileError("fbx.missing", file=self.file, what=f"value of {element.name}")
+        return element.properties[0]
+
+
+def properties_of(element: Element) -> dict[str, tuple[Property, ...]]:
+    """Values of the Properties70 block, by name."""
+    block = element.child("Properties70")
+    rows = [row.properties for row in (block.children or () if block is not None else ())]
+    return {row[0]: row[4:] for row in rows if len(row) >= 4 and isinstance(row[0], str)}
+
+
+def numbers(values: tuple[Property, ...]) -> list[float]:
+    """Numbers among the values of a property."""
+    return [float(value) for value in values if isinstance(value, float | np.integer | np.floating)]
