@@ -44,6 +44,7 @@ TORSO_BACK_RAD = math.radians(0.3)
 
 _CHUNK = 256
 _TORSO = ("hips", "neck")
+_HEAD = "head"
 _SOLES = ("left.foot.sole", "right.foot.sole")
 _HANDS = ("left.hand", "right.hand")
 _LIPS = "lips.contact"
@@ -125,6 +126,7 @@ class _Traces:
     landmarks: dict[str, FloatArray]
     nodes: dict[str, FloatArray]
     torso: FloatArray
+    head: FloatArray
     bone_deviation_m: FloatArray
     depth_m: FloatArray
 
@@ -318,8 +320,10 @@ def _trace(
     node_bones = {node: held.bone_names.index(bone) for node, bone in bone_of_node.items()}
     landmarks = {name: np.empty((frames, 3)) for name in surfaces}
     nodes = {node: np.empty((frames, 4, 4)) for node in node_bones}
-    torso, depth_m, deviation_m = np.empty((frames, 2)), np.zeros(frames), np.empty(frames)
+    torso, head = np.empty((frames, 2)), np.empty((frames, 3, 3))
+    depth_m, deviation_m = np.zeros(frames), np.empty(frames)
     low, high = (player.bone_names.index(name) for name in _TORSO)
+    head_bone = player.bone_names.index(_HEAD)
     lengths_m = np.linalg.norm(player.rest_m, axis=1)
     parents = np.array(player.parents)
     rigid = np.array([parent > 0 for parent in player.parents])
@@ -335,6 +339,7 @@ def _trace(
         joints_m = world[..., :3, 3]
         upright = joints_m[:, high] - joints_m[:, low]
         torso[span] = np.arctan2(upright[:, [0, 2]], upright[:, 1:2])
+        head[span] = world[:, head_bone, :3, :3]
         bones_m = np.linalg.norm(joints_m - joints_m[:, parents], axis=-1)
         deviation_m[span] = np.abs(bones_m - lengths_m)[:, rigid].max(axis=1)
         if sounding[span].any():
@@ -343,7 +348,7 @@ def _trace(
                     depth_m[span], part.depths_m(world, {name: nodes[name][span] for name in nodes}, first, last)
                 )
         progress(last / frames)
-    return _Traces(landmarks, nodes, torso, deviation_m, depth_m)
+    return _Traces(landmarks, nodes, torso, head, deviation_m, depth_m)
 
 
 def _mesh(playback: Playback, character: Character, name: str) -> FbxMesh:
@@ -410,13 +415,13 @@ def _contact(
 def _rim(
     instrument: InstrumentMap, traces: _Traces, landmark: str, frames: BoolArray, *, steady: bool = False
 ) -> Spread:
-    """Distance of the rim's middle to the lips; ``steady``: how far it wanders from where it usually is on them."""
+    """Distance of the rim's middle to the lips; ``steady``: how far it wanders from its usual place in the head."""
     root = traces.nodes[ROOT][frames]
     if not len(root):
         return _spread(np.zeros(0), LIPS_MM)
     rim_m = root[:, :3, :3] @ np.asarray(instrument.mouthpiece.position_m) + root[:, :3, 3]
     lips_m = traces.landmarks[landmark][frames]
-    offset_m = np.einsum("fji,fj->fi", root[:, :3, :3], lips_m - rim_m)
+    offset_m = np.einsum("fji,fj->fi", traces.head[frames], lips_m - rim_m)
     if steady:
         offset_m = offset_m - np.median(offset_m, axis=0)
     return _spread(np.linalg.norm(offset_m, axis=1), LIPS_MM)
