@@ -18,6 +18,7 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+from scipy.interpolate import PchipInterpolator
 from scipy.optimize import least_squares
 
 from app.rig import quaternion
@@ -32,7 +33,7 @@ from app.rig.hand import (
     wrist_from_joint,
     wrist_from_mesh,
 )
-from app.rig.hold import ContactFit, FingerTable, HandHold, Hold, Lips, NodeMotion, Reach, Side
+from app.rig.hold import ContactFit, FingerTable, HandHold, Hold, Lips, NodeMotion, Reach, Side, interpolated
 from app.rig.instrument import control_transform, node_transforms
 from app.rig.model import Character, InstrumentModel
 from app.rig.proxy import Bodies, bodies, distance, gradient, near
@@ -50,13 +51,20 @@ FIRM_M, RESTING_M = 0.0003, 0.0012
 FIRM_NORMAL, RESTING_NORMAL = 0.35, 0.6
 PENETRATION_M = 0.0006
 BALL_M = 0.001
-CURL_RAD, SIDEWAYS_RAD, THUMB_RAD, COUPLING_RAD = 0.5, 0.14, 0.4, 0.18
+CURL_RAD, SIDEWAYS_RAD, THUMB_RAD, COUPLING_RAD = 0.4, 0.12, 0.4, 0.18
 WORKED_RAD = 0.5
-WRIST_FLEXION, WRIST_DEVIATION, PRONATION_RAD, SWIVEL_RAD = 0.3, 0.18, 0.8, 0.35
-TABLE_VALUES = 13
+FLEXION_RAD, DEVIATION_RAD, PRONATION_RAD, SWIVEL_RAD = 0.3, 0.16, 0.8, 0.35
+LIMIT_RAD, LIMIT_SHARE = 0.04, 0.85
+PRONATION_MOST_RAD = 1.3
+REACH_M = 0.08
+"""Of an arm that is too short: the shoulder's help is dear, but a finger tip's grip does not bridge half a metre."""
+ANCHOR = (0.25, 0.4, 0.5)
+"""How far the wrist's place (in 0.1 m), its turn and the fingers (rad) wander from one knot of a slide to the next."""
+TABLE_VALUES = 17
 SKIN_MARGIN_M = 0.0
-REFERENCE_VALUE = 0.2
-"""Value of a hand's own control at which the wrist is to be straightest."""
+KNOTS = (0.25, 0.0, 0.5, 0.75, 1.0)
+"""Values of the control that carries a hand at which its hold is solved: the first from the seed, the others each from
+its solved neighbour. The grip turns in the fingers as the arm stretches."""
 _METRES = 0.1
 """The wrist's place is solved in units of this many metres, to weigh like radians."""
 _STEP = 1e-6
@@ -108,6 +116,8 @@ class _Problem:
     swivel_usual: float
     reference_shift_m: FloatArray
     configs: int
+    wrist_limits: FloatArray
+    anchor: FloatArray | None = None
     low: FloatArray = field(default_factory=lambda: np.zeros(0))
     high: FloatArray = field(default_factory=lambda: np.zeros(0))
 
@@ -200,15 +210,24 @@ def _fit_hand(
     lips: Lips,
 ) -> tuple[HandHold, Reach]:
     problem, carrier = _problem(character, model, instrument_map, body, seed, lips)
-    best = _search(problem)
-    angles = _angles(problem, best[None])
-    position, turn = _wrist(problem, best[None])
     hand = problem.hand
-    scene = _Scene(model, instrument_map, carrier, position[0], quaternion.to_matrix(turn[0]))
-    values = np.linspace(0.0, 1.0, TABLE_VALUES if problem.worked else 1)
-    solved = _solve_table(problem, scene, angles[0], values)
+    if carrier is None:
+        values = np.linspace(0.0, 1.0, TABLE_VALUES if problem.worked else 1)
+        best = _search(problem)
+        knots, holds = np.zeros(1), best[None]
+    else:
+        values = np.linspace(0.0, 1.0, TABLE_VALUES)
+        knots, holds = _search_knots(problem, model, instrument_map, carrier)
+        best = holds[0]
+    # A wrist between knots follows a smooth curve; the fingers are then solved for it.
+    along = PchipInterpolator(knots, holds) if len(knots) > 1 else None
+    path = np.repeat(best[None], len(values), axis=0) if along is None else along(values)
+    position, turn = _wrist(problem, path)
+    scene = _Scene(model, instrument_map, carrier, position, quaternion.to_matrix(turn))
+    angles = _angles(problem, path)
+    solved = _solve_table(problem, scene, angles, values)
     rotations = joint_rotations(hand, solved)
-    fingers = tuple(_finger_table(problem, instrument_map, rotations, values, number) for number in range(5))
+    fingers = tuple(_finger_table(problem, scene, rotations, values, number) for number in range(5))
     contacts, depth = _judge(problem, scene, fingers, values)
     motion = None if carrier is None else _node_motion(carrier)
     _, instrument_rotation = usual_instrument(character, instrument_map, lips)
@@ -219,14 +238,15 @@ def _fit_hand(
         side=hand.side,
         node=seed.node,
         motion=motion,
-        instrument_from_hand_m=position[0],
-        instrument_from_hand_rotation=turn[0],
+        values=values if carrier is not None else np.zeros(1),
+        instrument_from_hand_m=position if carrier is not None else position[:1],
+        instrument_from_hand_rotation=turn if carrier is not None else turn[:1],
         fingers=fingers,
         elbow_direction=pole,
         contacts=contacts,
         penetration_m=depth,
     )
-    return hold, _reach(problem, position[0], carrier, instrument_rotation)
+    return hold, _reach(problem, values, position, carrier, instrument_rotation)
 
 
 # --- The problem
@@ -275,7 +295,6 @@ def _problem(
     rest = rest_positions(character.skeleton)
     joint = [character.skeleton.index(f"{side}{part}") for part in ("UpperArm", "LowerArm", "Hand")]
     shoulder = quaternion.rotate(back, rest[joint[0]] - mouth_m)
-    reference = np.zeros(3) if carrier is None else REFERENCE_VALUE * _travel(carrier)
     # The elbow hangs: its swivel is counted from straight down towards the outside.
     down = quaternion.rotate(back, [0.0, -1.0, 0.0])
     aside = quaternion.rotate(back, [-outward, 0.0, 0.0])
@@ -300,8 +319,9 @@ def _problem(
         lower_m=float(np.linalg.norm(rest[joint[2]] - rest[joint[1]])),
         swivel_frame=np.stack([down, aside]),
         swivel_usual=np.radians(body.postures["standing"].elbow_off_ribs_deg),
-        reference_shift_m=reference,
+        reference_shift_m=np.zeros(3),
         configs=2 if worked else 1,
+        wrist_limits=hand.limits[0] * LIMIT_SHARE,
     )
     low, high = _bounds(problem)
     return replace(problem, low=low, high=high), carrier
@@ -438,6 +458,7 @@ class _Residuals:
         parts.append((np.maximum(hand.ball_gaps_m - gap, 0.0) / (BALL_M * self.soft)).reshape(count, -1))
         parts.append(self._natural(angles))
         parts.append(self._arm(x, place, turn))
+        parts.append(self._anchored(x))
         return np.concatenate(parts, axis=1), skin
 
     def _natural(self, angles: FloatArray) -> FloatArray:
@@ -465,22 +486,37 @@ class _Residuals:
         forearm = wrist - elbow
         forearm /= np.linalg.norm(forearm, axis=1)[:, None]
         sign = 1.0 if problem.hand.side == "left" else -1.0
-        local = quaternion.rotate(quaternion.conjugate(turn), forearm) * sign
+        back = quaternion.conjugate(turn)
+        local = quaternion.rotate(back, forearm)
+        flexion = np.arctan2(sign * local[:, 1], np.maximum(sign * local[:, 0], 1e-3))
+        deviation = np.arctan2(-local[:, 2], np.maximum(sign * local[:, 0], 1e-3))
         # The elbow's hinge, seen from the hand: along the palm's normal where the forearm is neither turned in nor out.
         hinge = np.cross(elbow - problem.shoulder_m, forearm)
         hinge /= np.maximum(np.linalg.norm(hinge, axis=1), 1e-9)[:, None]
-        hinge = quaternion.rotate(quaternion.conjugate(turn), hinge) * sign
+        hinge = quaternion.rotate(back, hinge) * sign
         pronation = np.arctan2(hinge[:, 2], -hinge[:, 1])
-        return np.stack(
+        bent = np.stack([flexion, deviation, pronation], axis=1)
+        low, high = problem.wrist_limits[:, 0], problem.wrist_limits[:, 1]
+        low, high = np.array([low[0], low[1], -PRONATION_MOST_RAD]), np.array([high[0], high[1], PRONATION_MOST_RAD])
+        over = np.maximum(bent - high, 0.0) + np.minimum(bent - low, 0.0)
+        far = np.linalg.norm(wrist - problem.shoulder_m, axis=1) - 0.97 * (problem.upper_m + problem.lower_m)
+        return np.concatenate(
             [
-                local[:, 1] / WRIST_FLEXION,
-                local[:, 2] / WRIST_DEVIATION,
-                np.minimum(local[:, 0] - 0.5, 0.0) / 0.1,
-                pronation / PRONATION_RAD,
-                (x[:, 6] - problem.swivel_usual) / SWIVEL_RAD,
+                bent / (FLEXION_RAD, DEVIATION_RAD, PRONATION_RAD),
+                over / LIMIT_RAD,
+                ((x[:, 6] - problem.swivel_usual) / SWIVEL_RAD)[:, None],
+                (np.maximum(far, 0.0) / REACH_M)[:, None],
             ],
             axis=1,
         )
+
+    def _anchored(self, x: FloatArray) -> FloatArray:
+        """Holds of neighbouring knots stay alike; the elbow's swivel is the same for all."""
+        if self.problem.anchor is None:
+            return np.zeros((len(x), 0))
+        place, turn, finger = ANCHOR
+        spread = np.array([place] * 3 + [turn] * 3 + [0.01] + [finger] * (x.shape[1] - 7))
+        return (x - self.problem.anchor) / spread
 
 
 def _elbow_place(problem: _Problem, wrist: FloatArray, swivel: FloatArray) -> FloatArray:
@@ -542,6 +578,28 @@ def _search(problem: _Problem) -> FloatArray:
     return np.asarray(_solve(_Residuals(problem, 1.0), middle.x, 25).x)
 
 
+def _search_knots(
+    problem: _Problem, model: InstrumentModel, instrument_map: InstrumentMap, carrier: Control
+) -> tuple[FloatArray, FloatArray]:
+    """Solve the hold of a hand that is carried by a control, at `KNOTS`: values ascending (K,) and parameters (K, n)."""
+    found: dict[float, FloatArray] = {}
+    for value in KNOTS:
+        place, turn = _nodes_at(model, instrument_map, problem.hand.side, carrier, np.array([value]))
+        here = replace(
+            problem,
+            node_place=place,
+            node_turn=turn,
+            reference_shift_m=value * _travel(carrier),
+            anchor=found[min(found, key=lambda other: abs(other - value))] if found else None,
+        )
+        if here.anchor is None:
+            found[value] = _search(here)
+        else:
+            found[value] = np.asarray(_solve(_Residuals(here, 1.0), here.anchor, 20).x)
+    knots = np.array(sorted(found))
+    return knots, np.stack([found[value] for value in knots])
+
+
 def _solve(residuals: _Residuals, start: FloatArray, rounds: int) -> Any:
     problem = residuals.problem
     return least_squares(
@@ -570,8 +628,12 @@ class _Scene:
     basis: FloatArray
 
     def placed(self, points: FloatArray) -> FloatArray:
-        """Take points (..., 3) of the wrist's frame to the instrument's."""
-        return points @ self.basis.T + self.position_m
+        """Take points (..., S, V, 3) of the wrist's frame to the instrument's, sample by sample."""
+        return points @ self.basis.transpose(0, 2, 1) + self.position_m[:, None]
+
+    def turned(self, vectors: FloatArray) -> FloatArray:
+        """Likewise for directions."""
+        return vectors @ self.basis.transpose(0, 2, 1)
 
     def mover(self, contact: Contact) -> Control | None:
         """The control that moves a contact against the wrist."""
@@ -582,13 +644,13 @@ class _Scene:
 
 
 def _solve_table(problem: _Problem, scene: _Scene, angles: FloatArray, values: FloatArray) -> FloatArray:
-    """Solve the fingers at each value of their controls with the wrist held: angles (S, 16, 3).
+    """Solve the fingers at each value of their controls with the wrist held: angles (S, 16, 3), from (S, configs, 16, 3).
 
     One damped Gauss-Newton iteration (Levenberg-Marquardt, clipped to the limits) for all values at once: the
     samples are independent, their normal equations are solved as a batch.
     """
-    last = angles[-1] if problem.configs == 2 else angles[0]
-    usual = angles[0] + (last - angles[0]) * values[:, None, None]
+    first, last = angles[:, 0], angles[:, -1]
+    usual = first + (last - first) * values[:, None, None]
     solved = usual.copy()
     place, turn = _nodes_at(scene.model, scene.instrument_map, problem.hand.side, scene.carrier, values)
     for number in range(5):
@@ -630,10 +692,11 @@ def _solve_finger(
         pose = np.repeat(solved[None], len(x), axis=0)
         pose[:, :, joints, kinds] = x
         matrices = wrist_from_mesh(hand, wrist_from_joint(hand, joint_rotations(hand, pose.reshape(-1, 16, 3))))
-        skin = scene.placed(skinned(matrices, skin_points)).reshape(len(x), samples, -1, 3)
-        at = scene.placed(skinned(matrices, points)).reshape(len(x), samples, -1, 3)
-        facing = (turned(matrices, normals) @ scene.basis.T).reshape(len(x), samples, -1, 3)
-        parts = [(x - usual[:, joints, kinds]) / 0.5]
+        shape = (len(x), samples, -1, 3)
+        skin = scene.placed(skinned(matrices, skin_points).reshape(shape))
+        at = scene.placed(skinned(matrices, points).reshape(shape))
+        facing = scene.turned(turned(matrices, normals).reshape(shape))
+        parts = [(x - usual[:, joints, kinds]) / WORKED_RAD]
         if number:
             parts.append(((x[..., 3] - 0.67 * x[..., 2]) / COUPLING_RAD)[..., None])
         for k, touch in enumerate(touches):
@@ -684,11 +747,13 @@ def _solve_finger(
 
 
 def _finger_table(
-    problem: _Problem, instrument_map: InstrumentMap, rotations: FloatArray, values: FloatArray, number: int
+    problem: _Problem, scene: _Scene, rotations: FloatArray, values: FloatArray, number: int
 ) -> FingerTable:
     name = f"{problem.hand.side}.{FINGERS[number]}"
     places = slice(1 + 3 * number, 4 + 3 * number)
-    control = next((c.name for c in instrument_map.controls if c.finger == name), None)
+    control = next((c.name for c in scene.instrument_map.controls if c.finger == name), None)
+    if control is None and scene.carrier is not None:
+        control = scene.carrier.name
     rows = rotations[:, places] if control is not None else rotations[:1, places]
     return FingerTable(name, control, values if control is not None else np.zeros(1), problem.hand.joints[places], rows)
 
@@ -701,14 +766,17 @@ def _judge(
     fine = np.linspace(0.0, 1.0, 2 * len(values) - 1) if len(values) > 1 else values
     rotations = np.tile(quaternion.IDENTITY, (len(fine), 16, 1))
     for number, table in enumerate(fingers):
-        place = np.interp(fine, table.values, np.arange(len(table.values), dtype=np.float64))
-        low = np.minimum(place.astype(np.intp), max(len(table.values) - 2, 0))
-        high = np.minimum(low + 1, len(table.values) - 1)
-        mixed = quaternion.nlerp(table.rotations[low], table.rotations[high], (place - low)[:, None])
-        rotations[:, 1 + 3 * number : 4 + 3 * number] = mixed
+        rotations[:, 1 + 3 * number : 4 + 3 * number] = interpolated(table.values, table.rotations, fine)
+    between = np.interp(fine, values, np.arange(len(values), dtype=np.float64))
+    low = np.minimum(between.astype(np.intp), max(len(values) - 2, 0))
+    high, share = np.minimum(low + 1, len(values) - 1), (between - low)[:, None]
+    turn = quaternion.to_matrix(interpolated(values, quaternion.from_matrix(scene.basis)[:, None], fine)[:, 0])
+    scene = replace(
+        scene, position_m=scene.position_m[low] * (1.0 - share) + scene.position_m[high] * share, basis=turn
+    )
     matrices = wrist_from_mesh(hand, wrist_from_joint(hand, rotations))
     touching = scene.placed(skinned(matrices, problem.touch_points))
-    facing = turned(matrices, problem.touch_normals) @ scene.basis.T
+    facing = scene.turned(turned(matrices, problem.touch_normals))
     contacts = []
     for number, touch in enumerate(problem.touches):
         at, normal = _contact_at(scene.model, touch.contact, scene.mover(touch.contact), fine)
@@ -752,13 +820,19 @@ def _contact_at(
 def _nodes_at(
     model: InstrumentModel, instrument_map: InstrumentMap, side: Side, carrier: Control | None, values: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Places (S, N, 3) and bases (S, N, 3, 3) of the nodes while all this hand's fingers work their controls alike."""
+    """Places (S, N, 3) and bases (S, N, 3, 3) of the nodes while all this hand's fingers work their controls alike.
+
+    A hand that is carried sees its own node stay and all others go the other way.
+    """
     worked = {
         control.name: values
         for control in instrument_map.controls
         if control is not carrier and control.finger.startswith(f"{side}.")
     }
     place, turn = node_transforms(model, instrument_map, worked, len(values))
+    if carrier is not None:
+        others = np.arange(len(model.node_names)) != model.node_names.index(carrier.node)
+        place[:, others] -= np.multiply.outer(values, _travel(carrier))[:, None]
     return place, quaternion.to_matrix(turn)
 
 
@@ -777,13 +851,22 @@ def _node_motion(control: Control) -> NodeMotion:
     )
 
 
-def _reach(problem: _Problem, position: FloatArray, carrier: Control | None, instrument_rotation: FloatArray) -> Reach:
-    values = np.linspace(0.0, 1.0, 21) if carrier is not None else np.zeros(1)
+def _reach(
+    problem: _Problem,
+    values: FloatArray,
+    position: FloatArray,
+    carrier: Control | None,
+    instrument_rotation: FloatArray,
+) -> Reach:
+    if carrier is None:
+        values, position = np.zeros(1), position[:1]
     travel = _travel(carrier) if carrier is not None else np.zeros(3)
     line = position + np.multiply.outer(values, travel) - problem.shoulder_m
     length = np.linalg.norm(line, axis=1)
     arm = problem.upper_m + problem.lower_m
-    reached = values[length <= arm]
+    # Where the length crosses the arm's, between samples.
+    fine = np.linspace(0.0, 1.0, 201)
+    reached = fine[np.interp(fine, values, length) <= arm]
     return Reach(
         side=problem.hand.side,
         control=None if carrier is None else carrier.name,

@@ -14,7 +14,7 @@ over frames:
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal
 
 import numpy as np
@@ -94,8 +94,9 @@ class HandHold:
         The node the hand moves with (``"root"``, or a slide's).
     motion : NodeMotion or None
         How that node moves; None where the hand rests on the root.
-    instrument_from_hand_m, instrument_from_hand_rotation : (3,) and (4,) float64
-        The hand joint (the wrist) in the instrument's frame with every control at 0.
+    instrument_from_hand_m, instrument_from_hand_rotation : (S, 3) and (S, 4) float64
+        The hand joint (the wrist) in the instrument's frame, before its node moves. One row; or, for a hand that a
+        control carries, one per value of ``values``: the grip turns in the fingers as the arm stretches.
     fingers : tuple of FingerTable
     elbow_direction : (3,) float64
         Unit pole: where the elbow points off the line from shoulder to wrist, in the frame of the player (+Z ahead,
@@ -103,6 +104,8 @@ class HandHold:
     contacts : tuple of ContactFit
     penetration_m : float
         Deepest vertex of hand and fingers inside the instrument's proxy, over all samples.
+    values : (S,) float64
+        Values of the control in ``motion`` at which the wrist is given; ascending, from 0.
     """
 
     side: Side
@@ -114,6 +117,7 @@ class HandHold:
     elbow_direction: FloatArray
     contacts: tuple[ContactFit, ...]
     penetration_m: float
+    values: FloatArray = field(default_factory=lambda: np.zeros(1))
 
 
 @dataclass(frozen=True)
@@ -225,11 +229,14 @@ def hand_targets(
         ``world_from_hand``.
     """
     frames = len(world_from_instrument_m)
-    local = np.broadcast_to(hand.instrument_from_hand_m, (frames, 3))
-    turn = np.broadcast_to(hand.instrument_from_hand_rotation, (frames, 4))
+    places, turns = np.atleast_2d(hand.instrument_from_hand_m), np.atleast_2d(hand.instrument_from_hand_rotation)
+    local, turn = np.broadcast_to(places[0], (frames, 3)), np.broadcast_to(turns[0], (frames, 4))
     motion = hand.motion
     if motion is not None and motion.control in controls:
-        value = np.asarray(controls[motion.control], dtype=np.float64)
+        value = np.clip(np.asarray(controls[motion.control], dtype=np.float64), 0.0, 1.0)
+        if len(hand.values) > 1:
+            local = np.stack([np.interp(value, hand.values, places[:, axis]) for axis in range(3)], axis=1)
+            turn = interpolated(hand.values, turns[:, None], value)[:, 0]
         if motion.angle_rad:
             moved = quaternion.from_rotation_vector(np.multiply.outer(value * motion.angle_rad, motion.axis))
             local = motion.pivot_m + quaternion.rotate(moved, local - motion.pivot_m)
@@ -264,15 +271,24 @@ def finger_rotations(hold: Hold, controls: Mapping[str, npt.NDArray[np.floating]
             if table.control is None or table.control not in controls:
                 result[:, start:stop] = table.rotations[0]
             else:
-                value = np.clip(controls[table.control], 0.0, 1.0)
-                place = np.interp(value, table.values, np.arange(len(table.values), dtype=np.float64))
-                low = np.minimum(place.astype(np.intp), len(table.values) - 2)
-                share = (place - low)[:, None, None]
-                mixed = table.rotations[low] * (1.0 - share) + table.rotations[low + 1] * share
-                mixed /= np.sqrt(np.einsum("fjc,fjc->fj", mixed, mixed))[..., None]
-                result[:, start:stop] = mixed
+                value = np.clip(np.asarray(controls[table.control], dtype=np.float64), 0.0, 1.0)
+                result[:, start:stop] = interpolated(table.values, table.rotations, value)
             start = stop
     return result
+
+
+def interpolated(values: FloatArray, rotations: FloatArray, value: FloatArray) -> FloatArray:
+    """Interpolate rotations (S, n, 4), given at ascending values (S,), at ``value`` (F,): (F, n, 4)."""
+    if len(values) == 1:
+        return np.broadcast_to(rotations[0], (len(value), *rotations.shape[1:]))
+    place = np.interp(value, values, np.arange(len(values), dtype=np.float64))
+    low = np.minimum(place.astype(np.intp), len(values) - 2)
+    share = (place - low)[:, None, None]
+    near, far = rotations[low], rotations[low + 1]
+    sign = np.where(np.einsum("fnc,fnc->fn", near, far) < 0.0, -1.0, 1.0)[..., None]
+    mixed: FloatArray = near * (1.0 - share) + far * (sign * share)
+    mixed /= np.sqrt(np.einsum("fnc,fnc->fn", mixed, mixed))[..., None]
+    return mixed
 
 
 def _weighted(
