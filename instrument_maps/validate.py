@@ -25,6 +25,7 @@ from instrument_maps.model import (
     Ring,
     Vector,
 )
+from instrument_maps.vocabulary import vocabulary
 
 Problem: TypeAlias = tuple[str, str]
 """Key path and what is wrong there, e.g. ``("controls[2].finger", "'right.indx' is not a finger")``."""
@@ -56,6 +57,11 @@ def _head(instrument: InstrumentMap, stem: str) -> Iterator[Problem]:
             yield key, "is empty"
     if not instrument.plays:
         yield "plays", "is empty: no part would ever be given to this instrument"
+    known = vocabulary().instruments
+    for key, ids in (("plays", instrument.plays), ("substitutes_for", instrument.substitutes_for)):
+        for index, id in enumerate(ids):
+            if id not in known:
+                yield f"{key}[{index}]", f"'{id}' is not in the vocabulary of instruments"
     limits = instrument.range
     if not 0 <= limits.low <= limits.easy_low <= limits.easy_high <= limits.high <= 127:
         yield "range", "must be 0 <= low <= easy_low <= easy_high <= high <= 127"

@@ -234,7 +234,7 @@ def _trigger(model: Model) -> None:
     barrel = [(-0.0068, 0), (-0.0068, 0.0042), (0.0068, 0.0042), (0.0068, 0)]
     model.add("nickel_silver", turned(pivot, OUT, barrel, sides=20), node=node)
     arm = bend([pivot, pivot + 0.010 * ACROSS + 0.001 * Z, TRIGGER_PAD - 0.004 * ACROSS + 0.0012 * Z], 0.012)
-    model.add("nickel_silver", tube(arm, 0.0030, flat=(0.65, 1.4), side=Z, sides=16), node=node)
+    model.add("nickel_silver", tube(arm, 0.0028, flat=(0.85, 1.2), side=Z, sides=16), node=node)
     paddle = [(0, 0), (0, 0.0070), (0.0006, 0.0082), (0.0026, 0.0086), (0.0034, 0.0080), (0.0034, 0)]
     model.add("nickel_silver", turned(TRIGGER_PAD, Z, paddle, sides=32), node=node)
     link_end = GOOSENECK + 0.0265 * OUT + (ROTOR_Z + 0.012) * Z
