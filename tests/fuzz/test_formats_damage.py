@@ -83,11 +83,11 @@ def test_anything_after_a_good_beginning(name: str, data: bytes) -> None:
 
 @pytest.mark.parametrize("name", ["fbx", "glb"])
 def test_lengths_that_lie_take_no_memory(name: str) -> None:
-    """Every aligned 32-bit word of the file's first part becomes a huge number once."""
+    """Places all over the first part of the file become a huge number, one at a time."""
     data, read = GOOD[name]
     tracemalloc.start()
     try:
-        for place in range(12, min(len(data) - 4, 2500), 3):
+        for place in range(12, min(len(data) - 4, 2500), 7):
             _read(read, data[:place] + b"\xff\xff\xff\x7f" + data[place + 4 :])
         _, peak = tracemalloc.get_traced_memory()
     finally:
