@@ -36,7 +36,7 @@ from app.rig.hand import (
 from app.rig.hold import ContactFit, FingerTable, HandHold, Hold, Lips, NodeMotion, Reach, Side, interpolated
 from app.rig.instrument import control_transform, node_transforms
 from app.rig.model import Character, InstrumentModel
-from app.rig.proxy import Bodies, bodies, distance, gradient, near
+from app.rig.proxy import Bodies, bodies, gradient, inside, near
 from app.rig.skeleton import forward, rest_positions
 from app.rig.skinning import landmark_positions, landmark_set, skin_matrices
 from instrument_maps.model import ROOT, Contact, Control, HandSeed, InstrumentMap
@@ -61,7 +61,6 @@ REACH_M = 0.08
 ANCHOR = (0.25, 0.4, 0.5)
 """How far the wrist's place (in 0.1 m), its turn and the fingers (rad) wander from one knot of a slide to the next."""
 TABLE_VALUES = 17
-SKIN_MARGIN_M = 0.0
 KNOTS = (0.25, 0.0, 0.5, 0.75, 1.0)
 """Values of the control that carries a hand at which its hold is solved: the first from the seed, the others each from
 its solved neighbour. The grip turns in the fingers as the arm stretches."""
@@ -543,14 +542,12 @@ def _inside(
 ) -> tuple[FloatArray, FloatArray]:
     """Depth (V,) of skin (V, 3) below the proxy's surface, 0 outside, and the gradient (V, 3) of the distance there."""
     local = np.einsum("nji,vnj->vni", node_turn, skin[:, None] - node_place)
-    far, owner = distance(proxies, local)
-    hit = np.flatnonzero(far < 0.0)
-    depth, slope = np.zeros(len(skin)), np.zeros(skin.shape)
+    depth, owner = inside(proxies, local)
+    hit = np.flatnonzero(owner >= 0)
+    slope = np.zeros(skin.shape)
     if len(hit):
-        depth[hit] = -far[hit]
-        slope[hit] = np.einsum(
-            "vij,vj->vi", node_turn[proxies.nodes[owner[hit]]], gradient(proxies, local[hit], owner[hit])
-        )
+        turn = node_turn[proxies.nodes[owner[hit]]]
+        slope[hit] = np.einsum("vij,vj->vi", turn, gradient(proxies, local[hit], owner[hit]))
     return depth, slope
 
 
@@ -581,7 +578,7 @@ def _search(problem: _Problem) -> FloatArray:
 def _search_knots(
     problem: _Problem, model: InstrumentModel, instrument_map: InstrumentMap, carrier: Control
 ) -> tuple[FloatArray, FloatArray]:
-    """Solve the hold of a hand that is carried by a control, at `KNOTS`: values ascending (K,) and parameters (K, n)."""
+    """Solve the hold of a carried hand at `KNOTS`: values ascending (K,) and parameters (K, n)."""
     found: dict[float, FloatArray] = {}
     for value in KNOTS:
         place, turn = _nodes_at(model, instrument_map, problem.hand.side, carrier, np.array([value]))
@@ -644,7 +641,7 @@ class _Scene:
 
 
 def _solve_table(problem: _Problem, scene: _Scene, angles: FloatArray, values: FloatArray) -> FloatArray:
-    """Solve the fingers at each value of their controls with the wrist held: angles (S, 16, 3), from (S, configs, 16, 3).
+    """Solve the fingers at each value of their controls, the wrist held: angles (S, 16, 3), from (S, configs, 16, 3).
 
     One damped Gauss-Newton iteration (Levenberg-Marquardt, clipped to the limits) for all values at once: the
     samples are independent, their normal equations are solved as a batch.

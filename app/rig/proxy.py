@@ -22,7 +22,7 @@ _STEP_M = 1e-6
 
 @dataclass(frozen=True, eq=False)
 class Bodies:
-    """Some proxies of one instrument as arrays; node index of each in ``nodes``.
+    """Some proxies of one instrument as arrays.
 
     Attributes
     ----------
@@ -35,7 +35,9 @@ class Bodies:
     boxes : (B, 15) float64
         Centre, half sizes, x, y and z axes.
     nodes : (T + C + R + B,) int
-        In that order.
+        Node of each, in that order.
+    hulls : (T + C + R + B, 7) float64
+        A capsule around each: a, b, radius.
     """
 
     tapers: FloatArray
@@ -43,55 +45,71 @@ class Bodies:
     rings: FloatArray
     boxes: FloatArray
     nodes: IntArray
+    hulls: FloatArray
 
     def __len__(self) -> int:
         return len(self.nodes)
+
+    def taken(self, chosen: npt.NDArray[np.bool_]) -> Bodies:
+        """Only the chosen bodies."""
+        edges = np.cumsum([0, len(self.tapers), len(self.capsules), len(self.rings), len(self.boxes)])
+        keep = [chosen[a:b] for a, b in itertools.pairwise(edges)]
+        return Bodies(
+            self.tapers[keep[0]],
+            self.capsules[keep[1]],
+            self.rings[keep[2]],
+            self.boxes[keep[3]],
+            self.nodes[chosen],
+            self.hulls[chosen],
+        )
 
 
 def bodies(proxy: Sequence[Proxy], node_names: Sequence[str]) -> Bodies:
     """Turn a map's proxies into arrays."""
     groups: tuple[list[list[float]], ...] = ([], [], [], [])
+    hulls: tuple[list[list[float]], ...] = ([], [], [], [])
     nodes: tuple[list[int], ...] = ([], [], [], [])
     for shape in proxy:
         match shape:
             case Cone():
                 kind, row = 0, [*shape.a_m, *shape.b_m, shape.radius_a_m, shape.radius_b_m]
+                hull = [*shape.a_m, *shape.b_m, max(shape.radius_a_m, shape.radius_b_m)]
             case Cylinder():
                 kind, row = 0, [*shape.a_m, *shape.b_m, shape.radius_m, shape.radius_m]
+                hull = [*shape.a_m, *shape.b_m, shape.radius_m]
             case Capsule():
                 kind, row = 1, [*shape.a_m, *shape.b_m, shape.radius_m]
+                hull = row
             case Ring():
                 kind, row = 2, [*shape.centre_m, *shape.axis, shape.radius_m, shape.tube_radius_m]
+                hull = [*shape.centre_m, *shape.centre_m, shape.radius_m + shape.tube_radius_m]
             case Box():
                 across = np.cross(shape.x_axis, shape.y_axis)
                 kind, row = 3, [*shape.centre_m, *shape.half_m, *shape.x_axis, *shape.y_axis, *across.tolist()]
+                hull = [*shape.centre_m, *shape.centre_m, float(np.linalg.norm(shape.half_m))]
         groups[kind].append(row)
+        hulls[kind].append(hull)
         nodes[kind].append(node_names.index(shape.node))
-    arrays = [
+    tapers, capsules, rings, boxes = (
         np.array(group, dtype=np.float64).reshape(-1, width) for group, width in zip(groups, (8, 7, 8, 15), strict=True)
-    ]
-    tapers, capsules, rings, boxes = arrays
-    return Bodies(tapers, capsules, rings, boxes, np.array([n for part in nodes for n in part], dtype=np.intp))
+    )
+    return Bodies(
+        tapers,
+        capsules,
+        rings,
+        boxes,
+        np.array([n for part in nodes for n in part], dtype=np.intp),
+        np.array([hull for part in hulls for hull in part], dtype=np.float64).reshape(-1, 7),
+    )
 
 
 def near(all_bodies: Bodies, nodes_m: FloatArray, centre_m: FloatArray, radius_m: float) -> Bodies:
     """Return the bodies that come within a sphere of the instrument's frame; ``nodes_m`` (N, 3) places the nodes."""
-    close = _distances(all_bodies, (centre_m - nodes_m[all_bodies.nodes])[None])[0] < radius_m
-    edges = np.cumsum(
-        [0, len(all_bodies.tapers), len(all_bodies.capsules), len(all_bodies.rings), len(all_bodies.boxes)]
-    )
-    keep = [close[a:b] for a, b in itertools.pairwise(edges)]
-    return Bodies(
-        all_bodies.tapers[keep[0]],
-        all_bodies.capsules[keep[1]],
-        all_bodies.rings[keep[2]],
-        all_bodies.boxes[keep[3]],
-        all_bodies.nodes[close],
-    )
+    return all_bodies.taken(_capsule(all_bodies.hulls, centre_m - nodes_m[all_bodies.nodes]) < radius_m)
 
 
-def distance(some: Bodies, points_m: FloatArray) -> tuple[FloatArray, IntArray]:
-    """Signed distance to the union, negative inside.
+def inside(some: Bodies, points_m: FloatArray) -> tuple[FloatArray, IntArray]:
+    """How deep points lie in the union.
 
     Parameters
     ----------
@@ -101,48 +119,70 @@ def distance(some: Bodies, points_m: FloatArray) -> tuple[FloatArray, IntArray]:
 
     Returns
     -------
-    distance_m : (P,) float64
+    depth_m : (P,) float64
+        0 outside.
     body : (P,) int
-        The nearest body.
+        The body that lies deepest about the point; -1 outside.
     """
+    depth, owner = np.zeros(len(points_m)), np.full(len(points_m), -1, dtype=np.intp)
     if not len(some):
-        return np.full(len(points_m), np.inf), np.zeros(len(points_m), dtype=np.intp)
-    local = points_m[:, some.nodes]
-    found = _distances(some, local)
-    body = np.argmin(found, axis=1)
-    return found[np.arange(len(found)), body], body
+        return depth, owner
+    point, body = _candidates(some, points_m)
+    found = -_measured(some, points_m[point, some.nodes[body]], body)
+    np.maximum.at(depth, point, found)
+    deepest = (found > 0.0) & (found == depth[point])
+    owner[point[deepest]] = body[deepest]
+    return depth, owner
+
+
+def distance(some: Bodies, points_m: FloatArray) -> FloatArray:
+    """Signed distance (P,) to the union, negative inside, of points (P, N, 3) given in the frames of all nodes."""
+    count = len(points_m)
+    point, body = (index.ravel() for index in np.mgrid[:count, : len(some)])
+    found = _measured(some, points_m[point, some.nodes[body]], body).reshape(count, len(some))
+    return found.min(axis=1, initial=np.inf)
 
 
 def gradient(some: Bodies, points_m: FloatArray, body: IntArray) -> FloatArray:
-    """Gradient (P, 3), in its node's frame, of the distance of each point to one body."""
-    result = np.zeros((len(points_m), 3))
+    """Gradient (P, 3), in the body's node's frame, of the distance of each point (P, N, 3) to one body (P,)."""
     local = points_m[np.arange(len(points_m)), some.nodes[body]]
-    edges = np.cumsum([0, len(some.tapers), len(some.capsules), len(some.rings), len(some.boxes)])
+    steps = _STEP_M * np.concatenate([np.eye(3), -np.eye(3)])
+    found = _measured(some, (local + steps[:, None]).reshape(-1, 3), np.tile(body, 6)).reshape(6, -1)
+    slope: FloatArray = (found[:3] - found[3:]).T / (2.0 * _STEP_M)
+    return slope
+
+
+def _candidates(some: Bodies, points_m: FloatArray) -> tuple[IntArray, IntArray]:
+    """Pairs of point and body whose hull holds the point; by products of matrices, node by node."""
+    points, owners = [], []
+    for node in np.unique(some.nodes):
+        members = np.flatnonzero(some.nodes == node)
+        a, radius = some.hulls[members, :3], some.hulls[members, 6]
+        span = some.hulls[members, 3:6] - a
+        length2 = np.einsum("bi,bi->b", span, span)
+        local = points_m[:, node]
+        along = local @ span.T - np.einsum("bi,bi->b", a, span)
+        share = np.clip(along / np.maximum(length2, 1e-12), 0.0, 1.0)
+        square = np.einsum("pi,pi->p", local, local)[:, None] - 2.0 * (local @ a.T) + np.einsum("bi,bi->b", a, a)
+        square += share * (share * length2 - 2.0 * along)
+        point, body = np.nonzero(square < radius * radius)
+        points.append(point)
+        owners.append(members[body])
+    return np.concatenate(points), np.concatenate(owners)
+
+
+def _measured(some: Bodies, local_m: FloatArray, body: IntArray) -> FloatArray:
+    """Signed distance (K,) of points (K, 3), each to one body (K,) in the frame of its node."""
+    result = np.empty(len(body))
+    start = 0
     kinds: tuple[tuple[FloatArray, Callable[[FloatArray, FloatArray], FloatArray]], ...] = (
         (some.tapers, _taper), (some.capsules, _capsule), (some.rings, _ring), (some.boxes, _box),
     )  # fmt: skip
-    for kind, (rows, measure) in enumerate(kinds):
-        hit = np.flatnonzero((body >= edges[kind]) & (body < edges[kind + 1]))
+    for rows, measure in kinds:
+        hit = np.flatnonzero((body >= start) & (body < start + len(rows)))
         if len(hit):
-            row, point = rows[body[hit] - edges[kind]], local[hit]
-            for axis in range(3):
-                step = np.zeros(3)
-                step[axis] = _STEP_M
-                result[hit, axis] = (measure(row, point + step) - measure(row, point - step)) / (2.0 * _STEP_M)
-    return result
-
-
-def _distances(some: Bodies, local: FloatArray) -> FloatArray:
-    """Distances (P, bodies) of points (P, bodies, 3), each in the frame of that body's node."""
-    result = np.empty(local.shape[:2])
-    start = 0
-    for rows, measure in (
-        (some.tapers, _taper), (some.capsules, _capsule), (some.rings, _ring), (some.boxes, _box),
-    ):  # fmt: skip
-        stop = start + len(rows)
-        if len(rows):
-            result[:, start:stop] = measure(rows[None], local[:, start:stop])
-        start = stop
+            result[hit] = measure(rows[body[hit] - start], local_m[hit])
+        start += len(rows)
     return result
 
 
