@@ -16,7 +16,7 @@ from pathlib import Path
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 
 import numpy as np
-from character_body import ear_vertices, mouth_surfaces, visible_body
+from character_body import ear_vertices, tongue, visible_body
 from character_face import brows, eyes, lashes
 from character_garments import measure, shirt, trousers
 from character_glb import Material, write_character
@@ -26,6 +26,7 @@ from character_shoes import shoes, soles
 from character_skeleton import FINGERS, SkeletonFit, fit_skeleton
 from character_source import Phenotype, Source, load_model, load_source
 from character_surface import Surface
+from character_teeth import teeth
 
 CHARACTERS_FOLDER = Path(__file__).resolve().parent.parent / "characters"
 
@@ -157,7 +158,8 @@ def build(character: Character, source: Source, path: Path) -> None:
     body = visible_body(source, fit, tailoring)
     footwear = shoes(tailoring, fit)
     face = (
-        *mouth_surfaces(source, fit),
+        teeth(source, fit),
+        tongue(source, fit),
         eyes(source, fit),
         brows(source, fit, character.brow_thickness),
         lashes(source, fit),

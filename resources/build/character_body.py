@@ -78,7 +78,6 @@ def ear_vertices(source: Source) -> np.ndarray:
     return flags
 
 
-def mouth_surfaces(source: Source, fit: SkeletonFit) -> tuple[Surface, ...]:
-    teeth = surface_of(source, fit, "teeth", ("helper-upper-teeth", "helper-lower-teeth"), "teeth", morphs=True)
-    tongue = surface_of(source, fit, "tongue", ("helper-tongue",), "tongue", morphs=True)
-    return compact(teeth), compact(tongue)
+def tongue(source: Source, fit: SkeletonFit) -> Surface:
+    """The base mesh's tongue."""
+    return compact(surface_of(source, fit, "tongue", ("helper-tongue",), "tongue", morphs=True))

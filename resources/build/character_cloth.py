@@ -232,7 +232,9 @@ def cloth_surface(name: str, parts: dict[str, Cloth], fit: SkeletonFit) -> Surfa
     """A surface of the file from triangle cloths in the T-pose, one per material. Texture coordinates are the plan of
     the front, one unit per metre."""
     joined = join(*parts.values())
+    # Cloth does with four bones; only skin that touches things needs all of its own.
     weights = np.where(joined.weights < 1e-3, 0.0, joined.weights)
+    np.put_along_axis(weights, np.argsort(-weights, axis=1, kind="stable")[:, 4:], 0.0, axis=1)
     weights /= weights.sum(axis=1, keepdims=True)
     triangles, start = {}, 0
     for material, part in parts.items():

@@ -248,7 +248,11 @@ def _collar(tailoring: Tailoring, shirt: Cloth, front: LinearNDInterpolator) -> 
     outward = np.stack([np.sin(columns), np.zeros(73), -np.cos(columns)], axis=1)
     up = tailoring.collar_normal * 0.8 + np.array([0.0, 0.2, 0.05])
     throat = smoothstep(np.abs(columns), 0.62 * np.pi, np.pi)[:, None]
-    top = upper + outward * (0.004 + 0.005 * throat) + up * (0.006 - 0.006 * throat)
+    top = (
+        upper
+        + outward * (0.004 + 0.005 * throat - 0.007 * np.sin(columns)[:, None] ** 2)
+        + up * (0.006 - 0.006 * throat)
+    )
     rise = top - base
     proud = outward * (0.001 + 0.006 * throat)
     rows = [base - up * 0.008 - outward * 0.001, base + proud, base + rise * 0.5 + proud, top]

@@ -164,7 +164,7 @@ def short_hair(source: Source, fit: SkeletonFit, ears: np.ndarray) -> Surface:
     forehead = 0.060
     head = skull(source, fit, ears)
     rng = np.random.Generator(np.random.PCG64(51))
-    roots = _unit(_scattered(2100) + rng.normal(0, 0.02, (2100, 3)))
+    roots = _unit(_scattered(1750) + rng.normal(0, 0.02, (1750, 3)))
     roots = roots[roots[:, 1] > -0.75]
     margin = hairline(head, roots, forehead)
     roots, margin = roots[margin > 0.001], margin[margin > 0.001]
@@ -234,7 +234,7 @@ def bun_hair(source: Source, fit: SkeletonFit, ears: np.ndarray) -> Surface:
     head = skull(source, fit, ears)
     rng = np.random.Generator(np.random.PCG64(52))
     knot = _unit(np.array([0.0, -0.08, -1.0]))
-    roots = _unit(_scattered(2700) + rng.normal(0, 0.012, (2700, 3)))
+    roots = _unit(_scattered(2350) + rng.normal(0, 0.012, (2350, 3)))
     roots = roots[roots[:, 1] > -0.85]
     margin = hairline(head, roots, forehead)
     near_edge = (margin > 0.0005) & ((margin < 0.014) | (rng.uniform(0, 1, len(roots)) < 0.30))
