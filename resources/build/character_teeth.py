@@ -34,7 +34,7 @@ class Arch:
 
 
 def _arch(points: np.ndarray, crown: float) -> Arch:
-    """Fit an arch to a band's vertices; `crown` is -1 for the upper jaw, whose crowns point down, and 1 for the lower."""
+    """Fit an arch to a band's vertices; `crown` is -1 for the upper jaw (crowns point down), 1 for the lower."""
     middle_z = points[:, 2].min() + 0.25 * np.ptp(points[:, 2])
     angle = np.arctan2(points[:, 0], points[:, 2] - middle_z)
     radius = np.hypot(points[:, 0], points[:, 2] - middle_z)
