@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from app.export.materials import phong
+from app.formats.fbx.join import join_meshes
 from app.formats.fbx.scene import FbxBone, FbxClip, FbxMesh, FbxMorph, FbxScene
 from app.motion.model import Motion
 from app.rig.model import Character, Mesh, Skeleton
@@ -33,19 +34,17 @@ def character_scene(character: Character, motion: Motion, clip: str, creator: st
     Returns
     -------
     FbxScene
-        Vertices keep their order, so that landmarks hold in the file; every morph target the character has is on
-        its meshes, and the clip weighs those that the motion moves.
+        One mesh of all the character's meshes, vertices in their order (so that landmarks hold in the file); it has
+        every morph target of the character, and the clip weighs those that the motion moves.
     """
     skeleton = character.skeleton
     world_from_bone = np.linalg.inv(character.joint_from_mesh)
     world_from_bone[:, :3, 3] *= CENTIMETRES
-    names = mesh_names((mesh.name for mesh in character.meshes), skeleton.names)
+    meshes = [skinned_mesh(mesh, mesh.name, mesh.joints, mesh.weights, world_from_bone) for mesh in character.meshes]
+    (name,) = mesh_names([character.id], skeleton.names)
     return FbxScene(
         bones=skeleton_bones(skeleton),
-        meshes=tuple(
-            skinned_mesh(mesh, name, mesh.joints, mesh.weights, world_from_bone)
-            for mesh, name in zip(character.meshes, names, strict=True)
-        ),
+        meshes=(join_meshes(meshes, name),),
         clip=character_clip(character, motion, clip),
         creator=creator,
     )

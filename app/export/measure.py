@@ -18,10 +18,10 @@ import numpy.typing as npt
 from app.export.joints import anatomical_angles, angular_accelerations
 from app.export.penetration import Hands
 from app.export.playback import Playback, Surface
-from app.formats.fbx.scene import FbxMesh, FbxScene
+from app.formats.fbx.scene import FbxScene
 from app.plan.model import BreathEvent, FingeringEvent, PlayerPlan
 from app.rig import quaternion
-from app.rig.model import Character
+from app.rig.model import Character, Landmark
 from instrument_maps.model import ROOT, Contact, Control, InstrumentMap
 from metadata.model import Body, SkeletonProfile
 
@@ -44,7 +44,6 @@ TORSO_BACK_RAD = math.radians(0.3)
 
 _CHUNK = 256
 _TORSO = ("hips", "neck")
-_HEAD = "head"
 _SOLES = ("left.foot.sole", "right.foot.sole")
 _HANDS = ("left.hand", "right.hand")
 _LIPS = "lips.contact"
@@ -126,7 +125,6 @@ class _Traces:
     landmarks: dict[str, FloatArray]
     nodes: dict[str, FloatArray]
     torso: FloatArray
-    head: FloatArray
     bone_deviation_m: FloatArray
     depth_m: FloatArray
 
@@ -168,6 +166,8 @@ def measure_player(
     times_s = first_frame_s + np.arange(player.clip.frames) / float(fps)
     notes = [note for note in plan.fingerings if note.end_s > times_s[0] and note.start_s <= times_s[-1]]
     sounding = _within(times_s, [(note.start_s, note.end_s) for note in notes])
+    # A catch breath comes out of a note's tail: the note sounds on, but the lips have stopped.
+    blowing = sounding & ~_within(times_s, [(event.start_s, event.end_s) for event in plan.breaths])
     traces = _trace(player, held, character, instrument, sounding, progress)
     values = control_values(instrument, held)
     rotations = player.rotations(0, player.clip.frames)
@@ -178,10 +178,8 @@ def measure_player(
             _contact_name(contact): _contact(contact, instrument, traces, judge, values, sounding)
             for contact in instrument.contacts
         },
-        lips=_rim(instrument, traces, _LIPS, sounding),
-        upper_lip_in_breaths=_rim(
-            instrument, traces, _UPPER_LIP, _within(times_s, _catch_breaths(plan, notes)), steady=True
-        ),
+        lips=_spread(np.linalg.norm(_rim_to(instrument, traces, _LIPS)[blowing], axis=1), LIPS_MM),
+        upper_lip_in_breaths=_lip_gap(instrument, traces, blowing, _within(times_s, _catch_breaths(plan, notes))),
         feet={name: _drift(traces.landmarks[name]) for name in _SOLES},
         bones=_spread(traces.bone_deviation_m, BONES_MM),
         penetration=_spread(traces.depth_m[sounding], PENETRATION_MM),
@@ -320,10 +318,8 @@ def _trace(
     node_bones = {node: held.bone_names.index(bone) for node, bone in bone_of_node.items()}
     landmarks = {name: np.empty((frames, 3)) for name in surfaces}
     nodes = {node: np.empty((frames, 4, 4)) for node in node_bones}
-    torso, head = np.empty((frames, 2)), np.empty((frames, 3, 3))
-    depth_m, deviation_m = np.zeros(frames), np.empty(frames)
+    torso, depth_m, deviation_m = np.empty((frames, 2)), np.zeros(frames), np.empty(frames)
     low, high = (player.bone_names.index(name) for name in _TORSO)
-    head_bone = player.bone_names.index(_HEAD)
     lengths_m = np.linalg.norm(player.rest_m, axis=1)
     parents = np.array(player.parents)
     rigid = np.array([parent > 0 for parent in player.parents])
@@ -339,7 +335,6 @@ def _trace(
         joints_m = world[..., :3, 3]
         upright = joints_m[:, high] - joints_m[:, low]
         torso[span] = np.arctan2(upright[:, [0, 2]], upright[:, 1:2])
-        head[span] = world[:, head_bone, :3, :3]
         bones_m = np.linalg.norm(joints_m - joints_m[:, parents], axis=-1)
         deviation_m[span] = np.abs(bones_m - lengths_m)[:, rigid].max(axis=1)
         if sounding[span].any():
@@ -348,24 +343,27 @@ def _trace(
                     depth_m[span], part.depths_m(world, {name: nodes[name][span] for name in nodes}, first, last)
                 )
         progress(last / frames)
-    return _Traces(landmarks, nodes, torso, head, deviation_m, depth_m)
+    return _Traces(landmarks, nodes, torso, deviation_m, depth_m)
 
 
-def _mesh(playback: Playback, character: Character, name: str) -> FbxMesh:
-    """The file's mesh of a character's mesh: they stand in the same order."""
-    order = [mesh.name for mesh in character.meshes].index(name)
-    return playback.scene.meshes[order]
+def _vertices(character: Character, landmark: Landmark) -> npt.NDArray[np.int64]:
+    """A landmark's vertices in the file's mesh, where the character's meshes stand one after the other."""
+    start = 0
+    for mesh in character.meshes:
+        if mesh.name == landmark.mesh:
+            break
+        start += len(mesh.positions_m)
+    return landmark.vertices.astype(np.int64) + start
 
 
 def _landmark_surface(playback: Playback, character: Character, name: str) -> Surface:
-    landmark = character.landmarks[name]
-    return Surface(playback, _mesh(playback, character, landmark.mesh), landmark.vertices)
+    return Surface(playback, playback.scene.meshes[0], _vertices(character, character.landmarks[name]))
 
 
 def _hands(playback: Playback, character: Character, instrument: InstrumentMap) -> list[Hands]:
     return [
-        Hands(playback, _mesh(playback, character, landmark.mesh), landmark.vertices, instrument.proxy)
-        for landmark in (character.landmarks[name] for name in _HANDS)
+        Hands(playback, playback.scene.meshes[0], _vertices(character, character.landmarks[name]), instrument.proxy)
+        for name in _HANDS
     ]
 
 
@@ -412,23 +410,24 @@ def _contact(
     return _spread(distances_m, TOUCH_MM if touch else GRIP_MM)
 
 
-def _rim(
-    instrument: InstrumentMap, traces: _Traces, landmark: str, frames: BoolArray, *, steady: bool = False
-) -> Spread:
-    """Distance of the rim's middle to the lips; ``steady``: how far it wanders from its usual place in the head."""
-    root = traces.nodes[ROOT][frames]
-    if not len(root):
-        return _spread(np.zeros(0), LIPS_MM)
+def _rim_to(instrument: InstrumentMap, traces: _Traces, landmark: str) -> FloatArray:
+    """From the middle of the rim to a place on the lips, in the instrument's frame (F, 3)."""
+    root = traces.nodes[ROOT]
     rim_m = root[:, :3, :3] @ np.asarray(instrument.mouthpiece.position_m) + root[:, :3, 3]
-    lips_m = traces.landmarks[landmark][frames]
-    offset_m = np.einsum("fji,fj->fi", traces.head[frames], lips_m - rim_m)
-    if steady:
-        offset_m = offset_m - np.median(offset_m, axis=0)
-    return _spread(np.linalg.norm(offset_m, axis=1), LIPS_MM)
+    return np.einsum("fji,fj->fi", root[:, :3, :3], traces.landmarks[landmark] - rim_m)
+
+
+def _lip_gap(instrument: InstrumentMap, traces: _Traces, playing: BoolArray, breathing: BoolArray) -> Spread:
+    """How far the rim comes off the upper lip while the mouth breathes, or into it, along the air stream; against
+    where it lies on it while notes sound."""
+    if not playing.any():
+        return _spread(np.zeros(0), LIPS_MM)
+    along_m = _rim_to(instrument, traces, _UPPER_LIP) @ np.asarray(instrument.mouthpiece.air_axis)
+    return _spread(np.abs(along_m[breathing] - np.median(along_m[playing])), LIPS_MM)
 
 
 def _catch_breaths(plan: PlayerPlan, notes: Sequence[FingeringEvent]) -> list[tuple[float, float]]:
-    """Breaths in rests too short to take the instrument down: within a second after a note."""
+    """Breaths soon after a note, in rests too short to take the instrument down."""
     ends = np.array([note.end_s for note in notes])
     return [
         (breath.start_s, breath.end_s)

@@ -17,8 +17,8 @@ from app.performance.ensemble import Performance
 from app.performance.span import FrameSpan
 from app.project.model import Player
 from app.rig.character import bundled_character
-from app.rig.fit import fit_hold
 from app.rig.hold import Hold
+from app.rig.hold_file import hold_for
 from app.rig.instrument import load_instrument
 from app.rig.model import Character, InstrumentModel
 from instrument_maps.load import model_path
@@ -56,7 +56,7 @@ def model_of(instrument: InstrumentMap) -> InstrumentModel:
 def hold_of(player: Player, instrument: InstrumentMap) -> Hold:
     """How a player's body holds an instrument; fitted once for each pair."""
     character, model, body = character_of(player), model_of(instrument), body_of(player)
-    return _HOLDS.get((character, model, instrument, body), lambda: fit_hold(character, model, instrument, body))
+    return _HOLDS.get((character, model, instrument, body), lambda: hold_for(character, model, instrument, body))
 
 
 def player_motion(

@@ -20,6 +20,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.interpolate import PchipInterpolator
 from scipy.optimize import least_squares
+from threadpoolctl import threadpool_limits
 
 from app.rig import quaternion
 from app.rig.hand import (
@@ -121,12 +122,12 @@ class _Problem:
     high: FloatArray = field(default_factory=lambda: np.zeros(0))
 
 
-_KEPT = 32
-_fitted: dict[tuple[int, int, int, int], tuple[tuple[object, ...], Hold]] = {}
+FIT_VERSION = 1
+"""Part of the digest of stored holds (`app.rig.hold_file`): raise it when a fit comes out differently."""
 
 
 def fit_hold(character: Character, model: InstrumentModel, instrument_map: InstrumentMap, body: Body) -> Hold:
-    """Fit how a character holds an instrument; deterministic, cached by the identity of its inputs.
+    """Fit how a character holds an instrument; deterministic, and slow: `app.rig.hold_file.hold_for` keeps the results.
 
     Parameters
     ----------
@@ -141,24 +142,12 @@ def fit_hold(character: Character, model: InstrumentModel, instrument_map: Instr
     Hold
         What could not be met stands in its ``contacts``, ``penetration_m`` and ``reach``.
     """
-    inputs = (character, model, instrument_map, body)
-    key = (id(character), id(model), id(instrument_map), id(body))
-    if key not in _fitted:
-        if len(_fitted) >= _KEPT:
-            del _fitted[next(iter(_fitted))]
-        # The inputs are kept with the result, so that their ids stay theirs.
-        _fitted[key] = (inputs, _fit(*inputs))
-    return _fitted[key][1]
-
-
-def _fit(character: Character, model: InstrumentModel, instrument_map: InstrumentMap, body: Body) -> Hold:
     lips = fit_lips(character)
-    hands, reach = [], []
-    for seed in instrument_map.hands:
-        hand, arm_reach = _fit_hand(character, model, instrument_map, body, seed, lips)
-        hands.append(hand)
-        reach.append(arm_reach)
-    return Hold(character.id, instrument_map.id, tuple(hands), lips, tuple(reach))
+    # The matrices are small: more threads make it no faster, far slower on a busy machine, and change the last bits.
+    with threadpool_limits(limits=1, user_api="blas"):
+        fitted = [_fit_hand(character, model, instrument_map, body, seed, lips) for seed in instrument_map.hands]
+    hands, reach = zip(*fitted, strict=True)
+    return Hold(character.id, instrument_map.id, hands, lips, reach)
 
 
 @lru_cache(maxsize=32)

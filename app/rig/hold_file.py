@@ -1,0 +1,119 @@
+"""Holds kept in files, because fitting one takes seconds and its inputs seldom change.
+
+A hold is found by the digest of everything it was fitted from: first among those that come with the program, then in the
+person's cache. A file that is absent, damaged or of other inputs is as good as none: the hold is fitted again.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+import msgspec
+import numpy as np
+import numpy.typing as npt
+import platformdirs
+
+from app.errors import FileError
+from app.formats.atomic import atomic_write
+from app.rig.fit import FIT_VERSION, fit_hold
+from app.rig.hold import Hold
+from app.rig.model import Character, InstrumentModel
+from instrument_maps.model import InstrumentMap
+from metadata.model import Body
+
+CACHE_VARIABLE = "SUISOU_CACHE"
+"""Environment variable that names another folder for the cache."""
+
+
+class _StoredHold(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    digest: str
+    hold: Hold
+
+
+def digest_of(character: Character, model: InstrumentModel, instrument: InstrumentMap, body: Body) -> str:
+    """Return the hexadecimal digest of all that `fit_hold` looks at."""
+    digest = hashlib.blake2b(digest_size=16)
+    digest.update(f"{FIT_VERSION}\n{character.skeleton.names}\n{character.skeleton.parents}\n".encode())
+    arrays: list[npt.NDArray[Any]] = [character.skeleton.offsets_m, character.joint_from_mesh, model.node_positions_m]
+    for mesh in character.meshes:
+        arrays += [mesh.positions_m, mesh.triangles, mesh.joints, mesh.weights]
+        for morph in mesh.morphs:
+            digest.update(morph.name.encode())
+            arrays += [morph.vertices, morph.deltas_m]
+    for name, landmark in sorted(character.landmarks.items()):
+        digest.update(f"{name} {landmark.mesh}\n".encode())
+        arrays.append(landmark.vertices)
+    for array in arrays:
+        digest.update(str((array.dtype.str, array.shape)).encode())
+        digest.update(np.ascontiguousarray(array).tobytes())
+    # Fingerings and names do not touch the hands.
+    hands = (
+        instrument.mouthpiece,
+        instrument.controls,
+        instrument.contacts,
+        instrument.hands,
+        instrument.proxy,
+        instrument.hold,
+    )
+    digest.update(msgspec.json.encode((hands, body.limits, body.postures), order="sorted"))
+    return digest.hexdigest()
+
+
+def bundled_path(character_id: str, instrument_id: str) -> Path:
+    """Where the hold of a bundled pair lies in this installation."""
+    return Path(str(files("resources"))) / "holds" / f"{character_id}.{instrument_id}.json"
+
+
+def write_hold(path: Path, digest: str, hold: Hold) -> None:
+    """Write a hold; the file appears whole or not at all. Raises FileError."""
+    with atomic_write(path) as file:
+        file.write(msgspec.json.encode(_StoredHold(digest, hold), enc_hook=_plain))
+
+
+def read_hold(path: Path, digest: str) -> Hold | None:
+    """Read the hold fitted from inputs of this digest; None where the file holds no such thing."""
+    try:
+        stored = msgspec.json.decode(path.read_bytes(), type=_StoredHold, dec_hook=_array)
+    except (OSError, msgspec.MsgspecError, UnicodeDecodeError):
+        return None
+    return stored.hold if stored.digest == digest else None
+
+
+def hold_for(character: Character, model: InstrumentModel, instrument: InstrumentMap, body: Body) -> Hold:
+    """Return how a body holds an instrument: the stored hold, or a new fit, which is then kept in the cache."""
+    digest = digest_of(character, model, instrument, body)
+    cached = _cache_folder() / f"{digest}.json"
+    for path in (bundled_path(character.id, instrument.id), cached):
+        hold = read_hold(path, digest)
+        if hold is not None:
+            return hold
+    hold = fit_hold(character, model, instrument, body)
+    try:
+        cached.parent.mkdir(parents=True, exist_ok=True)
+        write_hold(cached, digest, hold)
+    except (OSError, FileError):
+        # A cache that cannot be written costs the next run some seconds and nothing else.
+        return hold
+    return hold
+
+
+def _cache_folder() -> Path:
+    named = os.environ.get(CACHE_VARIABLE)
+    return Path(named) if named else platformdirs.user_cache_path("suisou", appauthor=False) / "holds"
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, np.ndarray):
+        return value.tolist()
+    raise NotImplementedError(type(value))
+
+
+def _array(kind: Any, value: Any) -> Any:
+    try:
+        return np.asarray(value, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise msgspec.ValidationError(f"expected numbers for {kind}") from error

@@ -1,0 +1,48 @@
+"""Fit how every bundled character holds every bundled instrument and keep the result in resources/holds.
+
+Run it whenever a character, an instrument's model or map, the body's limits or the fit itself has changed; a test says so.
+
+    python -m resources.build.build_holds [CHARACTER ...]
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+
+from app.rig.character import bundled_character, characters
+from app.rig.fit import fit_hold
+from app.rig.hold_file import bundled_path, digest_of, read_hold, write_hold
+from app.rig.instrument import load_instrument
+from instrument_maps.load import bundled_maps, model_path
+from metadata.load import load_body
+
+
+def main(wanted: list[str]) -> None:
+    """Fit what is not up to date."""
+    body = load_body()
+    for character_id in characters():
+        if wanted and character_id not in wanted:
+            continue
+        character = bundled_character(character_id)
+        for instrument in bundled_maps().values():
+            model = load_instrument(model_path(instrument), instrument)
+            path, digest = bundled_path(character_id, instrument.id), digest_of(character, model, instrument, body)
+            if read_hold(path, digest) is not None:
+                continue
+            start_s = time.perf_counter()
+            hold = fit_hold(character, model, instrument, body)
+            path.parent.mkdir(exist_ok=True)
+            write_hold(path, digest, hold)
+            print(f"{path.name}: {time.perf_counter() - start_s:.0f} s")
+            for hand in hold.hands:
+                worst = max(
+                    (contact for contact in hand.contacts if contact.firm), key=lambda contact: contact.distance_m
+                )
+                print(
+                    f"  {hand.side}: {worst.part} {worst.distance_m * 1000:.2f} mm, {hand.penetration_m * 1000:.1f} mm inside"
+                )
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
