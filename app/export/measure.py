@@ -414,7 +414,8 @@ def _rim_to(instrument: InstrumentMap, traces: _Traces, landmark: str) -> FloatA
     """From the middle of the rim to a place on the lips, in the instrument's frame (F, 3)."""
     root = traces.nodes[ROOT]
     rim_m = root[:, :3, :3] @ np.asarray(instrument.mouthpiece.position_m) + root[:, :3, 3]
-    return np.einsum("fji,fj->fi", root[:, :3, :3], traces.landmarks[landmark] - rim_m)
+    offset_m: FloatArray = np.einsum("fji,fj->fi", root[:, :3, :3], traces.landmarks[landmark] - rim_m)
+    return offset_m
 
 
 def _lip_gap(instrument: InstrumentMap, traces: _Traces, playing: BoolArray, breathing: BoolArray) -> Spread:
