@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from app.export.character import CENTIMETRES, mesh_names, skinned_mesh
+from app.formats.fbx.join import join_meshes
 from app.formats.fbx.scene import FbxBone, FbxClip, FbxScene
 from app.motion.model import Motion
 from app.rig import quaternion
@@ -37,13 +38,11 @@ def instrument_scene(
     bones = instrument_bones(instrument, model)
     binds = np.tile(np.eye(4), (len(bones), 1, 1))
     binds[:, :3, 3] = model.node_positions_m * CENTIMETRES
-    names = mesh_names((mesh.name for mesh in model.meshes), (bone.name for bone in bones))
+    (name,) = mesh_names([instrument.id], (bone.name for bone in bones))
+    meshes = [skinned_mesh(mesh, mesh.name, mesh.joints, mesh.weights, binds) for mesh in model.meshes]
     return FbxScene(
         bones=bones,
-        meshes=tuple(
-            skinned_mesh(mesh, name, mesh.joints, mesh.weights, binds)
-            for mesh, name in zip(model.meshes, names, strict=True)
-        ),
+        meshes=(join_meshes(meshes, name),),
         clip=instrument_clip(instrument, model, motion, clip),
         creator=creator,
     )
