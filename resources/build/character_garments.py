@@ -377,7 +377,8 @@ def trousers(tailoring: Tailoring, fit: SkeletonFit) -> Surface:
         for bone in ("Foot", "Toes"):
             weights[:, shin] += weights[:, fit.index(side + bone)]
             weights[:, fit.index(side + bone)] = 0.0
-    near_crotch = np.exp(-(((moved[:, 1] - tailoring.crotch_m) / 0.07) ** 2)) * (tailoring.arm < 0.1)
+    between_legs = 1 - smoothstep(np.abs(moved[:, 0]), 0.05, 0.10)
+    near_crotch = np.exp(-(((moved[:, 1] - tailoring.crotch_m) / 0.07) ** 2)) * between_legs * (tailoring.arm < 0.1)
     cloth = relaxed(Cloth(moved, weights, suit.faces), near_crotch, 40)
     cloth = cut(cloth, tailoring.belt_m - 0.005 - cloth.points[:, 1])
     cloth = cut(cloth, cloth.points[:, 1] - (tailoring.foot_m + 0.115))

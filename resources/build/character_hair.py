@@ -195,7 +195,7 @@ def short_hair(source: Source, fit: SkeletonFit, ears: np.ndarray) -> Surface:
             heading = heading * np.cos(turn) + side * np.sin(turn)
             direction = _unit(direction + heading * length / (steps - 1) / 0.1)
         share = np.linspace(0, 1, steps)
-        width = (0.0046 - 0.0012 * (1 - top)) * np.sqrt(np.maximum(1 - share**2.2, 0.0)) * np.minimum(
+        width = (0.0036 - 0.0008 * (1 - top)) * np.sqrt(np.maximum(1 - share**3.0, 0.0)) * np.minimum(
             0.55 + 2 * share, 1.0
         ) + 0.0002
         locks.append(_lock(np.array(path), np.array(normals), width, 0.35 * width, rng.normal(0, 0.25)))
