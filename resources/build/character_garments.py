@@ -330,8 +330,9 @@ def shirt(tailoring: Tailoring, fit: SkeletonFit) -> Surface:
         cloth, np.maximum(-above_collar(tailoring, cloth.points), np.abs(cloth.points[:, 0]) - NECK_HALF_WIDTH_M)
     )
     front = _front(cloth)
-    seam_front = tailoring.collar_point + 0.0
-    throat = cloth.points[(np.abs(cloth.points[:, 0]) < 0.01) & (cloth.points[:, 2] > seam_front[2] + 0.03)][:, 1].max()
+    throat = cloth.points[
+        (np.abs(cloth.points[:, 0]) < 0.01) & (cloth.points[:, 2] > tailoring.collar_point[2] + 0.03)
+    ][:, 1].max()
     strip, buttons = _placket(tailoring, cloth, front, float(throat) - 0.004)
     whole = join(cloth, _cuffs(tailoring, fit), _collar(tailoring, cloth, front), strip)
     return cloth_surface("shirt", {"shirt": whole, "buttons": buttons}, fit)

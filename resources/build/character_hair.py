@@ -28,7 +28,7 @@ class Skull:
     ----------
     centre : (3,) middle of the skull in the rest pose.
     radius : function of (N, 3) unit directions.
-    eye_m, ear_m : heights of the eyes and of the top of the ears above `centre`.
+    eye_m : height of the eyes above `centre`.
     """
 
     centre: np.ndarray

@@ -61,7 +61,6 @@ def _finger(
         axis = frame[:3, :3] @ (_thumb_axis(sign) if finger == "Thumb" else np.array([sign, 0.0, 0.0]))
         dorsal = nail_direction - axis * (nail_direction @ axis)
         dorsal /= np.linalg.norm(dorsal)
-        # Swung back along the finger's own bend: the nail's direction, seen from this phalanx.
         thumb_side = np.cross(dorsal, axis) * -sign
         middle = frame[:3, 3] + axis * length * (0.5 if order < 2 else 0.55)
         own = np.flatnonzero(body.weights[:, fit.index(joint)] > (0.9 if order == 2 else 0.6))
