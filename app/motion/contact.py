@@ -29,10 +29,12 @@ AT_EASE = 0.96
 EASE_M = 0.008
 """The shoulder's help sets in over about this distance."""
 LEAST_LEVER_M = 0.05
-CLAVICLE_RAD = float(np.deg2rad(27.0))
+CLAVICLE_RAD = float(np.deg2rad(28.0))
 """Most the shoulder comes towards a far hand."""
-TURN_RAD = float(np.deg2rad(42.0))
-"""Most the trunk turns for a far hand."""
+TURN_RAD = float(np.deg2rad(50.0))
+"""Most hips and trunk turn for a far hand."""
+TUCK_RAD = float(np.deg2rad(14.0))
+"""Most the head draws back for a hand that is still too far."""
 
 
 @dataclass(frozen=True)
@@ -115,11 +117,14 @@ class Help:
     ----------
     turn_rad : (F,) float64
         Of the trunk, left positive.
+    tuck_rad : (F,) float64
+        Of the neck back and the head down by as much: the lips draw back, and what hangs on them.
     protraction_rad : dict of side to (F,) float64
         Of each clavicle, forwards.
     """
 
     turn_rad: FloatArray
+    tuck_rad: FloatArray
     protraction_rad: dict[str, FloatArray]
 
 
@@ -128,9 +133,10 @@ def needed_help(
 ) -> Help:
     """The help a body needs that has none yet; exactly 0 where the arms alone reach.
 
-    The shoulders help first; the trunk turns for what is left.
+    The shoulders help first, then the trunk turns, and the head draws back for what is left.
     """
-    turn = np.zeros(len(body.chest_m))
+    turn, tuck = np.zeros(len(body.chest_m)), np.zeros(len(body.chest_m))
+    neck_m = float(np.linalg.norm(skeleton.offsets_m[skeleton.index("head")]))
     protraction: dict[str, FloatArray] = {}
     for hand in hold.hands:
         target_m, _ = hand_targets(hand, carried.position_m, carried.rotation, controls)
@@ -143,9 +149,12 @@ def needed_help(
         # Turning about the upright moves the shoulder by up x across; only what goes towards the hand counts.
         across_m, ahead = girdle.root_m - body.chest_m, target_m - girdle.root_m
         lever_m = np.abs(across_m[:, 2] * ahead[:, 0] - across_m[:, 0] * ahead[:, 2]) / distance_m
-        asked = softly_capped(short_m / np.maximum(lever_m, LEAST_LEVER_M), TURN_RAD, 0.2 * TURN_RAD)
-        turn += asked if hand.side == "right" else -asked
-    return Help(turn, protraction)
+        asked = short_m / np.maximum(lever_m, LEAST_LEVER_M)
+        given = softly_capped(asked, TURN_RAD, 0.1 * TURN_RAD)
+        turn += given if hand.side == "right" else -given
+        left_m = softly_over((asked - TURN_RAD) * lever_m, EASE_M)
+        tuck += softly_capped(left_m / neck_m, TUCK_RAD, 0.2 * TUCK_RAD)
+    return Help(turn, tuck, protraction)
 
 
 def softly_over(x: FloatArray, ease: float) -> FloatArray:

@@ -19,11 +19,14 @@ SLOWEST_FRAME_S = 1.0 / 24.0
 """A note is judged up to one frame after its onset; no move, however hurried, begins before that."""
 STILL_IN_PLACE_M = 0.004
 """A slide this near its place is in its place."""
-UNSEEN_SHARE = 0.25
+STILL_SHARE = 0.25
 """Of a way so short that it is hardly seen at all, at most this share."""
+STILL_PRESSED = 0.07
+"""Of the others, this share of the way."""
 MOST_BACK_SHARE = 0.9
 """Of a short rest, at most this share goes to the way back, however short the way out."""
 _PHASES = np.linspace(0.0, 0.5, 201)
+LEAST_HELD_SHARE = 0.3
 RELEASE_S = 0.12
 """A finger's way back to rest after a note, unhurried."""
 CARRY_BACK_S = 0.25
@@ -61,12 +64,14 @@ def window_s(control: Control, distance: float, duration_s: float, gap_s: float)
 
 
 def unseen_s(control: Control, distance: float, window: float) -> float:
-    """How much earlier than its window a slide may begin: so that when the window opens it is still within
-    `STILL_IN_PLACE_M`. What looks like standing still is where the hand gathers speed, so it need not jerk."""
-    if control.motion.travel_m is None or control.max_speed_m_s is None:
-        return 0.0
-    share = STILL_IN_PLACE_M / (distance * control.motion.travel_m)
-    phase = float(np.interp(min(share, UNSEEN_SHARE), minimum_jerk(_PHASES), _PHASES))
+    """How much earlier than its window a control may begin to move, because when the window opens it is still in place.
+
+    What looks like standing still is where finger or hand gathers speed, so that it need not jerk.
+    """
+    share = STILL_PRESSED
+    if control.kind == "slide" and control.motion.travel_m is not None:
+        share = min(STILL_IN_PLACE_M / (abs(distance) * control.motion.travel_m), STILL_SHARE)
+    phase = float(np.interp(share, minimum_jerk(_PHASES), _PHASES))
     return window * phase / (1.0 - phase)
 
 
@@ -94,13 +99,10 @@ def control_curve(fingerings: Sequence[FingeringEvent], control: Control, beat_t
         elif target != value:
             end_s = min(last.end_s, event.start_s)
             window = window_s(control, target - value, end_s - last.start_s, event.start_s - end_s)
-            early = unseen_s(control, abs(target - value), window)
-            start_s = max(
-                event.start_s - window - early,
-                last.start_s + SLOWEST_FRAME_S,
-                last.start_s + 0.3 * (event.start_s - last.start_s),
-            )
-            segments.append((min(start_s, event.start_s - window), event.start_s, target))
+            start_s = event.start_s - window - unseen_s(control, target - value, window)
+            # However hurried, the note before has its first frame, and most of its first half.
+            earliest_s = last.start_s + max(SLOWEST_FRAME_S, LEAST_HELD_SHARE * (event.start_s - last.start_s))
+            segments.append((min(max(start_s, earliest_s), event.start_s - window), event.start_s, target))
         value, last = target, event
     if last is not None:
         segments.append((last.end_s, last.end_s + _back_s(control, value), rest))
@@ -116,7 +118,7 @@ def control_curves(
 
 def _free_window_s(control: Control, distance: float) -> float:
     window = max(control.move_window_s, need_s(control, distance))
-    return window + unseen_s(control, abs(distance), window) if distance else window
+    return window + unseen_s(control, distance, window) if distance else window
 
 
 def _back_s(control: Control, value: float) -> float:

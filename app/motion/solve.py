@@ -22,10 +22,12 @@ from instrument_maps.model import Carriage, Lowered
 
 CHUNK = 4096
 """Frames solved at once: few enough to stay in the processor's cache."""
-HELP_EASE_S = 0.16
+HELP_EASE_S = 0.14
 """Trunk and shoulders come towards a far hand this long before it goes there, and back as long after."""
-REACH_TURN_SHARES = {"spine": 0.20, "chest": 0.42, "upperChest": 0.38}
-NECK_BACK_SHARES = {"neck": 0.5, "head": 0.5}
+HIPS_TURN = 0.20
+TRUNK_TURNS = {"spine": 0.16, "chest": 0.34, "upperChest": 0.30}
+"""Shares of the turn for a far hand."""
+NECK_TURNS_BACK = {"neck": 0.5, "head": 0.5}
 
 
 @dataclass(frozen=True)
@@ -157,12 +159,18 @@ def _helped(player: Player, curves: Curves, half: int) -> BodyMotion:
     motion = curves.body
     turn = _eased(np.concatenate([part.turn_rad for part in parts]), half)
     turns = dict(motion.turn_rad)
-    for shares, sign in ((REACH_TURN_SHARES, 1.0), (NECK_BACK_SHARES, -1.0)):
+    for shares, sign in ((TRUNK_TURNS, 1.0), (NECK_TURNS_BACK, -1.0)):
         for joint, share in shares.items():
             turns[joint] = turns[joint] + sign * share * turn
+    tuck = _eased(np.concatenate([part.tuck_rad for part in parts]), half)
+    forward = motion.forward_rad | {
+        "neck": motion.forward_rad["neck"] - tuck,
+        "head": motion.forward_rad["head"] + tuck,
+    }
     sides: list[str] = [hand.side for hand in player.hold.hands]
     protraction = {side: _eased(np.concatenate([part.protraction_rad[side] for part in parts]), half) for side in sides}
-    return replace(motion, turn_rad=turns, protraction_rad=protraction)
+    hips_turn = motion.hips_turn_rad + HIPS_TURN * turn
+    return replace(motion, hips_turn_rad=hips_turn, turn_rad=turns, forward_rad=forward, protraction_rad=protraction)
 
 
 def _eased(needed: FloatArray, half: int) -> FloatArray:
