@@ -55,7 +55,8 @@ BALL_M = 0.001
 CURL_RAD, SIDEWAYS_RAD, THUMB_RAD, COUPLING_RAD = 0.4, 0.12, 0.4, 0.18
 WORKED_RAD = 0.5
 FLEXION_RAD, DEVIATION_RAD, PRONATION_RAD, SWIVEL_RAD = 0.3, 0.16, 0.8, 0.35
-LIMIT_RAD, LIMIT_SHARE = 0.04, 0.85
+LIMIT_RAD, LIMIT_SHARE = 0.025, 0.85
+SEED_M, SEED_RAD = 0.03, 0.4
 PRONATION_MOST_RAD = 1.3
 REACH_M = 0.08
 """Of an arm that is too short: the shoulder's help is dear, but a finger tip's grip does not bridge half a metre."""
@@ -499,9 +500,9 @@ class _Residuals:
         )
 
     def _anchored(self, x: FloatArray) -> FloatArray:
-        """Holds of neighbouring knots stay alike; the elbow's swivel is the same for all."""
+        """The hand stays about its seed; holds of neighbouring knots stay alike, with one swivel of the elbow."""
         if self.problem.anchor is None:
-            return np.zeros((len(x), 0))
+            return x[:, :6] / np.repeat([SEED_M / _METRES, SEED_RAD], 3)
         place, turn, finger = ANCHOR
         spread = np.array([place] * 3 + [turn] * 3 + [0.01] + [finger] * (x.shape[1] - 7))
         return (x - self.problem.anchor) / spread
@@ -550,18 +551,21 @@ _TILTS = (
     (0.0, -0.3, 0.0),
     (0.0, 0.0, 0.3),
     (0.0, 0.0, -0.3),
+    (0.25, 0.25, 0.0),
+    (-0.25, -0.25, 0.0),
+    (0.0, 0.25, 0.25),
+    (0.0, -0.25, -0.25),
 )
+"""Turns of the seed (rotation vectors in the instrument's frame) that are tried."""
 
 
 def _search(problem: _Problem) -> FloatArray:
-    """Start from the seed and from tilts of it with soft contacts, and finish the best with hard ones."""
-    tries = []
-    loose = _Residuals(problem, 6.0)
-    for tilt in _TILTS:
-        tries.append(_solve(loose, _start(problem, np.array(tilt)), 12))
-    best = min(tries, key=lambda found: found.cost)
-    middle = _solve(_Residuals(problem, 2.0), best.x, 15)
-    return np.asarray(_solve(_Residuals(problem, 1.0), middle.x, 25).x)
+    """Start from the seed and from tilts of it with soft contacts; the best few go on with harder ones."""
+    loose = [_solve(_Residuals(problem, 6.0), _start(problem, np.array(tilt)), 8) for tilt in _TILTS]
+    loose.sort(key=lambda found: float(found.cost))
+    middle = [_solve(_Residuals(problem, 2.0), found.x, 10) for found in loose[:3]]
+    best = min(middle, key=lambda found: float(found.cost))
+    return np.asarray(_solve(_Residuals(problem, 1.0), best.x, 25).x)
 
 
 def _search_knots(

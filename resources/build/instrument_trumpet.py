@@ -317,11 +317,12 @@ def contacts() -> list[dict[str, object]]:
     for finger, index in (("index", 1), ("middle", 2), ("ring", 3)):
         top = np.array([VALVE_X, BUTTON_TOP_Y, VALVE_Z[index - 1]])
         touch(f"right.{finger}.pad", f"valve_{index}", (top, Y), f"valve_{index}")
-    touch("right.thumb.pad", "root", _on(np.array([VALVE_X, -0.0165, VALVE_Z[0]]), CASING_R, np.array([-0.87, 0, 0.5])))
-    inside = np.array([0, 0.30, -0.954])
+    # Under the leadpipe, between the first two valves: it opposes the fingers.
+    touch("right.thumb.pad", "root", _on(np.array([0, 0, 0.2188]), 0.0062, np.array([-0.7, -0.714, 0])))
+    # The hook is open towards the player: the little finger lies in it and presses down.
+    inside = np.array([0, 0.985, -0.174])
     inside /= np.linalg.norm(inside)
     touch("right.little.pad", "root", (HOOK - (HOOK_R - 0.0011) * inside, inside))
-    touch("left.palm", "root", _on(np.array([VALVE_X, -0.073, VALVE_Z[1]]), CASING_R, X), grip="resting")
     touch(
         "left.index.pad", "root", _on(np.array([VALVE_X, -0.0185, VALVE_Z[2]]), CASING_R, np.array([-0.42, 0, 0.907]))
     )
