@@ -297,26 +297,24 @@ def _placket(tailoring: Tailoring, shirt: Cloth, front: LinearNDInterpolator, to
     return strip, join(*buttons)
 
 
-def _band(profile: Profile, suit: Cloth, rows: list[tuple[float, float]], seed_rows: int = 72) -> Cloth:
+def _band(profile: Profile, suit: Cloth, rows: list[tuple[float, float]], columns: int = 72) -> Cloth:
     """A ring round the waist from (height, distance from the drape) rows."""
-    angles = 2 * np.pi * np.arange(seed_rows) / seed_rows
+    angles = 2 * np.pi * np.arange(columns) / columns
     level = float(np.mean([height for height, _ in rows]))
     centre = np.array([np.interp(level, profile.levels, profile.centres[:, k]) for k in range(2)])
     points = np.concatenate(
         [
             np.stack(
-                [centre[0] + radius * np.cos(angles), np.full(seed_rows, height), centre[1] + radius * np.sin(angles)],
+                [centre[0] + radius * np.cos(angles), np.full(columns, height), centre[1] + radius * np.sin(angles)],
                 axis=1,
             )
-            for height, radius in ((h, profile.radius_at(np.full(seed_rows, h), angles) + out) for h, out in rows)
+            for height, radius in ((h, profile.radius_at(np.full(columns, h), angles) + out) for h, out in rows)
         ]
     )
     # One weight for the whole height of a column: a belt does not shear.
-    column = _weights_from(
-        suit, np.stack([points[:seed_rows, 0], np.full(seed_rows, level), points[:seed_rows, 2]], axis=1)
-    )
+    column = _weights_from(suit, np.stack([points[:columns, 0], np.full(columns, level), points[:columns, 2]], axis=1))
     return to_triangles(
-        Cloth(points, np.tile(column, (len(rows), 1)), grid_faces(len(rows), seed_rows, closed=True)[:, ::-1])
+        Cloth(points, np.tile(column, (len(rows), 1)), grid_faces(len(rows), columns, closed=True)[:, ::-1])
     )
 
 
