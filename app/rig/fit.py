@@ -54,11 +54,11 @@ PENETRATION_M = 0.0006
 BALL_M = 0.001
 CURL_RAD, SIDEWAYS_RAD, THUMB_RAD, COUPLING_RAD = 0.4, 0.12, 0.4, 0.18
 WORKED_RAD = 0.5
-FLEXION_RAD, DEVIATION_RAD, PRONATION_RAD, SWIVEL_RAD = 0.3, 0.16, 0.8, 0.35
+FLEXION_RAD, DEVIATION_RAD, PRONATION_RAD, SWIVEL_RAD = 0.3, 0.16, 0.8, 0.25
 LIMIT_RAD, LIMIT_SHARE = 0.025, 0.85
 SEED_M, SEED_RAD = 0.03, 0.4
 PRONATION_MOST_RAD = 1.3
-REACH_M = 0.08
+REACH_M = 0.03
 """Of an arm that is too short: the shoulder's help is dear, but a finger tip's grip does not bridge half a metre."""
 ANCHOR = (0.25, 0.4, 0.5)
 """How far the wrist's place (in 0.1 m), its turn and the fingers (rad) wander from one knot of a slide to the next."""
