@@ -21,7 +21,8 @@ score.substituted : part, instrument, map
 score.chosen_by_range : part, map
     "{part}: neither its name nor its program says what it is; {map} plays it because the range fits"
 score.chosen_by_range_partly : part, map, outside, total
-    "{part}: neither its name nor its program says what it is; {map} plays it, though {outside} of {total} notes lie outside its range"
+    "{part}: neither its name nor its program says what it is; {map} plays it, though {outside} of {total} notes lie
+    outside its range"
 score.voices : part, voices
     "{part}: up to {voices} notes sound together, so {voices} players share it"
 """
@@ -29,6 +30,7 @@ score.voices : part, voices
 from __future__ import annotations
 
 from collections.abc import Sequence
+from operator import sub
 
 import msgspec
 
@@ -91,13 +93,9 @@ class Stream(msgspec.Struct, frozen=True):
 
     def notes(self) -> list[Note]:
         """The notes, in the same order."""
-        prefix = f"{self.track + 1}:"
-        return [
-            Note(prefix + str(number), onset, end - onset, pitch, velocity)
-            for number, onset, end, pitch, velocity in zip(
-                self.numbers, self.onset_ticks, self.end_ticks, self.pitches, self.velocities, strict=True
-            )
-        ]
+        ids = [f"{self.track + 1}:{number}" for number in self.numbers]
+        durations = map(sub, self.end_ticks, self.onset_ticks)
+        return list(map(Note, ids, self.onset_ticks, durations, self.pitches, self.velocities))
 
 
 def recognised(stream: Stream) -> Instrument | None:
@@ -189,6 +187,8 @@ def _refusal(stream: Stream, instrument: Instrument | None, candidates: Sequence
 
 def _share(pitches: Sequence[int], choice: MapChoice) -> float:
     """How many of the notes a map reaches, 0..1."""
+    if choice.concert_low <= min(pitches) and max(pitches) <= choice.concert_high:
+        return 1.0
     return sum(choice.concert_low <= pitch <= choice.concert_high for pitch in pitches) / len(pitches)
 
 

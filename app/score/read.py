@@ -1,8 +1,8 @@
 """Reads a MIDI file into a score.
 
-How the three formats are taken: format 0 is split by channel, and so is any track that uses several channels; the tracks
-of format 1 sound together; the patterns of format 2 follow one another in the order of the file, each beginning where the
-one before ends, with the tempo it left.
+How the three formats are taken: format 0 is split by channel, and so is any track that uses several channels; the
+tracks of format 1 sound together; the patterns of format 2 follow one another in the order of the file, each beginning
+where the one before ends, with the tempo it left.
 
 What a note is: a note-on with velocity 0 is a note-off. A note-off ends the *oldest* note of its pitch and channel
 that still sounds (first in, first out), so notes of one pitch may overlap. A note-off and a note-on at one tick are two
@@ -42,7 +42,6 @@ from fractions import Fraction
 from pathlib import Path
 
 import mido
-import msgspec
 
 from app.errors import FileError, Message
 from app.score.chunks import Container, Track, read_container

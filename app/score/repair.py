@@ -47,7 +47,7 @@ class Repaired(msgspec.Struct, frozen=True):
     first_skipped: int
 
 
-class _Truncated(Exception):
+class _TruncatedError(Exception):
     """The track ends within an event."""
 
 
@@ -61,7 +61,7 @@ def last_system_message(data: bytes) -> int:
 
 
 def repaired(data: bytes, until: int | None = None) -> Repaired:
-    """Copy a track event by event, each channel message with its status, without the events that the score has no use for.
+    """Copy a track event by event, each channel message with its status, without the events the score does not need.
 
     Parameters
     ----------
@@ -93,7 +93,7 @@ def repaired(data: bytes, until: int | None = None) -> Repaired:
                 if kind == _END_OF_TRACK:
                     break
                 if begin + length > end:
-                    raise _Truncated
+                    raise _TruncatedError
                 at = begin + length
                 if kind in _TEXTS or _LENGTHS.get(kind) == length:
                     out += encoded_length(delta) + bytes([0xFF, kind]) + encoded_length(length) + data[begin:at]
@@ -101,7 +101,7 @@ def repaired(data: bytes, until: int | None = None) -> Repaired:
             elif byte in (0xF0, 0xF7):
                 length, begin = _variable_length(data, at + 1)
                 if begin + length > end:
-                    raise _Truncated
+                    raise _TruncatedError
                 at = begin + length
             elif byte > 0xF0:
                 at = _after_system_message(data, at)
@@ -116,7 +116,7 @@ def repaired(data: bytes, until: int | None = None) -> Repaired:
                     continue
                 message = data[at : at + size]
                 if len(message) < size:
-                    raise _Truncated
+                    raise _TruncatedError
                 if message.isascii():
                     out += encoded_length(delta) + bytes([status]) + message
                     delta, at = 0, at + size
@@ -125,7 +125,7 @@ def repaired(data: bytes, until: int | None = None) -> Repaired:
                     at += whole
                     skipped, first_skipped = skipped + at - event_at, first_skipped or event_at
                     broken_off = True
-        except _Truncated:
+        except _TruncatedError:
             truncated_at = event_at
             break
     out += encoded_length(min(delta, 0x0FFFFFFF)) + bytes([0xFF, _END_OF_TRACK, 0])
@@ -137,7 +137,7 @@ def _append_rest(out: bytearray, data: bytes, at: int, status: int) -> None:
     try:
         _, event = _variable_length(data, at)
         running = _byte(data, event) < 0x80 and status
-    except _Truncated:
+    except _TruncatedError:
         event, running = at, 0
     out += data[at:event]
     if running:
@@ -156,7 +156,7 @@ def _after_system_message(data: bytes, at: int) -> int:
 
 def _byte(data: bytes, at: int) -> int:
     if at >= len(data):
-        raise _Truncated
+        raise _TruncatedError
     return data[at]
 
 

@@ -33,8 +33,9 @@ class TempoMap(msgspec.Struct, frozen=True, dict=True):
     """Ticks to seconds and back.
 
     Tick 0 is second 0. The first tempo extends backwards, so that the pre-roll has times too; the last one extends
-    forwards. A file whose division is SMPTE (frames per second and ticks per frame) has no quarters: one constant tempo
-    of 120 quarters per minute stands in, as nearly as whole ticks per quarter allow, and ticks keep their exact duration.
+    forwards. A file whose division is SMPTE (frames per second and ticks per frame) has no quarters: one constant
+    tempo of 120 quarters per minute stands in, as nearly as whole ticks per quarter allow, and ticks keep their exact
+    duration.
 
     Attributes
     ----------

@@ -21,10 +21,7 @@ def decoded(data: bytes, encoding: str | None = None) -> str:
     encoding : str, optional
         Overrides the guess; what it cannot decode becomes U+FFFD.
     """
-    if encoding is not None:
-        text = data.decode(encoding, errors="replace")
-    else:
-        text = _guessed(data)
+    text = _guessed(data) if encoding is None else data.decode(encoding, errors="replace")
     return "".join(c for c in text if c.isprintable() or c.isspace()).strip()
 
 
