@@ -271,15 +271,23 @@ class ControlJudge:
         )
 
     def _leaves_s(self, control: Control, targets: FloatArray, index: int) -> float:
-        """The earliest time at which a control may leave the place of a note: its end, or shortly before."""
+        """The earliest time at which a control may leave the place of a note: its end, or shortly before.
+
+        Where its share of the note is not enough for the way at the speed the map gives, it may take the time it
+        needs: the plan flags such notes.
+        """
         note = self._notes[index]
-        window = control.move_window_s
-        if index + 1 < len(targets) and control.max_speed_m_s and control.motion.travel_m:
-            way_m = abs(targets[index + 1] - targets[index]) * control.motion.travel_m
-            window = max(window, way_m / control.max_speed_m_s)
-        next_s = self._notes[index + 1].start_s if index + 1 < len(targets) else math.inf
-        window -= min(max(next_s - note.end_s, 0.0), window)
-        return note.end_s - min(window, control.move_note_share * (note.end_s - note.start_s))
+        if index + 1 == len(targets):
+            return note.end_s
+        needed_s = 0.0
+        if control.max_speed_m_s and control.motion.travel_m:
+            needed_s = abs(targets[index + 1] - targets[index]) * control.motion.travel_m / control.max_speed_m_s
+        next_s = self._notes[index + 1].start_s
+        # A note may sound on under the next one (legato); its control belongs to it until then only.
+        end_s = min(note.end_s, next_s)
+        allowed_s = max(next_s - end_s, control.move_note_share * (end_s - note.start_s))
+        window_s = max(needed_s, min(control.move_window_s, allowed_s))
+        return min(end_s, next_s - window_s)
 
     def _span(self, start_s: float, end_s: float) -> slice:
         return slice(*np.searchsorted(self._times_s, [start_s - 1e-9, end_s - 1e-9]))

@@ -90,7 +90,8 @@ class Hands:
         near: dict[int, list[tuple[Proxy, npt.NDArray[np.bool_]]]] = {}
         radii = np.array([group.radius_m for group in self._groups])
         for node, bodies in self._by_node.items():
-            local = _moved(node_from_world[node], middles)
+            # Single precision is enough to choose by: the radii have room.
+            local = _moved(node_from_world[node], middles).astype(np.float32)
             # A ball around each body first: most groups are nowhere near most bodies.
             balls = _ever_within(local, self._balls_m[node], radii)
             for body, close in zip(bodies, balls.T, strict=True):
