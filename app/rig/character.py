@@ -4,7 +4,7 @@ Rest rotations are removed: joint frames become parallel to the world, the bind 
 
 Messages
 --------
-model.unreadable, model.invalid
+model.invalid
     See `app.rig.source`.
 character.missing : id, known
     "There is no character named '{id}'; known: {known}"
@@ -23,7 +23,7 @@ import numpy.typing as npt
 
 from app.errors import UsageError
 from app.rig.model import Character, Landmark, Mesh, Skeleton
-from app.rig.source import Source, accessor, build_mesh, invalid, read_source
+from app.rig.source import Source, build_mesh, invalid, moved_mesh, read_source
 
 FloatArray = npt.NDArray[np.float64]
 _HALF = (
@@ -80,14 +80,13 @@ def _build(source: Source, path: Path) -> Character:
     joint_from_mesh[:, :3, 3] = -np.array([_position(skeleton, joint) for joint in range(count)])
     bound = np.zeros(count, dtype=bool)
     meshes = []
-    for node, entry in enumerate(source.json.get("nodes", [])):
-        if "mesh" not in entry:
+    for node, entry in enumerate(source.gltf.nodes):
+        if entry.mesh is None:
             continue
-        index = entry["mesh"]
-        name = source.json["meshes"][index].get("name") or entry.get("name") or f"mesh_{index}"
-        mesh, skinned = build_mesh(source, index, name)
-        if skinned and "skin" in entry:
-            meshes.append(_skinned(source, entry["skin"], mesh, joint_of, world_from_node, joint_from_mesh, bound))
+        name = source.gltf.meshes[entry.mesh].name or entry.name or f"mesh_{entry.mesh}"
+        mesh, skinned = build_mesh(source, entry.mesh, name)
+        if skinned and entry.skin is not None:
+            meshes.append(_skinned(source, entry.skin, mesh, joint_of, world_from_node, joint_from_mesh, bound))
         else:
             meshes.append(_rigid(source, node, mesh, joint_of, joint_from_mesh, skeleton))
     extras = _extras(source)
@@ -100,17 +99,17 @@ def _build(source: Source, path: Path) -> Character:
 
 def _skeleton(source: Source) -> tuple[Skeleton, dict[int, int], dict[int, FloatArray]]:
     """Return the normalised skeleton, the joint of each node that is one, and the rest transforms of those nodes."""
-    nodes = source.json.get("nodes", [])
-    bones = source.json.get("extensions", {}).get("VRMC_vrm", {}).get("humanoid", {}).get("humanBones", {})
+    nodes = source.gltf.nodes
+    bones = source.gltf.extensions.get("VRMC_vrm", {}).get("humanoid", {}).get("humanBones", {})
     names = {bone["node"]: name for name, bone in bones.items()}
     chosen = set(names)
-    for skin in source.json.get("skins", []):
-        chosen.update(skin["joints"])
+    for skin in source.gltf.skins:
+        chosen.update(skin.joints)
     for node, entry in enumerate(nodes):
-        if not names and entry.get("name") in REQUIRED_JOINTS:
+        if not names and entry.name in REQUIRED_JOINTS:
             chosen.add(node)
     tops = [node for node in sorted(chosen) if _joint_above(source, node, chosen) < 0]
-    titles = {node: names.get(node) or nodes[node].get("name") or f"joint_{node}" for node in chosen}
+    titles = {node: names.get(node) or nodes[node].name or f"joint_{node}" for node in chosen}
     has_root = len(tops) == 1 and titles[tops[0]] == "root"
     # Children follow their parent closely (depth first), as a person would list them.
     children: dict[int, list[int]] = {}
@@ -139,9 +138,9 @@ def _skeleton(source: Source) -> tuple[Skeleton, dict[int, int], dict[int, Float
 
 
 def _joint_above(source: Source, node: int, chosen: set[int]) -> int:
-    node = source.parents[node]
+    node = source.gltf.nodes[node].parent
     while node >= 0 and node not in chosen:
-        node = source.parents[node]
+        node = source.gltf.nodes[node].parent
     return node
 
 
@@ -155,12 +154,8 @@ def _skinned(
     bound: npt.NDArray[np.bool_],
 ) -> Mesh:
     """Take a skinned mesh into the character's joints; fills ``joint_from_mesh`` of joints that were not bound yet."""
-    entry = source.json["skins"][skin]
-    nodes = entry["joints"]
-    if "inverseBindMatrices" in entry:
-        inverse = accessor(source, entry["inverseBindMatrices"]).reshape(-1, 4, 4).transpose(0, 2, 1).astype(np.float64)
-    else:
-        inverse = np.tile(np.eye(4), (len(nodes), 1, 1))
+    nodes = source.gltf.skins[skin].joints
+    inverse = source.gltf.skins[skin].joint_from_mesh_bind
     table = np.array([joint_of[node] for node in nodes], dtype=np.int32)
     basis = np.array([world_from_node[node] for node in nodes])
     basis[:, :3, 3] = 0.0
@@ -181,7 +176,7 @@ def _skinned(
     fresh = np.flatnonzero(~bound[table])
     joint_from_mesh[table[fresh]] = inverse[fresh] @ back
     bound[table[fresh]] = True
-    return _moved(mesh, change, joints, weights.astype(np.float32))
+    return moved_mesh(mesh, change, joints, weights.astype(np.float32))
 
 
 def _rigid(
@@ -199,26 +194,7 @@ def _rigid(
     world_from_joint[:3, 3] = _position(skeleton, joint)
     change = np.linalg.solve(world_from_joint @ joint_from_mesh[joint], source.world_from_node[node])
     joints = np.full((len(mesh.positions_m), 1), joint, dtype=np.int32)
-    return _moved(mesh, change, joints, np.ones((len(mesh.positions_m), 1), dtype=np.float32))
-
-
-def _moved(mesh: Mesh, change: FloatArray, joints: npt.NDArray[np.int32], weights: npt.NDArray[np.float32]) -> Mesh:
-    """Return a mesh with its vertices taken through a matrix and its skinning replaced."""
-    values = {field: getattr(mesh, field) for field in Mesh.__dataclass_fields__}
-    values.update(joints=joints, weights=weights)
-    if np.abs(change - np.eye(4)).max() > 1e-9:
-        turn = change[:3, :3]
-        across = np.linalg.inv(turn).T
-        values["positions_m"] = (mesh.positions_m @ turn.T + change[:3, 3]).astype(np.float32)
-        normals = mesh.normals @ across.T
-        values["normals"] = (normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-9)).astype(
-            np.float32
-        )
-        values["morphs"] = tuple(
-            type(morph)(morph.name, morph.vertices, (morph.deltas_m @ turn.T).astype(np.float32), morph.normal_deltas)
-            for morph in mesh.morphs
-        )
-    return Mesh(**values)
+    return moved_mesh(mesh, change, joints, np.ones((len(mesh.positions_m), 1), dtype=np.float32))
 
 
 def _position(skeleton: Skeleton, joint: int) -> FloatArray:
@@ -231,10 +207,9 @@ def _position(skeleton: Skeleton, joint: int) -> FloatArray:
 
 def _extras(source: Source) -> dict[str, Any]:
     """Return what we wrote beside the scene, or on its first node; empty in a file of another program."""
-    scenes = source.json.get("scenes") or [{}]
-    holders = [scenes[source.json.get("scene", 0)], *source.json.get("nodes", [])[:1]]
-    for holder in holders:
-        found = holder.get("extras", {}).get("suisou")
+    first = source.gltf.nodes[0].extras if source.gltf.nodes else {}
+    for holder in (source.gltf.scene_extras, first):
+        found = holder.get("suisou")
         if found is not None:
             content: dict[str, Any] = json.loads(found) if isinstance(found, str) else found
             return content

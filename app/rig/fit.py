@@ -123,7 +123,7 @@ class _Problem:
     high: FloatArray = field(default_factory=lambda: np.zeros(0))
 
 
-FIT_VERSION = 1
+FIT_VERSION = 2
 """Part of the digest of stored holds (`app.rig.hold_file`): raise it when a fit comes out differently."""
 
 
@@ -358,7 +358,8 @@ def _start(problem: _Problem, turn: FloatArray) -> FloatArray:
     order = [*range(len(problem.dofs)), *_worked_dofs(problem)]
     angles = [np.clip(problem.dofs[i].relaxed, problem.dofs[i].low, problem.dofs[i].high) for i in order]
     start = np.array([0.0, 0.0, 0.0, *turn, problem.swivel_usual, *angles])
-    return np.clip(start, problem.low + 1e-6, problem.high - 1e-6)
+    clipped: FloatArray = np.clip(start, problem.low + 1e-6, problem.high - 1e-6)
+    return clipped
 
 
 def _wrist(problem: _Problem, x: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -427,7 +428,8 @@ class _Residuals:
 
         def placed(points: FloatArray) -> FloatArray:
             local = points.reshape(count, problem.configs, -1, 3)
-            return np.einsum("bij,bcvj->bcvi", basis, local) + place[:, None, None]
+            moved: FloatArray = np.einsum("bij,bcvj->bcvi", basis, local) + place[:, None, None]
+            return moved
 
         skin = placed(skinned(matrices, hand.skin_points))
         touching = placed(skinned(matrices, problem.touch_points))
@@ -502,10 +504,11 @@ class _Residuals:
     def _anchored(self, x: FloatArray) -> FloatArray:
         """The hand stays about its seed; holds of neighbouring knots stay alike, with one swivel of the elbow."""
         if self.problem.anchor is None:
-            return x[:, :6] / np.repeat([SEED_M / _METRES, SEED_RAD], 3)
-        place, turn, finger = ANCHOR
-        spread = np.array([place] * 3 + [turn] * 3 + [0.01] + [finger] * (x.shape[1] - 7))
-        return (x - self.problem.anchor) / spread
+            off: FloatArray = x[:, :6] / np.repeat([SEED_M / _METRES, SEED_RAD], 3)
+        else:
+            place, turn, finger = ANCHOR
+            off = (x - self.problem.anchor) / ([place] * 3 + [turn] * 3 + [0.01] + [finger] * (x.shape[1] - 7))
+        return off
 
 
 def _elbow_place(problem: _Problem, wrist: FloatArray, swivel: FloatArray) -> FloatArray:
@@ -516,7 +519,9 @@ def _elbow_place(problem: _Problem, wrist: FloatArray, swivel: FloatArray) -> Fl
     direction = line / np.linalg.norm(line, axis=1)[:, None]
     along = (a * a - b * b + reach * reach) / (2.0 * reach)
     aside = np.sqrt(np.maximum(a * a - along * along, 0.0))
-    return problem.shoulder_m + direction * along[:, None] + _pole(problem, direction, swivel) * aside[:, None]
+    pole = _pole(problem, direction, swivel)
+    elbow: FloatArray = problem.shoulder_m + direction * along[:, None] + pole * aside[:, None]
+    return elbow
 
 
 def _pole(problem: _Problem, direction: FloatArray, swivel: FloatArray) -> FloatArray:

@@ -1,7 +1,7 @@
 """Holds kept in files, because fitting one takes seconds and its inputs seldom change.
 
-A hold is found by the digest of everything it was fitted from: first among those that come with the program, then in the
-person's cache. A file that is absent, damaged or of other inputs is as good as none: the hold is fitted again.
+A hold is found by the digest of everything it was fitted from: first among those that come with the program, then in
+the person's cache. A file that is absent, damaged or of other inputs is as good as none: the hold is fitted again.
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 Messages
 --------
-model.unreadable, model.invalid
+model.invalid
     See `app.rig.source`.
 """
 
@@ -15,9 +15,8 @@ import numpy as np
 import numpy.typing as npt
 
 from app.rig import quaternion
-from app.rig.character import _moved
 from app.rig.model import InstrumentModel, Mesh
-from app.rig.source import build_mesh, invalid, read_source
+from app.rig.source import build_mesh, invalid, moved_mesh, read_source
 from instrument_maps.load import model_path
 from instrument_maps.model import ROOT, Control, InstrumentMap
 
@@ -37,9 +36,9 @@ def load_instrument(path: Path, instrument_map: InstrumentMap) -> InstrumentMode
     """
     source = read_source(path)
     try:
-        nodes = source.json.get("nodes", [])
+        nodes = source.gltf.nodes
         names = [ROOT, *dict.fromkeys(control.node for control in instrument_map.controls)]
-        by_name = {node.get("name"): index for index, node in enumerate(nodes)}
+        by_name = {node.name: index for index, node in enumerate(nodes)}
         absent = [name for name in names if name not in by_name]
         if absent:
             raise invalid(path, f"no node named {', '.join(absent)}")
@@ -48,16 +47,16 @@ def load_instrument(path: Path, instrument_map: InstrumentMap) -> InstrumentMode
         positions = np.array([(root_from_world @ source.world_from_node[by_name[name]])[:3, 3] for name in names])
         meshes: list[Mesh] = []
         for index, node in enumerate(nodes):
-            if "mesh" not in node:
+            if node.mesh is None:
                 continue
             owner = index
             while owner >= 0 and owner not in node_of:
-                owner = source.parents[owner]
-            name = source.json["meshes"][node["mesh"]].get("name") or node.get("name") or f"mesh_{index}"
-            mesh, _ = build_mesh(source, node["mesh"], name)
+                owner = source.gltf.nodes[owner].parent
+            name = source.gltf.meshes[node.mesh].name or node.name or f"mesh_{index}"
+            mesh, _ = build_mesh(source, node.mesh, name)
             count = len(mesh.positions_m)
             meshes.append(
-                _moved(
+                moved_mesh(
                     mesh,
                     root_from_world @ source.world_from_node[index],
                     np.full((count, 1), node_of.get(owner, 0), dtype=np.int32),

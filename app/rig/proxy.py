@@ -140,7 +140,8 @@ def distance(some: Bodies, points_m: FloatArray) -> FloatArray:
     count = len(points_m)
     point, body = (index.ravel() for index in np.mgrid[:count, : len(some)])
     found = _measured(some, points_m[point, some.nodes[body]], body).reshape(count, len(some))
-    return found.min(axis=1, initial=np.inf)
+    nearest: FloatArray = found.min(axis=1, initial=np.inf)
+    return nearest
 
 
 def gradient(some: Bodies, points_m: FloatArray, body: IntArray) -> FloatArray:
