@@ -1,0 +1,209 @@
+"""The measures find what is wrong: files are spoilt in known ways, and the numbers must say so."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+from pathlib import Path
+
+import msgspec
+import numpy as np
+import pytest
+
+from app.errors import Message
+from app.export.character import character_scene
+from app.export.instrument import instrument_scene
+from app.export.measure import ControlJudge, Measured, measure_player, sway_correlations
+from app.formats.fbx.scene import FbxScene
+from app.performance.ensemble import Performance
+from app.performance.motion import body_of, character_of, model_of, player_motion
+from app.performance.span import cut_span
+from app.plan.model import FingeringEvent
+from app.project.model import map_choices, project_from_score
+from app.score.read import read_midi
+from instrument_maps.load import bundled_maps
+from instrument_maps.model import Control, Motion
+from metadata.load import load_skeleton
+
+QUARTET = Path(__file__).parents[3] / "resources" / "examples" / "quartet.mid"
+FPS = Fraction(30)
+
+
+class Case:
+    """A few seconds of one player, as scenes that need no file."""
+
+    def __init__(self, index: int) -> None:
+        maps = bundled_maps()
+        project = project_from_score(read_midi(QUARTET, maps=map_choices(maps.values())), maps)
+        self.performance = Performance(project)
+        self.player = project.players[index]
+        self.span = cut_span(self.performance.time_frame, FPS, -1.5, 3.0)
+        motion = player_motion(self.performance, self.player, self.span)
+        self.instrument = self.performance.instrument(self.player)
+        self.character = character_of(self.player)
+        self.player_scene = character_scene(self.character, motion, "x", "test")
+        self.held_scene = instrument_scene(self.instrument, model_of(self.instrument), motion, "x", "test")
+
+    def measure(self, player_scene: FbxScene | None = None, held_scene: FbxScene | None = None) -> Measured:
+        body = body_of(self.player)
+        return measure_player(
+            player_scene or self.player_scene,
+            held_scene or self.held_scene,
+            self.character,
+            self.instrument,
+            self.performance.plan(self.player),
+            body,
+            load_skeleton(body.skeleton),
+            self.span.first_frame_s,
+        )
+
+
+@pytest.fixture(scope="module", params=[0, 2], ids=["first", "third"])
+def case(request: pytest.FixtureRequest) -> Case:
+    return Case(request.param)
+
+
+def moved(scene: FbxScene, bone: int, offset_cm: np.ndarray, frames: slice = slice(None)) -> FbxScene:
+    assert scene.clip is not None
+    translations = dict(scene.clip.translations_cm)
+    translations[bone] = np.array(translations[bone], np.float64)
+    translations[bone][frames] += offset_cm
+    return replace(scene, clip=replace(scene.clip, translations_cm=translations))
+
+
+def test_what_we_made_is_within_its_bounds(case: Case) -> None:
+    measures = case.measure().measures
+    assert measures.sounding_frames > 30
+    assert all(spread.kept for spread in measures.contacts.values()), measures.contacts
+    assert measures.lips.kept
+    assert all(spread.kept for spread in measures.feet.values())
+    assert measures.bones.kept
+    assert all(control.right == control.judged > 0 for control in measures.controls.values())
+
+
+def test_a_displaced_instrument_is_seen_by_every_contact(case: Case) -> None:
+    before = case.measure().measures
+    after = case.measure(held_scene=moved(case.held_scene, 0, np.array([0.0, 0.5, 0.0]))).measures
+    for name, spread in after.contacts.items():
+        assert spread.max_mm == pytest.approx(5.0, abs=before.contacts[name].max_mm + 0.01)
+        assert not spread.kept
+    assert after.lips.max_mm == pytest.approx(5.0, abs=0.05)
+    assert after.controls == before.controls
+    assert after.feet == before.feet
+
+
+def test_one_bad_frame_is_enough(case: Case) -> None:
+    before = case.measure().measures
+    after = case.measure(held_scene=moved(case.held_scene, 0, np.array([0.0, 0.0, 1.0]), slice(75, 76))).measures
+    assert after.lips.max_mm == pytest.approx(10.0, abs=0.05)
+    assert after.lips.p99_mm <= after.lips.max_mm
+    assert before.lips.max_mm < 1.0
+
+
+def test_a_raised_body_leaves_the_floor(case: Case) -> None:
+    hips = [bone.name for bone in case.player_scene.bones].index("hips")
+    after = case.measure(
+        player_scene=moved(case.player_scene, hips, np.array([0.0, 2.0, 0.0]), slice(30, None))
+    ).measures
+    assert all(spread.max_mm == pytest.approx(20.0, abs=0.2) for spread in after.feet.values())
+
+
+def test_a_hand_thrust_into_the_instrument_is_found(case: Case) -> None:
+    before = case.measure().measures.penetration.max_mm
+    away = case.measure(held_scene=moved(case.held_scene, 0, np.array([0.0, 200.0, 0.0]))).measures
+    assert away.penetration.max_mm == 0.0
+    deeper = [
+        case.measure(held_scene=moved(case.held_scene, 0, offset)).measures.penetration.max_mm
+        for offset in 1.0 * np.concatenate([np.eye(3), -np.eye(3)])
+    ]
+    assert max(deeper) > before + 3.0
+
+
+def test_a_control_out_of_place_is_found(case: Case) -> None:
+    control = case.instrument.controls[0]
+    bone = [bone.name for bone in case.held_scene.bones].index(control.name)
+    off_cm = np.asarray(control.motion.axis) * 0.012 * 100.0
+    after = case.measure(held_scene=moved(case.held_scene, bone, off_cm)).measures.controls[control.name]
+    assert after.right < after.judged
+    assert after.held_wrong > 0
+
+
+def test_a_bent_and_a_jerked_joint_are_found(case: Case) -> None:
+    names = [bone.name for bone in case.player_scene.bones]
+    clip = case.player_scene.clip
+    assert clip is not None
+    rotations = np.array(clip.rotations_xyzw, np.float64)
+    knee = names.index("leftLowerLeg")
+    rotations[20, knee] = [np.sin(-0.5), 0.0, 0.0, np.cos(-0.5)]  # the wrong way, for one frame
+    spoilt = replace(case.player_scene, clip=replace(clip, rotations_xyzw=rotations))
+    measures = case.measure(player_scene=spoilt).measures
+    assert measures.limits.beyond >= 1
+    assert measures.acceleration.joint == "leftLowerLeg"
+    assert measures.acceleration.beyond >= 1
+
+
+def test_a_breath_without_a_jaw_is_missed(case: Case) -> None:
+    before = case.measure().measures.breaths
+    assert before.planned > 0
+    assert before.shown == before.planned
+    clip = case.player_scene.clip
+    assert clip is not None
+    shut = {**clip.morph_weights, "jawOpen": np.zeros(clip.frames)}
+    after = case.measure(player_scene=replace(case.player_scene, clip=replace(clip, morph_weights=shut)))
+    assert after.measures.breaths.jaw_open == 0
+    assert after.measures.breaths.shown == 0
+    assert after.measures.breaths.torso_back == before.torso_back
+
+
+def event(start_s: float, end_s: float, value: float) -> FingeringEvent:
+    controls = {"c": value} if value else {}
+    return FingeringEvent("x", "n", 0, 1, start_s, end_s, "", 1, controls, 0.0, Message("fingering.first_choice"))
+
+
+def control(**changes: object) -> Control:
+    plain = Control("c", "press", "pitch", "c", Motion((0.0, -1.0, 0.0), travel_m=0.016), "right.index")
+    return msgspec.structs.replace(plain, **changes)
+
+
+def judge(notes: list[FingeringEvent], fps: float = 10.0, first_frame_s: float = -0.05) -> ControlJudge:
+    return ControlJudge(first_frame_s + np.arange(40) / fps, fps, first_frame_s, notes)
+
+
+def test_a_note_is_judged_at_the_first_frame_at_or_after_its_onset() -> None:
+    # Onset 1.0 s lies between the frames 10 (0.95 s) and 11 (1.05 s).
+    values = np.zeros(40)
+    values[11:] = 1.0
+    assert judge([event(1.0, 2.0, 1.0)]).measure(control(), values).right == 1
+    values[11] = 0.89
+    assert judge([event(1.0, 2.0, 1.0)]).measure(control(), values).right == 0
+    values[11] = 0.9
+    assert judge([event(1.0, 2.0, 1.0)]).measure(control(), values).right == 1
+
+
+def test_short_notes_are_counted_apart() -> None:
+    found = judge([event(1.0, 1.1, 1.0), event(1.1, 2.0, 0.0)]).measure(control(), np.zeros(40))
+    assert (found.judged, found.right, found.short_notes, found.short_right) == (1, 1, 1, 0)
+
+
+def test_a_slide_is_judged_in_millimetres() -> None:
+    slide = control(kind="slide", motion=Motion((0.0, 0.0, 1.0), travel_m=0.6), max_speed_m_s=2.5)
+    notes = [event(1.0, 2.0, 0.5)]
+    assert judge(notes).measure(slide, np.full(40, 0.5 + 0.0049 / 0.6)).right == 1
+    assert judge(notes).measure(slide, np.full(40, 0.5 + 0.0051 / 0.6)).right == 0
+
+
+def test_leaving_too_early_is_found() -> None:
+    notes = [event(1.0, 2.0, 1.0), event(2.0, 3.0, 0.0)]
+    values = np.zeros(40)
+    values[11:20] = 1.0  # the last frame before 1.94 s is 19 (1.85 s)
+    assert judge(notes).measure(control(), values).held_wrong == 0
+    values[19] = 0.5
+    assert judge(notes).measure(control(), values).held_wrong == 1
+
+
+def test_sway_of_twins_and_of_strangers() -> None:
+    random = np.random.default_rng(1)
+    one, other = random.normal(size=(500, 2)), random.normal(size=(500, 2))
+    alike = sway_correlations({"a": one, "b": one * 2.0, "c": other})
+    assert alike["a"] == alike["b"] == pytest.approx(1.0)
+    assert alike["c"] < 0.3
