@@ -52,7 +52,7 @@ SECTIONS = (
 )
 # (from quarter, quarters per minute); the last bars broaden quarter by quarter.
 TEMPI = (
-    (42.0, 180.0),
+    (42.0, 176.0),
     (162.0, 168.0),
     (208.0, 160.0),
     (210.0, 184.0),

@@ -17,6 +17,7 @@ from app.score.read import read_midi
 from instrument_maps.load import bundled_maps
 
 ENSEMBLE = Path(__file__).parents[2] / "data" / "midi" / "ensemble"
+QUARTET = Path(__file__).parents[3] / "resources" / "examples" / "quartet.mid"
 FILES = sorted(path.name for path in ENSEMBLE.glob("*.mid"))
 
 
@@ -39,6 +40,12 @@ def test_the_arban_study_keeps_its_first_choices() -> None:
 
 def test_nothing_is_excused_in_the_lutkin_quartet() -> None:
     assert [plan.problems for _, plan in played("brass_quartet_lutkin_2tpt_tbn_tuba.mid")] == [(), (), ()]
+
+
+def test_nothing_is_excused_in_the_bundled_quartet() -> None:
+    maps = bundled_maps()
+    made = Performance(project_from_score(read_midi(QUARTET, maps=map_choices(maps.values())), maps))
+    assert [plan.problems for plan in made.plans.values()] == [(), (), (), ()]
 
 
 @pytest.mark.parametrize("name", FILES)
