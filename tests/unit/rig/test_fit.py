@@ -1,0 +1,158 @@
+"""How the bundled bodies hold the bundled instruments, measured again through the whole character's skin."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+
+from app.rig import proxy, quaternion, skinning
+from app.rig.character import bundled_character, characters
+from app.rig.fit import fit_hold, fit_lips
+from app.rig.hold import HandHold, Hold, finger_rotations, hand_targets
+from app.rig.hold_file import hold_for
+from app.rig.instrument import bundled_instrument, control_transform, node_transforms
+from app.rig.model import Character, InstrumentModel
+from app.rig.skeleton import JointTransforms, forward
+from instrument_maps.load import bundled_maps
+from instrument_maps.model import Contact, InstrumentMap
+from metadata.load import load_body, load_skeleton
+
+GRID = np.linspace(0.0, 1.0, 41)
+PAIRS = [(character, instrument) for character in characters() for instrument in bundled_maps()]
+
+
+@dataclass(frozen=True)
+class Held:
+    character: Character
+    instrument: InstrumentMap
+    model: InstrumentModel
+    hold: Hold
+
+
+@pytest.fixture(scope="module", params=PAIRS, ids=lambda pair: "-".join(pair))
+def held(request: pytest.FixtureRequest) -> Held:
+    character, instrument = bundled_character(request.param[0]), bundled_maps()[request.param[1]]
+    model = bundled_instrument(instrument)
+    return Held(character, instrument, model, hold_for(character, model, instrument, load_body()))
+
+
+def _controls(held: Held) -> dict[str, np.ndarray]:
+    """Every control goes from rest to its end at once."""
+    return {control.name: GRID for control in held.instrument.controls}
+
+
+def _fingers(held: Held) -> JointTransforms:
+    """The whole character, only its fingers posed."""
+    rotations = np.tile(quaternion.IDENTITY, (len(GRID), len(held.character.skeleton.names), 1))
+    rotations[:, list(held.hold.finger_joints)] = finger_rotations(held.hold, _controls(held), len(GRID))
+    return forward(held.character.skeleton, rotations)
+
+
+def _on_instrument(held: Held, hand: HandHold, transforms: JointTransforms, points: np.ndarray) -> np.ndarray:
+    """Take points (F, V, 3) of the posed character to where the hand carries them, in the instrument's frame."""
+    wrist, _ = transforms.of(held.character.skeleton.index(f"{hand.side}Hand"))
+    still, unturned = np.zeros((len(GRID), 3)), np.tile(quaternion.IDENTITY, (len(GRID), 1))
+    place, turn = hand_targets(hand, still, unturned, _controls(held))
+    return place[:, None] + quaternion.rotate(turn[:, None], points - wrist[:, None])
+
+
+def _touch(held: Held, contact: Contact) -> np.ndarray:
+    place = held.model.node_positions_m[held.model.node_names.index(contact.node)] + contact.position_m
+    mover = next((control for control in held.instrument.controls if control.node == contact.node), None)
+    if mover is None:
+        return np.tile(place, (len(GRID), 1))
+    moved, turn = control_transform(mover, GRID)
+    return quaternion.rotate(turn, place) + moved
+
+
+def test_every_touch_is_met_over_the_whole_travel(held: Held) -> None:
+    transforms = _fingers(held)
+    for hand in held.hold.hands:
+        contacts = [c for c in held.instrument.contacts if c.part.startswith(f"{hand.side}.")]
+        points = skinning.landmark_positions(held.character, [c.part for c in contacts], transforms)
+        placed = _on_instrument(held, hand, transforms, points)
+        for number, contact in enumerate(contacts):
+            off = np.linalg.norm(placed[:, number] - _touch(held, contact), axis=1)
+            counts = {"always": GRID >= 0.0, "pressed": GRID > 0.0, "released": GRID == 0.0}[contact.when]
+            assert off[counts].max() <= (0.0012 if contact.grip == "firm" else 0.003), contact.part
+        assert all(fit.distance_m <= 0.0012 for fit in hand.contacts if fit.firm)
+
+
+def test_no_hand_is_inside_the_instrument(held: Held) -> None:
+    transforms = _fingers(held)
+    bodies = proxy.bodies(held.instrument.proxy, held.model.node_names)
+    nodes, turns = node_transforms(held.model, held.instrument, _controls(held), len(GRID))
+    bases = quaternion.to_matrix(turns)
+    for hand in held.hold.hands:
+        mark = held.character.landmarks[f"{hand.side}.hand"]
+        part = skinning.patch(held.character, skinning.mesh_named(held.character, mark.mesh), mark.vertices)
+        skin = _on_instrument(held, hand, transforms, skinning.deform(part, transforms))
+        for frame in range(0, len(GRID), 4):
+            local = np.einsum("nji,vnj->vni", bases[frame], skin[frame][:, None] - nodes[frame])
+            depth, _ = proxy.inside(bodies, local)
+            assert depth.max() <= 0.003, (hand.side, GRID[frame])
+
+
+def test_fingers_stay_within_human_limits(held: Held) -> None:
+    profile, limits = load_skeleton(), load_body().limits
+    names = held.character.skeleton.names
+    rotations = finger_rotations(held.hold, _controls(held), len(GRID))
+    for place, joint in enumerate(held.hold.finger_joints):
+        axes, bound = profile.joint_axes(names[joint]), limits[profile.joint(names[joint]).kind]
+        swing, _ = quaternion.swing_twist(rotations[:, place], axes.twist)
+        turned = quaternion.to_rotation_vector(swing)
+        for axis, (low, high) in ((axes.flexion, bound.flexion_deg), (axes.sideways, bound.sideways_deg)):
+            angle = np.degrees(turned @ axis)
+            assert angle.min() >= low - 0.1, names[joint]
+            assert angle.max() <= high + 0.1, names[joint]
+        twist = np.degrees(quaternion.twist_angle(rotations[:, place], axes.twist))
+        assert bound.twist_deg[0] - 0.1 <= twist.min() <= twist.max() <= bound.twist_deg[1] + 0.1, names[joint]
+
+
+def test_tables_are_fine_enough_that_fingers_move_evenly(held: Held) -> None:
+    fine = np.linspace(0.0, 1.0, 401)
+    rotations = finger_rotations(held.hold, {c.name: fine for c in held.instrument.controls}, len(fine))
+    step = quaternion.multiply(quaternion.conjugate(rotations[:-1]), rotations[1:])
+    speed = np.linalg.norm(quaternion.to_rotation_vector(step), axis=2)
+    # No joint turns more than 1 degree while a control moves by 1/400: nothing jumps from one solution to another.
+    assert np.degrees(speed.max()) < 1.0
+
+
+def test_the_lips_move_with_the_face_as_the_skin_does(held: Held) -> None:
+    character = held.character
+    lips = fit_lips(character)
+    generator = np.random.default_rng(1)
+    weights = {name: generator.uniform(size=3) for name in ("jawOpen", "mouthPucker", "mouthPressLeft", "browInnerUp")}
+    rotations = np.tile(quaternion.IDENTITY, (3, len(character.skeleton.names), 1))
+    head = character.skeleton.index("head")
+    rotations[:, head] = quaternion.from_rotation_vector(generator.normal(size=(3, 3)))
+    transforms = forward(character.skeleton, rotations)
+    place, turn = transforms.of(head)
+    skin = skinning.landmark_positions(character, ["lips.contact"], transforms, weights)[:, 0]
+    np.testing.assert_allclose(place + quaternion.rotate(turn, lips.contact_m(weights, 3)), skin, atol=1e-6)
+    still = {name: np.zeros(3) for name in weights}
+    np.testing.assert_allclose(lips.upper_m(still, 3), lips.contact_m(still, 3), atol=1e-12)
+    opened = {"jawOpen": np.ones(3)}
+    assert np.all(lips.contact_m(opened, 3)[:, 1] < lips.upper_m(opened, 3)[:, 1])
+
+
+def test_how_far_the_arm_must_be_helped_grows_with_the_slide(held: Held) -> None:
+    for hand, reach in zip(held.hold.hands, held.hold.reach, strict=True):
+        assert reach.side == hand.side
+        if hand.motion is None:
+            assert reach.shortfall_m.shape == (1,)
+            assert reach.shortfall_m[0] < 0.0
+        else:
+            assert reach.control == hand.motion.control
+            assert reach.shortfall_m[0] < 0.0 < reach.shortfall_m[-1]
+            assert 0.4 < reach.max_value < 1.0
+
+
+def test_a_second_fit_is_the_same_to_the_bit() -> None:
+    character, instrument = bundled_character(PAIRS[0][0]), bundled_maps()[PAIRS[0][1]]
+    model = bundled_instrument(instrument)
+    first, second = (fit_hold(character, model, instrument, load_body()) for _ in range(2))
+    for a, b in zip(first.hands, second.hands, strict=True):
+        assert a.instrument_from_hand_m.tobytes() == b.instrument_from_hand_m.tobytes()
+        for x, y in zip(a.fingers, b.fingers, strict=True):
+            assert x.rotations.tobytes() == y.rotations.tobytes()

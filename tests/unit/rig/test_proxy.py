@@ -1,0 +1,52 @@
+"""Signed distances of the proxy's bodies: slope 1, and a step of that length along the slope ends on the surface."""
+
+import numpy as np
+import pytest
+
+from app.rig import proxy
+from instrument_maps.model import Box, Capsule, Cone, Cylinder, Proxy, Ring
+
+SHAPES: list[Proxy] = [
+    Cone("root", (0.0, 0.0, 0.0), (0.01, 0.02, 0.05), 0.02, 0.005),
+    Cylinder("root", (0.0, 0.1, 0.0), (0.03, 0.1, 0.0), 0.01),
+    Capsule("root", (0.0, 0.0, 0.1), (0.02, 0.0, 0.12), 0.01),
+    Ring("root", (0.1, 0.0, 0.0), (0.0, 0.0, 1.0), 0.02, 0.006),
+    Box("root", (0.0, -0.1, 0.0), (0.01, 0.02, 0.03), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)),
+]
+
+
+@pytest.mark.parametrize("shape", SHAPES, ids=lambda shape: type(shape).__name__)
+def test_a_step_of_the_distance_along_the_slope_ends_on_the_surface(shape: Proxy) -> None:
+    some = proxy.bodies([shape], ["root"])
+    points = np.random.default_rng(3).uniform(-0.15, 0.15, size=(3000, 1, 3))
+    far = proxy.distance(some, points)
+    slope = proxy.gradient(some, points, np.zeros(len(points), dtype=np.intp))
+    # On the ridges inside a body the slope jumps; outside it never does.
+    outside = far > 1e-4
+    np.testing.assert_allclose(np.linalg.norm(slope[outside], axis=1), 1.0, atol=1e-5)
+    landed = points[:, 0] - slope * far[:, None]
+    np.testing.assert_allclose(proxy.distance(some, landed[outside][:, None]), 0.0, atol=1e-7)
+
+
+def test_a_point_is_inside_where_the_union_says_so_and_as_deep() -> None:
+    some = proxy.bodies(SHAPES, ["root"])
+    points = np.random.default_rng(4).uniform(-0.12, 0.12, size=(20000, 1, 3))
+    depth, owner = proxy.inside(some, points)
+    far = proxy.distance(some, points)
+    np.testing.assert_allclose(depth, np.maximum(-far, 0.0), atol=1e-12)
+    assert np.count_nonzero(depth) > 50
+    np.testing.assert_array_equal(owner >= 0, depth > 0.0)
+
+
+def test_bodies_move_with_their_nodes() -> None:
+    some = proxy.bodies([Capsule("a", (0.0, 0.0, 0.0), (0.0, 0.0, 0.1), 0.01)], ["root", "a"])
+    point = np.array([0.5, 0.0, 0.05])
+    depth, _ = proxy.inside(some, np.stack([point, point - [0.5, 0.0, 0.0]])[None])
+    assert depth[0] == pytest.approx(0.01)
+
+
+def test_far_bodies_are_left_out() -> None:
+    some = proxy.bodies(SHAPES, ["root"])
+    close = proxy.near(some, np.zeros((1, 3)), np.array([0.0, 0.0, 0.11]), 0.02)
+    assert len(close.capsules) == 1
+    assert len(close) == 1
