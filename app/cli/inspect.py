@@ -44,7 +44,7 @@ def inspection(performance: Performance) -> Table:
     project = performance.project
     score = project.score
     return {
-        "duration_s": score.tempo_map.seconds(float(score.end_tick)),
+        "duration_s": score.tempo_map.seconds(float(score.sounding_end_tick)),
         "ticks_per_beat": score.ticks_per_quarter,
         "tempo": [{"tick": tick, "bpm": bpm} for tick, bpm in score.tempo_map.bpm],
         "first_frame_s": performance.time_frame.first_frame_s,

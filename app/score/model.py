@@ -109,11 +109,12 @@ class Part(msgspec.Struct, frozen=True):
 
 
 class UnplayedPart(msgspec.Struct, frozen=True):
-    """A part that nobody plays, and why."""
+    """A part that nobody plays, and why. Its last note ends at ``end_tick``."""
 
     name: str
     reason: Message
     note_count: int
+    end_tick: int = 0
 
 
 class Score(msgspec.Struct, frozen=True, dict=True):
@@ -147,6 +148,11 @@ class Score(msgspec.Struct, frozen=True, dict=True):
     def end_tick(self) -> int:
         """Where the last note of the parts ends; 0 without notes."""
         return max((note.end_tick for part in self.parts for note in part.notes), default=0)
+
+    @property
+    def sounding_end_tick(self) -> int:
+        """Where the last note of the piece ends, whether anybody plays it or not; 0 without notes."""
+        return max((self.end_tick, *(part.end_tick for part in self.unplayed)))
 
     @cached_property
     def _first_bars(self) -> tuple[int, ...]:

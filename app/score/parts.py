@@ -132,7 +132,8 @@ def parts_of(
         candidates = maps if by_range or instrument is None else _maps_for(instrument, maps)
         reason = _refusal(stream, instrument, candidates)
         if reason is not None:
-            unplayed.append(UnplayedPart(name or f"Track {stream.track + 1}", reason, len(stream.pitches)))
+            name = name or f"Track {stream.track + 1}"
+            unplayed.append(UnplayedPart(name, reason, len(stream.pitches), max(stream.end_ticks)))
             continue
         voices = split_voices(stream.notes(), tempo_map)
         first = len(parts)
