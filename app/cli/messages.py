@@ -14,7 +14,7 @@ TEMPLATES: Final[dict[str, str]] = {
     "set.value_invalid": "--set: {parameter} cannot be {value!r}; possible: {possible}",
     "player.unknown": "there is no player {player!r}; there are: {possible}",
     "bars.none": "there are no bars {first} to {last}; the piece has {lowest} to {highest}",
-    "export.nobody": "{file}: there is no player to export",
+    "export.nobody": "{file}: there is nobody to export; 'suisou inspect' says why each part is not played",
     "work.stopped": "stopped; nothing was written",
     # Files
     "file.cannot_read": "{file} cannot be read: {reason}",
@@ -84,7 +84,6 @@ TEMPLATES: Final[dict[str, str]] = {
     "metadata.syntax": "{file}: {detail}",
     "metadata.invalid": "{file}: {key}: {detail}",
     "character.missing": "there is no character named {id!r}; there are: {known}",
-    "model.unreadable": "{file}: cannot be read: {detail}",
     "model.invalid": "{file}: {detail}",
     # FBX and BVH
     "fbx.not_binary": "{file} is not a binary FBX file",

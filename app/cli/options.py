@@ -74,6 +74,15 @@ def beats(text: str) -> float:
     return number
 
 
+def text_encoding(text: str) -> str:
+    """The name of an encoding that turns bytes into text."""
+    try:
+        b"ab".decode(text, errors="replace")  # looks it up; nothing is asked of an empty text
+    except (LookupError, ValueError):
+        raise argparse.ArgumentTypeError(f"{text!r} is not the name of a text encoding") from None
+    return text
+
+
 def add_source_options(command: argparse.ArgumentParser) -> None:
     """Declare the file and everything that decides what its players do."""
     command.add_argument("file", type=Path, metavar="FILE", help="a Standard MIDI File")
@@ -94,7 +103,12 @@ def add_source_options(command: argparse.ArgumentParser) -> None:
         metavar="BEATS",
         help=f"beats before the first note, at least {PREROLL_LEAST_S:g} s (default {PREROLL_BEATS:g})",
     )
-    command.add_argument("--encoding", metavar="NAME", help="of the file's texts (default: UTF-8, CP932 or Latin-1)")
+    command.add_argument(
+        "--encoding",
+        type=text_encoding,
+        metavar="NAME",
+        help="of the file's texts (default: each is UTF-8 if it can be, else CP932, else Latin-1)",
+    )
 
 
 def open_project(arguments: argparse.Namespace) -> Project:

@@ -1,6 +1,6 @@
 """A performance to files: characters, instruments, report.
 
-Messages: ``export.nobody``: "there is no player to export"; ``work.stopped``.
+Messages: ``export.nobody`` (file): "{file}: there is nobody to export"; ``work.stopped``.
 """
 
 from __future__ import annotations

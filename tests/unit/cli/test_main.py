@@ -86,6 +86,8 @@ def test_help_and_version(run: Run) -> None:
         ["inspect", QUARTET, "--set", "*.volume=7"],
         ["inspect", QUARTET, "--preroll", "-3"],
         ["inspect", QUARTET, "--seed", "x"],
+        ["inspect", QUARTET, "--encoding", "klingon"],
+        ["inspect", QUARTET, "--encoding", "base64"],
     ],
 )
 def test_bad_use_ends_with_2(run: Run, arguments: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,0 +1,38 @@
+"""Ten minutes of players fit into 1.5 GB: one player's motion and files are held at a time."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[3]
+TEN_MINUTES = ROOT / "tests" / "data" / "midi" / "awkward" / "long_14662notes_rossini_overture.mid"
+MOST_BYTES = 1.5e9
+
+MEASURING = """
+import resource, sys
+from app.cli import main
+status = main(sys.argv[1:])
+print(status, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * (1 if sys.platform == "darwin" else 1024))
+"""
+
+
+@pytest.mark.bench
+@pytest.mark.skipif(sys.platform == "win32", reason="no resource module")
+def test_ten_minutes_of_two_players(tmp_path: Path) -> None:
+    """Two are enough to see whether the first one is let go of before the second is made."""
+    arguments = ["export", str(TEN_MINUTES), "--to", str(tmp_path / "out")]
+    peaks = []
+    for players in (["trumpet 1"], ["trumpet 1", "trombone 1"]):
+        named = [argument for player in players for argument in ("--player", player)]
+        command = [sys.executable, "-c", MEASURING, *arguments, *named]
+        done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
+        status, peak = done.stdout.splitlines()[-1].split()
+        assert status == "0"
+        peaks.append(int(peak))
+    print(f"10 minutes at 60 frames/s: one player {peaks[0] / 1e6:.0f} MB, two players {peaks[1] / 1e6:.0f} MB")
+    assert max(peaks) < MOST_BYTES
+    assert peaks[1] - peaks[0] < 0.2 * MOST_BYTES
