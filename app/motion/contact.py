@@ -18,6 +18,7 @@ from app.rig import quaternion
 from app.rig.hold import HandHold, Hold, hand_targets
 from app.rig.ik import arm, solve_limb
 from app.rig.model import Skeleton
+from app.rig.skeleton import rest_positions
 from instrument_maps.model import Carriage, Lowered
 
 X_AXIS, Y_AXIS, Z_AXIS = np.eye(3)
@@ -26,15 +27,16 @@ CLEAR_M = 0.05
 """On its way down and up the instrument swings ahead by this much, clear of the chin."""
 AT_EASE = 0.96
 """Share of its length an arm reaches without help from the shoulder."""
+STRETCHED = 0.98
+"""The same, of an arm that is stretched for the farthest places."""
 EASE_M = 0.008
 """The shoulder's help sets in over about this distance."""
-LEAST_LEVER_M = 0.05
 CLAVICLE_RAD = float(np.deg2rad(28.0))
 """Most the shoulder comes towards a far hand."""
 TURN_RAD = float(np.deg2rad(50.0))
 """Most hips and trunk turn for a far hand."""
-TUCK_RAD = float(np.deg2rad(14.0))
-"""Most the head draws back for a hand that is still too far."""
+LEAN_RAD = float(np.deg2rad(14.0))
+"""Most the trunk leans back for a hand that is still too far."""
 
 
 @dataclass(frozen=True)
@@ -117,14 +119,14 @@ class Help:
     ----------
     turn_rad : (F,) float64
         Of the trunk, left positive.
-    tuck_rad : (F,) float64
-        Of the neck back and the head down by as much: the lips draw back, and what hangs on them.
+    lean_rad : (F,) float64
+        Of the trunk backwards, with the head staying upright: the lips draw back farther than the shoulders.
     protraction_rad : dict of side to (F,) float64
         Of each clavicle, forwards.
     """
 
     turn_rad: FloatArray
-    tuck_rad: FloatArray
+    lean_rad: FloatArray
     protraction_rad: dict[str, FloatArray]
 
 
@@ -133,28 +135,27 @@ def needed_help(
 ) -> Help:
     """The help a body needs that has none yet; exactly 0 where the arms alone reach.
 
-    The shoulders help first, then the trunk turns, and the head draws back for what is left.
+    The shoulders help first, then the trunk turns, and it leans back for what is left.
     """
-    turn, tuck = np.zeros(len(body.chest_m)), np.zeros(len(body.chest_m))
-    neck_m = float(np.linalg.norm(skeleton.offsets_m[skeleton.index("head")]))
+    turn, lean = np.zeros(len(body.chest_m)), np.zeros(len(body.chest_m))
+    rest_m = rest_positions(skeleton)
     protraction: dict[str, FloatArray] = {}
     for hand in hold.hands:
         target_m, _ = hand_targets(hand, carried.position_m, carried.rotation, controls)
         girdle = _Girdle.of(skeleton, hand.side, body, target_m)
-        at_ease_m = AT_EASE * arm(skeleton, hand.side).length_m
+        arm_m = arm(skeleton, hand.side).length_m
         distance_m = girdle.distance_m(0.0)
-        asked = girdle.turn_for(distance_m - softly_over(distance_m - at_ease_m, EASE_M))
+        asked = girdle.turn_for(distance_m - softly_over(distance_m - AT_EASE * arm_m, EASE_M))
         protraction[hand.side] = softly_capped(asked, CLAVICLE_RAD, 0.15 * CLAVICLE_RAD)
-        short_m = softly_over(girdle.distance_m(CLAVICLE_RAD) - at_ease_m, EASE_M)
-        # Turning about the upright moves the shoulder by up x across; only what goes towards the hand counts.
-        across_m, ahead = girdle.root_m - body.chest_m, target_m - girdle.root_m
-        lever_m = np.abs(across_m[:, 2] * ahead[:, 0] - across_m[:, 0] * ahead[:, 2]) / distance_m
-        asked = short_m / np.maximum(lever_m, LEAST_LEVER_M)
+        waist = _Waist.of(skeleton, hand.side, body, target_m)
+        distance_m = waist.distance_m(np.zeros(len(turn)))
+        asked = waist.turn_for(distance_m - softly_over(distance_m - AT_EASE * arm_m, EASE_M))
         given = softly_capped(asked, TURN_RAD, 0.1 * TURN_RAD)
         turn += given if hand.side == "right" else -given
-        left_m = softly_over((asked - TURN_RAD) * lever_m, EASE_M)
-        tuck += softly_capped(left_m / neck_m, TUCK_RAD, 0.2 * TUCK_RAD)
-    return Help(turn, tuck, protraction)
+        left_m = softly_over(waist.distance_m(given) - STRETCHED * arm_m, EASE_M)
+        above_m = float((rest_m[skeleton.index("head")] - rest_m[skeleton.index(f"{hand.side}UpperArm")])[1])
+        lean += softly_capped(left_m / above_m, LEAN_RAD, 0.2 * LEAN_RAD)
+    return Help(turn, lean, protraction)
 
 
 def softly_over(x: FloatArray, ease: float) -> FloatArray:
@@ -193,6 +194,44 @@ class _Girdle:
 
     def distance_m(self, turned_rad: float) -> FloatArray:
         """From the shoulder to the target, with the clavicle so far forwards."""
+        cosine = np.cos(np.maximum(self.phase_rad - turned_rad, 0.0))
+        distance: FloatArray = np.sqrt(np.maximum(self.square_m2 - 2.0 * self.reach_m2 * cosine, 1e-9))
+        return distance
+
+    def turn_for(self, distance_m: FloatArray) -> FloatArray:
+        """The turn that brings the shoulder to this distance from the target, as near as it can."""
+        cosine = np.clip((self.square_m2 - distance_m * distance_m) / (2.0 * self.reach_m2), -1.0, 1.0)
+        return np.maximum(self.phase_rad - np.arccos(cosine), 0.0)
+
+
+@dataclass(frozen=True)
+class _Waist:
+    """A chest that can turn about the upright, its shoulder brought forwards as far as it goes, and a target.
+
+    The squared distance from the shoulder joint to the target is ``square_m2 - 2 reach_m2 cos(phase_rad - turn)``.
+    """
+
+    square_m2: FloatArray
+    reach_m2: FloatArray
+    phase_rad: FloatArray
+
+    @classmethod
+    def of(cls, skeleton: Skeleton, side: Side, body: Trunk, target_m: FloatArray) -> _Waist:
+        shoulder, clavicle = _clavicle(skeleton, side)
+        forwards = quaternion.from_axis_angle(_forwards(clavicle), CLAVICLE_RAD)
+        root_m = skeleton.offsets_m[shoulder] + quaternion.rotate(forwards, clavicle)
+        root = quaternion.rotate(body.chest, root_m)
+        there = target_m - body.chest_m
+        # Turning to the left takes what is on the right forwards; a left hand's turn is counted the other way.
+        sign = 1.0 if side == "right" else -1.0
+        across = sign * (root[:, 2] * there[:, 0] - root[:, 0] * there[:, 2])
+        along = root[:, 0] * there[:, 0] + root[:, 2] * there[:, 2]
+        rise_m = there[:, 1] - root[:, 1]
+        flat = root[:, 0] ** 2 + root[:, 2] ** 2 + there[:, 0] ** 2 + there[:, 2] ** 2
+        return cls(flat + rise_m * rise_m, np.hypot(along, across), np.arctan2(across, along))
+
+    def distance_m(self, turned_rad: FloatArray) -> FloatArray:
+        """From the shoulder to the target, with the chest so far turned."""
         cosine = np.cos(np.maximum(self.phase_rad - turned_rad, 0.0))
         distance: FloatArray = np.sqrt(np.maximum(self.square_m2 - 2.0 * self.reach_m2 * cosine, 1e-9))
         return distance

@@ -27,6 +27,7 @@ HELP_EASE_S = 0.14
 HIPS_TURN = 0.20
 TRUNK_TURNS = {"spine": 0.16, "chest": 0.34, "upperChest": 0.30}
 """Shares of the turn for a far hand."""
+TRUNK_LEANS = {"spine": 0.30, "chest": 0.35, "upperChest": 0.35}
 NECK_TURNS_BACK = {"neck": 0.5, "head": 0.5}
 
 
@@ -162,11 +163,11 @@ def _helped(player: Player, curves: Curves, half: int) -> BodyMotion:
     for shares, sign in ((TRUNK_TURNS, 1.0), (NECK_TURNS_BACK, -1.0)):
         for joint, share in shares.items():
             turns[joint] = turns[joint] + sign * share * turn
-    tuck = _eased(np.concatenate([part.tuck_rad for part in parts]), half)
-    forward = motion.forward_rad | {
-        "neck": motion.forward_rad["neck"] - tuck,
-        "head": motion.forward_rad["head"] + tuck,
-    }
+    lean = _eased(np.concatenate([part.lean_rad for part in parts]), half)
+    forward = dict(motion.forward_rad)
+    for joint, share in TRUNK_LEANS.items():
+        forward[joint] = forward[joint] - share * lean
+    forward["head"] = forward["head"] + lean
     sides: list[str] = [hand.side for hand in player.hold.hands]
     protraction = {side: _eased(np.concatenate([part.protraction_rad[side] for part in parts]), half) for side in sides}
     hips_turn = motion.hips_turn_rad + HIPS_TURN * turn
