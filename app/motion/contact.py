@@ -29,13 +29,15 @@ AT_EASE = 0.96
 """Share of its length an arm reaches without help from the shoulder."""
 STRETCHED = 0.98
 """The same, of an arm that is stretched for the farthest places."""
+NEAREST = 0.33
+"""A hand is kept at least this share of the arm's length away (the elbow bent by 141 degrees)."""
 EASE_M = 0.008
 """The shoulder's help sets in over about this distance."""
 CLAVICLE_RAD = float(np.deg2rad(28.0))
 """Most the shoulder comes towards a far hand."""
 TURN_RAD = float(np.deg2rad(50.0))
 """Most hips and trunk turn for a far hand."""
-LEAN_RAD = float(np.deg2rad(14.0))
+LEAN_RAD = float(np.deg2rad(17.0))
 """Most the trunk leans back for a hand that is still too far."""
 
 
@@ -123,11 +125,16 @@ class Help:
         Of the trunk backwards, with the head staying upright: the lips draw back farther than the shoulders.
     protraction_rad : dict of side to (F,) float64
         Of each clavicle, forwards.
+    most_turn_rad, most_protraction_rad : dict of side to (F,) float64
+        What leaves each hand at least `NEAREST` of its arm's length away: help that comes early or stays late must
+        not push a shoulder into a near hand.
     """
 
     turn_rad: FloatArray
     lean_rad: FloatArray
     protraction_rad: dict[str, FloatArray]
+    most_turn_rad: dict[str, FloatArray]
+    most_protraction_rad: dict[str, FloatArray]
 
 
 def needed_help(
@@ -140,6 +147,8 @@ def needed_help(
     turn, lean = np.zeros(len(body.chest_m)), np.zeros(len(body.chest_m))
     rest_m = rest_positions(skeleton)
     protraction: dict[str, FloatArray] = {}
+    most_turn: dict[str, FloatArray] = {}
+    most_protraction: dict[str, FloatArray] = {}
     for hand in hold.hands:
         target_m, _ = hand_targets(hand, carried.position_m, carried.rotation, controls)
         girdle = _Girdle.of(skeleton, hand.side, body, target_m)
@@ -147,7 +156,9 @@ def needed_help(
         distance_m = girdle.distance_m(0.0)
         asked = girdle.turn_for(distance_m - softly_over(distance_m - AT_EASE * arm_m, EASE_M))
         protraction[hand.side] = softly_capped(asked, CLAVICLE_RAD, 0.15 * CLAVICLE_RAD)
+        most_protraction[hand.side] = girdle.turn_for(np.full(len(turn), NEAREST * arm_m))
         waist = _Waist.of(skeleton, hand.side, body, target_m)
+        most_turn[hand.side] = waist.turn_for(np.full(len(turn), NEAREST * arm_m))
         distance_m = waist.distance_m(np.zeros(len(turn)))
         asked = waist.turn_for(distance_m - softly_over(distance_m - AT_EASE * arm_m, EASE_M))
         given = softly_capped(asked, TURN_RAD, 0.1 * TURN_RAD)
@@ -155,7 +166,7 @@ def needed_help(
         left_m = softly_over(waist.distance_m(given) - STRETCHED * arm_m, EASE_M)
         above_m = float((rest_m[skeleton.index("head")] - rest_m[skeleton.index(f"{hand.side}UpperArm")])[1])
         lean += softly_capped(left_m / above_m, LEAN_RAD, 0.2 * LEAN_RAD)
-    return Help(turn, lean, protraction)
+    return Help(turn, lean, protraction, most_turn, most_protraction)
 
 
 def softly_over(x: FloatArray, ease: float) -> FloatArray:
@@ -164,7 +175,7 @@ def softly_over(x: FloatArray, ease: float) -> FloatArray:
     return result
 
 
-def softly_capped(x: FloatArray, most: float, ease: float) -> FloatArray:
+def softly_capped(x: FloatArray, most: FloatArray | float, ease: float) -> FloatArray:
     """``min(x, most)``, rounded where it bends."""
     return most - softly_over(most - x, ease)
 

@@ -11,7 +11,7 @@ import numpy as np
 from scipy.ndimage import maximum_filter1d, minimum_filter1d
 
 from app.motion.body import BodyMotion
-from app.motion.contact import Carried, carry, needed_help, solve_arms
+from app.motion.contact import Carried, carry, needed_help, softly_capped, solve_arms
 from app.motion.curve import FloatArray
 from app.motion.model import Motion
 from app.motion.posture import Stance, Trunk, hips_path, solve_legs, trunk
@@ -24,8 +24,12 @@ CHUNK = 4096
 """Frames solved at once: few enough to stay in the processor's cache."""
 HELP_EASE_S = 0.14
 """Trunk and shoulders come towards a far hand this long before it goes there, and back as long after."""
-HIPS_TURN = 0.20
-TRUNK_TURNS = {"spine": 0.16, "chest": 0.34, "upperChest": 0.30}
+ROOM_EASE_S = 0.055
+"""How quickly that help gives way to a hand that comes near."""
+HELP_EASE_RAD = 0.06
+"""Help that would push a shoulder into a near hand is held back within about this angle."""
+HIPS_TURN = 0.16
+TRUNK_TURNS = {"spine": 0.18, "chest": 0.34, "upperChest": 0.32}
 """Shares of the turn for a far hand."""
 TRUNK_LEANS = {"spine": 0.30, "chest": 0.35, "upperChest": 0.35}
 NECK_TURNS_BACK = {"neck": 0.5, "head": 0.5}
@@ -158,20 +162,36 @@ def _helped(player: Player, curves: Curves, half: int) -> BodyMotion:
         _, _, upper, carried = _upper(player, chunk)
         parts.append(needed_help(player.skeleton, player.hold, upper, carried, chunk.controls))
     motion = curves.body
-    turn = _eased(np.concatenate([part.turn_rad for part in parts]), half)
+    quick = max(1, round(ROOM_EASE_S / HELP_EASE_S * half))
+    most = {side: _held_back([part.most_turn_rad[side] for part in parts], quick) for side in parts[0].most_turn_rad}
+    asked = _eased(np.concatenate([part.turn_rad for part in parts]), half)
+    turn = np.zeros(len(curves))
+    if np.any(asked):
+        turn += softly_capped(np.maximum(asked, 0.0), most["right"], HELP_EASE_RAD)
+        turn -= softly_capped(np.maximum(-asked, 0.0), most["left"], HELP_EASE_RAD)
     turns = dict(motion.turn_rad)
     for shares, sign in ((TRUNK_TURNS, 1.0), (NECK_TURNS_BACK, -1.0)):
         for joint, share in shares.items():
             turns[joint] = turns[joint] + sign * share * turn
     lean = _eased(np.concatenate([part.lean_rad for part in parts]), half)
+    if np.any(lean):
+        lean *= np.abs(turn) / np.maximum(np.abs(asked), 1e-6)
     forward = dict(motion.forward_rad)
     for joint, share in TRUNK_LEANS.items():
         forward[joint] = forward[joint] - share * lean
     forward["head"] = forward["head"] + lean
-    sides: list[str] = [hand.side for hand in player.hold.hands]
-    protraction = {side: _eased(np.concatenate([part.protraction_rad[side] for part in parts]), half) for side in sides}
+    protraction = {}
+    for side in parts[0].protraction_rad:
+        needed = _eased(np.concatenate([part.protraction_rad[side] for part in parts]), half)
+        room = _held_back([part.most_protraction_rad[side] for part in parts], quick)
+        protraction[side] = softly_capped(needed, room, HELP_EASE_RAD) if np.any(needed) else needed
     hips_turn = motion.hips_turn_rad + HIPS_TURN * turn
     return replace(motion, hips_turn_rad=hips_turn, turn_rad=turns, forward_rad=forward, protraction_rad=protraction)
+
+
+def _held_back(parts: list[FloatArray], half: int) -> FloatArray:
+    """What there is room for, smoothly: the least within ``half`` frames, then a smooth mean as wide."""
+    return np.pi - _eased(np.pi - np.concatenate(parts), half)
 
 
 def _eased(needed: FloatArray, half: int) -> FloatArray:
