@@ -74,6 +74,17 @@ def beats(text: str) -> float:
     return number
 
 
+def felt_beat(text: str) -> float:
+    """The length of a felt beat in quarters, 1/16 to 16; also as a fraction."""
+    try:
+        number = float(Fraction(text.strip()))
+    except (ValueError, ZeroDivisionError, OverflowError):
+        number = math.nan
+    if not 1 / 16 <= number <= 16.0:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a length in quarters such as 1, 1.5 or 1/2")
+    return number
+
+
 def text_encoding(text: str) -> str:
     """The name of an encoding that turns bytes into text."""
     try:
@@ -104,6 +115,14 @@ def add_source_options(command: argparse.ArgumentParser) -> None:
         help=f"beats before the first note, at least {PREROLL_LEAST_S:g} s (default {PREROLL_BEATS:g})",
     )
     command.add_argument(
+        "--felt-beat",
+        type=felt_beat,
+        default=1.0,
+        metavar="QUARTERS",
+        help="length of the beat that the players feel: 1.5 for a fast 6/8, 2 for alla breve (default 1); breaths, "
+        "cues, sway and the pre-roll count in it",
+    )
+    command.add_argument(
         "--encoding",
         type=text_encoding,
         metavar="NAME",
@@ -115,7 +134,13 @@ def open_project(arguments: argparse.Namespace) -> Project:
     """Read the file and cast its players as the options say. Raises the errors of both."""
     maps = bundled_maps()
     score = read_midi(arguments.file, encoding=arguments.encoding, maps=map_choices(maps.values()))
-    project = project_from_score(score, maps, seed=arguments.seed, preroll_beats=arguments.preroll)
+    project = project_from_score(
+        score,
+        maps,
+        seed=arguments.seed,
+        preroll_beats=arguments.preroll,
+        felt_beat_quarters=arguments.felt_beat,
+    )
     settings = parse_settings(
         arguments.settings, [player.name for player in project.players], maps, tuple(characters())
     )

@@ -28,7 +28,12 @@ class Performance:
     def piece(self) -> Piece:
         """What all players share."""
         score = self.project.score
-        return Piece(clock=score.tempo_map, metres=score.metres, bar_ticks=tuple(score.bar_starts.tolist()))
+        return Piece(
+            clock=score.tempo_map,
+            metres=score.metres,
+            felt_beat_ticks=self.project.felt_beat_ticks,
+            bar_ticks=tuple(score.bar_starts.tolist()),
+        )
 
     @cached_property
     def lines(self) -> tuple[Line, ...]:

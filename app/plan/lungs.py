@@ -9,10 +9,13 @@ from app.plan.model import FloatArray, Note, PlayerParameters
 
 FULL_BREATH_S = 0.5
 """Time a trained player needs to fill the lungs."""
-CATCH_MIN_S = 0.15
+CATCH_MIN_S = 0.12
+"""A gasp shorter than this brings no air."""
 CATCH_MAX_S = 0.4
-CATCH_NOTE_SHARE = 1.0 / 3.0
-"""A catch breath takes at most this part of the note before it."""
+CATCH_NOTE_SHARE = 0.4
+"""A catch breath takes at most this part of the note before it ..."""
+CATCH_MOST_SHARE = 0.5
+"""... unless that would be no gasp: out of a short note as much as a gasp needs, at most this part."""
 LOUDNESS_RANGE = (0.6, 1.6)
 """Air used by the softest and the loudest note, mezzoforte being 1."""
 
@@ -29,6 +32,8 @@ SILENCE = 1.5
 """A short silence is there already."""
 SLURRED = -2.0
 """Between notes that overlap: the slur would be broken."""
+CLIPPED = -1.0
+"""Out of a note so short that it loses more than the usual part."""
 JITTER = 0.2
 """Players differ where places are equally good."""
 TAKEN_COST = 3.0
@@ -162,6 +167,7 @@ def _place_costs(
     good += LEAP * (np.abs(times.pitch[at] - times.pitch[at - 1]) >= 5)
     good += SILENCE * (times.silence_tick[at] > 0)
     good += SLURRED * times.overlaps_next[at - 1]
+    good += CLIPPED * (_gap_s(times)[at] + CATCH_NOTE_SHARE * duration[at - 1] < CATCH_MIN_S)
     good += np.array([JITTER * chance(*seed, "catch", int(tick)) for tick in onset])
     good -= TAKEN_COST * np.array([notes[index].id in taken for index in places])
     return np.asarray(PLACE_COST - good, dtype=np.float64)
@@ -169,7 +175,14 @@ def _place_costs(
 
 def catch_lengths_s(times: LineTimes) -> FloatArray:
     """(N,): how long a catch breath before each note may be: the silence there, else also a part of the note before."""
-    gap = np.maximum(times.onset_s - np.insert(times.played_end_s[:-1], 0, times.onset_s[0]), 0.0)
+    gap = _gap_s(times)
     before = np.insert(times.duration_s[:-1], 0, 0.0)
-    length = np.where(gap >= CATCH_MIN_S, gap, gap + CATCH_NOTE_SHARE * before)
+    tail = np.maximum(CATCH_NOTE_SHARE * before, np.minimum(CATCH_MIN_S - gap, CATCH_MOST_SHARE * before))
+    length = np.where(gap >= CATCH_MIN_S, gap, gap + tail)
     return np.asarray(np.minimum(length, CATCH_MAX_S), dtype=np.float64)
+
+
+def _gap_s(times: LineTimes) -> FloatArray:
+    """(N,): the silence before each note; 0 before the first."""
+    gap: FloatArray = np.maximum(times.onset_s - np.insert(times.played_end_s[:-1], 0, times.onset_s[0]), 0.0)
+    return gap

@@ -59,7 +59,9 @@ class Project:
     seed : int
         Another seed is another performance of the same plan.
     preroll_beats : float
-        Before the first note.
+        Before the first note, in felt beats.
+    felt_beat_quarters : float
+        The beat that is felt, in quarters: 1.5 where a fast 6/8 is felt in two.
     """
 
     score: Score
@@ -67,6 +69,12 @@ class Project:
     corrections: Mapping[str, tuple[Correction, ...]] = field(default_factory=dict)
     seed: int = 0
     preroll_beats: float = PREROLL_BEATS
+    felt_beat_quarters: float = 1.0
+
+    @property
+    def felt_beat_ticks(self) -> int:
+        """The felt beat in whole ticks, at least one."""
+        return max(round(self.felt_beat_quarters * self.score.ticks_per_quarter), 1)
 
     def part(self, player: Player) -> Part:
         """What a player plays."""
@@ -78,7 +86,12 @@ class Project:
 
 
 def project_from_score(
-    score: Score, maps: Mapping[str, InstrumentMap], *, seed: int = 0, preroll_beats: float = PREROLL_BEATS
+    score: Score,
+    maps: Mapping[str, InstrumentMap],
+    *,
+    seed: int = 0,
+    preroll_beats: float = PREROLL_BEATS,
+    felt_beat_quarters: float = 1.0,
 ) -> Project:
     """Cast a score: a player for every part, with a name, a character, a place and a size of motion of their own.
 
@@ -88,7 +101,7 @@ def project_from_score(
     maps : mapping of str to InstrumentMap
         By id; every part names one of them.
     seed : int
-    preroll_beats : float
+    preroll_beats, felt_beat_quarters : float
     """
     parts = score.parts
     instruments = [maps[part.map_id] for part in parts]
@@ -107,7 +120,7 @@ def project_from_score(
         )
         for part, name, instrument, character, place in zip(parts, names, instruments, cast, places, strict=True)
     )
-    return Project(score, players, seed=seed, preroll_beats=preroll_beats)
+    return Project(score, players, seed=seed, preroll_beats=preroll_beats, felt_beat_quarters=felt_beat_quarters)
 
 
 def map_choices(maps: Iterable[InstrumentMap]) -> tuple[MapChoice, ...]:

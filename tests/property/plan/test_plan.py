@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.plan.generate import Line, Piece, make_plans, time_frame
-from app.plan.lungs import CATCH_MAX_S, CATCH_MIN_S, CATCH_NOTE_SHARE
+from app.plan.lungs import CATCH_MAX_S, CATCH_MIN_S, CATCH_MOST_SHARE
 from app.plan.model import PlayerParameters, PlayerPlan
 from instrument_maps.load import bundled_maps
 from tests.support.plan import PlainClock, PlainMetre, PlainNote, valves
@@ -85,7 +85,7 @@ def test_breaths_end_at_onsets_and_never_lie_in_a_sounding_note(drawn: tuple[Pie
                     end_tick = min(end_tick, line.notes[index + 1].onset_tick)
                 start_s, end_s = onsets_s[note.id], piece.clock.seconds(float(end_tick))
                 inside_s = min(end_s, breath.end_s) - max(start_s, breath.start_s)
-                allowed_s = CATCH_NOTE_SHARE * (end_s - start_s) if catch else 0.0
+                allowed_s = CATCH_MOST_SHARE * (end_s - start_s) if catch else 0.0
                 assert inside_s <= allowed_s + 1e-6
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+
 import pytest
 
 from app.plan.generate import Line, Piece, make_plans, time_frame
@@ -160,6 +162,29 @@ def test_a_phrase_longer_than_a_lungful_is_flagged() -> None:
     assert problem.message.id == "breath.too_long"
     assert problem.note_id == "1:1"
     assert problem.message.arguments["phrase_s"] == 20.0
+
+
+@pytest.mark.parametrize("step_tick", [Q // 2, 7 * Q // 12])
+def test_quick_notes_without_a_rest_are_clipped_for_air(step_tick: int) -> None:
+    # 30 s of eighths at 120: a quarter of a second is enough for a gasp; nobody plays them on one breath.
+    plan_ = plan(even([65, 67, 69, 67] * 30, step_tick))
+    catches = [event for event in plan_.breaths if event.reason.id == "breath.catch"]
+    assert plan_.problems == ()
+    ends = [0.0, *(event.end_s for event in catches), 120 * step_tick / Q / 2]
+    assert max(later - earlier for earlier, later in itertools.pairwise(ends)) <= 9.0
+    for event in catches:
+        assert CATCH_MIN_S - 1e-9 <= event.end_s - event.start_s <= 0.5 * step_tick / Q / 2 + 1e-9
+
+
+def test_a_quarter_is_cut_rather_than_an_eighth() -> None:
+    # Bars of six eighths and a quarter: every breath is taken out of the quarter, before the bar line.
+    notes = []
+    for bar in range(12):
+        notes += [(bar * 4 * Q + index * Q // 2, Q // 2, 65 + index) for index in range(6)]
+        notes.append((bar * 4 * Q + 3 * Q, Q, 65))
+    catches = [event for event in plan(line_of(*notes)).breaths if event.reason.id == "breath.catch"]
+    assert catches
+    assert {event.end_tick % (4 * Q) for event in catches} == {0}
 
 
 def test_loud_playing_needs_more_breaths_and_big_lungs_fewer() -> None:

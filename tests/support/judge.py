@@ -1,0 +1,320 @@
+"""A second opinion on ``suisou inspect --json``: everything the printed object promises, checked from the object and
+from what mido reads, without a line of the program.
+
+`faults` returns sentences, so that a test shows all of them at once.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+import mido
+
+Inspection = Mapping[str, Any]
+Sounding = tuple[int, int, int, int]
+"""Onset tick, duration in ticks, pitch, velocity."""
+
+# Table 3.1 of the thesis, concert pitches.
+TABLE = {
+    "trumpet": {57: "2", 59: "123", 60: "13", 62: "12", 64: "2", 65: "0", 67: "12", 69: "2"},
+    "trombone": {57: "2", 59: "4", 60: "3", 62: "1", 64: "2", 65: "1", 67: "2", 69: "2"},
+}
+
+
+def _upwards(labels: str, lowest: int) -> dict[int, str]:
+    return dict(enumerate(labels.split(), lowest))
+
+
+# First choices of github.com/bsz90/fingering-chart and, below E 2, of the harmonic series; concert pitches.
+FIRST = {
+    "trumpet": _upwards("123 13 23 12 1 2 0 123 13 23 12 1 2 0 23 12 1 2 0 12 1 2 0 1 2 0 23 12 1 2 0", 52),
+    "trombone": {
+        **_upwards("T6 T5 T4 T3 7 6 5 4 3 2 1", 36),
+        **_upwards("7 6 5 4 3 2 1 5 4 3 2 1 4 3 2 1 3 2 1 3 2 3 2 1", 47),
+    },
+}
+HELD_S = 0.35
+SLOW_S = 0.4
+"""Neighbouring onsets further apart than this force nobody to an alternate."""
+TUBE_M = 2.76
+TRAVEL_M = 0.62
+
+
+def family(instrument: str) -> str:
+    """trumpet or trombone."""
+    return instrument.split("_")[0]
+
+
+def sounding_notes(path: Path) -> list[tuple[int, int, Sounding]]:
+    """(track, channel, note) of a file that mido reads: first in, first out; velocity 0 is off; format 0 and 1."""
+    found = []
+    for number, track in enumerate(mido.MidiFile(path, clip=True).tracks):
+        tick = 0
+        open_: dict[tuple[int, int], list[tuple[int, int]]] = {}
+        for message in track:
+            tick += message.time
+            if message.type == "note_on" and message.velocity:
+                open_.setdefault((message.channel, message.note), []).append((tick, message.velocity))
+            elif message.type in ("note_on", "note_off"):
+                waiting = open_.get((message.channel, message.note))
+                if waiting:
+                    onset, velocity = waiting.pop(0)
+                    note = (onset, max(tick - onset, 1), message.note, velocity)
+                    found.append((number, message.channel, note))
+        for (channel, pitch), waiting in open_.items():
+            for onset, velocity in waiting:
+                found.append((number, channel, (onset, max(tick - onset, 1), pitch, velocity)))
+    return found
+
+
+def tempos(path: Path) -> list[tuple[int, int]]:
+    """(tick, microseconds per quarter) of all tracks, by tick; of several at one tick the last track's."""
+    changes = {0: 500000}
+    ordered = []
+    for track in mido.MidiFile(path, clip=True).tracks:
+        tick = 0
+        for message in track:
+            tick += message.time
+            if message.type == "set_tempo" and message.tempo > 0:
+                ordered.append((tick, message.tempo))
+    changes.update(ordered)
+    return sorted(changes.items())
+
+
+def slow_seconds(tick: float, changes: Sequence[tuple[int, int]], quarter: int) -> float:
+    """Seconds at a tick, tempo by tempo; the first extends backwards."""
+    time_s = 0.0
+    if tick < 0:
+        return tick * changes[0][1] / quarter / 1e6
+    for (start, tempo), end in zip(changes, [change[0] for change in changes[1:]] + [None], strict=True):
+        if tick <= start:
+            break
+        until = tick if end is None else min(tick, end)
+        time_s += (until - start) * tempo / quarter / 1e6
+    return time_s
+
+
+def faults(
+    path: Path, found: Inspection, *, thresholds: Sequence[float] = (0.5, 1.0, 2.0), felt_beat: float = 1.0,
+    preroll: float = 4.0,
+) -> list[str]:  # fmt: skip
+    """Everything that is wrong with what was printed about a file of format 0 or 1."""
+    changes, quarter = tempos(path), found["ticks_per_beat"]
+    wrong = _notes(path, found, changes, quarter)
+    names = [player["name"] for player in found["players"]]
+    if len({name.casefold() for name in names}) < len(names) or not all(name.strip() for name in names):
+        wrong.append(f"names: {names}")
+    for part in found["unplayed"]:
+        if set(part) != {"name", "reason", "note_count"} or " " not in part["reason"] or not part["name"]:
+            wrong.append(f"unplayed: {part}")
+    onsets = [note["onset_tick"] for player in found["players"] for note in player["notes"]]
+    if onsets:
+        first = min(onsets)
+        first_s = slow_seconds(first, changes, quarter)
+        start_s = min(slow_seconds(first - preroll * felt_beat * quarter, changes, quarter), first_s - 2.0)
+        if abs(found["first_frame_s"] - start_s) > 1e-6:
+            wrong.append(f"first_frame_s {found['first_frame_s']} instead of {start_s}")
+        wrong += _cues(found, first, changes, quarter, felt_beat)
+    for player in found["players"]:
+        wrong += [f"{player['name']}: {fault}" for fault in _fingerings(player)]
+        wrong += [
+            f"{player['name']}: {fault}"
+            for fault in _breaths(player, found, changes, quarter, tuple(thresholds), felt_beat)
+        ]
+    return wrong
+
+
+def _notes(path: Path, found: Inspection, changes: Sequence[tuple[int, int]], quarter: int) -> list[str]:
+    wrong = []
+    truth = Counter(note for _, _, note in sounding_notes(path))
+    told: Counter[Sounding] = Counter()
+    for player in found["players"]:
+        ids = [note["id"] for note in player["notes"]]
+        if len(set(ids)) < len(ids):
+            wrong.append(f"{player['name']}: ids repeat")
+        told.update((n["onset_tick"], n["duration_tick"], n["pitch"], n["velocity"]) for n in player["notes"])
+        for note in player["notes"]:
+            onset_s = slow_seconds(note["onset_tick"], changes, quarter)
+            end_s = slow_seconds(note["onset_tick"] + note["duration_tick"], changes, quarter)
+            if abs(note["onset_s"] - onset_s) > 1e-6 or abs(note["duration_s"] - (end_s - onset_s)) > 1e-6:
+                wrong.append(f"{player['name']}: note {note['id']} at {note['onset_s']} instead of {onset_s}")
+    extra = told - truth
+    if extra:
+        wrong.append(f"{sum(extra.values())} notes that mido does not read, such as {next(iter(extra))}")
+    missing = truth.total() - told.total() - sum(part["note_count"] for part in found["unplayed"])
+    if missing:
+        wrong.append(f"{missing} notes neither played nor listed")
+    ids = [note["id"] for player in found["players"] for note in player["notes"]]
+    if len(set(ids)) < len(ids):
+        wrong.append("note ids are not unique in the piece")
+    last = max((note[0] + note[1] for note in truth.elements()), default=0)
+    if truth and abs(found["duration_s"] - slow_seconds(last, changes, quarter)) > 1e-6:
+        wrong.append(f"duration_s {found['duration_s']} instead of {slow_seconds(last, changes, quarter)}")
+    return wrong
+
+
+def _cues(
+    found: Inspection, first: int, changes: Sequence[tuple[int, int]], quarter: int, felt_beat: float
+) -> list[str]:
+    wrong = []
+    first_s = slow_seconds(first, changes, quarter)
+    leaders = [
+        (player["name"], cue)
+        for player in found["players"]
+        for cue in player["cues"]
+        if abs(cue["end_s"] - first_s) < 1e-6
+    ]
+    if len(leaders) != 1:
+        return [f"{len(leaders)} players give the start"]
+    cue = leaders[0][1]
+    beat_s = first_s - slow_seconds(first - felt_beat * quarter, changes, quarter)
+    if abs(cue["beat_s"] - beat_s) > 1e-6 or abs(cue["peak_s"] - (first_s - beat_s)) > 1e-6:
+        wrong.append(f"the cue's beat is {cue['beat_s']} at {cue['peak_s']}, not {beat_s} before {first_s}")
+    if cue["start_s"] < found["first_frame_s"] - 1e-9:
+        wrong.append("the cue begins before the performance")
+    spans = sorted(
+        (note["onset_tick"], note["onset_tick"] + note["duration_tick"])
+        for player in found["players"]
+        for note in player["notes"]
+    )
+    reach = spans[0][1]
+    ends = {round(cue["end_s"], 6): player["name"] for player in found["players"] for cue in player["cues"]}
+    for onset, end in spans[1:]:
+        if onset > reach:
+            rest_s = slow_seconds(onset, changes, quarter) - slow_seconds(reach, changes, quarter)
+            entry_s = round(slow_seconds(onset, changes, quarter), 6)
+            if rest_s >= 4.0 and onset - reach >= 2 * felt_beat * quarter and entry_s not in ends:
+                wrong.append(f"nobody gives the entry at {entry_s} after {rest_s} s of rest")
+            if rest_s < 2.0 and onset - reach < 4 * quarter and entry_s in ends:
+                wrong.append(f"a cue at {entry_s} after {rest_s} s of rest")
+        reach = max(reach, end)
+    return wrong
+
+
+def _expected_controls(kind: str, label: str, controls: Mapping[str, float]) -> bool:
+    if kind == "trumpet":
+        return all(controls[f"valve_{digit}"] == float(digit in label) for digit in "123")
+    place = int(label.lstrip("T"))
+    if controls["trigger"] != float(label.startswith("T")):
+        return False
+    out_m = controls["slide"] * TRAVEL_M
+    tube_m = TUBE_M * (2 ** (5 / 12) if label.startswith("T") else 1.0)
+    return abs(out_m - tube_m * (2 ** ((place - 1) / 12) - 1) / 2) < 0.034
+
+
+def _fingerings(player: Mapping[str, Any]) -> list[str]:
+    wrong = []
+    kind = family(player["instrument"])
+    notes = player["notes"]
+    for index, note in enumerate(notes):
+        label, pitch, controls = note["fingering"], note["pitch"], note["controls"]
+        if any(not 0.0 <= value <= 1.0 for value in controls.values()):
+            wrong.append(f"note {note['id']}: controls {controls}")
+        if not _expected_controls(kind, label, controls):
+            wrong.append(f"note {note['id']}: {label} with {controls}")
+        around = [
+            abs(other["onset_s"] - note["onset_s"])
+            for other in [*notes[max(index - 1, 0) : index], *notes[index + 1 : index + 2]]
+        ]
+        if pitch in FIRST[kind] and min(around, default=9.0) > SLOW_S and label != FIRST[kind][pitch]:
+            wrong.append(f"note {note['id']}: {pitch} with {label} though there is time for {FIRST[kind][pitch]}")
+        if pitch in TABLE[kind] and min(around, default=9.0) > SLOW_S and label != TABLE[kind][pitch]:
+            wrong.append(f"note {note['id']}: {pitch} with {label} against table 3.1")
+        following = notes[index + 1]["onset_s"] if index + 1 < len(notes) else note["onset_s"] + 99.0
+        length_s = min(note["duration_s"], following - note["onset_s"])
+        if kind == "trumpet" and abs(length_s - HELD_S) > 0.2:
+            held = length_s > HELD_S
+            ring, saddle = controls["third_slide"] > 0.0, controls["first_slide"] > 0.0
+            if ring != (held and label in ("13", "123")) or saddle != (held and label == "12"):
+                wrong.append(f"note {note['id']}: {label} for {length_s} s with {controls}")
+    return wrong
+
+
+def _breaths(
+    player: Mapping[str, Any],
+    found: Inspection,
+    changes: Sequence[tuple[int, int]],
+    quarter: int,
+    thresholds: tuple[float, ...],
+    felt_beat: float,
+) -> list[str]:
+    least, last, prepare = thresholds
+    wrong: list[str] = []
+
+    def seconds(tick: float) -> float:
+        return slow_seconds(tick, changes, quarter)
+
+    beat = felt_beat * quarter
+    notes = player["notes"]
+    breaths = [event for event in player["breaths"] if event["kind"] == "breath"]
+    preparations = [event for event in player["breaths"] if event["kind"] == "preparation"]
+    onset_ticks = [note["onset_tick"] for note in notes]
+    served: dict[int, Mapping[str, Any]] = {}
+    for breath in breaths:
+        at = [index for index, note in enumerate(notes) if -1e-9 <= note["onset_s"] - breath["end_s"] <= 0.05 + 1e-9]
+        if not at:
+            wrong.append(f"the breath at {breath['end_s']} ends at no onset")
+        for index in at[:1]:
+            served[index] = breath
+        if breath["start_s"] < found["first_frame_s"] - 1e-9:
+            wrong.append(f"the breath at {breath['end_s']} begins before the performance")
+    for event in player["breaths"]:
+        if not event["reason"] or event["end_s"] - event["start_s"] <= 0:
+            wrong.append(f"breath {event}")
+        for end in ("start", "end"):
+            if abs(seconds(event[f"{end}_beat"] * quarter) - event[f"{end}_s"]) > 1e-5:
+                wrong.append(f"the {end} of the breath at {event['end_s']} in beats: {event[f'{end}_beat']}")
+    reach = 0
+    for index, note in enumerate(notes):
+        onset = note["onset_tick"]
+        if index == 0:
+            rest = seconds(onset) - found["first_frame_s"]
+            if 0 not in served:
+                wrong.append("no first breath")
+            reach = onset + note["duration_tick"]
+            continue
+        rest = max(onset - reach, 0) / beat
+        if onset == onset_ticks[index - 1]:
+            reach = max(reach, onset + note["duration_tick"])
+            continue
+        breath = served.get(index)
+        wanted: tuple[float, ...] = ()
+        if prepare <= rest:
+            wanted = (onset - 2 * beat, onset - beat, onset)
+        elif last <= rest:
+            wanted = (onset - beat, onset)
+        elif least <= rest:
+            wanted = (onset - rest * beat, onset)
+        if wanted and breath is None:
+            wrong.append(f"no breath in {rest} beats of rest before note {note['id']}")
+        elif wanted and breath is not None:
+            start_s, end_s = seconds(wanted[-2]), seconds(wanted[-1])
+            if abs(breath["start_s"] - start_s) > 1e-6 or not -1e-9 <= end_s - breath["end_s"] <= 0.05:
+                wrong.append(f"breath {breath['start_s']}..{breath['end_s']} instead of {start_s}..{end_s}")
+        if len(wanted) == 3:
+            start_s, end_s = seconds(wanted[0]), seconds(wanted[1])
+            if not any(
+                abs(event["start_s"] - start_s) < 1e-6 and abs(event["end_s"] - end_s) < 1e-6 for event in preparations
+            ):
+                wrong.append(f"no preparation in {rest} beats of rest before note {note['id']}")
+        if not wanted and breath is not None:
+            before = notes[index - 1]
+            cut_s = before["onset_s"] + min(before["duration_s"], note["onset_s"] - before["onset_s"])
+            if breath["start_s"] < before["onset_s"] + 0.5 * (cut_s - before["onset_s"]):
+                wrong.append(f"the catch breath at {breath['end_s']} takes most of the note before")
+        reach = max(reach, onset + note["duration_tick"])
+    for event in player["breaths"]:
+        for note, following in pairwise([*notes, None]):
+            end_s = note["onset_s"] + note["duration_s"]
+            if following is not None:
+                end_s = min(end_s, following["onset_s"])
+            inside_s = min(end_s, event["end_s"]) - max(note["onset_s"], event["start_s"])
+            tail = following is not None and abs(following["onset_s"] - event["end_s"]) <= 0.05
+            most_s = 0.5 * (end_s - note["onset_s"]) if tail and event["kind"] == "breath" else 0.0
+            if inside_s > most_s + 1e-6:
+                wrong.append(f"{event['kind']} {event['start_s']}..{event['end_s']} inside note {note['id']}")
+    return wrong
