@@ -6,6 +6,7 @@ Messages: ``file.cannot_write`` (file, reason), as in `app.formats.atomic`.
 from __future__ import annotations
 
 import contextlib
+import errno
 import os
 import secrets
 import shutil
@@ -63,6 +64,8 @@ def _make(folder: Path, made: list[Path]) -> None:
     """Make a folder and those above it; ``made`` gets the new ones."""
     if folder.is_dir():
         return
+    if folder.exists():
+        raise NotADirectoryError(errno.ENOTDIR, os.strerror(errno.ENOTDIR), folder)
     if folder.parent != folder:
         _make(folder.parent, made)
     folder.mkdir()
