@@ -27,6 +27,7 @@ from app.rig.hand import (
     FINGERS,
     HandModel,
     ball_centres,
+    flesh_radius,
     hand_model,
     joint_rotations,
     skinned,
@@ -50,7 +51,7 @@ IntArray = npt.NDArray[np.intp]
 # What a deviation of one unit of residual is.
 FIRM_M, RESTING_M = 0.0003, 0.0012
 FIRM_NORMAL, RESTING_NORMAL = 0.35, 0.6
-PENETRATION_M = 0.0006
+PENETRATION_M, FOREARM_M = 0.0006, 0.003
 BALL_M = 0.001
 CURL_RAD, SIDEWAYS_RAD, THUMB_RAD, COUPLING_RAD = 0.4, 0.12, 0.4, 0.18
 WORKED_RAD = 0.5
@@ -123,7 +124,7 @@ class _Problem:
     high: FloatArray = field(default_factory=lambda: np.zeros(0))
 
 
-FIT_VERSION = 2
+FIT_VERSION = 3
 """Part of the digest of stored holds (`app.rig.hold_file`): raise it when a fit comes out differently."""
 
 
@@ -289,7 +290,7 @@ def _problem(
     aside = quaternion.rotate(back, [-outward, 0.0, 0.0])
     place, node_turn = _nodes_at(model, instrument_map, side, carrier, np.array([0.0, 1.0]))
     near_hand = near(
-        bodies(instrument_map.proxy, names), model.node_positions_m, seed_m + quaternion.rotate(turn, palm), 0.17
+        bodies(instrument_map.proxy, names), model.node_positions_m, seed_m + quaternion.rotate(turn, palm), 0.28
     )
     problem = _Problem(
         hand=hand,
@@ -388,11 +389,15 @@ class _Residuals:
     def __init__(self, problem: _Problem, soft: float) -> None:
         self.problem = problem
         self.soft = soft
+        hand = problem.hand
+        counts = [hand.skin_points.shape[2], len(hand.balls), len(hand.forearm_balls)]
+        self.radius = flesh_radius(hand)
+        self.spread = soft * np.repeat([PENETRATION_M, PENETRATION_M, FOREARM_M], counts)
 
     def __call__(self, x: FloatArray) -> FloatArray:
         smooth, skin = self._parts(x[None])
         depth, _ = self._depth(skin[0])
-        return np.concatenate([smooth[0], depth.ravel() / (PENETRATION_M * self.soft)])
+        return np.concatenate([smooth[0], (depth / self.spread).ravel()])
 
     def jacobian(self, x: FloatArray) -> FloatArray:
         tried = np.repeat(x[None], len(x) + 1, axis=0)
@@ -402,22 +407,24 @@ class _Residuals:
         depth, slope = self._depth(skin[0])
         change = (skin[1:] - skin[0]) / step[:, None, None, None]
         inside = depth > 0.0
-        moved = -np.einsum("xcvi,cvi->xcv", change, slope) * inside
-        return np.concatenate(
-            [(smooth[1:] - smooth[0]) / step[:, None], moved.reshape(len(x), -1) / (PENETRATION_M * self.soft)], axis=1
-        ).T
+        moved = -np.einsum("xcvi,cvi->xcv", change, slope) * inside / self.spread
+        return np.concatenate([(smooth[1:] - smooth[0]) / step[:, None], moved.reshape(len(x), -1)], axis=1).T
 
     def _depth(self, skin: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Depth (configs, V) of skin below the proxy's surface, and the gradient of the distance."""
         depth, slope = np.zeros(skin.shape[:2]), np.zeros(skin.shape)
         for config in range(len(skin)):
             depth[config], slope[config] = _inside(
-                self.problem.proxies, self.problem.node_place[config], self.problem.node_turn[config], skin[config]
+                self.problem.proxies,
+                self.problem.node_place[config],
+                self.problem.node_turn[config],
+                skin[config],
+                self.radius,
             )
         return depth, slope
 
     def _parts(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return the residuals but the proxy's (B, m), and the skin (B, configs, V, 3) in the instrument's frame."""
+        """Residuals but the proxy's (B, m), and skin and balls (B, configs, V, 3) in the instrument's frame."""
         problem, hand = self.problem, self.problem.hand
         place, turn = _wrist(problem, x)
         angles = _angles(problem, x)
@@ -444,6 +451,7 @@ class _Residuals:
                     parts.append(off / (touch.spread_m * self.soft))
                     parts.append((facing[:, config, number] + touch.normals[config]) / touch.spread_normal)
         balls = ball_centres(hand, transforms)
+        skin = np.concatenate([skin, placed(balls), self._forearm(x, place)], axis=2)
         pairs = balls[:, hand.ball_pairs[:, 0]] - balls[:, hand.ball_pairs[:, 1]]
         gap = np.sqrt(np.einsum("bki,bki->bk", pairs, pairs))
         parts.append((np.maximum(hand.ball_gaps_m - gap, 0.0) / (BALL_M * self.soft)).reshape(count, -1))
@@ -451,6 +459,14 @@ class _Residuals:
         parts.append(self._arm(x, place, turn))
         parts.append(self._anchored(x))
         return np.concatenate(parts, axis=1), skin
+
+    def _forearm(self, x: FloatArray, place: FloatArray) -> FloatArray:
+        """Balls (B, configs, C, 3) of the forearm."""
+        wrist = place + self.problem.reference_shift_m
+        behind = _elbow_place(self.problem, wrist, x[:, 6]) - wrist
+        behind /= np.linalg.norm(behind, axis=1)[:, None]
+        balls = place[:, None] + behind[:, None] * self.problem.hand.forearm_balls[:, :1]
+        return np.repeat(balls[:, None], self.problem.configs, axis=1)
 
     def _natural(self, angles: FloatArray) -> FloatArray:
         problem = self.problem
@@ -533,11 +549,11 @@ def _pole(problem: _Problem, direction: FloatArray, swivel: FloatArray) -> Float
 
 
 def _inside(
-    proxies: Bodies, node_place: FloatArray, node_turn: FloatArray, skin: FloatArray
+    proxies: Bodies, node_place: FloatArray, node_turn: FloatArray, skin: FloatArray, radius: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Depth (V,) of skin (V, 3) below the proxy's surface, 0 outside, and the gradient (V, 3) of the distance there."""
+    """Depth (V,) of balls at (V, 3) below the proxy's surface, 0 outside, and the gradient (V, 3) of the distance."""
     local = np.einsum("nji,vnj->vni", node_turn, skin[:, None] - node_place)
-    depth, owner = inside(proxies, local)
+    depth, owner = inside(proxies, local, radius)
     hit = np.flatnonzero(owner >= 0)
     slope = np.zeros(skin.shape)
     if len(hit):
@@ -680,15 +696,19 @@ def _solve_finger(
     points = np.stack([hand.landmarks[t.contact.part] for t in touches], axis=2)
     normals = np.stack([hand.landmark_normals[t.contact.part] for t in touches], axis=2)
     skin_points = np.ascontiguousarray(hand.skin_points[:, :, hand.skin_finger == number])
+    own = np.flatnonzero(hand.ball_finger == number)
+    radius = np.concatenate([np.zeros(skin_points.shape[2]), flesh_radius(hand)[hand.skin_points.shape[2] + own]])
     samples, count = len(values), len(dofs)
 
     def residuals(x: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Residuals (B, S, m) without the proxy's, and skin (B, S, V, 3), for angles (B, S, n)."""
         pose = np.repeat(solved[None], len(x), axis=0)
         pose[:, :, joints, kinds] = x
-        matrices = wrist_from_mesh(hand, wrist_from_joint(hand, joint_rotations(hand, pose.reshape(-1, 16, 3))))
+        transforms = wrist_from_joint(hand, joint_rotations(hand, pose.reshape(-1, 16, 3)))
+        matrices = wrist_from_mesh(hand, transforms)
         shape = (len(x), samples, -1, 3)
-        skin = scene.placed(skinned(matrices, skin_points).reshape(shape))
+        flesh = np.concatenate([skinned(matrices, skin_points), ball_centres(hand, transforms)[:, own]], axis=1)
+        skin = scene.placed(flesh.reshape(shape))
         at = scene.placed(skinned(matrices, points).reshape(shape))
         facing = scene.turned(turned(matrices, normals).reshape(shape))
         parts = [(x - usual[:, joints, kinds]) / WORKED_RAD]
@@ -700,7 +720,7 @@ def _solve_finger(
         return np.concatenate(parts, axis=2), skin
 
     def depths(skin: FloatArray) -> tuple[FloatArray, FloatArray]:
-        found = [_inside(problem.proxies, node_place[s], node_turn[s], skin[s]) for s in range(samples)]
+        found = [_inside(problem.proxies, node_place[s], node_turn[s], skin[s], radius) for s in range(samples)]
         return np.stack([depth for depth, _ in found]), np.stack([slope for _, slope in found])
 
     x = np.clip(solved[:, joints, kinds], low, high)
@@ -769,7 +789,8 @@ def _judge(
     scene = replace(
         scene, position_m=scene.position_m[low] * (1.0 - share) + scene.position_m[high] * share, basis=turn
     )
-    matrices = wrist_from_mesh(hand, wrist_from_joint(hand, rotations))
+    transforms = wrist_from_joint(hand, rotations)
+    matrices = wrist_from_mesh(hand, transforms)
     touching = scene.placed(skinned(matrices, problem.touch_points))
     facing = scene.turned(turned(matrices, problem.touch_normals))
     contacts = []
@@ -792,8 +813,12 @@ def _judge(
             )
         )  # fmt: skip
     place, turn = _nodes_at(scene.model, scene.instrument_map, hand.side, scene.carrier, fine)
-    skin = scene.placed(skinned(matrices, hand.all_points))
-    depth = max(float(_inside(problem.proxies, place[s], turn[s], skin[s])[0].max()) for s in range(len(fine)))
+    flesh = np.concatenate([skinned(matrices, hand.all_points), ball_centres(hand, transforms)], axis=1)
+    skin = scene.placed(flesh)
+    radius = np.concatenate(
+        [np.zeros(hand.all_points.shape[2]), flesh_radius(hand)[hand.skin_points.shape[2] :][: len(hand.balls)]]
+    )
+    depth = max(float(_inside(problem.proxies, place[s], turn[s], skin[s], radius)[0].max()) for s in range(len(fine)))
     return tuple(contacts), depth
 
 

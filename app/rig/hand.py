@@ -26,7 +26,15 @@ FINGERS = ("thumb", "index", "middle", "ring", "little")
 _CELL_M = 0.006
 """Skin is thinned to one vertex per cell of this size: dense enough that no tube passes between."""
 _BALLS = 3
-"""Balls per bone that keep fingers apart."""
+"""Balls per bone of a finger."""
+_PALM_STATIONS = (0.05, 0.25, 0.45, 0.65, 0.85)
+"""Balls between the wrist and each knuckle."""
+_FOREARM_M = (0.05, 0.1, 0.15, 0.2)
+"""Balls in the forearm, behind the wrist."""
+_SLEEVE_M = 0.006
+_FOREARM_TAPER = 0.05
+_FINGER_FLESH, _PALM_FLESH = 0.65, 0.85
+"""Part of a ball's radius that nothing may enter: touching is measured on the skin, balls keep thin bars out."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,8 +66,12 @@ class HandModel:
     skin_finger : (V,) int
         Finger 0..4 that carries most of a vertex of the thinned skin, -1 for the palm.
     balls : (B, 4) float64
-        Joint, position along with radius are kept apart: columns are x, y, z in the joint's frame, radius.
+        Balls that fill fingers and palm: centre in the frame of the joint that carries it, radius.
     ball_joints : (B,) int
+    ball_finger : (B,) int
+        Finger 0..4, -1 for the palm.
+    forearm_balls : (C, 2) float64
+        Balls behind the wrist: distance from it along the forearm, radius.
     ball_pairs : (N, 2) int
         Balls of different fingers.
     ball_gaps_m : (N,) float64
@@ -80,6 +92,8 @@ class HandModel:
     skin_finger: IntArray
     balls: FloatArray
     ball_joints: IntArray
+    ball_finger: IntArray
+    forearm_balls: FloatArray
     ball_pairs: IntArray
     ball_gaps_m: FloatArray
 
@@ -131,6 +145,12 @@ def turned(matrices: FloatArray, normals: FloatArray) -> FloatArray:
     return unit
 
 
+def flesh_radius(hand: HandModel) -> FloatArray:
+    """Radii of what must stay outside the instrument: 0 for the thinned skin, then balls, then the forearm's."""
+    firm = np.where(hand.ball_finger >= 0, _FINGER_FLESH, _PALM_FLESH) * hand.balls[:, 3]
+    return np.concatenate([np.zeros(hand.skin_points.shape[2]), firm, _PALM_FLESH * hand.forearm_balls[:, 1]])
+
+
 def ball_centres(hand: HandModel, transforms: FloatArray) -> FloatArray:
     """Centres (B, balls, 3) of the balls in the wrist's frame."""
     carrier = transforms[:, hand.ball_joints]
@@ -177,11 +197,27 @@ def hand_model(character: Character, side: Side, body: Body, profile: SkeletonPr
         normals[name] = directions.mean(axis=2)
     whole = marks[f"{side}.hand"]
     points, _ = _moments(character, whole.mesh, whole.vertices, table)
+    none = np.zeros(0, dtype=np.intp)
     draft = HandModel(
-        side, joints, offsets, axes, limits, bind, rest[elbow] - rest[joints[0]], landmarks, normals,
-        skin_points=points, all_points=points, skin_finger=np.zeros(0, np.intp), balls=np.zeros((0, 4)),
-        ball_joints=np.zeros(0, np.intp), ball_pairs=np.zeros((0, 2), np.intp), ball_gaps_m=np.zeros(0),
-    )  # fmt: skip
+        side=side,
+        joints=joints,
+        offsets_m=offsets,
+        axes=axes,
+        limits=limits,
+        joint_from_mesh=bind,
+        forearm_m=rest[elbow] - rest[joints[0]],
+        landmarks=landmarks,
+        landmark_normals=normals,
+        skin_points=points,
+        all_points=points,
+        skin_finger=none,
+        balls=np.zeros((0, 4)),
+        ball_joints=none,
+        ball_finger=none,
+        forearm_balls=np.zeros((0, 2)),
+        ball_pairs=np.zeros((0, 2), dtype=np.intp),
+        ball_gaps_m=np.zeros(0),
+    )
     return _with_skin(draft)
 
 
@@ -209,7 +245,7 @@ def _moments(
 
 
 def _with_skin(hand: HandModel) -> HandModel:
-    """Thin the skin and put balls into the fingers."""
+    """Thin the skin and fill the hand with balls."""
     rest = wrist_from_joint(hand, np.tile(quaternion.IDENTITY, (1, 16, 1)))
     skin = skinned(wrist_from_mesh(hand, rest), hand.all_points)[0]
     weights = hand.all_points[:, 3]
@@ -217,13 +253,43 @@ def _with_skin(hand: HandModel) -> HandModel:
     _, chosen = np.unique(cells, axis=0, return_index=True)
     chosen = np.sort(chosen)
     owner = np.argmax(weights, axis=0)
-    balls, ball_joints = [], []
+    found = [*_finger_balls(hand, rest, skin, owner, weights), *_palm_balls(hand, skin, owner)]
+    carriers = np.array([joint for joint, _ in found], dtype=np.intp)
+    ball = np.array([ball for _, ball in found])
+    finger = np.where(carriers > 0, (carriers - 1) // 3, -1)
+    first, second = np.triu_indices(len(ball), 1)
+    apart = (finger[first] != finger[second]) & (carriers[first] > 1) & (carriers[second] > 1)
+    pairs = np.stack([first[apart], second[apart]], axis=1)
+    centres = rest[0, carriers, :, 3] + ball[:, :3]
+    gaps = ball[pairs[:, 0], 3] + ball[pairs[:, 1], 3] - 0.001
+    at_rest = np.linalg.norm(centres[pairs[:, 0]] - centres[pairs[:, 1]], axis=1)
+    wrist_m = np.median([radius for joint, (_, _, _, radius) in found if joint == 0]) + _SLEEVE_M
+    forearm = [[behind, wrist_m + _FOREARM_TAPER * behind] for behind in _FOREARM_M]
+    values = {field: getattr(hand, field) for field in HandModel.__dataclass_fields__}
+    values.update(
+        skin_points=np.ascontiguousarray(hand.all_points[:, :, chosen]),
+        skin_finger=np.where((owner[chosen] >= 1) & (owner[chosen] <= 15), (owner[chosen] - 1) // 3, -1),
+        balls=ball,
+        ball_joints=carriers,
+        ball_finger=finger,
+        forearm_balls=np.array(forearm),
+        ball_pairs=pairs,
+        ball_gaps_m=np.minimum(gaps, at_rest),
+    )
+    return HandModel(**values)
+
+
+def _finger_balls(
+    hand: HandModel, rest: FloatArray, skin: FloatArray, owner: IntArray, weights: FloatArray
+) -> list[tuple[int, list[float]]]:
+    """Balls along the bones of the fingers and the thumb's metacarpal: joint, and centre and radius."""
+    found = []
     for joint in range(1, 16):
-        if joint == 1:
-            continue  # The thumb's metacarpal lies in the palm.
         own = skin[(owner == joint) & (weights[joint] > 0.6)] - rest[0, joint, :, 3]
-        tip = joint % 3 == 0
+        if len(own) < 4:
+            continue
         axis = hand.axes[joint, 2] * np.sign(hand.axes[joint, 2] @ own.mean(axis=0))
+        tip = joint % 3 == 0
         length = np.max(own @ axis) if tip else float(np.linalg.norm(hand.offsets_m[joint + 1]))
         along = own @ axis
         for station in (np.arange(_BALLS) + 0.5) / _BALLS:
@@ -234,24 +300,20 @@ def _with_skin(hand: HandModel) -> HandModel:
             middle += axis * (station * length - middle @ axis)
             off = ring - middle
             off -= np.outer(off @ axis, axis)
-            balls.append([*middle, float(np.median(np.linalg.norm(off, axis=1)))])
-            ball_joints.append(joint)
-    ball = np.array(balls)
-    carriers = np.array(ball_joints, dtype=np.intp)
-    finger = (carriers - 1) // 3
-    first, second = np.triu_indices(len(ball), 1)
-    apart = finger[first] != finger[second]
-    pairs = np.stack([first[apart], second[apart]], axis=1)
-    centres = rest[0, carriers, :, 3] + ball[:, :3]
-    gaps = ball[pairs[:, 0], 3] + ball[pairs[:, 1], 3] - 0.001
-    at_rest = np.linalg.norm(centres[pairs[:, 0]] - centres[pairs[:, 1]], axis=1)
-    values = {field: getattr(hand, field) for field in HandModel.__dataclass_fields__}
-    values.update(
-        skin_points=np.ascontiguousarray(hand.all_points[:, :, chosen]),
-        skin_finger=np.where((owner[chosen] >= 1) & (owner[chosen] <= 15), (owner[chosen] - 1) // 3, -1),
-        balls=ball,
-        ball_joints=carriers,
-        ball_pairs=pairs,
-        ball_gaps_m=np.minimum(gaps, at_rest),
-    )
-    return HandModel(**values)
+            found.append((joint, [*middle, float(np.median(np.linalg.norm(off, axis=1)))]))
+    return found
+
+
+def _palm_balls(hand: HandModel, skin: FloatArray, owner: IntArray) -> list[tuple[int, list[float]]]:
+    """Balls between the wrist and the knuckles, half as thick as the palm is there."""
+    found = []
+    flesh = skin[(owner == 0) | (owner == 16) | (owner == 1) | ((owner - 1) % 3 == 0)]
+    for knuckle in (4, 7, 10, 13):
+        for station in _PALM_STATIONS:
+            at = hand.offsets_m[knuckle] * station
+            # At rest the palm faces down: its thickness is along Y.
+            column = flesh[np.hypot(flesh[:, 0] - at[0], flesh[:, 2] - at[2]) < 0.008]
+            if len(column) >= 2 and np.ptp(column[:, 1]) > 0.01:
+                low, high = column[:, 1].min(), column[:, 1].max()
+                found.append((0, [at[0], (low + high) / 2, at[2], (high - low) / 2]))
+    return found

@@ -108,27 +108,29 @@ def near(all_bodies: Bodies, nodes_m: FloatArray, centre_m: FloatArray, radius_m
     return all_bodies.taken(_capsule(all_bodies.hulls, centre_m - nodes_m[all_bodies.nodes]) < radius_m)
 
 
-def inside(some: Bodies, points_m: FloatArray) -> tuple[FloatArray, IntArray]:
-    """How deep points lie in the union.
+def inside(some: Bodies, points_m: FloatArray, radius_m: FloatArray) -> tuple[FloatArray, IntArray]:
+    """How deep balls reach into the union.
 
     Parameters
     ----------
     some : Bodies
     points_m : (P, N, 3) float64
-        Each point in the frames of all nodes.
+        The centre of each ball in the frames of all nodes.
+    radius_m : (P,) float64
+        0 for a point of the skin.
 
     Returns
     -------
     depth_m : (P,) float64
         0 outside.
     body : (P,) int
-        The body that lies deepest about the point; -1 outside.
+        The body it reaches deepest into; -1 outside.
     """
     depth, owner = np.zeros(len(points_m)), np.full(len(points_m), -1, dtype=np.intp)
     if not len(some):
         return depth, owner
-    point, body = _candidates(some, points_m)
-    found = -_measured(some, points_m[point, some.nodes[body]], body)
+    point, body = _candidates(some, points_m, radius_m)
+    found = radius_m[point] - _measured(some, points_m[point, some.nodes[body]], body)
     np.maximum.at(depth, point, found)
     deepest = (found > 0.0) & (found == depth[point])
     owner[point[deepest]] = body[deepest]
@@ -153,8 +155,8 @@ def gradient(some: Bodies, points_m: FloatArray, body: IntArray) -> FloatArray:
     return slope
 
 
-def _candidates(some: Bodies, points_m: FloatArray) -> tuple[IntArray, IntArray]:
-    """Pairs of point and body whose hull holds the point; by products of matrices, node by node."""
+def _candidates(some: Bodies, points_m: FloatArray, radius_m: FloatArray) -> tuple[IntArray, IntArray]:
+    """Pairs of ball and body whose hull the ball reaches; by products of matrices, node by node."""
     points, owners = [], []
     for node in np.unique(some.nodes):
         members = np.flatnonzero(some.nodes == node)
@@ -166,7 +168,7 @@ def _candidates(some: Bodies, points_m: FloatArray) -> tuple[IntArray, IntArray]
         share = np.clip(along / np.maximum(length2, 1e-12), 0.0, 1.0)
         square = np.einsum("pi,pi->p", local, local)[:, None] - 2.0 * (local @ a.T) + np.einsum("bi,bi->b", a, a)
         square += share * (share * length2 - 2.0 * along)
-        point, body = np.nonzero(square < radius * radius)
+        point, body = np.nonzero(square < np.square(radius_m[:, None] + radius))
         points.append(point)
         owners.append(members[body])
     return np.concatenate(points), np.concatenate(owners)

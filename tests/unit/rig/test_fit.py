@@ -89,7 +89,7 @@ def test_no_hand_is_inside_the_instrument(held: Held) -> None:
         skin = _on_instrument(held, hand, transforms, skinning.deform(part, transforms))
         for frame in range(0, len(GRID), 4):
             local = np.einsum("nji,vnj->vni", bases[frame], skin[frame][:, None] - nodes[frame])
-            depth, _ = proxy.inside(bodies, local)
+            depth, _ = proxy.inside(bodies, local, np.zeros(len(local)))
             assert depth.max() <= 0.003, (hand.side, GRID[frame])
 
 

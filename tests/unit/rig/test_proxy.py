@@ -31,17 +31,20 @@ def test_a_step_of_the_distance_along_the_slope_ends_on_the_surface(shape: Proxy
 def test_a_point_is_inside_where_the_union_says_so_and_as_deep() -> None:
     some = proxy.bodies(SHAPES, ["root"])
     points = np.random.default_rng(4).uniform(-0.12, 0.12, size=(20000, 1, 3))
-    depth, owner = proxy.inside(some, points)
+    depth, owner = proxy.inside(some, points, np.zeros(len(points)))
     far = proxy.distance(some, points)
     np.testing.assert_allclose(depth, np.maximum(-far, 0.0), atol=1e-12)
     assert np.count_nonzero(depth) > 50
     np.testing.assert_array_equal(owner >= 0, depth > 0.0)
+    radius = np.random.default_rng(5).uniform(0.0, 0.03, size=len(points))
+    reached, _ = proxy.inside(some, points, radius)
+    np.testing.assert_allclose(reached, np.maximum(radius - far, 0.0), atol=1e-12)
 
 
 def test_bodies_move_with_their_nodes() -> None:
     some = proxy.bodies([Capsule("a", (0.0, 0.0, 0.0), (0.0, 0.0, 0.1), 0.01)], ["root", "a"])
     point = np.array([0.5, 0.0, 0.05])
-    depth, _ = proxy.inside(some, np.stack([point, point - [0.5, 0.0, 0.0]])[None])
+    depth, _ = proxy.inside(some, np.stack([point, point - [0.5, 0.0, 0.0]])[None], np.zeros(1))
     assert depth[0] == pytest.approx(0.01)
 
 
