@@ -10,11 +10,13 @@ from fractions import Fraction
 import numpy as np
 from scipy.ndimage import maximum_filter1d, minimum_filter1d
 
+from app.motion.arms import solve_arms
 from app.motion.body import BodyMotion
-from app.motion.contact import Carried, carry, needed_help, softly_capped, solve_arms
+from app.motion.contact import Carried, carry
 from app.motion.curve import FloatArray
 from app.motion.model import Motion
 from app.motion.posture import Stance, Trunk, hips_path, solve_legs, trunk
+from app.motion.reach import needed_help, softly_capped
 from app.rig import quaternion
 from app.rig.hold import Hold, finger_rotations
 from app.rig.model import Skeleton

@@ -1,0 +1,186 @@
+"""How trunk and shoulders help far hands: the shoulder comes forwards, the trunk turns, and at last it leans back."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.motion.contact import Carried
+from app.motion.curve import FloatArray
+from app.motion.posture import Side, Trunk
+from app.rig import quaternion
+from app.rig.hold import Hold, hand_targets
+from app.rig.ik import arm
+from app.rig.model import Skeleton
+from app.rig.skeleton import rest_positions
+
+Z_AXIS = np.array([0.0, 0.0, 1.0])
+
+AT_EASE = 0.96
+"""Share of its length an arm reaches without help from the shoulder."""
+STRETCHED = 0.98
+"""The same, of an arm that is stretched for the farthest places."""
+NEAREST = 0.33
+"""A hand is kept at least this share of the arm's length away (the elbow bent by 141 degrees)."""
+EASE_M = 0.008
+"""The shoulder's help sets in over about this distance."""
+CLAVICLE_RAD = float(np.deg2rad(28.0))
+"""Most the shoulder comes towards a far hand."""
+TURN_RAD = float(np.deg2rad(50.0))
+"""Most hips and trunk turn for a far hand."""
+LEAN_RAD = float(np.deg2rad(17.0))
+"""Most the trunk leans back for a hand that is still too far."""
+
+
+@dataclass(frozen=True)
+class Help:
+    """What trunk and shoulders must add so that both hands are reached.
+
+    Attributes
+    ----------
+    turn_rad : (F,) float64
+        Of the trunk, left positive.
+    lean_rad : (F,) float64
+        Of the trunk backwards, with the head staying upright: the lips draw back farther than the shoulders.
+    protraction_rad : dict of side to (F,) float64
+        Of each clavicle, forwards.
+    most_turn_rad, most_protraction_rad : dict of side to (F,) float64
+        What leaves each hand at least `NEAREST` of its arm's length away: help that comes early or stays late must
+        not push a shoulder into a near hand.
+    """
+
+    turn_rad: FloatArray
+    lean_rad: FloatArray
+    protraction_rad: dict[str, FloatArray]
+    most_turn_rad: dict[str, FloatArray]
+    most_protraction_rad: dict[str, FloatArray]
+
+
+def needed_help(
+    skeleton: Skeleton, hold: Hold, body: Trunk, carried: Carried, controls: Mapping[str, FloatArray]
+) -> Help:
+    """The help a body needs that has none yet; exactly 0 where the arms alone reach.
+
+    The shoulders help first, then the trunk turns, and it leans back for what is left.
+    """
+    turn, lean = np.zeros(len(body.chest_m)), np.zeros(len(body.chest_m))
+    rest_m = rest_positions(skeleton)
+    protraction: dict[str, FloatArray] = {}
+    most_turn: dict[str, FloatArray] = {}
+    most_protraction: dict[str, FloatArray] = {}
+    for hand in hold.hands:
+        target_m, _ = hand_targets(hand, carried.position_m, carried.rotation, controls)
+        girdle = _Girdle.of(skeleton, hand.side, body, target_m)
+        arm_m = arm(skeleton, hand.side).length_m
+        distance_m = girdle.distance_m(0.0)
+        asked = girdle.turn_for(distance_m - softly_over(distance_m - AT_EASE * arm_m, EASE_M))
+        protraction[hand.side] = softly_capped(asked, CLAVICLE_RAD, 0.15 * CLAVICLE_RAD)
+        most_protraction[hand.side] = girdle.turn_for(np.full(len(turn), NEAREST * arm_m))
+        waist = _Waist.of(skeleton, hand.side, body, target_m)
+        most_turn[hand.side] = waist.turn_for(np.full(len(turn), NEAREST * arm_m))
+        distance_m = waist.distance_m(np.zeros(len(turn)))
+        asked = waist.turn_for(distance_m - softly_over(distance_m - AT_EASE * arm_m, EASE_M))
+        given = softly_capped(asked, TURN_RAD, 0.1 * TURN_RAD)
+        turn += given if hand.side == "right" else -given
+        left_m = softly_over(waist.distance_m(given) - STRETCHED * arm_m, EASE_M)
+        above_m = float((rest_m[skeleton.index("head")] - rest_m[skeleton.index(f"{hand.side}UpperArm")])[1])
+        lean += softly_capped(left_m / above_m, LEAN_RAD, 0.2 * LEAN_RAD)
+    return Help(turn, lean, protraction, most_turn, most_protraction)
+
+
+def softly_over(x: FloatArray, ease: float) -> FloatArray:
+    """``max(x, 0)`` with a parabola between -ease and ease; exactly 0 below."""
+    result: FloatArray = np.where(x >= ease, x, np.square(np.maximum(x + ease, 0.0)) / (4.0 * ease))
+    return result
+
+
+def softly_capped(x: FloatArray, most: FloatArray | float, ease: float) -> FloatArray:
+    """``min(x, most)``, rounded where it bends."""
+    return most - softly_over(most - x, ease)
+
+
+@dataclass(frozen=True)
+class _Girdle:
+    """A clavicle that can come forwards about a fixed axis of the chest, and a target of its hand.
+
+    The squared distance from the shoulder joint to the target is ``square_m2 - 2 reach_m2 cos(phase_rad - turn)``.
+    """
+
+    root_m: FloatArray
+    square_m2: FloatArray
+    reach_m2: FloatArray
+    phase_rad: FloatArray
+
+    @classmethod
+    def of(cls, skeleton: Skeleton, side: Side, body: Trunk, target_m: FloatArray) -> _Girdle:
+        shoulder, clavicle = clavicle_of(skeleton, side)
+        joint_m = body.chest_m + quaternion.rotate(body.chest, skeleton.offsets_m[shoulder])
+        there = quaternion.rotate(quaternion.conjugate(body.chest), target_m - joint_m)
+        ahead = np.cross(forwards_axis(clavicle), clavicle)
+        phase = np.arctan2(there @ ahead, there @ clavicle)
+        square_m2 = np.einsum("fi,fi->f", there, there) + clavicle @ clavicle
+        root_m = joint_m + quaternion.rotate(body.chest, clavicle)
+        return cls(root_m, square_m2, np.hypot(there @ ahead, there @ clavicle), phase)
+
+    def distance_m(self, turned_rad: float) -> FloatArray:
+        """From the shoulder to the target, with the clavicle so far forwards."""
+        cosine = np.cos(np.maximum(self.phase_rad - turned_rad, 0.0))
+        distance: FloatArray = np.sqrt(np.maximum(self.square_m2 - 2.0 * self.reach_m2 * cosine, 1e-9))
+        return distance
+
+    def turn_for(self, distance_m: FloatArray) -> FloatArray:
+        """The turn that brings the shoulder to this distance from the target, as near as it can."""
+        cosine = np.clip((self.square_m2 - distance_m * distance_m) / (2.0 * self.reach_m2), -1.0, 1.0)
+        return np.maximum(self.phase_rad - np.arccos(cosine), 0.0)
+
+
+@dataclass(frozen=True)
+class _Waist:
+    """A chest that can turn about the upright, its shoulder brought forwards as far as it goes, and a target.
+
+    The squared distance from the shoulder joint to the target is ``square_m2 - 2 reach_m2 cos(phase_rad - turn)``.
+    """
+
+    square_m2: FloatArray
+    reach_m2: FloatArray
+    phase_rad: FloatArray
+
+    @classmethod
+    def of(cls, skeleton: Skeleton, side: Side, body: Trunk, target_m: FloatArray) -> _Waist:
+        shoulder, clavicle = clavicle_of(skeleton, side)
+        forwards = quaternion.from_axis_angle(forwards_axis(clavicle), CLAVICLE_RAD)
+        root_m = skeleton.offsets_m[shoulder] + quaternion.rotate(forwards, clavicle)
+        root = quaternion.rotate(body.chest, root_m)
+        there = target_m - body.chest_m
+        # Turning to the left takes what is on the right forwards; a left hand's turn is counted the other way.
+        sign = 1.0 if side == "right" else -1.0
+        across = sign * (root[:, 2] * there[:, 0] - root[:, 0] * there[:, 2])
+        along = root[:, 0] * there[:, 0] + root[:, 2] * there[:, 2]
+        rise_m = there[:, 1] - root[:, 1]
+        flat = root[:, 0] ** 2 + root[:, 2] ** 2 + there[:, 0] ** 2 + there[:, 2] ** 2
+        return cls(flat + rise_m * rise_m, np.hypot(along, across), np.arctan2(across, along))
+
+    def distance_m(self, turned_rad: FloatArray) -> FloatArray:
+        """From the shoulder to the target, with the chest so far turned."""
+        cosine = np.cos(np.maximum(self.phase_rad - turned_rad, 0.0))
+        distance: FloatArray = np.sqrt(np.maximum(self.square_m2 - 2.0 * self.reach_m2 * cosine, 1e-9))
+        return distance
+
+    def turn_for(self, distance_m: FloatArray) -> FloatArray:
+        """The turn that brings the shoulder to this distance from the target, as near as it can."""
+        cosine = np.clip((self.square_m2 - distance_m * distance_m) / (2.0 * self.reach_m2), -1.0, 1.0)
+        return np.maximum(self.phase_rad - np.arccos(cosine), 0.0)
+
+
+def clavicle_of(skeleton: Skeleton, side: Side) -> tuple[int, FloatArray]:
+    """Joint of a clavicle, and where the shoulder joint lies in its frame."""
+    return skeleton.index(f"{side}Shoulder"), skeleton.offsets_m[skeleton.index(f"{side}UpperArm")]
+
+
+def forwards_axis(clavicle: FloatArray) -> FloatArray:
+    """Axis in the chest's frame about which a clavicle comes straight forwards."""
+    axis = np.cross(clavicle, Z_AXIS)
+    unit: FloatArray = axis / np.linalg.norm(axis)
+    return unit
