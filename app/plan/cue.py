@@ -24,6 +24,8 @@ from app.plan.model import CueEvent, TimeFrame
 COMMON_REST_BARS = 2
 COMMON_REST_S = 4.0
 """A rest of all players this long needs a new start: everyone has lost the beat (either is enough)."""
+COMMON_REST_LEAST_S = 2.0
+"""Short bars rest quickly over: nobody has lost the beat by then."""
 LEAST_BEATS = 2.0
 """A cue needs the preparatory beat and room before it."""
 LEAD_BEATS = 1.5
@@ -55,9 +57,8 @@ def common_entries(all_times: tuple[LineTimes, ...], piece: Piece) -> tuple[Entr
         rest_s = None
         if end is not None:
             rest_s = piece.clock.seconds(float(tick)) - piece.clock.seconds(float(end))
-            bars = piece.bars(end, tick)
-            bar_ticks = int(bars[-1] - bars[-2]) if len(bars) > 1 else tick - end + 1
-            long = rest_s >= COMMON_REST_S or tick - end >= COMMON_REST_BARS * bar_ticks
+            bars = (tick - end) / piece.bar_length_tick(end)
+            long = rest_s >= COMMON_REST_S or (bars >= COMMON_REST_BARS and rest_s >= COMMON_REST_LEAST_S)
             if not long or tick - end < LEAST_BEATS * piece.beat_ticks:
                 continue
         players = []

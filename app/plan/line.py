@@ -62,6 +62,12 @@ class Piece(msgspec.Struct, frozen=True):
         """Ticks of the felt beat; a quarter unless the piece sets one."""
         return self.felt_beat_ticks or self.clock.ticks_per_quarter
 
+    def bar_length_tick(self, tick: int) -> int:
+        """Length of a whole bar in the metre that holds at a tick; a bar cut short is not meant."""
+        metre = next((metre for metre in reversed(self.metres) if metre.tick <= tick), None)
+        numerator, denominator = (4, 4) if metre is None else (metre.numerator, metre.denominator)
+        return max(4 * self.clock.ticks_per_quarter * numerator // denominator, 1)
+
     def bars(self, first_tick: int, last_tick: int) -> IntArray:
         """Ticks at which bars begin, from the bar that holds ``first_tick`` to the last before ``last_tick``.
 

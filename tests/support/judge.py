@@ -6,6 +6,8 @@ from what mido reads, without a line of the program.
 
 from __future__ import annotations
 
+import io
+import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
@@ -49,10 +51,16 @@ def family(instrument: str) -> str:
     return instrument.split("_")[0]
 
 
+def opened(path: Path) -> mido.MidiFile:
+    """A file as mido reads it; key signatures that it refuses are blanked."""
+    data = re.sub(rb"\xff\x59\x02..", b"\xff\x59\x02\x00\x00", path.read_bytes(), flags=re.DOTALL)
+    return mido.MidiFile(file=io.BytesIO(data), clip=True)
+
+
 def sounding_notes(path: Path) -> list[tuple[int, int, Sounding]]:
     """(track, channel, note) of a file that mido reads: first in, first out; velocity 0 is off; format 0 and 1."""
     found = []
-    for number, track in enumerate(mido.MidiFile(path, clip=True).tracks):
+    for number, track in enumerate(opened(path).tracks):
         tick = 0
         open_: dict[tuple[int, int], list[tuple[int, int]]] = {}
         for message in track:
@@ -75,7 +83,7 @@ def tempos(path: Path) -> list[tuple[int, int]]:
     """(tick, microseconds per quarter) of all tracks, by tick; of several at one tick the last track's."""
     changes = {0: 500000}
     ordered = []
-    for track in mido.MidiFile(path, clip=True).tracks:
+    for track in opened(path).tracks:
         tick = 0
         for message in track:
             tick += message.time

@@ -76,5 +76,15 @@ def test_only_long_common_rests_need_a_new_start(rest_beats: int, bpm: float, ex
     assert len(cues(line, holding, clock=PlainClock(((0, bpm),)))) == 1
 
 
+def test_a_bar_cut_short_is_no_measure_of_a_rest() -> None:
+    # 3/4, restated a quarter after a bar line: the rest of two quarters that holds it is not two bars long.
+    metres = (PlainMetre(0, 3, 4), PlainMetre(7 * Q, 3, 4))
+    notes = line_of((5 * Q, Q // 2, 65), (8 * Q, Q, 67))
+    piece = Piece(PlainClock(), metres, bar_ticks=(0, 3 * Q, 6 * Q, 7 * Q))
+    line = Line("p", notes, valves())
+    cues = make_plans(piece, (line,), time_frame((line,), piece.clock))["p"].cues
+    assert [cue.end_tick for cue in cues] == [5 * Q]
+
+
 def test_no_notes_no_cue() -> None:
     assert cues(Line("p", (), valves())) == []

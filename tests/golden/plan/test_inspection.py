@@ -1,0 +1,23 @@
+"""What ``suisou inspect --json`` prints about music that others engraved, judged by an independent reading."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from app.cli import main
+from tests.support.judge import faults
+
+ROOT = Path(__file__).parents[3]
+FILES = [
+    *sorted((ROOT / "tests" / "data" / "midi" / "ensemble").glob("*.mid")),
+    ROOT / "resources" / "examples" / "quartet.mid",
+]
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.name)
+def test_everything_printed_about_real_music_is_true(path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["inspect", str(path), "--json"]) == 0
+    assert faults(path, json.loads(capsys.readouterr().out)) == []
