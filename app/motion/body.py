@@ -48,8 +48,8 @@ class BodyMotion:
     ----------
     forward_rad, left_rad, turn_rad : dict of str to array
         Flexion, sideways lean and twist of each joint of trunk and neck.
-    hips_side_m, hips_bob_m : array
-        Of the hips, to the left and down.
+    hips_side_m, hips_bob_m, hips_ahead_m : array
+        Of the hips, to the left, down and ahead.
     hips_roll_rad, hips_turn_rad : array
         Left and left.
     knee_rad : array
@@ -75,6 +75,7 @@ class BodyMotion:
     turn_rad: dict[str, FloatArray]
     hips_side_m: FloatArray
     hips_bob_m: FloatArray
+    hips_ahead_m: FloatArray
     hips_roll_rad: FloatArray
     hips_turn_rad: FloatArray
     knee_rad: FloatArray
@@ -311,6 +312,7 @@ def body_motion(
         turn_rad=turn.all(),
         hips_side_m=weight * sizes.of(body.weight_shift.side_m)
         + sizes.wander("weight", body.weight_shift.side_m, times_s),
+        hips_ahead_m=np.zeros(frames),
         hips_bob_m=down * sizes.of(sway.bob_m),
         hips_roll_rad=roll,
         hips_turn_rad=0.3 * twist,

@@ -34,6 +34,8 @@ HIPS_TURN = 0.16
 TRUNK_TURNS = {"spine": 0.18, "chest": 0.34, "upperChest": 0.32}
 """Shares of the turn for a far hand."""
 TRUNK_LEANS = {"spine": 0.30, "chest": 0.35, "upperChest": 0.35}
+BALANCE_M_PER_RAD = 0.25
+"""The hips go ahead as the trunk leans back, to stay over the feet."""
 NECK_TURNS_BACK = {"neck": 0.5, "head": 0.5}
 
 
