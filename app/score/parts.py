@@ -101,13 +101,15 @@ class Stream(msgspec.Struct, frozen=True):
 def recognised(stream: Stream) -> Instrument | None:
     """The instrument that names or numbers give to a track; None if they give none."""
     words = vocabulary()
-    for text in (stream.name, stream.instrument_name):
-        found = words.by_name(text) if text else None
-        if found is not None:
-            return found
+    named = [words.by_name(text) for text in (stream.name, stream.instrument_name) if text]
+    telling = next((found for found in named if found is not None and not found.vague), None)
+    if telling is not None:
+        return telling
+    vague = next((found for found in named if found is not None), None)
     if stream.channel == PERCUSSION_CHANNEL:
-        return words.instruments["drums"]
-    return None if stream.program is None else words.by_program(stream.program)
+        return vague or words.instruments["drums"]
+    numbered = None if stream.program is None else words.by_program(stream.program)
+    return numbered if vague is None or (numbered is not None and numbered.kind == "wind") else vague
 
 
 def parts_of(

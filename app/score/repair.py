@@ -1,7 +1,8 @@
 """Makes the bytes of a track such that mido can read them, losing only what cannot be understood.
 
 What mido refuses or misreads: system messages other than exclusive ones, running status after them or after an
-exclusive message, meta events with impossible contents, an event cut off by the end of the track.
+exclusive message, meta events with impossible contents, an event cut off by the end of the track. A value above 127 is
+taken for 127, as mido does when it is asked to clip.
 
 Warnings
 --------
@@ -38,7 +39,7 @@ class Repaired(msgspec.Struct, frozen=True):
     skipped : int
         Bytes that are no events.
     first_skipped : int
-        Offset of the first of them.
+        Offset of the first of them; the track's length if there are none.
     """
 
     data: bytes
@@ -72,21 +73,19 @@ def repaired(data: bytes, until: int | None = None) -> Repaired:
     """
     out = bytearray()
     at, delta, status = 0, 0, 0
-    skipped, first_skipped = 0, 0
+    skipped, first_skipped = 0, len(data)
     truncated_at = None
     end = len(data)
-    broken_off = False  # the last message stopped at a status where data belong; that status has no delta of its own
     while at < end:
         event_at = at
-        if until is not None and at >= until and delta == 0 and not broken_off:
-            _append_rest(out, data, at, status)
-            return Repaired(bytes(out), None, skipped, first_skipped)
         try:
-            if not broken_off:
-                wait, at = _variable_length(data, at)
-                delta += wait
-            broken_off = False
+            wait, at = _variable_length(data, at)
+            delta += wait
             byte = _byte(data, at)
+            if until is not None and event_at >= until:
+                running = bytes([status]) if byte < 0x80 and status else b""
+                out += encoded_length(delta) + running + data[at:]
+                return Repaired(bytes(out), None, skipped, first_skipped)
             if byte == 0xFF:
                 kind = _byte(data, at + 1)
                 length, begin = _variable_length(data, at + 2)
@@ -105,44 +104,25 @@ def repaired(data: bytes, until: int | None = None) -> Repaired:
                 at = begin + length
             elif byte > 0xF0:
                 at = _after_system_message(data, at)
-                skipped, first_skipped = skipped + at - event_at, first_skipped or event_at
+                skipped, first_skipped = skipped + at - event_at, min(first_skipped, event_at)
             else:
                 if byte >= 0x80:
                     status, at = byte, at + 1
                 size = _CHANNEL_DATA.get(status >> 4, 0)
                 if size == 0:  # running status without a status before it
-                    skipped, first_skipped = skipped + 1, first_skipped or at
+                    skipped, first_skipped = skipped + 1, min(first_skipped, at)
                     at += 1
                     continue
                 message = data[at : at + size]
                 if len(message) < size:
                     raise _TruncatedError
-                if message.isascii():
-                    out += encoded_length(delta) + bytes([status]) + message
-                    delta, at = 0, at + size
-                else:
-                    whole = next(index for index, value in enumerate(message) if value >= 0x80)
-                    at += whole
-                    skipped, first_skipped = skipped + at - event_at, first_skipped or event_at
-                    broken_off = True
+                out += encoded_length(delta) + bytes([status, *(min(value, 0x7F) for value in message)])
+                delta, at = 0, at + size
         except _TruncatedError:
             truncated_at = event_at
             break
     out += encoded_length(min(delta, 0x0FFFFFFF)) + bytes([0xFF, _END_OF_TRACK, 0])
     return Repaired(bytes(out), truncated_at, skipped, first_skipped)
-
-
-def _append_rest(out: bytearray, data: bytes, at: int, status: int) -> None:
-    """Append the events from ``at`` on; the first gets its status if it relied on running status."""
-    try:
-        _, event = _variable_length(data, at)
-        running = _byte(data, event) < 0x80 and status
-    except _TruncatedError:
-        event, running = at, 0
-    out += data[at:event]
-    if running:
-        out.append(status)
-    out += data[event:]
 
 
 def _after_system_message(data: bytes, at: int) -> int:

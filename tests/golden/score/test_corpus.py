@@ -1,0 +1,148 @@
+"""The music of others: what is in the files, as their sources and mido say, is in the score."""
+
+from __future__ import annotations
+
+from collections import Counter
+from pathlib import Path
+
+import mido
+import pytest
+
+from app.score.model import Score
+from app.score.read import read_midi
+from tests.unit.score.midi_bytes import MAPS
+
+DATA = Path(__file__).parents[2] / "data/midi"
+QUARTET = Path(__file__).parents[3] / "resources/examples/quartet.mid"
+READABLE = sorted([*(DATA / "ensemble").glob("*.mid"), *(DATA / "awkward").glob("*.mid")])
+
+
+def score_of(name: str) -> Score:
+    return read_midi(DATA / "ensemble" / f"{name}.mid", maps=MAPS)
+
+
+def players(score: Score) -> list[tuple[str, str, int]]:
+    return [(part.name, part.map_id, len(part.notes)) for part in score.parts]
+
+
+@pytest.mark.parametrize("path", READABLE, ids=lambda path: path.stem)
+def test_every_file_opens_and_no_note_is_lost(path: Path) -> None:
+    score = read_midi(path, maps=MAPS)
+    try:
+        file = mido.MidiFile(path, clip=True)
+    except (OSError, EOFError, mido.KeySignatureError):
+        return  # what mido refuses is judged by the next test
+    onsets: Counter[int] = Counter()
+    unplayed = sum(part.note_count for part in score.unplayed)
+    tracks = file.tracks
+    for track in tracks:
+        tick = 0
+        for message in track:
+            tick += message.time
+            if message.type == "note_on" and message.velocity:
+                onsets[message.note] += 1
+    played = Counter(note.pitch for part in score.parts for note in part.notes)
+    assert sum(played.values()) + unplayed == sum(onsets.values())
+    assert not played - onsets
+
+
+@pytest.mark.parametrize(
+    ("path", "notes"),
+    [
+        ("awkward/keysig_9sharps_beethoven_coriolan.mid", 8525),
+        ("ensemble/reed_trio_mozart_k229_mv1.mid", 532),
+        ("awkward/test-non-midi-track.mid", 8),
+        ("awkward/test-running-status-sysex.mid", 8),
+        ("corrupt/test-illegal-message-all.mid", 8),
+        ("corrupt/test-illegal-message-f4.mid", 8),
+        ("corrupt/test-corrupt-file-missing-byte.mid", 8),
+        ("corrupt/MIDIBadTrackLength.mid", 4),
+        ("corrupt/MIDIBadHeaderLength.mid", 4),
+    ],
+)
+def test_what_mido_refuses_opens_with_all_its_notes(path: str, notes: int) -> None:
+    score = read_midi(DATA / path, maps=MAPS)
+    assert sum(len(part.notes) for part in score.parts) + sum(part.note_count for part in score.unplayed) == notes
+
+
+@pytest.mark.parametrize("name", ["brass_quartet_lutkin_2tpt_tbn_tuba", "trombone_quartet_bach_air"])
+def test_the_length_is_what_mido_computes(name: str) -> None:
+    score = score_of(name)
+    assert score.tempo_map.seconds(score.end_tick) == pytest.approx(
+        mido.MidiFile(DATA / "ensemble" / f"{name}.mid").length, abs=1e-6
+    )
+
+
+def test_the_lutkin_quartet_waits_for_a_tuba() -> None:
+    score = score_of("brass_quartet_lutkin_2tpt_tbn_tuba")
+    assert players(score) == [("trumpet", "trumpet", 82), ("trumpet", "trumpet", 81), ("trombone", "trombone", 88)]
+    assert [(part.name, part.reason.id, part.note_count) for part in score.unplayed] == [("tuba", "score.no_map", 91)]
+    assert len(score.tempo_map.changes) > 50
+    assert score.warnings == ()
+
+
+def test_pezel_five_part_sonata_in_three_tracks() -> None:
+    score = score_of("brass_quintet_pezel_sonata21")
+    by_name = Counter((part.name, part.map_id) for part in score.parts)
+    # Two sopranos, one tenor; the bass track doubles its bass in octaves, so it needs three.
+    assert by_name == {("Sopran", "trumpet"): 2, ("Tenor", "trombone"): 1, ("Bass", "trombone"): 3}
+    means = [sum(note.pitch for note in part.notes) / len(part.notes) for part in score.parts if part.name == "Bass"]
+    assert means == sorted(means, reverse=True)
+
+
+def test_the_subject_of_the_fugato_stays_with_one_player() -> None:
+    # Bar 8: a line alone in the sopranos' track, leaping a fourth and a fifth; bar 14 the answer, before a chord above.
+    score = score_of("brass_quintet_pezel_sonata21")
+    for bar, subject in ((8, [67, 66, 67, 69, 69, 71, 64, 66, 64, 64, 63]), (14, [66, 64, 66, 67, 67, 69, 62])):
+        first, last = score.tick_of_bar(bar), score.tick_of_bar(bar + (2 if bar == 8 else 1))
+        lines = [
+            [note.pitch for note in part.notes if first <= note.onset_tick < last]
+            for part in score.parts
+            if part.name == "Sopran"
+        ]
+        assert subject in lines
+        assert [] in lines
+
+
+def test_programs_of_the_band_are_kept_by_track_though_channels_are_shared() -> None:
+    score = score_of("concert_band_hall_tenth_regiment_march")
+    assert Counter(part.map_id for part in score.parts) == {"trumpet": 6, "trombone": 4}
+    channels = Counter(part.channel for part in score.parts)
+    assert channels[14] == 1
+    assert all(part.program == (56 if part.map_id == "trumpet" else 57) for part in score.parts)
+    left = Counter(part.reason.arguments["instrument"] for part in score.unplayed)
+    assert left == {
+        "Flute": 2, "Oboe": 1, "Bassoon": 1, "Clarinet": 5, "Alto Saxophone": 1, "Tenor Saxophone": 1,
+        "Baritone Saxophone": 1, "Horn": 4, "Tuba": 1, "Drums": 1, "Glockenspiel": 1, "Timpani": 1,
+    }  # fmt: skip
+
+
+def test_speer_names_voices_only_and_ranges_decide() -> None:
+    score = score_of("cornets_sackbuts_speer_sonata")
+    assert [(part.name, part.map_id) for part in score.parts] == [
+        ("Sopran", "trumpet"),
+        ("Alt", "trumpet"),
+        ("Tenoro", "trombone"),
+        ("Tenoru", "trombone"),
+        ("Tenoru", "trombone"),
+    ]
+    assert sum(warning.id.startswith("score.chosen_by_range") for warning in score.warnings) == 5
+
+
+def test_the_bundled_quartet() -> None:
+    score = read_midi(QUARTET, maps=MAPS)
+    assert [(part.name, part.map_id) for part in score.parts] == [
+        ("Trumpet 1", "trumpet"),
+        ("Trumpet 2", "trumpet"),
+        ("Trombone 1", "trombone"),
+        ("Trombone 2", "trombone"),
+    ]
+    assert (score.warnings, score.unplayed) == ((), ())
+    assert 60 <= score.tempo_map.seconds(score.end_tick) <= 100
+    for part in score.parts:
+        low, high = (52, 82) if part.map_id == "trumpet" else (40, 70)
+        assert all(low <= note.pitch <= high for note in part.notes)
+        gaps = [b.onset_tick - a.end_tick for a, b in zip(part.notes, part.notes[1:], strict=False)]
+        assert min(gaps) >= 0
+        assert len({note.velocity for note in part.notes}) > 10
+    assert len(score.tempo_map.changes) > 5

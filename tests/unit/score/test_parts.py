@@ -1,0 +1,122 @@
+"""Which tracks are played, by which instrument map, and why the others are not."""
+
+from __future__ import annotations
+
+import pytest
+
+from app.score.parts import MapChoice
+from tests.unit.score.midi_bytes import END, MAPS, TROMBONE, TRUMPET, chunk, header, ids, meta, note, score_of
+
+
+def one_part(
+    *pitches: int,
+    name: str = "",
+    instrument: str = "",
+    program: int | None = None,
+    channel: int = 0,
+    maps: tuple[MapChoice, ...] = MAPS,
+):  # type: ignore[no-untyped-def]
+    """A score of one track of players."""
+    events = meta(3, name.encode()) + meta(4, instrument.encode())
+    if program is not None:
+        events += bytes([0, 0xC0 | channel, program])
+    events += b"".join(note(pitch, channel=channel) for pitch in pitches)
+    return score_of(header(1, 2) + chunk(b"MTrk", END) + chunk(b"MTrk", events + END), maps=maps)
+
+
+@pytest.mark.parametrize(
+    ("options", "map_id", "instrument"),
+    [
+        ({"name": "Trompete"}, "trumpet", "trumpet"),
+        ({"name": "Solo", "instrument": "Posaune"}, "trombone", "trombone"),
+        ({"program": 56}, "trumpet", "trumpet"),
+        ({"program": 59}, "trumpet", "trumpet"),
+        ({"program": 57}, "trombone", "trombone"),
+        ({"name": "Trombone", "program": 0}, "trombone", "trombone"),
+        ({"name": "Trumpet", "channel": 9}, "trumpet", "trumpet"),
+    ],
+)
+def test_names_and_programs_tell(options: dict[str, object], map_id: str, instrument: str) -> None:
+    score = one_part(60, 62, **options)
+    (part,) = score.parts
+    assert (part.map_id, part.instrument) == (map_id, instrument)
+    assert score.warnings == ()
+
+
+@pytest.mark.parametrize(
+    ("options", "reason"),
+    [
+        ({"program": 58}, "score.no_map"),
+        ({"name": "Horn in F"}, "score.no_map"),
+        ({"program": 0}, "score.not_wind"),
+        ({"name": "Violine"}, "score.not_wind"),
+        ({"name": "Pauken"}, "score.percussion"),
+        ({"channel": 9}, "score.percussion"),
+        ({"channel": 9, "program": 56}, "score.percussion"),
+        ({"program": 47}, "score.percussion"),
+    ],
+)
+def test_what_is_not_played_is_listed_with_its_reason(options: dict[str, object], reason: str) -> None:
+    score = one_part(60, 62, 64, **options)
+    assert score.parts == ()
+    (left,) = score.unplayed
+    assert (left.reason.id, left.note_count) == (reason, 3)
+    assert left.name
+
+
+def test_an_instrument_without_a_map_is_played_by_a_substitute_with_a_warning() -> None:
+    score = one_part(60, 62, name="Kornett")
+    (part,) = score.parts
+    assert (part.map_id, part.instrument, part.name) == ("trumpet", "cornet", "Kornett")
+    (warning,) = score.warnings
+    assert (warning.id, warning.arguments["map"]) == ("score.substituted", "trumpet")
+
+
+def test_an_own_map_goes_before_a_substitute() -> None:
+    cornet = MapChoice("cornet", ("cornet",), (), 52, 82)
+    score = one_part(60, 62, name="Cornet", maps=(*MAPS, cornet))
+    assert (score.parts[0].map_id, score.warnings) == ("cornet", ())
+
+
+@pytest.mark.parametrize(
+    ("pitches", "map_id"),
+    [
+        ((40, 50), "trombone"),
+        ((70, 80), "trumpet"),
+        ((52, 66), "trombone"),
+        ((57, 74), "trumpet"),
+        ((36, 70), "trombone"),
+    ],
+)
+def test_a_part_that_says_nothing_goes_to_the_map_whose_range_fits(pitches: tuple[int, ...], map_id: str) -> None:
+    score = one_part(*pitches, name="Sopran")
+    assert (score.parts[0].map_id, score.parts[0].instrument) == (map_id, None)
+    assert ids(score) == ["score.chosen_by_range"]
+
+
+def test_a_range_that_fits_mostly_is_said_so_and_one_that_does_not_is_refused() -> None:
+    mostly = one_part(80, 81, 82, 83)
+    assert mostly.parts[0].map_id == "trumpet"
+    assert mostly.warnings[0].arguments == {"part": "Trumpet", "map": "trumpet", "outside": 1, "total": 4}
+    refused = one_part(82, 83, 84, 85)
+    assert refused.parts == ()
+    assert refused.unplayed[0].reason.id == "score.outside_ranges"
+    assert one_part(60, maps=()).unplayed[0].reason.id == "score.outside_ranges"
+
+
+def test_a_brass_section_is_divided_by_range() -> None:
+    events = bytes([0, 0xC0, 61]) + b"".join(bytes([0, 0x90, pitch, 64]) for pitch in (74, 65, 48)) + meta(1, b"", 96)
+    score = score_of(header() + chunk(b"MTrk", events + END))
+    assert [(part.map_id, part.voice, part.name) for part in score.parts] == [
+        ("trumpet", 0, "Brass"),
+        ("trumpet", 1, "Brass"),
+        ("trombone", 2, "Brass"),
+    ]
+    assert [part.id for part in score.parts] == ["1.1.1", "1.1.2", "1.1.3"]
+    assert "score.voices" in ids(score)
+
+
+def test_a_part_without_name_is_called_after_its_instrument() -> None:
+    assert one_part(60, program=56).parts[0].name == "Trumpet"
+    assert one_part(60, instrument="tromba").parts[0].name == "tromba"
+    assert one_part(45, maps=(TRUMPET, TROMBONE)).parts[0].name == "Trombone"

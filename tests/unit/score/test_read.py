@@ -1,0 +1,298 @@
+"""What bytes mean, and what happens to those that mean nothing."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from app.errors import FileError
+from app.score.model import Metre
+from app.score.read import read_midi
+from tests.unit.score.midi_bytes import END, MAPS, chunk, header, heard, ids, meta, note, one_track, score_of
+
+SCALE = [60, 62, 64, 65]
+SCALE_NOTES = [(48 * index, 48, pitch) for index, pitch in enumerate(SCALE)]
+SCALE_BYTES = b"".join(note(pitch) for pitch in SCALE)
+
+
+def error_of(data: bytes) -> FileError:
+    with pytest.raises(FileError) as caught:
+        score_of(data)
+    assert str(caught.value.message.arguments["file"]).endswith("piece.mid")
+    return caught.value
+
+
+# --- notes ------------------------------------------------------------------------------------------------------------
+
+
+def test_a_scale() -> None:
+    score = one_track(SCALE_BYTES)
+    assert heard(score) == SCALE_NOTES
+    assert [n.id for n in score.parts[0].notes] == ["1:1", "1:2", "1:3", "1:4"]
+    assert [n.velocity for n in score.parts[0].notes] == [64] * 4
+
+
+def test_note_on_without_velocity_is_a_note_off_and_running_status_holds() -> None:
+    assert heard(one_track(bytes([0, 0x90, 60, 64, 48, 60, 0, 0, 62, 64, 48, 62, 0]))) == SCALE_NOTES[:2]
+
+
+def test_off_and_on_at_one_tick_are_two_notes_in_either_order() -> None:
+    off_first = bytes([0, 0x90, 60, 64, 48, 60, 0, 0, 60, 64, 48, 60, 0])
+    on_first = bytes([0, 0x90, 60, 64, 48, 60, 64, 0, 60, 0, 48, 60, 0])
+    assert heard(one_track(off_first)) == heard(one_track(on_first)) == [(0, 48, 60), (48, 48, 60)]
+
+
+def test_overlapping_notes_of_one_pitch_end_first_in_first_out() -> None:
+    score = one_track(bytes([0, 0x90, 60, 64, 24, 60, 64, 24, 60, 0, 24, 60, 0]))
+    assert heard(score) == [(0, 48, 60), (24, 48, 60)]
+
+
+def test_notes_without_end_end_with_the_track_and_notes_without_length_last_a_tick() -> None:
+    score = one_track(bytes([0, 0x90, 60, 64, 0, 62, 64, 0, 62, 0]) + meta(1, b"", 96))
+    assert heard(score) == [(0, 1, 62), (0, 96, 60)]
+    assert {"midi.hanging_notes", "midi.zero_length_notes"} <= set(ids(score))
+
+
+def test_all_notes_off_ends_what_sounds_on_its_channel_only() -> None:
+    score = one_track(bytes([0, 0x90, 60, 64, 0, 0x91, 64, 64, 48, 0xB0, 123, 0, 48, 0x81, 64, 0]))
+    assert heard(score) == [(0, 48, 60), (0, 96, 64)]
+
+
+# --- controllers ------------------------------------------------------------------------------------------------------
+
+
+def test_controllers_are_curves_with_the_last_value_of_each_tick() -> None:
+    events = bytes([0, 0xB0, 2, 0, 0, 2, 127, 24, 2, 64, 0, 7, 100, 0, 11, 127, 0, 64, 127])
+    events += bytes([0, 0xD0, 127, 0, 0xA0, 60, 0, 0, 0xE0, 0, 0, 24, 0xE0, 0, 0x40])
+    (part,) = one_track(events + note(60)).parts
+    curves = {curve.kind: (curve.ticks, curve.values) for curve in part.curves}
+    assert curves == {
+        "breath": ((0, 24), (1.0, 64 / 127)),
+        "volume": ((24,), (100 / 127,)),
+        "expression": ((24,), (1.0,)),
+        "aftertouch": ((24,), (0.0,)),
+        "pitch_bend": ((24, 48), (-1.0, 0.0)),
+    }
+
+
+# --- tempo, metre, pickup ---------------------------------------------------------------------------------------------
+
+
+def test_tempo_and_metre_are_taken_from_any_track() -> None:
+    conductor = meta(0x58, bytes([3, 2, 24, 8])) + END
+    player = meta(0x51, (400_000).to_bytes(3, "big"), 96) + SCALE_BYTES + END
+    score = score_of(header(1, 2) + chunk(b"MTrk", conductor) + chunk(b"MTrk", player))
+    assert score.metres == (Metre(0, 3, 4),)
+    assert [(tick, round(bpm)) for tick, bpm in score.tempo_map.bpm] == [(0, 120), (96, 150)]
+
+
+@pytest.mark.parametrize("second", [bytes([4, 2, 24, 8]), bytes([3, 2, 24, 8])])
+def test_a_first_bar_with_a_metre_of_its_own_is_a_pickup(second: bytes) -> None:
+    score = one_track(meta(0x58, bytes([1, 2, 24, 8])) + meta(0x58, second, 96) + SCALE_BYTES)
+    assert score.pickup_ticks == 96
+    assert score.tick_of_bar(1) == 96
+
+
+def test_a_metre_restated_within_the_first_bar_marks_a_pickup_and_on_a_bar_line_says_nothing() -> None:
+    restated = meta(0x58, bytes([3, 2, 24, 8]))
+    assert one_track(restated + meta(0x58, bytes([3, 2, 24, 8]), 96) + SCALE_BYTES).pickup_ticks == 96
+    on_line = one_track(
+        restated + meta(1, b"", 96) + meta(1, b"", 96) + meta(0x58, bytes([3, 2, 24, 8]), 96) + SCALE_BYTES
+    )
+    assert on_line.pickup_ticks == 0
+    assert on_line.metres == (Metre(0, 3, 4),)
+
+
+def test_impossible_tempi_and_metres_are_left_out_with_a_warning() -> None:
+    score = one_track(
+        meta(0x51, bytes(3)) + meta(0x58, bytes([0, 2, 24, 8])) + meta(0x58, bytes([4, 200, 24, 8])) + SCALE_BYTES
+    )
+    assert ids(score)[:3] == ["midi.impossible_tempo", "midi.impossible_metre", "midi.impossible_metre"]
+    assert score.metres == (Metre(0, 4, 4),)
+    assert score.tempo_map.bpm == ((0, 120.0),)
+
+
+@pytest.mark.parametrize(
+    ("rate", "ticks", "seconds"), [(25, 40, 1000), (24, 4, 96), (30, 80, 2400), (29, 80, 2400 * 1000 / 1001)]
+)
+def test_smpte_division_is_ticks_per_second(rate: int, ticks: int, seconds: float) -> None:
+    score = one_track(SCALE_BYTES, division=(256 - rate) << 8 | ticks)
+    assert score.tempo_map.seconds(seconds * 10) == pytest.approx(10)
+    assert heard(score) == SCALE_NOTES
+
+
+# --- formats ----------------------------------------------------------------------------------------------------------
+
+
+def test_the_patterns_of_format_2_follow_one_another() -> None:
+    score = score_of(header(2, 2) + 2 * chunk(b"MTrk", SCALE_BYTES + END))
+    assert heard(score) == SCALE_NOTES + [(onset + 192, length, pitch) for onset, length, pitch in SCALE_NOTES]
+    assert "midi.patterns" in ids(score)
+
+
+def test_format_0_is_split_by_channel() -> None:
+    score = one_track(note(60, channel=0) + note(64, channel=1) + note(67, channel=5), format_=0)
+    assert [(part.id, part.channel) for part in score.parts] == [("1.1.1", 0), ("1.2.1", 1), ("1.6.1", 5)]
+
+
+def test_format_0_with_two_tracks_sounds_together_with_a_warning() -> None:
+    score = score_of(header(0, 2) + 2 * chunk(b"MTrk", SCALE_BYTES + END))
+    assert heard(score) == sorted(2 * SCALE_NOTES)
+    assert ids(score)[0] == "midi.format_0_tracks"
+
+
+# --- what mido refuses ------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("inserted", "warns"),
+    [
+        (meta(0x59, bytes([9, 0])), False),  # nine sharps
+        (meta(0x59, bytes([1])), False),  # half a key signature
+        (meta(0x54, bytes([1])), False),  # half an SMPTE offset
+        (meta(0x51, bytes([1, 2])), False),  # half a tempo
+        (bytes([0, 0xF0, 3, 0x41, 0x10, 0xF7]), False),
+        (bytes([0, 0xF7, 2, 0xF3, 0x01]), False),
+        (bytes([0, 0xF4]), True),
+        (bytes([0, 0xF5]), True),
+        (bytes([0, 0xFE]), True),
+        (bytes([0, 0xF2, 1, 2]), True),
+    ],
+)
+@pytest.mark.parametrize("running", [False, True])
+def test_events_between_notes_do_not_disturb_them(inserted: bytes, warns: bool, running: bool) -> None:
+    second = bytes([0, 62, 64, 48, 62, 0]) if running else note(62)
+    score = one_track(bytes([0, 0x90, 60, 64, 48, 60, 0]) + inserted + second)
+    assert heard(score) == SCALE_NOTES[:2]
+    assert ("midi.bytes_not_understood" in ids(score)) == warns
+
+
+def test_the_time_before_a_dropped_event_is_kept() -> None:
+    score = one_track(note(60) + bytes([48, 0xF0, 1, 0xF7, 48, 0x90, 62, 64, 48, 62, 0]))
+    assert heard(score) == [(0, 48, 60), (144, 48, 62)]
+
+
+def test_bytes_of_system_messages_in_texts_and_deltas_are_nothing_special() -> None:
+    long_delta = bytes([0xF0, 0x00, 0x90, 62, 64, 48, 62, 0])
+    score = one_track(meta(1, bytes(range(0xF0, 0x100))) + note(60) + long_delta)
+    assert heard(score) == [(0, 48, 60), (48 + (0x70 << 7), 48, 62)]
+    assert "midi.bytes_not_understood" not in ids(score)
+
+
+def test_alien_chunks_are_passed_over() -> None:
+    score = score_of(header() + chunk(b"XFIH", b"abc") + chunk(b"MTrk", SCALE_BYTES + END) + chunk(b"XFKM", b""))
+    assert heard(score) == SCALE_NOTES
+    assert all(warning.id.startswith("score.") for warning in score.warnings)
+
+
+def test_a_riff_wrapper_is_passed_over() -> None:
+    inner = header() + chunk(b"MTrk", SCALE_BYTES + END)
+    riff = b"RIFF" + (len(inner) + 12).to_bytes(4, "little") + b"RMIDdata" + len(inner).to_bytes(4, "little")
+    assert heard(score_of(riff + inner)) == SCALE_NOTES
+
+
+def test_a_longer_header_is_read_by_its_length() -> None:
+    long_header = chunk(b"MThd", bytes([0, 1, 0, 1, 0, 96, 1, 2, 3, 4]))
+    score = score_of(long_header + chunk(b"MTrk", SCALE_BYTES + END))
+    assert heard(score) == SCALE_NOTES
+    assert "midi.header_length" not in ids(score)
+
+
+@pytest.mark.parametrize("length", [5, 12, 10_000])
+def test_a_track_whose_length_is_wrong_is_read_to_its_real_end(length: int) -> None:
+    data = header(1, 2) + chunk(b"MTrk", SCALE_BYTES + END, length) + chunk(b"MTrk", SCALE_BYTES + END)
+    score = score_of(data)
+    assert heard(score) == sorted(2 * SCALE_NOTES)
+    assert "midi.track_length" in ids(score)
+
+
+@pytest.mark.parametrize("cut", range(1, 16))
+def test_a_track_that_breaks_off_keeps_what_came_before(cut: int) -> None:
+    data = header() + chunk(b"MTrk", SCALE_BYTES + END)
+    score = score_of(data[:-cut])
+    whole = (len(SCALE_BYTES + END) - cut) // 8
+    assert heard(score)[:whole] == SCALE_NOTES[:whole]
+    assert "midi.track_length" in ids(score)
+    if cut not in (4, 8, 12):
+        truncated = next(warning for warning in score.warnings if warning.id == "midi.track_truncated")
+        assert truncated.arguments["track"] == 1
+
+
+@pytest.mark.parametrize("repaired", [b"", bytes([0, 0xF4])])
+def test_a_value_above_127_is_127_whether_or_not_the_track_needs_repair(repaired: bytes) -> None:
+    score = one_track(repaired + bytes([0, 0x90, 60, 200, 48, 60, 0]))
+    assert [n.velocity for n in score.parts[0].notes] == [127]
+
+
+def test_bytes_that_are_no_events_are_counted_and_placed() -> None:
+    score = one_track(bytes([0, 0xF4, 0, 60]) + note(60) + bytes([0, 0xF2, 1, 2]))
+    assert heard(score) == SCALE_NOTES[:1]
+    warning = next(warning for warning in score.warnings if warning.id == "midi.bytes_not_understood")
+    assert warning.arguments == {"track": 1, "byte": 22, "count": 7}
+
+
+# --- errors -----------------------------------------------------------------------------------------------------------
+
+
+def test_errors_say_the_file_and_the_byte() -> None:
+    assert error_of(b"").message.id == "midi.empty"
+    not_midi = error_of(b"\x89PNG\r\n")
+    assert (not_midi.message.id, not_midi.message.arguments["byte"]) == ("midi.not_midi", 0)
+    cut = error_of(header()[:9])
+    assert (cut.message.id, cut.message.arguments["byte"]) == ("midi.header_truncated", 9)
+    timeless = error_of(header(division=0) + chunk(b"MTrk", END))
+    assert (timeless.message.id, timeless.message.arguments["byte"]) == ("midi.bad_division", 12)
+    trackless = error_of(header() + chunk(b"mTrk", SCALE_BYTES + END))
+    assert trackless.message.arguments == {**trackless.message.arguments, "byte": 14, "found": "'mTrk'"}
+
+
+def test_a_file_that_is_not_there_and_an_unknown_encoding(tmp_path: Path) -> None:
+    with pytest.raises(FileError, match=r"file\.unreadable"):
+        read_midi(tmp_path / "nothing.mid", maps=MAPS)
+    with pytest.raises(FileError, match=r"file\.unreadable"):
+        read_midi(tmp_path, maps=MAPS)
+    with pytest.raises(FileError, match=r"midi\.unknown_encoding"):
+        read_midi(tmp_path / "nothing.mid", encoding="klingon", maps=MAPS)
+
+
+# --- names and programs -----------------------------------------------------------------------------------------------
+
+
+def test_names_programs_and_titles() -> None:
+    conductor = meta(3, "行進曲".encode("cp932")) + END
+    player = meta(3, "トランペット".encode("cp932")) + bytes([0, 0xC0, 73]) + SCALE_BYTES + END
+    score = score_of(header(1, 2) + chunk(b"MTrk", conductor) + chunk(b"MTrk", player))
+    (part,) = score.parts
+    assert (score.title, part.name, part.instrument, part.map_id) == ("行進曲", "トランペット", "trumpet", "trumpet")
+    assert part.program == 73  # the name beats it
+
+
+def test_the_encoding_can_be_given() -> None:
+    data = header() + chunk(b"MTrk", meta(3, "Труба".encode("cp1251")) + SCALE_BYTES + END)
+    assert score_of(data, encoding="cp1251").parts[0].name == "Труба"
+
+
+def test_programs_belong_to_tracks_not_to_channels() -> None:
+    trumpet = bytes([0, 0xC0, 56]) + SCALE_BYTES + END
+    trombone = bytes([0, 0xC0, 57]) + SCALE_BYTES + END
+    score = score_of(header(1, 2) + chunk(b"MTrk", trumpet) + chunk(b"MTrk", trombone))
+    assert [part.instrument for part in score.parts] == ["trumpet", "trombone"]
+
+
+def test_a_program_given_by_a_set_up_track_counts_for_the_channel() -> None:
+    set_up = bytes([0, 0xC3, 57]) + END
+    player = note(60, channel=3) + END
+    score = score_of(header(1, 2) + chunk(b"MTrk", set_up) + chunk(b"MTrk", player))
+    assert [part.instrument for part in score.parts] == ["trombone"]
+
+
+def test_lilypond_contexts_are_cut_from_names_in_lilypond_files_only() -> None:
+    def names(creator: bytes) -> list[str]:
+        conductor = meta(1, creator) + END
+        tracks = [meta(3, name) + meta(4, b"trumpet") + SCALE_BYTES + END for name in (b"Sopran:1", b":one", b"\\new:")]
+        chunks = b"".join(chunk(b"MTrk", track) for track in (conductor, *tracks))
+        return [part.name for part in score_of(header(1, 4) + chunks).parts]
+
+    assert names(b"LilyPond 2.24.1") == ["Sopran", "trumpet", "trumpet"]
+    assert names(b"") == ["Sopran:1", ":one", "\\new:"]
