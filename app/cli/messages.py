@@ -15,6 +15,11 @@ TEMPLATES: Final[dict[str, str]] = {
     "player.unknown": "there is no player {player!r}; there are: {possible}",
     "bars.none": "there are no bars {first} to {last}; the piece has {lowest} to {highest}",
     "export.nobody": "{file}: there is nobody to export; 'suisou inspect' says why each part is not played",
+    "export.too_long": (
+        "{file}: {frames} frames are more than the {most} that one export holds; "
+        "take some bars with --from-bar and --to-bar"
+    ),
+    "piece.too_long": "the piece lasts {hours:g} hours; at most {most_hours} can be played",
     "work.stopped": "stopped; nothing was written",
     # Files
     "file.cannot_read": "{file} cannot be read: {reason}",

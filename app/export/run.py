@@ -1,6 +1,7 @@
 """A performance to files: characters, instruments, report.
 
-Messages: ``export.nobody`` (file): "{file}: there is nobody to export"; ``work.stopped``.
+Messages: ``export.nobody`` (file): "{file}: there is nobody to export"; ``export.too_long`` (file, frames,
+most); ``work.stopped``.
 """
 
 from __future__ import annotations
@@ -35,6 +36,9 @@ from metadata.load import load_skeleton
 Format = Literal["fbx", "bvh"]
 Progress = Callable[[float, str], None]
 """Told the share 0..1 that is done and whose work it is."""
+
+MOST_FRAMES = 432_000
+"""Two hours at 60 frames/s: a player's motion and its file are in memory as a whole."""
 
 _SHARES = {"motion": 0.1, "fbx": 0.3, "bvh": 0.1, "measures": 0.5}
 
@@ -86,10 +90,12 @@ def export(
     Raises
     ------
     FileError
-        ``export.nobody``; ``file.cannot_write``.
+        ``export.nobody``; ``export.too_long``; ``file.cannot_write``.
     Cancelled
         ``stop_wanted`` said so.
     """
+    if request.span.count > MOST_FRAMES:
+        raise FileError("export.too_long", file=request.source, frames=request.span.count, most=MOST_FRAMES)
     if not request.players:
         raise FileError("export.nobody", file=request.source)
     stems = _stems(request.performance)

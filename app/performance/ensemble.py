@@ -1,15 +1,22 @@
-"""What all players of a project do: plans from a snapshot of the project, made once and shared by everyone who asks."""
+"""What all players of a project do: plans from a snapshot of the project, made once and shared by everyone who asks.
+
+Messages: ``piece.too_long`` (hours, most_hours): "the piece lasts {hours} hours; at most {most_hours} can be played".
+"""
 
 from __future__ import annotations
 
 from functools import cached_property
 
+from app.errors import AppError
 from app.performance.loudness import note_loudness
 from app.plan.generate import Line, Piece, make_plans, time_frame
 from app.plan.model import PlayerPlan, TimeFrame
 from app.project.model import Player, Project
 from instrument_maps.load import find_map
 from instrument_maps.model import InstrumentMap
+
+MOST_HOURS = 12
+"""Longer than any concert."""
 
 
 class Performance:
@@ -19,9 +26,17 @@ class Performance:
     ----------
     project : Project
         A value: what is made from it once stays right.
+
+    Raises
+    ------
+    AppError
+        ``piece.too_long``: a few wrong bytes can make a piece of months, whose bars alone would fill the memory.
     """
 
     def __init__(self, project: Project) -> None:
+        hours = project.score.tempo_map.seconds(float(project.score.end_tick)) / 3600.0
+        if hours > MOST_HOURS:
+            raise AppError("piece.too_long", hours=round(hours, 1), most_hours=MOST_HOURS)
         self.project = project
 
     @cached_property

@@ -207,6 +207,23 @@ def test_what_is_no_midi_file(run: Run, what: str, tmp_path: Path) -> None:
     assert "thing.mid" in err
 
 
+def test_a_piece_of_months_is_refused(run: Run, tmp_path: Path) -> None:
+    """Four wrong bytes in a delta time are enough to make one."""
+    file = mido.MidiFile(ticks_per_beat=24)
+    track = mido.MidiTrack([mido.Message("program_change", program=56)])
+    for wait in (0, 0xFFFFFFF):
+        track.append(mido.Message("note_on", note=70, velocity=80, time=wait))
+        track.append(mido.Message("note_off", note=70, time=480))
+    file.tracks.append(track)
+    file.save(tmp_path / "long.mid")
+    for command in (["inspect", "--json"], ["export", "--to", str(tmp_path / "out")]):
+        status, out, err = run(command[0], tmp_path / "long.mid", *command[1:])
+        assert status == 1
+        assert out == ""
+        assert "hours" in err
+    assert not (tmp_path / "out").exists()
+
+
 def test_names_from_a_file_stay_names(run: Run, tmp_path: Path) -> None:
     names = ["../../evil", "CON", "Trumpet 🎺", "Trumpet 🎺", "a/b\\c:d", ""]
     piece = named_piece(tmp_path / "piece.mid", *names)
