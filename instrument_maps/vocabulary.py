@@ -43,6 +43,8 @@ class Instrument(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         General MIDI programs, 0..127.
     any_pitch : bool
         A wind section without a range of its own ("brass"): the range of its notes decides who plays.
+    vague : bool
+        Its names may mean a part of any instrument ("Voice 1"): the program of a wind says more.
     """
 
     id: str
@@ -50,6 +52,7 @@ class Instrument(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     names: tuple[str, ...]
     programs: tuple[int, ...] = ()
     any_pitch: bool = False
+    vague: bool = False
 
 
 class _Table(msgspec.Struct, frozen=True, forbid_unknown_fields=True):

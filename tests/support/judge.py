@@ -211,7 +211,7 @@ def _expected_controls(kind: str, label: str, controls: Mapping[str, float]) -> 
         return False
     out_m = controls["slide"] * TRAVEL_M
     tube_m = TUBE_M * (2 ** (5 / 12) if label.startswith("T") else 1.0)
-    return abs(out_m - tube_m * (2 ** ((place - 1) / 12) - 1) / 2) < 0.034
+    return abs(out_m - tube_m * (2 ** ((place - 1) / 12) - 1) / 2) < 0.036
 
 
 def _fingerings(player: Mapping[str, Any]) -> list[str]:
