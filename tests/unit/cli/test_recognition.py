@@ -17,7 +17,8 @@ TRUMPET = [
     "Tpt.", "Tpt 2", "TPT1", "Tpt.1", "1st Trumpet", "Trumpet I", "Trumpets 1-2", "Trumpet 1,2",
     "Solo Trumpet", "Trompete", "Trompete in B", "1. Trompete", "Trompeten", "Trp.", "Trp. 2", "Trompette",
     "Trompette en Sib", "1ère Trompette", "Tr.", "Tromba", "Tromba in Si b", "Tromba I", "Trombe",
-    "Trombe in Sib", "Tr.be", "Tbe.", "トランペット", "トランペット1", "トランペットⅠ", "第1トランペット", "ﾄﾗﾝﾍﾟｯﾄ", "Ｔｒｕｍｐｅｔ",
+    "Trombe in Sib", "Tr.be", "Tbe.",
+    "トランペット", "トランペット1", "トランペットⅠ", "第1トランペット", "ﾄﾗﾝﾍﾟｯﾄ", "Ｔｒｕｍｐｅｔ",
     "Cornet", "Cornet in Bb", "1st Cornet", "Solo Cornet", "Kornett", "Cornetta", "Cornet à pistons",
     "コルネット", "Flugelhorn", "Flügelhorn", "Fluegelhorn", "Flug.", "Flgh.", "Bugle", "Flicorno soprano",
     "フリューゲルホルン", "フリューゲル", "Muted Trumpet", "Trumpet (muted)", "Tpt_1", "trumpet-2", "MIDI Trumpet",
@@ -28,8 +29,10 @@ TROMBONE = [
     "Trombone", "Trombone 1", "Tenor Trombone", "Tbn.", "Tbn 1", "Tbn.1", "TBN1", "Trb.", "Trb 2", "Posaune",
     "1. Posaune", "Posaunen", "Pos.", "Tenorposaune", "Bassposaune", "Bass Posaune", "Bass Trombone",
     "Bass Tbn.", "B.Tbn.", "B. Tbn", "Altposaune", "Alto Trombone", "Trombone alto", "Trombone basse",
-    "Trombone basso", "Trombone ténor", "Tromboni", "Trombone tenore", "トロンボーン", "トロンボーン2", "第2トロンボーン",
-    "テナートロンボーン", "バストロンボーン", "ﾄﾛﾝﾎﾞｰﾝ", "Ｔｒｏｍｂｏｎｅ", "Sackbut", "Sackbut 1", "Saqueboute", "3rd Trombone",
+    "Trombone basso", "Trombone ténor", "Tromboni", "Trombone tenore",
+    "トロンボーン", "トロンボーン2", "第2トロンボーン",
+    "テナートロンボーン", "バストロンボーン", "ﾄﾛﾝﾎﾞｰﾝ",
+    "Ｔｒｏｍｂｏｎｅ", "Sackbut", "Sackbut 1", "Saqueboute", "3rd Trombone",
     "Trombone III", "Trombones", "Tbn. 1 & 2", "Tb.", "Trombone (Bass)",
 ]
 NOBODY_YET = [
