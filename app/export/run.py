@@ -184,7 +184,7 @@ def _player_report(request: Request, player: Player, files: dict[str, str], meas
         posture=player.parameters.posture,
         files=files,
         stage=StagePlace(round(place.x_m, 4), round(place.z_m, 4), round(math.degrees(place.turn_rad), 3)),
-        notes=sum(span.first_frame_s <= note.start_s < span.end_s for note in plan.fingerings),
+        notes=sum(span.shows_onset(note.start_s) for note in plan.fingerings),
         measures=None if measured is None else measured.measures,
         sway_correlation=None,
     )

@@ -26,6 +26,11 @@ class FrameSpan(msgspec.Struct, frozen=True):
         """Time after the last frame."""
         return self.first_frame_s + self.count * self.fps.denominator / self.fps.numerator
 
+    def shows_onset(self, onset_s: float) -> bool:
+        """Whether the first frame at or after an onset is one of these."""
+        frame = math.ceil((onset_s - self.first_frame_s) * self.fps.numerator / self.fps.denominator)
+        return 0 <= frame < self.count
+
 
 def whole_span(frame: TimeFrame, fps: Fraction) -> FrameSpan:
     """All frames of a performance."""

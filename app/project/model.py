@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import msgspec
 import numpy as np
@@ -80,7 +81,7 @@ class Project:
         """What a player plays."""
         return self._parts[player.part_id]
 
-    @property
+    @cached_property
     def _parts(self) -> dict[str, Part]:
         return {part.id: part for part in self.score.parts}
 

@@ -140,9 +140,7 @@ def test_measures_keep_their_bounds(report: dict[str, Any]) -> None:
             if not (spread["frames"] > 0 and spread["max_mm"] <= spread["bound_mm"])
         ]
         for name, counts in measures["controls"].items():
-            # A note that begins within the last frame is judged at the frame after it, which is not in the file.
-            assert 0 <= player["notes"] - counts["judged"] - counts["short_notes"] <= 1
-            assert counts["judged"] > 0
+            assert counts["judged"] == player["notes"] - counts["short_notes"] > 0
             if counts["right"] != counts["judged"] or counts["held_wrong"]:
                 broken.append((player["name"], name, counts))
         for part in ("limits", "acceleration"):
