@@ -36,6 +36,7 @@ from app.rig.hand import (
     wrist_from_mesh,
 )
 from app.rig.hold import ContactFit, FingerTable, HandHold, Hold, Lips, NodeMotion, Reach, Side, interpolated
+from app.rig.ik import TWIST_SHARE
 from app.rig.instrument import control_transform, node_transforms
 from app.rig.model import Character, InstrumentModel
 from app.rig.proxy import Bodies, bodies, gradient, inside, near
@@ -51,14 +52,18 @@ IntArray = npt.NDArray[np.intp]
 # What a deviation of one unit of residual is.
 FIRM_M, RESTING_M = 0.0003, 0.0012
 FIRM_NORMAL, RESTING_NORMAL = 0.35, 0.6
-PENETRATION_M, FOREARM_M = 0.0006, 0.003
+PENETRATION_M, FOREARM_M = 0.0005, 0.003
+GIVE_M, STIFFENING = 0.0018, 5.0
 BALL_M = 0.001
 CURL_RAD, SIDEWAYS_RAD, THUMB_RAD, COUPLING_RAD = 0.4, 0.12, 0.4, 0.18
-WORKED_RAD = 0.5
+WORKED_RAD, SMOOTH_RAD = 0.5, 0.04
+SMOOTH_DEGREE = 3
 FLEXION_RAD, DEVIATION_RAD, PRONATION_RAD, SWIVEL_RAD = 0.3, 0.16, 0.8, 0.25
-LIMIT_RAD, LIMIT_SHARE = 0.025, 0.85
+LIMIT_RAD, LIMIT_SHARE = 0.025, 0.8
 SEED_M, SEED_RAD = 0.03, 0.4
 PRONATION_MOST_RAD = 1.3
+SWIVEL_RANGE_RAD = (0.2, 0.9)
+"""The elbow hangs, off the ribs: its swing from straight down to the outside."""
 REACH_M = 0.03
 """Of an arm that is too short: the shoulder's help is dear, but a finger tip's grip does not bridge half a metre."""
 ANCHOR = (0.25, 0.4, 0.5)
@@ -124,7 +129,7 @@ class _Problem:
     high: FloatArray = field(default_factory=lambda: np.zeros(0))
 
 
-FIT_VERSION = 3
+FIT_VERSION = 4
 """Part of the digest of stored holds (`app.rig.hold_file`): raise it when a fit comes out differently."""
 
 
@@ -350,8 +355,8 @@ def _worked_dofs(problem: _Problem) -> list[int]:
 def _bounds(problem: _Problem) -> tuple[FloatArray, FloatArray]:
     """Parameters: wrist place (3), wrist turn (3), swivel, angles at rest, angles of working fingers fully worked."""
     order = [*range(len(problem.dofs)), *_worked_dofs(problem)]
-    low = [-np.inf] * 6 + [np.radians(-5.0)] + [problem.dofs[i].low for i in order]
-    high = [np.inf] * 6 + [np.radians(80.0)] + [problem.dofs[i].high for i in order]
+    low = [-np.inf] * 6 + [SWIVEL_RANGE_RAD[0]] + [problem.dofs[i].low for i in order]
+    high = [np.inf] * 6 + [SWIVEL_RANGE_RAD[1]] + [problem.dofs[i].high for i in order]
     return np.array(low), np.array(high)
 
 
@@ -506,6 +511,15 @@ class _Residuals:
         low, high = problem.wrist_limits[:, 0], problem.wrist_limits[:, 1]
         low, high = np.array([low[0], low[1], -PRONATION_MOST_RAD]), np.array([high[0], high[1], PRONATION_MOST_RAD])
         over = np.maximum(bent - high, 0.0) + np.minimum(bent - low, 0.0)
+        shared = self._shared(forearm, np.cross(elbow - problem.shoulder_m, forearm), turn)
+        over = np.concatenate(
+            [
+                over,
+                np.maximum(shared - problem.wrist_limits[:2, 1], 0.0)
+                + np.minimum(shared - problem.wrist_limits[:2, 0], 0.0),
+            ],
+            axis=1,
+        )
         far = np.linalg.norm(wrist - problem.shoulder_m, axis=1) - 0.97 * (problem.upper_m + problem.lower_m)
         return np.concatenate(
             [
@@ -516,6 +530,18 @@ class _Residuals:
             ],
             axis=1,
         )
+
+    def _shared(self, forearm: FloatArray, hinge: FloatArray, turn: FloatArray) -> FloatArray:
+        """Flexion and deviation (B, 2) as the hand joint has them when the forearm takes its share of the twist."""
+        hand = self.problem.hand
+        sign = 1.0 if hand.side == "left" else -1.0
+        hinge = hinge / np.maximum(np.linalg.norm(hinge, axis=1), 1e-9)[:, None]
+        frame = quaternion.from_frames(sign * forearm, -sign * hinge)
+        local = quaternion.multiply(quaternion.conjugate(frame), turn)
+        axis = np.array([1.0, 0.0, 0.0])
+        taken = quaternion.from_axis_angle(axis, TWIST_SHARE * quaternion.twist_angle(local, axis))
+        swing, _ = quaternion.swing_twist(quaternion.multiply(quaternion.conjugate(taken), local), axis)
+        return quaternion.to_rotation_vector(swing) @ hand.axes[0, :2].T
 
     def _anchored(self, x: FloatArray) -> FloatArray:
         """The hand stays about its seed; holds of neighbouring knots stay alike, with one swivel of the elbow."""
@@ -546,6 +572,12 @@ def _pole(problem: _Problem, direction: FloatArray, swivel: FloatArray) -> Float
     pole = pole - direction * np.einsum("bi,bi->b", pole, direction)[:, None]
     result: FloatArray = pole / np.maximum(np.linalg.norm(pole, axis=1), 1e-9)[:, None]
     return result
+
+
+def _pressed(depth: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """What a depth counts, and its slope: flesh gives way a little, then resists."""
+    deep = depth > GIVE_M
+    return depth + (STIFFENING - 1.0) * np.maximum(depth - GIVE_M, 0.0), np.where(deep, STIFFENING, depth > 0.0)
 
 
 def _inside(
@@ -666,8 +698,16 @@ def _solve_table(problem: _Problem, scene: _Scene, angles: FloatArray, values: F
     place, turn = _nodes_at(scene.model, scene.instrument_map, problem.hand.side, scene.carrier, values)
     for number in range(5):
         mine = [t for t in problem.touches if t.contact.part.split(".")[1] == FINGERS[number]]
-        if mine:
-            _solve_finger(problem, scene, solved, usual, values, number, mine, place, turn)
+        if not mine:
+            continue
+        _solve_finger(problem, scene, solved, usual, WORKED_RAD, values, number, mine, place, turn)
+        # Samples that fell into different bends of one finger would make it twitch: solve again about a smooth path.
+        for _ in range(2 if len(values) > SMOOTH_DEGREE + 1 else 0):
+            flat = solved.reshape(len(values), -1)
+            powers = np.vander(values, SMOOTH_DEGREE + 1)
+            usual = (powers @ np.linalg.lstsq(powers, flat, rcond=None)[0]).reshape(solved.shape)
+            solved[:, 1 + 3 * number : 4 + 3 * number] = usual[:, 1 + 3 * number : 4 + 3 * number]
+            _solve_finger(problem, scene, solved, usual, SMOOTH_RAD, values, number, mine, place, turn)
     return solved
 
 
@@ -676,6 +716,7 @@ def _solve_finger(
     scene: _Scene,
     solved: FloatArray,
     usual: FloatArray,
+    usual_rad: float,
     values: FloatArray,
     number: int,
     touches: list[_Touch],
@@ -711,7 +752,7 @@ def _solve_finger(
         skin = scene.placed(flesh.reshape(shape))
         at = scene.placed(skinned(matrices, points).reshape(shape))
         facing = scene.turned(turned(matrices, normals).reshape(shape))
-        parts = [(x - usual[:, joints, kinds]) / WORKED_RAD]
+        parts = [(x - usual[:, joints, kinds]) / usual_rad]
         if number:
             parts.append(((x[..., 3] - 0.67 * x[..., 2]) / COUPLING_RAD)[..., None])
         for k, touch in enumerate(touches):
@@ -727,7 +768,7 @@ def _solve_finger(
     damping = np.full(samples, 1e-3)
     smooth, skin = residuals(x[None])
     depth, slope = depths(skin[0])
-    cost = (smooth[0] ** 2).sum(axis=1) + ((depth / PENETRATION_M) ** 2).sum(axis=1)
+    cost = (smooth[0] ** 2).sum(axis=1) + ((_pressed(depth)[0] / PENETRATION_M) ** 2).sum(axis=1)
     for _ in range(12):
         tried = np.repeat(x[None], count + 1, axis=0)
         step = np.where(x + _STEP < high, _STEP, -_STEP)
@@ -736,9 +777,10 @@ def _solve_finger(
         smooth, skin = residuals(tried)
         slant = np.moveaxis((smooth[1:] - smooth[0]) / step.T[:, :, None], 0, 2)
         change = (skin[1:] - skin[0]) / step.T[:, :, None, None]
-        pressed = -np.einsum("nsvi,svi->svn", change, slope) * (depth > 0.0)[..., None] / PENETRATION_M
+        push, rise = _pressed(depth)
+        pressed = -np.einsum("nsvi,svi->svn", change, slope) * rise[..., None] / PENETRATION_M
         jacobian = np.concatenate([slant, pressed], axis=1)
-        value = np.concatenate([smooth[0], depth / PENETRATION_M], axis=1)
+        value = np.concatenate([smooth[0], push / PENETRATION_M], axis=1)
         down = np.einsum("smn,sm->sn", jacobian, value)
         # An angle at its limit that would be pushed further stays.
         free = ~(((x <= low) & (down > 0.0)) | ((x >= high) & (down < 0.0)))
@@ -748,7 +790,7 @@ def _solve_finger(
         new = np.clip(x - np.linalg.solve(normal, (down * free)[..., None])[..., 0], low, high)
         smooth, skin = residuals(new[None])
         new_depth, new_slope = depths(skin[0])
-        new_cost = (smooth[0] ** 2).sum(axis=1) + ((new_depth / PENETRATION_M) ** 2).sum(axis=1)
+        new_cost = (smooth[0] ** 2).sum(axis=1) + ((_pressed(new_depth)[0] / PENETRATION_M) ** 2).sum(axis=1)
         better = new_cost < cost
         x = np.where(better[:, None], new, x)
         depth = np.where(better[:, None], new_depth, depth)

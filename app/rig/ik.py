@@ -21,6 +21,9 @@ Side = Literal["left", "right"]
 SOFT_SHARE = 0.01
 """Part of the limb's length within which full extension is approached exponentially."""
 
+TWIST_SHARE = 0.5
+"""Part of the hand's turn about the forearm that the forearm takes: half, so that neither wrist nor elbow wrings."""
+
 
 @dataclass(frozen=True)
 class Limb:
@@ -62,7 +65,7 @@ class LimbPose:
     miss_m: FloatArray
 
 
-def arm(skeleton: Skeleton, side: Side, twist_share: float = 0.5) -> Limb:
+def arm(skeleton: Skeleton, side: Side, twist_share: float = TWIST_SHARE) -> Limb:
     """Return the limb of an arm (VRM names). The elbow bends forwards in the T-pose."""
     hinge = np.array([0.0, -1.0 if side == "left" else 1.0, 0.0])
     return _limb(skeleton, [f"{side}UpperArm", f"{side}LowerArm", f"{side}Hand"], hinge, twist_share)
