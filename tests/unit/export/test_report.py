@@ -1,0 +1,97 @@
+"""The report's bytes and what it calls a failure."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+
+import msgspec
+import pytest
+
+from app.cli.summary import columns, summary
+from app.export.measure import BreathMeasure, ControlMeasure, JointMeasure, PlayerMeasures, Spread
+from app.export.report import PlayerReport, Report, StagePlace, UnplayedPart, encode_report, failures
+
+
+def measures(**changes: object) -> PlayerMeasures:
+    good = PlayerMeasures(
+        sounding_frames=10,
+        contacts={
+            "right.index.pad on valve_1": Spread(1.0, 0.5, 2.0, 10),
+            "left.palm on root": Spread(2.5, 2.0, 3.0, 10),
+        },
+        lips=Spread(0.5, 0.5, 2.0, 10),
+        upper_lip_in_breaths=Spread(0.5, 0.5, 2.0, 10),
+        feet={"left.foot.sole": Spread(0.1, 0.1, 1.0, 10)},
+        bones=Spread(0.0, 0.0, 0.01, 10),
+        penetration=Spread(2.9, 2.0, 3.0, 10),
+        controls={"valve_1": ControlMeasure(10, 10, 2, 0, 100, 0)},
+        limits=JointMeasure("leftHand flexion", -3.0, 0.0, 0),
+        acceleration=JointMeasure("head", 10.0, 150.0, 0),
+        breaths=BreathMeasure(3, 3, 3, 3),
+    )
+    return msgspec.structs.replace(good, **changes)
+
+
+def player(found: PlayerMeasures | None, sway: float | None = 0.5) -> PlayerReport:
+    place = StagePlace(0.0, 0.0, 0.0)
+    return PlayerReport("Ünal 🎺", "p", "i", "c", "standing", {"character_fbx": "x.fbx"}, place, 10, found, sway)
+
+
+def report(*players: PlayerReport, first_frame_s: float = -2.0) -> Report:
+    unplayed = (UnplayedPart("tuba", "no map", 3),)
+    return Report("v", "s.mid", first_frame_s, 30.0, "30", 10, 1.0, None, 0, players, ("look here",), unplayed)
+
+
+def test_within_all_bounds_is_no_failure() -> None:
+    assert failures(player(measures())) == ()
+    assert failures(player(None)) == ()
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"lips": Spread(2.1, 0.0, 2.0, 10)},
+        {"feet": {"left.foot.sole": Spread(1.1, 0.0, 1.0, 10)}},
+        {"contacts": {"x": Spread(2.1, 0.0, 2.0, 10)}},
+        {"penetration": Spread(3.1, 0.0, 3.0, 10)},
+        {"bones": Spread(0.02, 0.0, 0.01, 10)},
+        {"controls": {"valve_1": ControlMeasure(10, 9, 0, 0, 100, 0)}},
+        {"controls": {"valve_1": ControlMeasure(10, 10, 0, 0, 100, 1)}},
+        {"limits": JointMeasure("x", 1.0, 0.0, 1)},
+        {"acceleration": JointMeasure("x", 200.0, 150.0, 1)},
+        {"breaths": BreathMeasure(3, 3, 2, 2)},
+    ],
+)
+def test_each_broken_bound_is_one(changes: dict[str, object]) -> None:
+    assert len(failures(player(measures(**changes)))) == 1
+
+
+def test_moving_alike_is_a_failure() -> None:
+    assert failures(player(measures(), sway=0.95)) == ("sway",)
+
+
+def test_the_report_is_json() -> None:
+    found = json.loads(encode_report(report(player(measures()))).decode("utf-8"))
+    assert found["players"][0]["name"] == "Ünal 🎺"
+    assert found["players"][0]["measures"]["lips"]["max_mm"] == 0.5
+
+
+@pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
+def test_numbers_are_finite(value: float) -> None:
+    with pytest.raises(ValueError, match="finite"):
+        encode_report(report(player(measures()), first_frame_s=value))
+
+
+def test_the_table_marks_what_is_beyond() -> None:
+    text = summary(report(player(measures(lips=Spread(2.1, 0.0, 2.0, 10))), player(None)), Path("out"))
+    assert "2.10*" in text
+    assert "! Ünal 🎺: lips" in text
+    assert "tuba (3 notes): no map" in text
+    assert "look here" in text
+    assert "10/10" in text
+
+
+def test_columns_stand_below_each_other() -> None:
+    assert columns([("a", "bb"), ("ccc", "d")]) == ["a    bb", "ccc   d"]
