@@ -65,7 +65,7 @@ def main(arguments: Sequence[str]) -> int:
     except UsageError as error:
         return _fail(error_text(error), BAD_USE)
     except AppError as error:
-        return _fail(error_text(error), BAD_INPUT)
+        return _fail(_with_file(error, parsed), BAD_INPUT)
     except KeyboardInterrupt:
         return _fail("stopped; nothing was written", BAD_INPUT)
     except BrokenPipeError:
@@ -73,6 +73,12 @@ def main(arguments: Sequence[str]) -> int:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return DONE
     return DONE
+
+
+def _with_file(error: AppError, parsed: argparse.Namespace) -> str:
+    """What is wrong with the input, and with which file, also where the room that found out knows no files."""
+    sentence = error_text(error)
+    return sentence if "file" in error.message.arguments or "file" not in parsed else f"{parsed.file}: {sentence}"
 
 
 def _fail(sentence: str, status: int) -> int:

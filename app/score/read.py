@@ -60,6 +60,8 @@ _LILYPOND_NAME = re.compile(r"^([^:]*):([^:]*)$")
 
 _SMPTE_RATES = {24: Fraction(24), 25: Fraction(25), 29: Fraction(30000, 1001), 30: Fraction(30)}
 _LARGEST_DENOMINATOR = 64
+_LEAST_TEMPO = 10_000
+"""Microseconds per quarter: nothing is played at 6000 quarters a minute, so less is damage."""
 
 
 def read_midi(path: Path, *, encoding: str | None = None, maps: Sequence[MapChoice]) -> Score:
@@ -166,7 +168,7 @@ def _tempo_map(container: Container, tracks: Sequence[TrackEvents]) -> tuple[Tem
     warnings = []
     for index, events in enumerate(tracks):
         for tick, tempo in events.tempos:
-            if tempo > 0:
+            if tempo >= _LEAST_TEMPO:
                 changes.append(TempoChange(tick, tempo))
             else:
                 warnings.append(Message("midi.impossible_tempo", {"track": index + 1, "tick": tick}))
