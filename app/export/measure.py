@@ -6,6 +6,7 @@ are) are known beside the files.
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -112,10 +113,10 @@ class PlayerMeasures(msgspec.Struct, frozen=True):
 
 @dataclass(frozen=True, eq=False)
 class Measured:
-    """Measures of one player, and the sway of its torso (F, 2), radians (sideways, forward), to compare players."""
+    """Measures of one player, and the angles of its torso (F, 2), radians (sideways, forward), to compare players."""
 
     measures: PlayerMeasures
-    sway_rad: FloatArray
+    torso_rad: FloatArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -293,19 +294,14 @@ class ControlJudge:
         return slice(*np.searchsorted(self._times_s, [start_s - 1e-9, end_s - 1e-9]))
 
 
-def sway_correlations(players: Mapping[str, FloatArray]) -> dict[str, float]:
-    """Largest correlation of each player's torso sway with any other player's, over sideways and forward motion."""
-    names = list(players)
-    greatest = dict.fromkeys(names, -1.0)
-    for axis in range(2):
-        for index, name in enumerate(names):
-            for other in names[index + 1 :]:
-                a, b = players[name][:, axis], players[other][:, axis]
-                if np.ptp(a) == 0.0 or np.ptp(b) == 0.0:
-                    continue
-                correlation = float(np.corrcoef(a, b)[0, 1])
-                greatest[name] = max(greatest[name], correlation)
-                greatest[other] = max(greatest[other], correlation)
+def greatest_correlations(players: Mapping[str, FloatArray]) -> dict[str, float]:
+    """Largest correlation of each player's curve (F,) with any other player's; 0 where somebody does not move."""
+    greatest = dict.fromkeys(players, -1.0)
+    for (name, curve), (other, others) in itertools.combinations(players.items(), 2):
+        moves = np.ptp(curve) > 0.0 and np.ptp(others) > 0.0
+        correlation = float(np.corrcoef(curve, others)[0, 1]) if moves else 0.0
+        greatest[name] = max(greatest[name], correlation)
+        greatest[other] = max(greatest[other], correlation)
     return greatest
 
 

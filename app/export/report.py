@@ -35,7 +35,9 @@ class PlayerReport(msgspec.Struct, frozen=True):
     measures: PlayerMeasures | None
     """None where no FBX was asked for: there is nothing to deform in a BVH file."""
     sway_correlation: float | None
-    """Greatest correlation with another exported player; None where there is no other."""
+    """Greatest correlation of the torso's sideways motion with another exported player's; None where there is none."""
+    lean_correlation: float | None
+    """The same of its forward and backward motion, which breaths and rests in common make alike."""
 
 
 class UnplayedPart(msgspec.Struct, frozen=True):

@@ -18,7 +18,7 @@ from app.errors import Cancelled, FileError, Message
 from app.export.character import character_scene
 from app.export.folder import files_into
 from app.export.instrument import instrument_scene
-from app.export.measure import Measured, measure_player, sway_correlations
+from app.export.measure import FloatArray, Measured, greatest_correlations, measure_player
 from app.export.report import PlayerReport, Report, StagePlace, UnplayedPart, encode_report
 from app.export.skeleton import character_bvh
 from app.formats.atomic import atomic_write
@@ -100,7 +100,7 @@ def export(
         raise FileError("export.nobody", file=request.source)
     stems = _stems(request.performance)
     reports: list[PlayerReport] = []
-    sways = {}
+    torsos: dict[str, FloatArray] = {}
     with files_into(request.folder) as folder:
         for index, player in enumerate(request.players):
 
@@ -112,9 +112,8 @@ def export(
             report, measured = _export_player(request, player, stems[player.id], folder, told)
             reports.append(report)
             if measured is not None:
-                sways[player.id] = measured.sway_rad
-        correlations = sway_correlations(sways)
-        report_value = _report(request, _with_sway(reports, request.players, correlations), wording)
+                torsos[player.id] = measured.torso_rad
+        report_value = _report(request, _compared(reports, request.players, torsos), wording)
         with atomic_write(folder / "report.json") as stream:
             stream.write(encode_report(report_value))
     return report_value
@@ -187,18 +186,22 @@ def _player_report(request: Request, player: Player, files: dict[str, str], meas
         notes=sum(span.shows_onset(note.start_s) for note in plan.fingerings),
         measures=None if measured is None else measured.measures,
         sway_correlation=None,
+        lean_correlation=None,
     )
 
 
-def _with_sway(
-    reports: list[PlayerReport], players: tuple[Player, ...], correlations: dict[str, float]
+def _compared(
+    reports: list[PlayerReport], players: tuple[Player, ...], torsos: dict[str, FloatArray]
 ) -> tuple[PlayerReport, ...]:
-    if len(correlations) < 2:
+    """The reports with how alike the players move, where there are several to compare."""
+    if len(torsos) < 2:
         return tuple(reports)
+    sway = greatest_correlations({name: torso[:, 0] for name, torso in torsos.items()})
+    lean = greatest_correlations({name: torso[:, 1] for name, torso in torsos.items()})
     return tuple(
-        msgspec.structs.replace(report, sway_correlation=round(correlations[player.id], 4))
-        if player.id in correlations
-        else report
+        msgspec.structs.replace(
+            report, sway_correlation=round(sway[player.id], 4), lean_correlation=round(lean[player.id], 4)
+        )
         for report, player in zip(reports, players, strict=True)
     )
 

@@ -13,7 +13,7 @@ import pytest
 from app.errors import Message
 from app.export.character import character_scene
 from app.export.instrument import instrument_scene
-from app.export.measure import ControlJudge, Measured, measure_player, sway_correlations
+from app.export.measure import ControlJudge, Measured, greatest_correlations, measure_player
 from app.formats.fbx.scene import FbxScene
 from app.performance.ensemble import Performance
 from app.performance.motion import body_of, character_of, model_of, player_motion
@@ -203,7 +203,8 @@ def test_leaving_too_early_is_found() -> None:
 
 def test_sway_of_twins_and_of_strangers() -> None:
     random = np.random.default_rng(1)
-    one, other = random.normal(size=(500, 2)), random.normal(size=(500, 2))
-    alike = sway_correlations({"a": one, "b": one * 2.0, "c": other})
+    one, other = random.normal(size=500), random.normal(size=500)
+    alike = greatest_correlations({"a": one, "b": one * 2.0, "c": other})
     assert alike["a"] == alike["b"] == pytest.approx(1.0)
     assert alike["c"] < 0.3
+    assert greatest_correlations({"a": one, "still": np.zeros(500)}) == {"a": 0.0, "still": 0.0}

@@ -36,7 +36,7 @@ def measures(**changes: object) -> PlayerMeasures:
 
 def player(found: PlayerMeasures | None, sway: float | None = 0.5) -> PlayerReport:
     place = StagePlace(0.0, 0.0, 0.0)
-    return PlayerReport("Ünal 🎺", "p", "i", "c", "standing", {"character_fbx": "x.fbx"}, place, 10, found, sway)
+    return PlayerReport("Ünal 🎺", "p", "i", "c", "standing", {"character_fbx": "x.fbx"}, place, 10, found, sway, 0.95)
 
 
 def report(*players: PlayerReport, first_frame_s: float = -2.0) -> Report:
