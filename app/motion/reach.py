@@ -30,7 +30,7 @@ CLAVICLE_RAD = float(np.deg2rad(28.0))
 """Most the shoulder comes towards a far hand."""
 TURN_RAD = float(np.deg2rad(50.0))
 """Most hips and trunk turn for a far hand."""
-LEAN_RAD = float(np.deg2rad(17.0))
+LEAN_RAD = float(np.deg2rad(19.0))
 """Most the trunk leans back for a hand that is still too far."""
 
 

@@ -26,7 +26,7 @@ CHUNK = 4096
 """Frames solved at once: few enough to stay in the processor's cache."""
 HELP_EASE_S = 0.14
 """Trunk and shoulders come towards a far hand this long before it goes there, and back as long after."""
-ROOM_EASE_S = 0.055
+ROOM_EASE_S = 0.06
 """How quickly that help gives way to a hand that comes near."""
 HELP_EASE_RAD = 0.06
 """Help that would push a shoulder into a near hand is held back within about this angle."""
