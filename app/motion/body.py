@@ -54,8 +54,8 @@ class BodyMotion:
         Left and left.
     knee_rad : array
         Bend added to both knees.
-    bell_rad : array
-        Bell up, beside what the head does.
+    bell_rad, bell_cue_rad : array
+        Bell up, beside what the head does: with the melody, and to give a cue.
     shoulders_rad : array
         Both shoulders up.
     elbows_rad : array
@@ -80,6 +80,7 @@ class BodyMotion:
     hips_turn_rad: FloatArray
     knee_rad: FloatArray
     bell_rad: FloatArray
+    bell_cue_rad: FloatArray
     shoulders_rad: FloatArray
     elbows_rad: FloatArray
     eyes_yaw_rad: FloatArray
@@ -317,7 +318,8 @@ def body_motion(
         hips_roll_rad=roll,
         hips_turn_rad=0.3 * twist,
         knee_rad=down * sizes.rad(sway.knee_deg) + dip * sizes.rad(body.cue.knee_deg),
-        bell_rad=0.5 * bell_up + bell_cue,
+        bell_rad=0.5 * bell_up,
+        bell_cue_rad=bell_cue,
         shoulders_rad=deg(body.breath.shoulder_lift_deg) * inhaled,
         elbows_rad=deg(body.breath.elbow_out_deg) * inhaled,
         eyes_yaw_rad=gaze.yaw_rad.sample(times_s) - 0.5 * head_yaw,

@@ -76,7 +76,8 @@ def carry(
     lips_m = contact_m + (upper_m - contact_m) * mouth_open[:, None]
     yaw, roll = np.deg2rad(carriage.yaw_left_deg[1]), np.deg2rad(carriage.roll_left_deg[1])
     with_head = quaternion.multiply(body.head, quaternion.conjugate(base.head))
-    rotation = quaternion.multiply(with_head, attitude(bell_pitch(carriage, motion.bell_rad), float(yaw), float(roll)))
+    pitch = bell_pitch(carriage, motion.bell_rad) - motion.bell_cue_rad
+    rotation = quaternion.multiply(with_head, attitude(pitch, float(yaw), float(roll)))
     position_m = body.head_m + quaternion.rotate(body.head, lips_m)
     if not np.any(lowering):
         return Carried(position_m, rotation)
