@@ -145,6 +145,13 @@ def turned(matrices: FloatArray, normals: FloatArray) -> FloatArray:
     return unit
 
 
+def rest_landmark(hand: HandModel, name: str) -> FloatArray:
+    """Place (3,) of a landmark with the fingers at rest."""
+    still = wrist_from_joint(hand, np.tile(quaternion.IDENTITY, (1, 16, 1)))
+    place: FloatArray = skinned(wrist_from_mesh(hand, still), hand.landmarks[name][:, :, None])[0, 0]
+    return place
+
+
 def flesh_radius(hand: HandModel) -> FloatArray:
     """Radii of what must stay outside the instrument: 0 for the thinned skin, then balls, then the forearm's."""
     firm = np.where(hand.ball_finger >= 0, _FINGER_FLESH, _PALM_FLESH) * hand.balls[:, 3]

@@ -1,0 +1,261 @@
+"""The least-squares problem of one hand on one instrument: what is fixed, and what the parameters mean.
+
+Parameters of a hand (a row ``x``): the wrist's place (3, in units of 0.1 m from the seed), its turn (3, rotation vector
+from the seed), the elbow's swivel, the finger angles with every control at rest, and those of the working fingers again
+with their controls fully worked. ``configs`` is 2 where any finger works a control.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+import numpy.typing as npt
+
+from app.rig import quaternion
+from app.rig.carriage import Upright
+from app.rig.hand import FINGERS, HandModel, hand_model, rest_landmark
+from app.rig.hold import Side
+from app.rig.instrument import control_transform, node_transforms
+from app.rig.model import Character, InstrumentModel
+from app.rig.proxy import Bodies, bodies, near
+from instrument_maps.model import ROOT, Contact, Control, HandSeed, InstrumentMap
+from metadata.load import load_skeleton
+from metadata.model import Body
+
+FloatArray = npt.NDArray[np.float64]
+
+# What a deviation of one unit of residual is.
+FIRM_M, RESTING_M = 0.0003, 0.0012
+FIRM_NORMAL, RESTING_NORMAL = 0.35, 0.6
+CURL_RAD, SIDEWAYS_RAD, THUMB_RAD, COUPLING_RAD = 0.4, 0.12, 0.4, 0.18
+LIMIT_RAD, LIMIT_SHARE = 0.025, 0.8
+SWIVEL_RANGE_RAD = (0.2, 0.9)
+"""The elbow hangs, off the ribs: its swing from straight down to the outside."""
+METRES = 0.1
+"""The wrist's place is solved in units of this many metres, to weigh like radians."""
+NEAR_M = 0.28
+"""Bodies of the proxy farther from the palm than this meet neither hand nor forearm."""
+
+
+@dataclass(frozen=True, eq=False)
+class Dof:
+    """One angle of a finger joint: where it stands, its range and its relaxed value."""
+
+    joint: int
+    kind: int
+    low: float
+    high: float
+    relaxed: float
+    spread: float
+
+
+@dataclass(frozen=True, eq=False)
+class Touch:
+    """A contact in the instrument's frame, at both ends of its control."""
+
+    contact: Contact
+    positions: FloatArray
+    normals: FloatArray
+    active: tuple[bool, bool]
+    spread_m: float
+    spread_normal: float
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """Everything that is fixed while one hand is solved."""
+
+    hand: HandModel
+    seed_m: FloatArray
+    seed_rotation: FloatArray
+    dofs: tuple[Dof, ...]
+    worked: tuple[int, ...]
+    touches: tuple[Touch, ...]
+    touch_points: FloatArray
+    touch_normals: FloatArray
+    node_place: FloatArray
+    node_turn: FloatArray
+    proxies: Bodies
+    shoulder_m: FloatArray
+    upper_m: float
+    lower_m: float
+    swivel_frame: FloatArray
+    swivel_usual: float
+    reference_shift_m: FloatArray
+    configs: int
+    wrist_limits: FloatArray
+    anchor: FloatArray | None = None
+    low: FloatArray = field(default_factory=lambda: np.zeros(0))
+    high: FloatArray = field(default_factory=lambda: np.zeros(0))
+
+
+def grip_problem(
+    character: Character,
+    model: InstrumentModel,
+    instrument_map: InstrumentMap,
+    body: Body,
+    seed: HandSeed,
+    stand: Upright,
+) -> tuple[Problem, Control | None]:
+    side = seed.hand
+    hand = hand_model(character, side, body, load_skeleton(body.skeleton))
+    carrier = next((c for c in instrument_map.controls if seed.node != ROOT and c.node == seed.node), None)
+    worked = tuple(
+        number
+        for number, finger in enumerate(FINGERS)
+        if any(c.finger == f"{side}.{finger}" for c in instrument_map.controls)
+    )
+    names = tuple(model.node_names)
+    moved_by = {c.node: c for c in instrument_map.controls if c is not carrier}
+    touches = []
+    for contact in instrument_map.contacts:
+        if not contact.part.startswith(f"{side}."):
+            continue
+        ends = contact_at(model, contact, moved_by.get(contact.node), np.array([0.0, 1.0]))
+        finger = contact.part.split(".")[1]
+        driven = finger in FINGERS and FINGERS.index(finger) in worked
+        active = (contact.when != "pressed", contact.when != "released" and driven)
+        firm = contact.grip == "firm"
+        touches.append(
+            Touch(contact, *ends, active, FIRM_M if firm else RESTING_M, FIRM_NORMAL if firm else RESTING_NORMAL)
+        )
+    palm = rest_landmark(hand, f"{side}.palm")
+    outward = -1.0 if side == "left" else 1.0
+    direction, normal = np.asarray(seed.finger_direction), np.asarray(seed.palm_normal)
+    direction = direction - normal * float(direction @ normal) / float(normal @ normal)
+    x_axis = -outward * direction / np.linalg.norm(direction)
+    turn = quaternion.from_frames(x_axis, -normal / np.linalg.norm(normal))
+    seed_place = model.node_positions_m[names.index(seed.node)] + seed.palm_position_m
+    seed_m = seed_place - quaternion.rotate(turn, palm)
+    back = quaternion.conjugate(stand.instrument_rotation)
+    joint = [character.skeleton.index(f"{side}{part}") for part in ("UpperArm", "LowerArm", "Hand")]
+    shoulder = quaternion.rotate(back, stand.joints_m[joint[0]] - stand.instrument_m)
+    # The elbow hangs: its swivel is counted from straight down towards the outside.
+    down = quaternion.rotate(back, [0.0, -1.0, 0.0])
+    aside = quaternion.rotate(back, [-outward, 0.0, 0.0])
+    place, node_turn = nodes_at(model, instrument_map, side, carrier, np.array([0.0, 1.0]))
+    near_hand = near(
+        bodies(instrument_map.proxy, names), model.node_positions_m, seed_m + quaternion.rotate(turn, palm), NEAR_M
+    )
+    problem = Problem(
+        hand=hand,
+        seed_m=seed_m,
+        seed_rotation=turn,
+        dofs=_dofs(hand, seed.curl),
+        worked=worked,
+        touches=tuple(touches),
+        touch_points=np.stack([hand.landmarks[t.contact.part] for t in touches], axis=2),
+        touch_normals=np.stack([hand.landmark_normals[t.contact.part] for t in touches], axis=2),
+        node_place=place,
+        node_turn=node_turn,
+        proxies=near_hand,
+        shoulder_m=shoulder,
+        upper_m=float(np.linalg.norm(character.skeleton.offsets_m[joint[1]])),
+        lower_m=float(np.linalg.norm(character.skeleton.offsets_m[joint[2]])),
+        swivel_frame=np.stack([down, aside]),
+        swivel_usual=np.radians(body.postures["standing"].elbow_off_ribs_deg),
+        reference_shift_m=np.zeros(3),
+        configs=2 if worked else 1,
+        wrist_limits=hand.limits[0] * LIMIT_SHARE,
+    )
+    low, high = _bounds(problem)
+    return replace(problem, low=low, high=high), carrier
+
+
+def _dofs(hand: HandModel, curl: tuple[float, ...]) -> tuple[Dof, ...]:
+    """The angles that are solved, thumb first; relaxed values follow the seed's curl (1 is a fist)."""
+    found = []
+
+    def add(joint: int, kind: int, relaxed_deg: float, spread: float, share: float = 1.0) -> None:
+        low, high = hand.limits[joint, kind] * share
+        found.append(Dof(joint, kind, low, high, float(np.radians(relaxed_deg)), spread))
+
+    add(1, 0, 8.0, THUMB_RAD)
+    add(1, 1, 20.0, THUMB_RAD)
+    add(1, 2, 0.0, THUMB_RAD * 0.5)
+    add(2, 0, 12.0, THUMB_RAD)
+    add(3, 0, 15.0, THUMB_RAD)
+    for number, bend in zip(range(1, 5), curl, strict=True):
+        first = 1 + 3 * number
+        add(first, 0, 80.0 * bend, CURL_RAD)
+        add(first, 1, 0.0, SIDEWAYS_RAD)
+        add(first + 1, 0, 100.0 * bend, CURL_RAD)
+        add(first + 2, 0, 66.0 * bend, CURL_RAD)
+    return tuple(found)
+
+
+def finger_dofs(problem: Problem, number: int) -> list[int]:
+    return [i for i, dof in enumerate(problem.dofs) if (dof.joint - 1) // 3 == number]
+
+
+def worked_dofs(problem: Problem) -> list[int]:
+    return [i for number in problem.worked for i in finger_dofs(problem, number)]
+
+
+def _bounds(problem: Problem) -> tuple[FloatArray, FloatArray]:
+    """Parameters: wrist place (3), wrist turn (3), swivel, angles at rest, angles of working fingers fully worked."""
+    order = [*range(len(problem.dofs)), *worked_dofs(problem)]
+    low = [-np.inf] * 6 + [SWIVEL_RANGE_RAD[0]] + [problem.dofs[i].low for i in order]
+    high = [np.inf] * 6 + [SWIVEL_RANGE_RAD[1]] + [problem.dofs[i].high for i in order]
+    return np.array(low), np.array(high)
+
+
+def start_at(problem: Problem, turn: FloatArray) -> FloatArray:
+    order = [*range(len(problem.dofs)), *worked_dofs(problem)]
+    angles = [np.clip(problem.dofs[i].relaxed, problem.dofs[i].low, problem.dofs[i].high) for i in order]
+    start = np.array([0.0, 0.0, 0.0, *turn, problem.swivel_usual, *angles])
+    clipped: FloatArray = np.clip(start, problem.low + 1e-6, problem.high - 1e-6)
+    return clipped
+
+
+def wrist_transform(problem: Problem, x: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Wrist in the instrument's frame: positions (B, 3) and rotations (B, 4)."""
+    turn = quaternion.multiply(quaternion.from_rotation_vector(x[:, 3:6]), problem.seed_rotation)
+    return problem.seed_m + METRES * x[:, :3], turn
+
+
+def joint_angles(problem: Problem, x: FloatArray) -> FloatArray:
+    """Joint angles (B, configs, 16, 3)."""
+    result = np.zeros((len(x), problem.configs, 16, 3))
+    count = len(problem.dofs)
+    for i, dof in enumerate(problem.dofs):
+        result[:, :, dof.joint, dof.kind] = x[:, 7 + i, None]
+    for k, i in enumerate(worked_dofs(problem)):
+        result[:, 1, problem.dofs[i].joint, problem.dofs[i].kind] = x[:, 7 + count + k]
+    return result
+
+
+def contact_at(
+    model: InstrumentModel, contact: Contact, control: Control | None, values: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Place (S, 3) and normal (S, 3) of a contact in the instrument's frame for values of the control that moves it."""
+    place = model.node_positions_m[model.node_names.index(contact.node)] + contact.position_m
+    normal = np.asarray(contact.normal, dtype=np.float64)
+    if control is None:
+        return np.tile(place, (len(values), 1)), np.tile(normal, (len(values), 1))
+    moved, turn = control_transform(control, values)
+    return quaternion.rotate(turn, place) + moved, quaternion.rotate(turn, normal)
+
+
+def nodes_at(
+    model: InstrumentModel, instrument_map: InstrumentMap, side: Side, carrier: Control | None, values: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Places (S, N, 3) and bases (S, N, 3, 3) of the nodes while all this hand's fingers work their controls alike.
+
+    A hand that is carried sees its own node stay and all others go the other way.
+    """
+    worked = {
+        control.name: values
+        for control in instrument_map.controls
+        if control is not carrier and control.finger.startswith(f"{side}.")
+    }
+    place, turn = node_transforms(model, instrument_map, worked, len(values))
+    if carrier is not None:
+        others = np.arange(len(model.node_names)) != model.node_names.index(carrier.node)
+        place[:, others] -= np.multiply.outer(values, travel(carrier))[:, None]
+    return place, quaternion.to_matrix(turn)
+
+
+def travel(control: Control) -> FloatArray:
+    return np.asarray(control.motion.axis, dtype=np.float64) * (control.motion.travel_m or 0.0)

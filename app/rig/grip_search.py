@@ -1,0 +1,80 @@
+"""Solving a hand's hold: many soft starts, a few harder ones, one hard finish."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from scipy.optimize import least_squares
+
+from app.rig.grip_problem import Problem, nodes_at, start_at, travel
+from app.rig.grip_residuals import Residuals
+from app.rig.model import InstrumentModel
+from instrument_maps.model import Control, InstrumentMap
+
+FloatArray = npt.NDArray[np.float64]
+
+KNOTS = (0.25, 0.0, 0.5, 0.75, 1.0)
+"""Values of the control that carries a hand at which its hold is solved: the first from the seed, the others each from
+its solved neighbour. The grip turns in the fingers as the arm stretches."""
+TILTS = (
+    (0.0, 0.0, 0.0),
+    (0.3, 0.0, 0.0),
+    (-0.3, 0.0, 0.0),
+    (0.0, 0.3, 0.0),
+    (0.0, -0.3, 0.0),
+    (0.0, 0.0, 0.3),
+    (0.0, 0.0, -0.3),
+    (0.25, 0.25, 0.0),
+    (-0.25, -0.25, 0.0),
+    (0.0, 0.25, 0.25),
+    (0.0, -0.25, -0.25),
+)
+"""Turns of the seed (rotation vectors in the instrument's frame) that are tried."""
+
+
+def search(problem: Problem) -> FloatArray:
+    """Start from the seed and from tilts of it with soft contacts; the best few go on with harder ones."""
+    loose = [_solve(Residuals(problem, 6.0), start_at(problem, np.array(tilt)), 8) for tilt in TILTS]
+    loose.sort(key=lambda found: float(found.cost))
+    middle = [_solve(Residuals(problem, 2.0), found.x, 10) for found in loose[:3]]
+    best = min(middle, key=lambda found: float(found.cost))
+    return np.asarray(_solve(Residuals(problem, 1.0), best.x, 25).x)
+
+
+def search_knots(
+    problem: Problem, model: InstrumentModel, instrument_map: InstrumentMap, carrier: Control
+) -> tuple[FloatArray, FloatArray]:
+    """Solve the hold of a carried hand at `KNOTS`: values ascending (K,) and parameters (K, n)."""
+    found: dict[float, FloatArray] = {}
+    for value in KNOTS:
+        place, turn = nodes_at(model, instrument_map, problem.hand.side, carrier, np.array([value]))
+        here = replace(
+            problem,
+            node_place=place,
+            node_turn=turn,
+            reference_shift_m=value * travel(carrier),
+            anchor=found[min(found, key=lambda other: abs(other - value))] if found else None,
+        )
+        if here.anchor is None:
+            found[value] = search(here)
+        else:
+            found[value] = np.asarray(_solve(Residuals(here, 1.0), here.anchor, 20).x)
+    knots = np.array(sorted(found))
+    return knots, np.stack([found[value] for value in knots])
+
+
+def _solve(residuals: Residuals, start: FloatArray, rounds: int) -> Any:
+    problem = residuals.problem
+    return least_squares(
+        residuals,
+        np.clip(start, problem.low + 1e-9, problem.high - 1e-9),
+        jac=residuals.jacobian,
+        bounds=(problem.low, problem.high),
+        max_nfev=rounds,
+        xtol=1e-7,
+        ftol=1e-6,
+        gtol=1e-8,
+    )
