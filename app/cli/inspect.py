@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import argparse
-import json
+from collections.abc import Sequence
 from typing import Any
+
+import msgspec
+import numpy as np
 
 from app.cli.instruments import note_name
 from app.cli.messages import text
@@ -34,7 +37,7 @@ def inspect(arguments: argparse.Namespace) -> None:
     """Print the file's plan."""
     performance = Performance(open_project(arguments))
     if arguments.json:
-        print(json.dumps(inspection(performance), ensure_ascii=False, allow_nan=False, indent=1))
+        print(msgspec.json.format(msgspec.json.encode(inspection(performance)), indent=1).decode())
     else:
         print(tables(arguments.file.name, inspection(performance)))
 
@@ -74,9 +77,18 @@ def _player(performance: Performance, player: Player) -> Table:
         "instrument": player.instrument_id,
         "part": part.name,
         "notes": [_note(note, fingerings[note.id], instrument, clock) for note in part.notes],
-        "breaths": [_breath(event, clock) for event in plan.breaths],
-        "cues": [_cue(event, clock) for event in plan.cues],
-        "gestures": [_gesture(event, clock) for event in plan.gestures],
+        "breaths": [
+            {"kind": event.kind, **span, "reason": text(event.reason)}
+            for event, span in zip(plan.breaths, _spans(plan.breaths, clock), strict=True)
+        ],
+        "cues": [
+            {**span, "peak_s": event.peak_s, "beat_s": event.beat_s, "reason": text(event.reason)}
+            for event, span in zip(plan.cues, _spans(plan.cues, clock), strict=True)
+        ],
+        "gestures": [
+            {"kind": event.kind, **span, "amount": event.amount, "reason": text(event.reason)}
+            for event, span in zip(plan.gestures, _spans(plan.gestures, clock), strict=True)
+        ],
     }
 
 
@@ -97,36 +109,14 @@ def _note(note: Note, fingering: FingeringEvent, instrument: InstrumentMap, cloc
     }
 
 
-def _breath(event: BreathEvent, clock: Clock) -> Table:
-    return {"kind": event.kind, **_span(event.start_s, event.end_s, clock), "reason": text(event.reason)}
-
-
-def _cue(event: CueEvent, clock: Clock) -> Table:
-    return {
-        **_span(event.start_s, event.end_s, clock),
-        "peak_s": event.peak_s,
-        "beat_s": event.beat_s,
-        "reason": text(event.reason),
-    }
-
-
-def _gesture(event: GestureEvent, clock: Clock) -> Table:
-    return {
-        "kind": event.kind,
-        **_span(event.start_s, event.end_s, clock),
-        "amount": event.amount,
-        "reason": text(event.reason),
-    }
-
-
-def _span(start_s: float, end_s: float, clock: Clock) -> Table:
-    quarter = clock.ticks_per_quarter
-    return {
-        "start_s": start_s,
-        "end_s": end_s,
-        "start_beat": clock.ticks(start_s) / quarter,
-        "end_beat": clock.ticks(end_s) / quarter,
-    }
+def _spans(events: Sequence[BreathEvent | CueEvent | GestureEvent], clock: Clock) -> list[Table]:
+    """When the events are, in seconds and in quarters."""
+    seconds = np.array([(event.start_s, event.end_s) for event in events]).reshape(-1, 2)
+    beats = clock.ticks(seconds) / clock.ticks_per_quarter
+    return [
+        {"start_s": start_s, "end_s": end_s, "start_beat": start_beat, "end_beat": end_beat}
+        for (start_s, end_s), (start_beat, end_beat) in zip(seconds.tolist(), beats.tolist(), strict=True)
+    ]
 
 
 def tables(file: str, found: Table) -> str:
