@@ -7,14 +7,14 @@ vertices stay within its radius.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 
 from app.export.playback import Playback, Surface
-from app.export.proxy import bounding_ball, signed_distance
+from app.export.proxy import signed_distance
 from app.formats.fbx.scene import FbxMesh
 from instrument_maps.model import Proxy
 
@@ -22,8 +22,10 @@ FloatArray = npt.NDArray[np.float64]
 AnyFloatArray = npt.NDArray[np.floating]
 IntArray = npt.NDArray[np.integer]
 
-GROUP = 16
+GROUP = 8
 """Vertices per group, about."""
+BLOCK = 32
+"""Frames looked at together."""
 STRETCH = 1.3
 """How much further from its middle than in the bind pose a vertex of a group may come when the hand bends."""
 
@@ -54,10 +56,6 @@ class Hands:
         self._by_node: dict[str, list[Proxy]] = {}
         for body in proxy:
             self._by_node.setdefault(body.node, []).append(body)
-        self._balls_m = {
-            node: np.array([(*centre, radius) for centre, radius in map(bounding_ball, bodies)])
-            for node, bodies in self._by_node.items()
-        }
         positions_m = np.asarray(mesh.vertices_cm, np.float64)[vertices] / 100.0
         strongest = np.asarray(mesh.joint_indices)[vertices, np.argmax(mesh.weights[vertices], axis=1)]
         self._groups = [
@@ -87,39 +85,54 @@ class Hands:
         deepest = np.zeros(last - first)
         middles = self._middles.positions_m(world, first, last)
         node_from_world = {name: np.linalg.inv(matrix) for name, matrix in nodes.items()}
-        near: dict[int, list[tuple[Proxy, npt.NDArray[np.bool_]]]] = {}
         radii = np.array([group.radius_m for group in self._groups])
-        for node, bodies in self._by_node.items():
-            # Single precision is enough to choose by: the radii have room.
-            local = _moved(node_from_world[node], middles).astype(np.float32)
-            # A ball around each body first: most groups are nowhere near most bodies.
-            balls = _ever_within(local, self._balls_m[node], radii)
-            for body, close in zip(bodies, balls.T, strict=True):
-                candidates = np.flatnonzero(close)
-                if not len(candidates):
-                    continue
-                inside = signed_distance(body, local[:, candidates]) < radii[candidates]
-                for column in np.flatnonzero(inside.any(axis=0)).tolist():
-                    near.setdefault(int(candidates[column]), []).append((body, inside[:, column]))
-        for index, touched in near.items():
-            points = self._members[index].positions_m(world, first, last)
-            for body, frames in touched:
-                local = _moved(node_from_world[body.node][frames], points[frames])
-                depth = -signed_distance(body, local).min(axis=1)
-                deepest[frames] = np.maximum(deepest[frames], depth)
+        found = [
+            (float(possible.max()), group, body, possible)
+            for node, bodies in self._by_node.items()
+            for blocks in [_Blocks(_moved(node_from_world[node], middles))]
+            for body in bodies
+            for group, possible in blocks.possible_depths(body, radii)
+        ]
+        points: dict[int, FloatArray] = {}
+        # The likely deepest first: what cannot be deeper than what was found is not looked at.
+        for _, group, body, possible in sorted(found, key=lambda item: -item[0]):
+            frames = possible > deepest
+            if not frames.any():
+                continue
+            if group not in points:
+                points[group] = self._members[group].positions_m(world, first, last)
+            local = _moved(node_from_world[body.node][frames], points[group][frames])
+            deepest[frames] = np.maximum(deepest[frames], -signed_distance(body, local).min(axis=1))
         return deepest
 
 
-def _ever_within(points: AnyFloatArray, balls: FloatArray, radii: FloatArray) -> npt.NDArray[np.bool_]:
-    """Whether a ball of radius (G,) about a point (n, G, 3) may meet a ball (S, 4) in any frame, (G, S).
+class _Blocks:
+    """Places of points (n, G, 3), some frames at a time: hands hardly move on what they hold, so one look at the
+    middle of a point's places tells for a whole block that it is nowhere near."""
 
-    Judged by a ball about all of a point's places: hands hardly move on what they hold.
-    """
-    low, high = points.min(axis=0), points.max(axis=0)
-    middle, wander = (low + high) / 2.0, np.linalg.norm(high - low, axis=-1) / 2.0
-    apart = np.linalg.norm(middle[:, None] - balls[:, :3], axis=-1)
-    near: npt.NDArray[np.bool_] = apart < (radii + wander)[:, None] + balls[:, 3]
-    return near
+    def __init__(self, places: AnyFloatArray) -> None:
+        self._frames = len(places)
+        padding = -self._frames % BLOCK
+        padded = np.concatenate([places, np.repeat(places[-1:], padding, axis=0)])
+        self._places = padded.reshape(-1, BLOCK, *places.shape[1:])
+        low, high = self._places.min(axis=1), self._places.max(axis=1)
+        self._middle = (low + high) / 2.0
+        self._wander = np.linalg.norm(high - low, axis=-1) / 2.0
+
+    def possible_depths(self, body: Proxy, radii: FloatArray) -> Iterator[tuple[int, FloatArray]]:
+        """How deep anything within a radius (G,) of a point may be in a body, (n,), of each point that is near."""
+        # A distance changes by no more than the point moves, so nothing within reach is passed over.
+        close = signed_distance(body, self._middle) < radii + self._wander
+        block, point = np.nonzero(close)
+        if not len(block):
+            return
+        depths = radii[point, None] - signed_distance(body, self._places[block, :, point])
+        for index in np.unique(point).tolist():
+            rows = point == index
+            possible = np.zeros(close.shape[0] * BLOCK)
+            possible.reshape(-1, BLOCK)[block[rows]] = depths[rows]
+            if (possible[: self._frames] > 0.0).any():
+                yield index, possible[: self._frames]
 
 
 def _moved(matrices: AnyFloatArray, points: AnyFloatArray) -> AnyFloatArray:

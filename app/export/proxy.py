@@ -40,19 +40,6 @@ def signed_distance(shape: Proxy, points_m: FloatArray) -> FloatArray:
             return _box(points_m, shape)
 
 
-def bounding_ball(shape: Proxy) -> tuple[npt.NDArray[np.float64], float]:
-    """Centre (3,) and radius of a ball that holds the whole body, metres."""
-    match shape:
-        case Capsule() | Cylinder() | Cone():
-            a, b = np.asarray(shape.a_m), np.asarray(shape.b_m)
-            radius = max(shape.radius_a_m, shape.radius_b_m) if isinstance(shape, Cone) else shape.radius_m
-            return (a + b) / 2.0, float(np.linalg.norm(b - a)) / 2.0 + radius
-        case Ring():
-            return np.asarray(shape.centre_m), shape.radius_m + shape.tube_radius_m
-        case Box():
-            return np.asarray(shape.centre_m), float(np.linalg.norm(shape.half_m))
-
-
 def _capsule(
     points: FloatArray, a: tuple[float, float, float], b: tuple[float, float, float], radius: float
 ) -> FloatArray:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from app.export.proxy import bounding_ball, signed_distance
+from app.export.proxy import signed_distance
 from instrument_maps.model import Box, Capsule, Cone, Cylinder, Proxy, Ring
 
 
@@ -84,8 +84,6 @@ def test_against_a_mesh(shape: Proxy) -> None:
     assert nearest.shape == points.shape
     signs = np.where(winding_numbers(mesh, points) > 0.5, -1.0, 1.0)
     ours = signed_distance(shape, points)
-    centre, radius = bounding_ball(shape)
-    assert np.linalg.norm(mesh.vertices - centre, axis=1).max() <= radius + 1e-9
     clear = distance > 3e-4  # the mesh is a polyhedron: signs near its faces may differ
     np.testing.assert_allclose(np.abs(ours), distance, atol=2.5e-4)
     np.testing.assert_array_equal(np.sign(ours[clear]), signs[clear])
