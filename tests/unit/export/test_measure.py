@@ -14,6 +14,9 @@ from app.errors import Message
 from app.export.character import character_scene
 from app.export.instrument import instrument_scene
 from app.export.measure import ControlJudge, Measured, greatest_correlations, measure_player
+from app.export.penetration import Hands
+from app.export.playback import Playback, Surface
+from app.export.proxy import signed_distance
 from app.formats.fbx.scene import FbxScene
 from app.performance.ensemble import Performance
 from app.performance.motion import body_of, character_of, model_of, player_motion
@@ -117,6 +120,38 @@ def test_a_hand_thrust_into_the_instrument_is_found(case: Case) -> None:
         for offset in 1.0 * np.concatenate([np.eye(3), -np.eye(3)])
     ]
     assert max(deeper) > before + 3.0
+
+
+@pytest.mark.parametrize("push_cm", [(0.6, -0.4, 0.5), (-1.0, 0.0, 0.0), (0.0, 1.0, -0.6)])
+def test_no_vertex_of_a_hand_is_left_out(case: Case, push_cm: tuple[float, float, float]) -> None:
+    """The search by groups against every vertex and every body, with the instrument pushed into the hands."""
+    scene, held = case.player_scene, moved(case.held_scene, 0, np.array(push_cm))
+    assert scene.clip is not None
+    assert held.clip is not None
+    player, instrument = Playback(scene, scene.clip), Playback(held, held.clip)
+    first, last = 40, 130
+    world, held_world = player.world(first, last), instrument.world(first, last)
+    bones = {control.node: control.name for control in case.instrument.controls}
+    nodes = {
+        node: held_world[:, instrument.bone_names.index(bones.get(node, node))]
+        for node in {body.node for body in case.instrument.proxy}
+    }
+    deepest = 0.0
+    for hand in ("left.hand", "right.hand"):
+        landmark, meshes = case.character.landmarks[hand], case.character.meshes
+        before = [mesh.name for mesh in meshes].index(landmark.mesh)
+        vertices = landmark.vertices + sum(len(mesh.positions_m) for mesh in meshes[:before])
+        mesh = scene.meshes[0]
+        found = Hands(player, mesh, vertices, case.instrument.proxy).depths_m(world, nodes, first, last)
+        points = Surface(player, mesh, vertices).positions_m(world, first, last)
+        slow = np.zeros(last - first)
+        for frame in range(0, last - first, 9):
+            for body in case.instrument.proxy:
+                local = (points[frame] - nodes[body.node][frame, :3, 3]) @ nodes[body.node][frame, :3, :3]
+                slow[frame] = max(slow[frame], -signed_distance(body, local).min())
+            assert found[frame] == pytest.approx(slow[frame], abs=1e-9)
+        deepest = max(deepest, slow.max())
+    assert deepest > 0.003
 
 
 def test_a_control_out_of_place_is_found(case: Case) -> None:
