@@ -171,7 +171,7 @@ def _contacts(instrument: InstrumentMap) -> Iterator[Problem]:
             yield f"{path}.part", f"'{contact.part}' touches twice"
         seen.add((contact.part, contact.when))
     for index, control in enumerate(instrument.controls):
-        if not any(_works(contact, control) for contact in instrument.contacts):
+        if control.finger in MOVERS and not any(_works(contact, control) for contact in instrument.contacts):
             yield f"controls[{index}].finger", f"no contact says where '{control.finger}' touches '{control.name}'"
     yield from _hands(instrument, nodes)
 

@@ -1,7 +1,7 @@
 """Derives the tables of fingerings of brass instruments from acoustics and a published first choice.
 
 Every combination of valves (or place of the slide) whose tube has a harmonic near the note is a candidate;
-the first choices come from a published chart (``tests/data`` and the map's ``sources`` name it), alternates
+the first choices come from a published chart (the map's ``sources`` name it), alternates
 follow by how far they are out of tune and how unusual they are. ``python -m resources.build.instrument_fingerings``
 prints the tables as the maps hold them; the maps are the truth, and a musician may edit them.
 

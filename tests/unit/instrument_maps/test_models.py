@@ -9,12 +9,13 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 
-from app.export.proxy import bounding_ball, signed_distance
+from app.export.proxy import signed_distance
 from app.formats.gltf import GltfModel, read_glb
 from instrument_maps.check_model import model_problems, node_triangles
 from instrument_maps.load import bundled_maps, model_path
 from instrument_maps.model import ROOT, InstrumentMap
 from instrument_maps.surface import nearest_point
+from resources.build import build_instruments
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -212,11 +213,26 @@ def test_bodies_hold_the_whole_mesh(instrument: InstrumentMap) -> None:
     centres = everything(instrument).mean(axis=1)[::7]
     outside = nearest_body_m(instrument, centres)
     assert np.mean(outside < 0.002) > 0.97
-    balls = [bounding_ball(body) for body in instrument.proxy]
-    assert all(np.isfinite(centre).all() and radius > 0 for centre, radius in balls)
-    assert len(balls) < 260
+    assert len(instrument.proxy) < 260
 
 
 def test_models_are_small_enough_to_ship() -> None:
     for instrument in bundled_maps().values():
         assert Path(model_path(instrument)).stat().st_size < 3_000_000
+
+
+@pytest.mark.parametrize("instrument", MAPS)
+def test_models_and_maps_are_what_the_script_builds(instrument: InstrumentMap, tmp_path: Path) -> None:
+    source = build_instruments.INSTRUMENTS[instrument.id]
+    built = source.build()
+    build_instruments.write(built, tmp_path / "again.glb")
+    again, shipped = node_triangles(instrument, read_glb(tmp_path / "again.glb")), SURFACES[instrument.id]
+    assert again.keys() == shipped.keys()
+    for name, triangles in shipped.items():
+        assert np.allclose(again[name], triangles, atol=1e-6)
+    contacts = source.contacts()
+    assert [contact["part"] for contact in contacts] == [contact.part for contact in instrument.contacts]
+    for wanted, contact in zip(contacts, instrument.contacts, strict=True):
+        place = np.asarray(wanted["point"]) - built.origins[contact.node]
+        assert np.allclose(place, contact.position_m, atol=2e-5)
+    assert sum(len(part.shape.proxies) for part in built.parts) == len(instrument.proxy)
