@@ -12,6 +12,7 @@ What the arrangement does (quarters are counted from the start of the source, me
   trumpet, except where the lines cross; where one sounds, `SECOND_TRUMPET_ALONE` says whose entry it is.
 - The first trombone plays the source's alto line, and in places the tenor's.
 - The second trombone plays the bass; what lies below E2 an octave higher.
+- It sounds a semitone higher, in F minor.
 - A note of three quarters or more that another follows at once ends early, so that the player can breathe.
 - Dynamics by section (echoes in the closing part), metre and contour; a broadening at the middle part and at the end.
 """
@@ -29,6 +30,9 @@ TARGET = Path(__file__).parents[1] / "examples/quartet.mid"
 FIRST_QUARTER, LAST_QUARTER = 42.0, 306.0
 TICKS_PER_QUARTER = 480
 LOWEST_TROMBONE_PITCH = 40
+# Leipzig's town pipers played about a semitone above today's pitch; and in F minor instead of E minor the second
+# trombone's many E and B need no seventh position.
+TRANSPOSITION_SEMITONES = 1
 
 SECOND_TRUMPET_ALONE = ((76.0, 88.0), (108.0, 114.0), (128.0, 132.0), (210.0, 216.0), (268.0, 270.0))
 TRUMPETS_CROSSED = ((216.0, 218.0), (268.0, 276.0))
@@ -52,9 +56,9 @@ SECTIONS = (
 )
 # (from quarter, quarters per minute); the last bars broaden quarter by quarter.
 TEMPI = (
-    (42.0, 176.0),
-    (162.0, 168.0),
-    (208.0, 160.0),
+    (42.0, 156.0),
+    (162.0, 160.0),
+    (208.0, 150.0),
     (210.0, 184.0),
     (284.0, 176.0),
     (290.0, 168.0),
@@ -179,7 +183,7 @@ def conductor() -> mido.MidiTrack:
         (0, 1, meta("text", text="Johann Pezel, Hora decima (1670), arranged for two trumpets and two trombones")),
         (0, 2, meta("copyright", text="Public domain")),
         (0, 3, meta("time_signature", numerator=3, denominator=2, clocks_per_click=48)),
-        (0, 4, meta("key_signature", key="Em")),
+        (0, 4, meta("key_signature", key="Fm")),
         *((tick(quarter), 5, meta("set_tempo", tempo=mido.bpm2tempo(bpm))) for quarter, bpm in TEMPI),
     ]
     return track_of(events)
@@ -192,8 +196,9 @@ def player(name: str, channel: int, program: int, line: list[Sound]) -> mido.Mid
     ]
     for sound in line:
         loudness = velocity(sound, line)
-        on = mido.Message("note_on", channel=channel, note=sound.pitch, velocity=loudness)
-        off = mido.Message("note_off", channel=channel, note=sound.pitch, velocity=64)
+        pitch = sound.pitch + TRANSPOSITION_SEMITONES
+        on = mido.Message("note_on", channel=channel, note=pitch, velocity=loudness)
+        off = mido.Message("note_off", channel=channel, note=pitch, velocity=64)
         events += [(tick(sound.onset), 3, on), (tick(sound.onset + sound.length), 2, off)]
     return track_of(events)
 

@@ -10,6 +10,7 @@ import pytest
 
 from app.score.model import Score
 from app.score.read import read_midi
+from resources.build import arrange_example
 from tests.unit.score.midi_bytes import MAPS
 
 DATA = Path(__file__).parents[2] / "data/midi"
@@ -127,6 +128,11 @@ def test_speer_names_voices_only_and_ranges_decide() -> None:
         ("Tenoru", "trombone"),
     ]
     assert sum(warning.id.startswith("score.chosen_by_range") for warning in score.warnings) == 5
+
+
+def test_the_bundled_quartet_is_what_its_script_makes(tmp_path: Path) -> None:
+    arrange_example.arrange(mido.MidiFile(arrange_example.SOURCE)).save(tmp_path / "quartet.mid")
+    assert (tmp_path / "quartet.mid").read_bytes() == QUARTET.read_bytes()
 
 
 def test_the_bundled_quartet() -> None:
