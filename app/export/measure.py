@@ -165,7 +165,7 @@ def measure_player(
     held = Playback(instrument_scene, instrument_scene.clip)
     fps = player.clip.fps
     times_s = first_frame_s + np.arange(player.clip.frames) / float(fps)
-    notes = [note for note in plan.fingerings if note.end_s > times_s[0] and note.start_s <= times_s[-1]]
+    notes = notes_of(plan.fingerings, float(times_s[0]), float(times_s[-1]))
     sounding = _within(times_s, [(note.start_s, note.end_s) for note in notes])
     # A catch breath comes out of a note's tail: the note sounds on, but the lips have stopped.
     blowing = sounding & ~_within(times_s, [(event.start_s, event.end_s) for event in plan.breaths])
@@ -190,6 +190,13 @@ def measure_player(
         breaths=_breaths(plan.breaths, times_s, player, traces.torso),
     )
     return Measured(measures, traces.torso)
+
+
+def notes_of(notes: Sequence[FingeringEvent], first_s: float, last_s: float) -> list[FingeringEvent]:
+    """The notes that sound in a span, and the next one: a control may leave the last note's place for its sake."""
+    later = [note for note in notes if note.end_s > first_s]
+    inside = sum(note.start_s <= last_s for note in later)
+    return later[: inside + 1]
 
 
 def control_values(instrument: InstrumentMap, held: Playback) -> dict[str, FloatArray]:

@@ -13,7 +13,7 @@ import pytest
 from app.errors import Message
 from app.export.character import character_scene
 from app.export.instrument import instrument_scene
-from app.export.measure import ControlJudge, Measured, greatest_correlations, measure_player
+from app.export.measure import ControlJudge, Measured, greatest_correlations, measure_player, notes_of
 from app.export.penetration import Hands
 from app.export.playback import Playback, Surface
 from app.export.proxy import signed_distance
@@ -234,6 +234,12 @@ def test_leaving_too_early_is_found() -> None:
     assert judge(notes).measure(control(), values).held_wrong == 0
     values[19] = 0.5
     assert judge(notes).measure(control(), values).held_wrong == 1
+
+
+def test_a_slide_may_leave_the_last_note_of_a_cut_for_the_note_after_it() -> None:
+    notes = [event(0.0, 1.0, 0.0), event(1.0, 2.0, 1.0), event(2.0, 3.0, 0.0)]
+    assert notes_of(notes, 0.5, 1.9) == notes
+    assert notes_of(notes, 1.0, 2.5) == notes[1:]
 
 
 def test_sway_of_twins_and_of_strangers() -> None:
