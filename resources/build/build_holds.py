@@ -1,6 +1,7 @@
 """Fit how every bundled character holds every bundled instrument and keep the result in resources/holds.
 
-Run it whenever a character, an instrument's model or map, the body's limits or the fit itself has changed; a test says so.
+Run it whenever a character, an instrument's model or map, the body's limits or the fit itself has changed: a test
+says when.
 
     python -m resources.build.build_holds [CHARACTER ...]
 """
@@ -40,7 +41,8 @@ def main(wanted: list[str]) -> None:
                     (contact for contact in hand.contacts if contact.firm), key=lambda contact: contact.distance_m
                 )
                 print(
-                    f"  {hand.side}: {worst.part} {worst.distance_m * 1000:.2f} mm, {hand.penetration_m * 1000:.1f} mm inside"
+                    f"  {hand.side}: {worst.part} {worst.distance_m * 1000:.2f} mm, "
+                    f"{hand.penetration_m * 1000:.1f} mm inside"
                 )
 
 

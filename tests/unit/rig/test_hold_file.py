@@ -1,0 +1,108 @@
+"""Stored holds: those that come with the program are up to date, and no file is taken for what it is not."""
+
+from __future__ import annotations
+
+from dataclasses import fields, is_dataclass
+from pathlib import Path
+from typing import Any
+
+import msgspec
+import numpy as np
+import pytest
+
+from app.rig import hold_file
+from app.rig.character import bundled_character, characters
+from app.rig.hold import Hold
+from app.rig.hold_file import bundled_path, digest_of, hold_for, read_hold, write_hold
+from app.rig.instrument import load_instrument
+from instrument_maps.load import bundled_maps, model_path
+from metadata.load import load_body
+
+PAIRS = [(character, instrument) for character in characters() for instrument in bundled_maps()]
+
+
+def inputs(character_id: str, instrument_id: str) -> tuple[Any, ...]:
+    instrument = bundled_maps()[instrument_id]
+    model = load_instrument(model_path(instrument), instrument)
+    return bundled_character(character_id), model, instrument, load_body()
+
+
+def same(first: Any, second: Any) -> bool:
+    if isinstance(first, np.ndarray):
+        return bool(np.array_equal(first, second))
+    if is_dataclass(first):
+        return all(same(getattr(first, field.name), getattr(second, field.name)) for field in fields(first))
+    if isinstance(first, tuple):
+        return len(first) == len(second) and all(map(same, first, second))
+    if isinstance(first, dict):
+        return first.keys() == second.keys() and all(same(first[key], second[key]) for key in first)
+    return bool(first == second)
+
+
+@pytest.fixture(scope="module")
+def shipped() -> tuple[str, Hold]:
+    digest = digest_of(*inputs(*PAIRS[0]))
+    hold = read_hold(bundled_path(*PAIRS[0]), digest)
+    assert hold is not None
+    return digest, hold
+
+
+@pytest.mark.parametrize("pair", PAIRS, ids="-".join)
+def test_the_shipped_hold_is_up_to_date(pair: tuple[str, str]) -> None:
+    assert read_hold(bundled_path(*pair), digest_of(*inputs(*pair))) is not None, (
+        "run python -m resources.build.build_holds"
+    )
+
+
+def test_a_hold_comes_back_to_the_bit(tmp_path: Path, shipped: tuple[str, Hold]) -> None:
+    digest, hold = shipped
+    write_hold(tmp_path / "hold.json", digest, hold)
+    assert same(hold, read_hold(tmp_path / "hold.json", digest))
+
+
+def test_a_damaged_or_foreign_file_is_none(tmp_path: Path, shipped: tuple[str, Hold]) -> None:
+    digest, hold = shipped
+    path = tmp_path / "hold.json"
+    assert read_hold(path, digest) is None
+    write_hold(path, digest, hold)
+    assert read_hold(path, "another") is None
+    whole = path.read_bytes()
+    for damaged in (b"", whole[: len(whole) // 2], whole.replace(b"[", b"{", 1), b"\xff" + whole, b"[]"):
+        path.write_bytes(damaged)
+        assert read_hold(path, digest) is None
+
+
+def test_the_digest_knows_what_the_hands_touch() -> None:
+    character, model, instrument, body = inputs(*PAIRS[0])
+    digest = digest_of(character, model, instrument, body)
+    contact = msgspec.structs.replace(instrument.contacts[0], position_m=(0.0, 0.0, 0.0))
+    moved = msgspec.structs.replace(instrument, contacts=(contact, *instrument.contacts[1:]))
+    assert digest_of(character, model, moved, body) != digest
+    renamed = msgspec.structs.replace(instrument, short_name="other", fingerings=())
+    assert digest_of(character, model, renamed, body) == digest
+
+
+def test_a_new_pair_is_fitted_once(tmp_path: Path, shipped: tuple[str, Hold], monkeypatch: pytest.MonkeyPatch) -> None:
+    asked = []
+
+    def fit(*given: Any) -> Hold:
+        asked.append(given)
+        return shipped[1]
+
+    monkeypatch.setenv(hold_file.CACHE_VARIABLE, str(tmp_path / "cache"))
+    monkeypatch.setattr(hold_file, "fit_hold", fit)
+    monkeypatch.setattr(hold_file, "bundled_path", lambda *pair: tmp_path / "none.json")
+    given = inputs(*PAIRS[0])
+    assert same(hold_for(*given), shipped[1])
+    assert same(hold_for(*given), shipped[1])
+    assert len(asked) == 1
+
+
+def test_a_cache_that_cannot_be_written_does_not_matter(
+    tmp_path: Path, shipped: tuple[str, Hold], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "file").write_bytes(b"")
+    monkeypatch.setenv(hold_file.CACHE_VARIABLE, str(tmp_path / "file"))
+    monkeypatch.setattr(hold_file, "fit_hold", lambda *given: shipped[1])
+    monkeypatch.setattr(hold_file, "bundled_path", lambda *pair: tmp_path / "none.json")
+    assert hold_for(*inputs(*PAIRS[0])) is shipped[1]
