@@ -46,7 +46,7 @@ def parse_map(text: str, file: str) -> InstrumentMap:
     text : str
         TOML.
     file : str
-        The file's name for messages; its stem has to be the map's id.
+        The file's name for messages.
 
     Raises
     ------
@@ -54,7 +54,7 @@ def parse_map(text: str, file: str) -> InstrumentMap:
         With line and column (``map.syntax``) or the key path (``map.invalid``) of the first problem.
     """
     instrument = _shaped(text, file)
-    for path, detail in problems(instrument, Path(file).stem):
+    for path, detail in problems(instrument):
         raise MapError("map.invalid", file=file, path=path, detail=detail)
     return instrument
 
@@ -82,9 +82,10 @@ def check_map(path: Path | str) -> tuple[Message, ...]:
         instrument = _shaped(_text(file), str(file))
     except MapError as error:
         return (error.message,)
-    found = [*problems(instrument, file.stem)]
-    model = file.parent / instrument.model
-    found += model_problems(instrument, model if model.exists() else MODELS / instrument.model)
+    found = [*problems(instrument)]
+    if not any(where == "model" for where, _ in found):
+        model = file.parent / instrument.model
+        found += model_problems(instrument, model if model.exists() else MODELS / instrument.model)
     return tuple(
         Message("map.invalid", {"file": str(file), "path": where, "detail": detail}) for where, detail in found
     )
@@ -107,7 +108,7 @@ def find_map(id: str, extra_folders: Iterable[Path] = ()) -> InstrumentMap:
     for folder in extra_folders:
         path = folder / f"{id}.toml"
         if path.is_file():
-            return load_map(path)
+            return _named_map(path)
     try:
         return bundled_maps()[id]
     except KeyError:
@@ -138,7 +139,16 @@ def model_path(instrument: InstrumentMap, extra_folders: Iterable[Path] = ()) ->
 
 def _folder_maps(folder: Path) -> dict[str, InstrumentMap]:
     paths = sorted(path for path in folder.glob("*.toml") if path.name not in NOT_MAPS)
-    return {path.stem: load_map(path) for path in paths}
+    return {path.stem: _named_map(path) for path in paths}
+
+
+def _named_map(path: Path) -> InstrumentMap:
+    """The map of a folder, where its file's name is what finds it."""
+    instrument = load_map(path)
+    if instrument.id != path.stem:
+        detail = f"'{instrument.id}' is not the file's name, '{path.stem}'"
+        raise MapError("map.invalid", file=str(path), path="id", detail=detail)
+    return instrument
 
 
 def _text(path: Path) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Callable, Iterator
 from typing import TypeAlias
 
@@ -33,11 +33,14 @@ Problem: TypeAlias = tuple[str, str]
 _UNIT_TOLERANCE = 1e-3
 _REACH_M = 3.0
 _CENTS = 100.0
+_HARMONICS = 20
+_HARMONIC_SEMITONES = 0.6
+"""The furthest that a harmonic in use is from its note: the eleventh, half a semitone."""
 
 
-def problems(instrument: InstrumentMap, stem: str) -> Iterator[Problem]:
+def problems(instrument: InstrumentMap) -> Iterator[Problem]:
     """Yield every problem of a map whose types are right, in the order of its tables."""
-    yield from _head(instrument, stem)
+    yield from _head(instrument)
     yield from _mouthpiece(instrument)
     yield from _controls(instrument)
     yield from _contacts(instrument)
@@ -47,11 +50,11 @@ def problems(instrument: InstrumentMap, stem: str) -> Iterator[Problem]:
     yield from _fingerings(instrument)
 
 
-def _head(instrument: InstrumentMap, stem: str) -> Iterator[Problem]:
+def _head(instrument: InstrumentMap) -> Iterator[Problem]:
     if instrument.schema_version != SCHEMA_VERSION:
         yield "schema_version", f"{instrument.schema_version} is not {SCHEMA_VERSION}, the version this program reads"
-    if instrument.id != stem:
-        yield "id", f"'{instrument.id}' is not the file's name, '{stem}'"
+    if not instrument.id.isidentifier():
+        yield "id", f"'{instrument.id}' is not a plain name (letters, digits, underscores)"
     for key, text in (("name.en", instrument.name.en), ("name.ja", instrument.name.ja)):
         if not text.strip():
             yield key, "is empty"
@@ -304,9 +307,39 @@ def _fingering(path: str, fingering: Fingering, instrument: InstrumentMap) -> It
             if roles.get(name) != role:
                 yield f"{path}.{key}.{name}", f"there is no control named '{name}' with the role '{role}'"
             yield from _within(f"{path}.{key}.{name}", value, 0, 1)
+    known = all(roles.get(name) == "pitch" and 0 <= value <= 1 for name, value in fingering.controls.items())
+    if fingering.label and known:
+        yield from _label(f"{path}.label", fingering, instrument)
+        yield from _harmonic(f"{path}.controls", fingering, instrument)
     for name in fingering.correction:
         if name in used_with and roles[name] == "intonation" and fingering.label not in used_with[name]:
             yield f"{path}.correction.{name}", f"'{name}' is not used with '{fingering.label}' (controls, used_with)"
+
+
+def _label(path: str, fingering: Fingering, instrument: InstrumentMap) -> Iterator[Problem]:
+    """The short form names what moves: the signs of the controls in any order, the place of a slide, or 0 for none."""
+    pitch = [control for control in instrument.controls if control.role == "pitch"]
+    moved = [control for control in pitch if fingering.controls.get(control.name, control.rest_value) > 0]
+    signed = [control for control in moved if control.kind != "slide"]
+    if not all(control.label for control in signed):
+        return
+    told = "".join(sign for sign in fingering.label if not sign.isspace())
+    if any(control.kind == "slide" for control in pitch):
+        told = told.rstrip("0123456789")
+    named = "".join(control.label for control in signed) or ("0" if told.isdigit() else "")
+    if Counter(told) != Counter(named):
+        yield path, f"'{fingering.label}' does not name what the controls say, '{named or 'a place of the slide'}'"
+
+
+def _harmonic(path: str, fingering: Fingering, instrument: InstrumentMap) -> Iterator[Problem]:
+    """What sounds is near a harmonic of the tube with these controls; a slide has places between, so it is not asked."""
+    acoustics = instrument.acoustics
+    if acoustics is None or acoustics.slide_control is not None:
+        return
+    lower = sum(acoustics.semitones.get(name, 0) * value for name, value in fingering.controls.items())
+    above = fingering.written_pitch - instrument.transposition_semitones + lower - acoustics.fundamental_pitch
+    if min(abs(above - 12 * math.log2(number)) for number in range(1, _HARMONICS + 1)) > _HARMONIC_SEMITONES:
+        yield path, f"written pitch {fingering.written_pitch} is no harmonic of the tube that '{fingering.label}' makes"
 
 
 def _within(path: str, value: float, low: float, high: float) -> Iterator[Problem]:

@@ -79,7 +79,19 @@ def test_unreadable_files_are_map_errors(tmp_path: Path) -> None:
     [
         ('finger = "right.middle"', 'finger = "right.midle"', "controls[1].finger", "'right.midle' is not a finger"),
         ("schema_version = 1", "schema_version = 2", "schema_version", "2 is not 1"),
-        ('id = "trumpet_Bb"', 'id = "trumpet"', "id", "'trumpet' is not the file's name"),
+        ('id = "trumpet_Bb"', 'id = "../trumpet"', "id", "'../trumpet' is not a plain name"),
+        (
+            'label = "123", controls',
+            'label = "12", controls',
+            "fingerings[0].label",
+            "does not name what the controls say",
+        ),
+        (
+            "written_pitch = 54, rank",
+            "written_pitch = 53, rank",
+            "fingerings[0].controls",
+            "written pitch 53 is no harmonic",
+        ),
         ("travel_m = 0.0165", "travel_m = -0.0165", "controls[0].motion.travel_m", "-0.0165 m is not a travel"),
         ("axis = [0.0, -1.0, 0.0]", "axis = [0.0, -2.0, 0.0]", "controls[0].motion.axis", "has the length 2"),
         ('node = "valve_3"', 'node = "valve_2"', "controls[2].node", "'valve_2' is used twice"),
@@ -113,6 +125,16 @@ def test_refusals_name_the_key_path(old: str, new: str, path: str | None, detail
     assert found["id"] == "map.invalid"
     assert path is None or str(found["path"]).startswith(path)
     assert detail in f"{found['path']} {found['detail']}"
+
+
+def test_a_map_may_be_checked_under_any_name_but_is_found_by_its_own(tmp_path: Path) -> None:
+    copy = tmp_path / "draft.toml"
+    copy.write_text(TRUMPET, "utf-8")
+    assert check_map(copy) == ()
+    assert load_map(copy).id == "trumpet_Bb"
+    with pytest.raises(MapError) as caught:
+        all_maps([tmp_path])
+    assert caught.value.message.arguments["path"] == "id"
 
 
 def test_check_finds_every_problem_at_once(tmp_path: Path) -> None:
