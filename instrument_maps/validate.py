@@ -332,7 +332,7 @@ def _label(path: str, fingering: Fingering, instrument: InstrumentMap) -> Iterat
 
 
 def _harmonic(path: str, fingering: Fingering, instrument: InstrumentMap) -> Iterator[Problem]:
-    """What sounds is near a harmonic of the tube with these controls; a slide has places between, so it is not asked."""
+    """What sounds is near a harmonic of the tube with these controls; slides have places between, so are not asked."""
     acoustics = instrument.acoustics
     if acoustics is None or acoustics.slide_control is not None:
         return
