@@ -38,6 +38,8 @@ JITTER = 0.2
 """Players differ where places are equally good."""
 TAKEN_COST = 3.0
 """Where another player of the same part breathes: players stagger."""
+EARLY_COST = 2.0
+"""Breathing in with lungs still full; with half a lungful half of it."""
 TOO_LONG_COST = 1000.0
 EPSILON = 1e-9
 
@@ -132,13 +134,14 @@ def _cheapest_chain(
     for node in range(1, len(nodes)):
         needed = used[nodes[node]] - used[nodes[:node]]
         over = np.maximum(needed - air_s[:node], 0.0)
+        left_s = np.maximum(air_s[:node] - needed, 0.0)
         ways = total[:node] + np.where(over > EPSILON, TOO_LONG_COST * (1.0 + over), 0.0)
+        if node < len(places) + 1:
+            ways += cost[node - 1] + EARLY_COST * left_s / lung_s
         best = origin[node] = int(np.argmin(ways))
         total[node] = ways[best]
         if node < len(places) + 1:
-            total[node] += cost[node - 1]
-            left_s = max(air_s[best] - needed[best], 0.0)
-            air_s[node] = min(left_s + drawn(float(length_s[nodes[node]])) * lung_s, lung_s)
+            air_s[node] = min(left_s[best] + drawn(float(length_s[nodes[node]])) * lung_s, lung_s)
     chain = []
     node = int(origin[-1])
     while node > 0:
