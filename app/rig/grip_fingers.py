@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from app.rig import quaternion
 from app.rig.grip_problem import COUPLING_RAD, Problem, Touch, contact_at, finger_dofs, nodes_at
-from app.rig.grip_residuals import PENETRATION_M, STEP, WORKED_RAD, inside_proxy
+from app.rig.grip_residuals import PENETRATION_M, STEP, WORKED_RAD, inside_proxy, pressed
 from app.rig.hand import (
     FINGERS,
     ball_centres,
@@ -26,7 +26,8 @@ from instrument_maps.model import Contact, Control, InstrumentMap
 
 FloatArray = npt.NDArray[np.float64]
 
-GIVE_M, STIFFENING = 0.0018, 5.0
+CARRIED_SHARE = 0.1
+"""Skin with at least this weight on a finger's joints moves with it: webs too."""
 SMOOTH_DEGREE = 3
 SMOOTH_RAD = 0.04
 """How far a sample's angles wander from the smooth path over the control."""
@@ -108,9 +109,10 @@ def _solve_finger(
     ]
     points = np.stack([hand.landmarks[t.contact.part] for t in touches], axis=2)
     normals = np.stack([hand.landmark_normals[t.contact.part] for t in touches], axis=2)
-    skin_points = np.ascontiguousarray(hand.skin_points[:, :, hand.skin_finger == number])
+    carried = hand.all_points[1 + 3 * number : 4 + 3 * number, 3].sum(axis=0) > CARRIED_SHARE
+    skin_points = np.ascontiguousarray(hand.all_points[:, :, carried])
     own = np.flatnonzero(hand.ball_finger == number)
-    radius = np.concatenate([np.zeros(skin_points.shape[2]), flesh_radius(hand)[hand.skin_points.shape[2] + own]])
+    radius = np.concatenate([np.zeros(skin_points.shape[2]), flesh_radius(hand)[own]])
     samples, count = len(values), len(dofs)
 
     def residuals(x: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -140,7 +142,7 @@ def _solve_finger(
     damping = np.full(samples, 1e-3)
     smooth, skin = residuals(x[None])
     depth, slope = depths(skin[0])
-    cost = (smooth[0] ** 2).sum(axis=1) + ((_pressed(depth)[0] / PENETRATION_M) ** 2).sum(axis=1)
+    cost = (smooth[0] ** 2).sum(axis=1) + ((pressed(depth)[0] / PENETRATION_M) ** 2).sum(axis=1)
     for _ in range(12):
         tried = np.repeat(x[None], count + 1, axis=0)
         step = np.where(x + STEP < high, STEP, -STEP)
@@ -149,9 +151,9 @@ def _solve_finger(
         smooth, skin = residuals(tried)
         slant = np.moveaxis((smooth[1:] - smooth[0]) / step.T[:, :, None], 0, 2)
         change = (skin[1:] - skin[0]) / step.T[:, :, None, None]
-        push, rise = _pressed(depth)
-        pressed = -np.einsum("nsvi,svi->svn", change, slope) * rise[..., None] / PENETRATION_M
-        jacobian = np.concatenate([slant, pressed], axis=1)
+        push, rise = pressed(depth)
+        skin_slope = -np.einsum("nsvi,svi->svn", change, slope) * rise[..., None] / PENETRATION_M
+        jacobian = np.concatenate([slant, skin_slope], axis=1)
         value = np.concatenate([smooth[0], push / PENETRATION_M], axis=1)
         down = np.einsum("smn,sm->sn", jacobian, value)
         # An angle at its limit that would be pushed further stays.
@@ -162,7 +164,7 @@ def _solve_finger(
         new = np.clip(x - np.linalg.solve(normal, (down * free)[..., None])[..., 0], low, high)
         smooth, skin = residuals(new[None])
         new_depth, new_slope = depths(skin[0])
-        new_cost = (smooth[0] ** 2).sum(axis=1) + ((_pressed(new_depth)[0] / PENETRATION_M) ** 2).sum(axis=1)
+        new_cost = (smooth[0] ** 2).sum(axis=1) + ((pressed(new_depth)[0] / PENETRATION_M) ** 2).sum(axis=1)
         better = new_cost < cost
         x = np.where(better[:, None], new, x)
         depth = np.where(better[:, None], new_depth, depth)
@@ -173,12 +175,6 @@ def _solve_finger(
         if settled and better.any():
             break
     solved[:, joints, kinds] = x
-
-
-def _pressed(depth: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """What a depth counts, and its slope: flesh gives way a little, then resists."""
-    deep = depth > GIVE_M
-    return depth + (STIFFENING - 1.0) * np.maximum(depth - GIVE_M, 0.0), np.where(deep, STIFFENING, depth > 0.0)
 
 
 def finger_table(problem: Problem, scene: Scene, rotations: FloatArray, values: FloatArray, number: int) -> FingerTable:
@@ -233,9 +229,7 @@ def judge(
     place, turn = nodes_at(scene.model, scene.instrument_map, hand.side, scene.carrier, fine)
     flesh = np.concatenate([skinned(matrices, hand.all_points), ball_centres(hand, transforms)], axis=1)
     skin = scene.placed(flesh)
-    radius = np.concatenate(
-        [np.zeros(hand.all_points.shape[2]), flesh_radius(hand)[hand.skin_points.shape[2] :][: len(hand.balls)]]
-    )
+    radius = np.concatenate([np.zeros(hand.all_points.shape[2]), flesh_radius(hand)[: len(hand.balls)]])
     depth = max(
         float(inside_proxy(problem.proxies, place[s], turn[s], skin[s], radius)[0].max()) for s in range(len(fine))
     )

@@ -29,7 +29,7 @@ FloatArray = npt.NDArray[np.float64]
 FIRM_M, RESTING_M = 0.0003, 0.0012
 FIRM_NORMAL, RESTING_NORMAL = 0.35, 0.6
 CURL_RAD, SIDEWAYS_RAD, THUMB_RAD, COUPLING_RAD = 0.4, 0.12, 0.4, 0.18
-LIMIT_RAD, LIMIT_SHARE = 0.025, 0.8
+LIMIT_RAD, LIMIT_SHARE = 0.02, 0.65
 SWIVEL_RANGE_RAD = (0.2, 0.9)
 """The elbow hangs, off the ribs: its swing from straight down to the outside."""
 METRES = 0.1

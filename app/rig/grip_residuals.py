@@ -36,13 +36,14 @@ FloatArray = npt.NDArray[np.float64]
 # What a deviation of one unit of residual is.
 PENETRATION_M, FOREARM_M = 0.0005, 0.003
 BALL_M = 0.001
+GIVE_M, STIFFENING = 0.0019, 5.0
 WORKED_RAD = 0.5
 FLEXION_RAD, DEVIATION_RAD, PRONATION_RAD, SWIVEL_RAD = 0.3, 0.16, 0.8, 0.25
 SEED_M, SEED_RAD = 0.03, 0.4
 PRONATION_MOST_RAD = 1.3
 REACH_M = 0.03
 """Of an arm that is too short: the shoulder's help is dear, but a finger tip's grip does not bridge half a metre."""
-ANCHOR = (0.25, 0.4, 0.5)
+ANCHOR = (0.25, 0.7, 0.5)
 """How far the wrist's place (in 0.1 m), its turn and the fingers (rad) wander from one knot of a slide to the next."""
 STEP = 1e-6
 
@@ -50,18 +51,20 @@ STEP = 1e-6
 class Residuals:
     """Residuals and their Jacobian; keeps the last pose's distances to the proxy, which both need."""
 
-    def __init__(self, problem: Problem, soft: float) -> None:
+    def __init__(self, problem: Problem, soft: float, stiff: bool = False) -> None:
         self.problem = problem
         self.soft = soft
+        self.stiff = stiff
         hand = problem.hand
-        counts = [hand.skin_points.shape[2], len(hand.balls), len(hand.forearm_balls)]
-        self.radius = flesh_radius(hand)
+        self.skin = hand.all_points if stiff else hand.skin_points
+        counts = [self.skin.shape[2], len(hand.balls), len(hand.forearm_balls)]
+        self.radius = np.concatenate([np.zeros(counts[0]), flesh_radius(hand)])
         self.spread = soft * np.repeat([PENETRATION_M, PENETRATION_M, FOREARM_M], counts)
 
     def __call__(self, x: FloatArray) -> FloatArray:
         smooth, skin = self._parts(x[None])
         depth, _ = self._depth(skin[0])
-        return np.concatenate([smooth[0], (depth / self.spread).ravel()])
+        return np.concatenate([smooth[0], (self._counted(depth)[0] / self.spread).ravel()])
 
     def jacobian(self, x: FloatArray) -> FloatArray:
         tried = np.repeat(x[None], len(x) + 1, axis=0)
@@ -70,9 +73,11 @@ class Residuals:
         smooth, skin = self._parts(tried)
         depth, slope = self._depth(skin[0])
         change = (skin[1:] - skin[0]) / step[:, None, None, None]
-        inside = depth > 0.0
-        moved = -np.einsum("xcvi,cvi->xcv", change, slope) * inside / self.spread
+        moved = -np.einsum("xcvi,cvi->xcv", change, slope) * self._counted(depth)[1] / self.spread
         return np.concatenate([(smooth[1:] - smooth[0]) / step[:, None], moved.reshape(len(x), -1)], axis=1).T
+
+    def _counted(self, depth: FloatArray) -> tuple[FloatArray, FloatArray]:
+        return pressed(depth) if self.stiff else (depth, (depth > 0.0).astype(np.float64))
 
     def _depth(self, skin: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Depth (configs, V) of skin below the proxy's surface, and the gradient of the distance."""
@@ -102,7 +107,7 @@ class Residuals:
             moved: FloatArray = np.einsum("bij,bcvj->bcvi", basis, local) + place[:, None, None]
             return moved
 
-        skin = placed(skinned(matrices, hand.skin_points))
+        skin = placed(skinned(matrices, self.skin))
         touching = placed(skinned(matrices, problem.touch_points))
         facing = np.einsum(
             "bij,bcvj->bcvi", basis, turned(matrices, problem.touch_normals).reshape(count, problem.configs, -1, 3)
@@ -231,6 +236,12 @@ def _pole(problem: Problem, direction: FloatArray, swivel: FloatArray) -> FloatA
     pole = pole - direction * np.einsum("bi,bi->b", pole, direction)[:, None]
     result: FloatArray = pole / np.maximum(np.linalg.norm(pole, axis=1), 1e-9)[:, None]
     return result
+
+
+def pressed(depth: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """What a depth counts, and its slope: flesh gives way a little, then resists."""
+    deep = depth > GIVE_M
+    return depth + (STIFFENING - 1.0) * np.maximum(depth - GIVE_M, 0.0), np.where(deep, STIFFENING, depth > 0.0)
 
 
 def inside_proxy(

@@ -41,7 +41,8 @@ def search(problem: Problem) -> FloatArray:
     loose.sort(key=lambda found: float(found.cost))
     middle = [_solve(Residuals(problem, 2.0), found.x, 10) for found in loose[:3]]
     best = min(middle, key=lambda found: float(found.cost))
-    return np.asarray(_solve(Residuals(problem, 1.0), best.x, 25).x)
+    hard = _solve(Residuals(problem, 1.0), best.x, 25)
+    return np.asarray(_solve(Residuals(problem, 1.0, stiff=True), hard.x, 12).x)
 
 
 def search_knots(
@@ -61,7 +62,7 @@ def search_knots(
         if here.anchor is None:
             found[value] = search(here)
         else:
-            found[value] = np.asarray(_solve(Residuals(here, 1.0), here.anchor, 20).x)
+            found[value] = np.asarray(_solve(Residuals(here, 1.0, stiff=True), here.anchor, 20).x)
     knots = np.array(sorted(found))
     return knots, np.stack([found[value] for value in knots])
 

@@ -24,7 +24,7 @@ IntArray = npt.NDArray[np.intp]
 
 FINGERS = ("thumb", "index", "middle", "ring", "little")
 _CELL_M = 0.006
-"""Skin is thinned to one vertex per cell of this size: dense enough that no tube passes between."""
+"""Skin is thinned to one vertex per cell of this size; our own bodies are hardly thinned, a scanned one is."""
 _BALLS = 3
 """Balls per bone of a finger."""
 _PALM_STATIONS = (0.05, 0.25, 0.45, 0.65, 0.85)
@@ -63,8 +63,6 @@ class HandModel:
         Thinned skin, likewise.
     all_points : (17, 4, W) float64
         The whole skin of the hand.
-    skin_finger : (V,) int
-        Finger 0..4 that carries most of a vertex of the thinned skin, -1 for the palm.
     balls : (B, 4) float64
         Balls that fill fingers and palm: centre in the frame of the joint that carries it, radius.
     ball_joints : (B,) int
@@ -89,7 +87,6 @@ class HandModel:
     landmark_normals: dict[str, FloatArray]
     skin_points: FloatArray
     all_points: FloatArray
-    skin_finger: IntArray
     balls: FloatArray
     ball_joints: IntArray
     ball_finger: IntArray
@@ -153,9 +150,9 @@ def rest_landmark(hand: HandModel, name: str) -> FloatArray:
 
 
 def flesh_radius(hand: HandModel) -> FloatArray:
-    """Radii of what must stay outside the instrument: 0 for the thinned skin, then balls, then the forearm's."""
+    """Radii of the balls that must stay outside the instrument, the forearm's last."""
     firm = np.where(hand.ball_finger >= 0, _FINGER_FLESH, _PALM_FLESH) * hand.balls[:, 3]
-    return np.concatenate([np.zeros(hand.skin_points.shape[2]), firm, _PALM_FLESH * hand.forearm_balls[:, 1]])
+    return np.concatenate([firm, _PALM_FLESH * hand.forearm_balls[:, 1]])
 
 
 def ball_centres(hand: HandModel, transforms: FloatArray) -> FloatArray:
@@ -217,7 +214,6 @@ def hand_model(character: Character, side: Side, body: Body, profile: SkeletonPr
         landmark_normals=normals,
         skin_points=points,
         all_points=points,
-        skin_finger=none,
         balls=np.zeros((0, 4)),
         ball_joints=none,
         ball_finger=none,
@@ -275,7 +271,6 @@ def _with_skin(hand: HandModel) -> HandModel:
     values = {field: getattr(hand, field) for field in HandModel.__dataclass_fields__}
     values.update(
         skin_points=np.ascontiguousarray(hand.all_points[:, :, chosen]),
-        skin_finger=np.where((owner[chosen] >= 1) & (owner[chosen] <= 15), (owner[chosen] - 1) // 3, -1),
         balls=ball,
         ball_joints=carriers,
         ball_finger=finger,
