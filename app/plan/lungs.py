@@ -41,7 +41,8 @@ TAKEN_COST = 3.0
 EARLY_COST = 2.0
 """Breathing in with lungs still full; with half a lungful half of it."""
 TOO_LONG_COST = 1000.0
-EPSILON = 1e-9
+EPSILON = 1e-6
+"""Rounding of air summed over an hour of notes, seconds."""
 
 
 def air_used_s(times: LineTimes) -> FloatArray:
@@ -126,20 +127,24 @@ def _cheapest_chain(
 ) -> list[int]:
     """Label by label: what is left of the best way so far, and what the catch breath adds, is the air of a place."""
     nodes = np.array([start, *places, end])
+    used = used[nodes]
     air_s = np.zeros(len(nodes))
     air_s[0] = level * lung_s
     total = np.full(len(nodes), np.inf)
     total[0] = 0.0
     origin = np.zeros(len(nodes), dtype=np.int64)
+    # No lungful reaches further back than this; where it does not even reach the place before, that one has to do.
+    reach = np.minimum(np.searchsorted(used, used - lung_s - EPSILON), np.arange(len(nodes)) - 1)
     for node in range(1, len(nodes)):
-        needed = used[nodes[node]] - used[nodes[:node]]
-        over = np.maximum(needed - air_s[:node], 0.0)
-        left_s = np.maximum(air_s[:node] - needed, 0.0)
-        ways = total[:node] + np.where(over > EPSILON, TOO_LONG_COST * (1.0 + over), 0.0)
+        back = int(reach[node])
+        needed = used[node] - used[back:node]
+        left_s = air_s[back:node] - needed
+        ways = total[back:node] + np.where(left_s < -EPSILON, TOO_LONG_COST * (1.0 - left_s), 0.0)
+        left_s = np.maximum(left_s, 0.0)
         if node < len(places) + 1:
             ways += cost[node - 1] + EARLY_COST * left_s / lung_s
-        best = origin[node] = int(np.argmin(ways))
-        total[node] = ways[best]
+        best = int(np.argmin(ways))
+        origin[node], total[node] = back + best, ways[best]
         if node < len(places) + 1:
             air_s[node] = min(left_s[best] + drawn(float(length_s[nodes[node]])) * lung_s, lung_s)
     chain = []
