@@ -92,7 +92,12 @@ def plan_breaths(
             refill[index_of[_note_id(event)]] = max(0.0, drawn(event.end_s - event.start_s) * _full(event))
     level = levels(air_used_s(times), parameters.lung_s, refill)
     catches = catch_places(notes, times, piece, parameters, refill, level, removed, taken, seed)
-    caught = [_catch(notes, times, piece, level * parameters.lung_s, refill, index) for index in catches]
+    length_s = catch_lengths_s(times)
+    breaths = np.flatnonzero(refill > 0.0)
+    caught = [
+        _catch(notes, times, piece, level * parameters.lung_s, breaths, float(length_s[index]), index)
+        for index in catches
+    ]
     for event, index in zip(caught, catches, strict=True):
         refill[index] = drawn(event.end_s - event.start_s)
     events = tuple(sorted([*kept, *by_hand, *caught], key=lambda event: (event.start_s, event.end_s)))
@@ -190,14 +195,16 @@ def _catch(
     times: LineTimes,
     piece: Piece,
     air_s: FloatArray,
-    refill: FloatArray,
+    breaths: IntArray,
+    length_s: float,
     index: int,
 ) -> BreathEvent:
+    """``breaths`` are the notes before which rests give a breath, ascending."""
     onset_s = float(times.onset_s[index])
-    start_s = onset_s - float(catch_lengths_s(times)[index])
-    breaths = np.flatnonzero(refill > 0.0)
-    first = breaths[breaths < index].max(initial=0)
-    last = breaths[breaths > index].min(initial=len(notes))
+    start_s = onset_s - length_s
+    place = int(np.searchsorted(breaths, index))
+    first = int(breaths[place - 1]) if place else 0
+    last = int(breaths[place]) if place < len(breaths) else len(notes)
     from_note_s = max(float(times.played_end_s[index - 1]) - start_s, 0.0)
     return BreathEvent(
         id=f"breath:{notes[index].id}",
