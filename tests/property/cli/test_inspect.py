@@ -7,6 +7,7 @@ import json
 import tempfile
 from contextlib import redirect_stdout
 from fractions import Fraction
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -116,3 +117,38 @@ def test_everything_printed_is_true(
         beat = float(Fraction(felt_beat))
         assert faults(path, found, thresholds=thresholds, felt_beat=beat, preroll=float(preroll)) == []
         assert len(found["players"]) == len(file.tracks) - 1
+
+
+@given(
+    st.lists(st.sampled_from([60, 120, 240, 480, 960, 1920]), min_size=20, max_size=120),
+    st.sampled_from([1.0, 3.0, 9.0, 20.0]),
+    st.integers(300_000, 1_500_000),
+)
+@settings(max_examples=60, deadline=None)
+def test_no_stretch_outlasts_the_lungs_without_a_word(durations: list[int], lung_s: float, tempo: int) -> None:
+    notes = []
+    tick = 0
+    for index, duration in enumerate(durations):
+        notes.append((tick, tick + duration, 62 + index % 7))
+        tick += duration
+    track = track_of(notes, 0, "Trumpet", None, "off", 80)
+    track.insert(0, mido.MetaMessage("set_tempo", tempo=tempo))
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "piece.mid"
+        mido.MidiFile(type=0, ticks_per_beat=480, tracks=[track]).save(path)
+        found = inspected(path, f"--set=Trumpet.lung_s={lung_s}")
+        assert faults(path, found) == []
+    (player,) = found["players"]
+    ends = [breath["end_s"] for breath in player["breaths"] if breath["kind"] == "breath"]
+    stretches = [later - earlier for earlier, later in pairwise([*ends, found["duration_s"]])]
+    flagged = [warning for warning in found["warnings"] if "on one breath" in warning]
+    if max(stretches) > lung_s + 1e-6:
+        assert flagged
+    # Where every note is long enough to breathe out of, nothing has to be flagged but a note that is too long itself.
+    longest_s, shortest_s = (pick(durations) * tempo / 480e6 for pick in (max, min))
+    if shortest_s >= 0.6 and longest_s <= lung_s * 0.4:
+        assert not flagged
+    for breath in player["breaths"]:
+        if breath["start_s"] >= 0.0:
+            assert "catch breath after note" in breath["reason"]
+            assert "come out of that note's tail" in breath["reason"]
