@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
 
 from app.rig import quaternion
-from app.rig.grip_problem import COUPLING_RAD, Problem, Touch, contact_at, finger_dofs, nodes_at
+from app.rig.grip_problem import COUPLING_RAD, Problem, contact_at, finger_dofs, nodes_at
 from app.rig.grip_residuals import PENETRATION_M, STEP, WORKED_RAD, inside_proxy, pressed
 from app.rig.hand import (
     FINGERS,
@@ -25,9 +26,16 @@ from app.rig.model import InstrumentModel
 from instrument_maps.model import Contact, Control, InstrumentMap
 
 FloatArray = npt.NDArray[np.float64]
+IntArray = npt.NDArray[np.intp]
+
+EXACTER = 0.3
+"""With the wrist held, touches are met this much more exactly than in the search."""
+ROUNDS = 12
 
 CARRIED_SHARE = 0.1
 """Skin with at least this weight on a finger's joints moves with it: webs too."""
+FOLLOW_RAD = 0.15
+"""How far angles wander from one sample to the next."""
 SMOOTH_DEGREE = 3
 SMOOTH_RAD = 0.04
 """How far a sample's angles wander from the smooth path over the control."""
@@ -51,6 +59,10 @@ class Scene:
         """Likewise for directions."""
         return vectors @ self.basis.transpose(0, 2, 1)
 
+    def only(self, which: IntArray) -> Scene:
+        """The scene at some of its samples."""
+        return replace(self, position_m=self.position_m[which], basis=self.basis[which])
+
     def mover(self, contact: Contact) -> Control | None:
         """The control that moves a contact against the wrist."""
         for control in self.instrument_map.controls:
@@ -62,119 +74,161 @@ class Scene:
 def solve_table(problem: Problem, scene: Scene, angles: FloatArray, values: FloatArray) -> FloatArray:
     """Solve the fingers at each value of their controls, the wrist held: angles (S, 16, 3), from (S, configs, 16, 3).
 
-    One damped Gauss-Newton iteration (Levenberg-Marquardt, clipped to the limits) for all values at once: the
-    samples are independent, their normal equations are solved as a batch.
+    A finger has more joints than a touch needs, so samples solved apart may fall into different bends and the finger
+    would twitch. Each is followed from one end of the control to the other, from both ends, solved again about a smooth
+    path, and the better of the two kept.
     """
-    first, last = angles[:, 0], angles[:, -1]
-    usual = first + (last - first) * values[:, None, None]
-    solved = usual.copy()
-    place, turn = nodes_at(scene.model, scene.instrument_map, problem.hand.side, scene.carrier, values)
+    solved = angles[:, 0].copy()
     for number in range(5):
-        mine = [t for t in problem.touches if t.contact.part.split(".")[1] == FINGERS[number]]
-        if not mine:
+        if not any(touch.contact.part.split(".")[1] == FINGERS[number] for touch in problem.touches):
             continue
-        _solve_finger(problem, scene, solved, usual, WORKED_RAD, values, number, mine, place, turn)
-        # Samples that fell into different bends of one finger would make it twitch: solve again about a smooth path.
-        for _ in range(2 if len(values) > SMOOTH_DEGREE + 1 else 0):
-            flat = solved.reshape(len(values), -1)
-            powers = np.vander(values, SMOOTH_DEGREE + 1)
-            usual = (powers @ np.linalg.lstsq(powers, flat, rcond=None)[0]).reshape(solved.shape)
-            solved[:, 1 + 3 * number : 4 + 3 * number] = usual[:, 1 + 3 * number : 4 + 3 * number]
-            _solve_finger(problem, scene, solved, usual, SMOOTH_RAD, values, number, mine, place, turn)
+        moves = scene.carrier is not None or number in problem.worked
+        finger = _Finger(problem, scene, number, values if moves else values[:1], solved)
+        first, last = finger.taken(angles[0, 0]), finger.taken(angles[-1, -1 if number in problem.worked else 0])
+        if moves:
+            tries = [_followed(finger, first, range(len(values))), _followed(finger, last, range(len(values))[::-1])]
+            found = min(tries, key=lambda one: one[1])[0]
+        else:
+            found, _ = finger.solve(first[None], first[None], WORKED_RAD, np.arange(1))
+        solved[:, finger.joints, finger.kinds] = found
     return solved
 
 
-def _solve_finger(
-    problem: Problem,
-    scene: Scene,
-    solved: FloatArray,
-    usual: FloatArray,
-    usual_rad: float,
-    values: FloatArray,
-    number: int,
-    touches: list[Touch],
-    node_place: FloatArray,
-    node_turn: FloatArray,
-) -> None:
-    hand = problem.hand
-    dofs = [problem.dofs[i] for i in finger_dofs(problem, number)]
-    joints, kinds = np.array([dof.joint for dof in dofs]), np.array([dof.kind for dof in dofs])
-    low, high = np.array([dof.low for dof in dofs]), np.array([dof.high for dof in dofs])
-    ends = [contact_at(scene.model, t.contact, scene.mover(t.contact), values) for t in touches]
-    active = [
-        np.where(
-            (t.contact.when == "pressed") & (values == 0.0) | (t.contact.when == "released") & (values > 0.0), 0.0, 1.0
-        )
-        for t in touches
-    ]
-    points = np.stack([hand.landmarks[t.contact.part] for t in touches], axis=2)
-    normals = np.stack([hand.landmark_normals[t.contact.part] for t in touches], axis=2)
-    carried = hand.all_points[1 + 3 * number : 4 + 3 * number, 3].sum(axis=0) > CARRIED_SHARE
-    skin_points = np.ascontiguousarray(hand.all_points[:, :, carried])
-    own = np.flatnonzero(hand.ball_finger == number)
-    radius = np.concatenate([np.zeros(skin_points.shape[2]), flesh_radius(hand)[own]])
-    samples, count = len(values), len(dofs)
+def _followed(finger: _Finger, start: FloatArray, order: Sequence[int]) -> tuple[FloatArray, float]:
+    """Angles (S, n) of a finger followed from one sample to the next, then smoothed, and what they cost."""
+    found = np.zeros((len(order), len(start)))
+    here = start
+    for sample in order:
+        here = finger.solve(here[None], here[None], FOLLOW_RAD, np.array([sample]))[0][0]
+        found[sample] = here
+    everywhere = np.arange(len(order))
+    cost = np.zeros(len(order))
+    powers = np.vander(finger.values, SMOOTH_DEGREE + 1)
+    for _ in range(2):
+        path = powers @ np.linalg.lstsq(powers, found, rcond=None)[0]
+        found, cost = finger.solve(path, path, SMOOTH_RAD, everywhere)
+    return found, float(cost.sum())
 
-    def residuals(x: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Residuals (B, S, m) without the proxy's, and skin (B, S, V, 3), for angles (B, S, n)."""
-        pose = np.repeat(solved[None], len(x), axis=0)
-        pose[:, :, joints, kinds] = x
-        transforms = wrist_from_joint(hand, joint_rotations(hand, pose.reshape(-1, 16, 3)))
-        matrices = wrist_from_mesh(hand, transforms)
-        shape = (len(x), samples, -1, 3)
-        flesh = np.concatenate([skinned(matrices, skin_points), ball_centres(hand, transforms)[:, own]], axis=1)
-        skin = scene.placed(flesh.reshape(shape))
-        at = scene.placed(skinned(matrices, points).reshape(shape))
-        facing = scene.turned(turned(matrices, normals).reshape(shape))
-        parts = [(x - usual[:, joints, kinds]) / usual_rad]
-        if number:
-            parts.append(((x[..., 3] - 0.67 * x[..., 2]) / COUPLING_RAD)[..., None])
-        for k, touch in enumerate(touches):
-            parts.append((at[:, :, k] - ends[k][0]) / (touch.spread_m * 0.3) * active[k][:, None])
-            parts.append((facing[:, :, k] + ends[k][1]) / touch.spread_normal * active[k][:, None])
-        return np.concatenate(parts, axis=2), skin
 
-    def depths(skin: FloatArray) -> tuple[FloatArray, FloatArray]:
-        found = [inside_proxy(problem.proxies, node_place[s], node_turn[s], skin[s], radius) for s in range(samples)]
-        return np.stack([depth for depth, _ in found]), np.stack([slope for _, slope in found])
+class _Finger:
+    """One finger on its touches at some values of the controls, the rest of the hand held."""
 
-    x = np.clip(solved[:, joints, kinds], low, high)
-    damping = np.full(samples, 1e-3)
-    smooth, skin = residuals(x[None])
-    depth, slope = depths(skin[0])
-    cost = (smooth[0] ** 2).sum(axis=1) + ((pressed(depth)[0] / PENETRATION_M) ** 2).sum(axis=1)
-    for _ in range(12):
-        tried = np.repeat(x[None], count + 1, axis=0)
-        step = np.where(x + STEP < high, STEP, -STEP)
-        for i in range(count):
-            tried[i + 1, :, i] += step[:, i]
-        smooth, skin = residuals(tried)
-        slant = np.moveaxis((smooth[1:] - smooth[0]) / step.T[:, :, None], 0, 2)
-        change = (skin[1:] - skin[0]) / step.T[:, :, None, None]
-        push, rise = pressed(depth)
-        skin_slope = -np.einsum("nsvi,svi->svn", change, slope) * rise[..., None] / PENETRATION_M
-        jacobian = np.concatenate([slant, skin_slope], axis=1)
-        value = np.concatenate([smooth[0], push / PENETRATION_M], axis=1)
+    def __init__(self, problem: Problem, scene: Scene, number: int, values: FloatArray, pose: FloatArray) -> None:
+        hand = problem.hand
+        dofs = [problem.dofs[i] for i in finger_dofs(problem, number)]
+        touches = [t for t in problem.touches if t.contact.part.split(".")[1] == FINGERS[number]]
+        self.problem, self.scene, self.number, self.values, self.pose = problem, scene, number, values, pose
+        self.joints, self.kinds = np.array([dof.joint for dof in dofs]), np.array([dof.kind for dof in dofs])
+        self.low, self.high = np.array([dof.low for dof in dofs]), np.array([dof.high for dof in dofs])
+        self.touches = touches
+        self.ends = [contact_at(scene.model, t.contact, scene.mover(t.contact), values) for t in touches]
+        self.active = [_active(t.contact, values).astype(np.float64) for t in touches]
+        self.points = np.stack([hand.landmarks[t.contact.part] for t in touches], axis=2)
+        self.normals = np.stack([hand.landmark_normals[t.contact.part] for t in touches], axis=2)
+        carried = hand.all_points[1 + 3 * number : 4 + 3 * number, 3].sum(axis=0) > CARRIED_SHARE
+        self.skin = np.ascontiguousarray(hand.all_points[:, :, carried])
+        self.balls = np.flatnonzero(hand.ball_finger == number)
+        self.radius = np.concatenate([np.zeros(self.skin.shape[2]), flesh_radius(hand)[self.balls]])
+        self.nodes = nodes_at(scene.model, scene.instrument_map, hand.side, scene.carrier, values)
+
+    def taken(self, angles: FloatArray) -> FloatArray:
+        """This finger's angles (..., n) out of those of a hand (..., 16, 3)."""
+        return angles[..., self.joints, self.kinds]
+
+    def solve(
+        self, start: FloatArray, usual: FloatArray, usual_rad: float, which: IntArray
+    ) -> tuple[FloatArray, FloatArray]:
+        """Solve some samples about usual angles; both (S, n). Returns the angles and the cost (S,) of each.
+
+        Damped Gauss-Newton (Levenberg-Marquardt, clipped to the limits), all samples at once: they are independent,
+        so their normal equations are solved as a batch.
+        """
+        x = np.clip(start, self.low, self.high)
+        damping = np.full(len(which), 1e-3)
+        cost, depth, slope = self._cost(x, usual, usual_rad, which)
+        for _ in range(ROUNDS):
+            jacobian, value = self._linear(x, usual, usual_rad, which, depth, slope)
+            new = self._step(x, jacobian, value, damping)
+            new_cost, new_depth, new_slope = self._cost(new, usual, usual_rad, which)
+            better = new_cost < cost
+            settled = np.all(np.where(better, cost - new_cost, 0.0) < 1e-6 * cost)
+            x = np.where(better[:, None], new, x)
+            depth = np.where(better[:, None], new_depth, depth)
+            slope = np.where(better[:, None, None], new_slope, slope)
+            cost = np.where(better, new_cost, cost)
+            damping = np.where(better, damping * 0.3, damping * 5.0)
+            if settled and better.any():
+                break
+        return x, cost
+
+    def _step(self, x: FloatArray, jacobian: FloatArray, value: FloatArray, damping: FloatArray) -> FloatArray:
         down = np.einsum("smn,sm->sn", jacobian, value)
         # An angle at its limit that would be pushed further stays.
-        free = ~(((x <= low) & (down > 0.0)) | ((x >= high) & (down < 0.0)))
+        free = ~(((x <= self.low) & (down > 0.0)) | ((x >= self.high) & (down < 0.0)))
         normal = np.einsum("smn,smk->snk", jacobian, jacobian) * free[:, :, None] * free[:, None, :]
-        diagonal = np.einsum("sii->si", normal)
-        normal[:, np.arange(count), np.arange(count)] += damping[:, None] * diagonal + ~free + 1e-9
-        new = np.clip(x - np.linalg.solve(normal, (down * free)[..., None])[..., 0], low, high)
-        smooth, skin = residuals(new[None])
-        new_depth, new_slope = depths(skin[0])
-        new_cost = (smooth[0] ** 2).sum(axis=1) + ((pressed(new_depth)[0] / PENETRATION_M) ** 2).sum(axis=1)
-        better = new_cost < cost
-        x = np.where(better[:, None], new, x)
-        depth = np.where(better[:, None], new_depth, depth)
-        slope = np.where(better[:, None, None], new_slope, slope)
-        settled = np.all(np.abs(np.where(better, cost - new_cost, 0.0)) < 1e-6 * cost)
-        cost = np.where(better, new_cost, cost)
-        damping = np.where(better, damping * 0.3, damping * 5.0)
-        if settled and better.any():
-            break
-    solved[:, joints, kinds] = x
+        corner = np.arange(x.shape[1])
+        normal[:, corner, corner] += damping[:, None] * np.einsum("sii->si", normal) + ~free + 1e-9
+        stepped: FloatArray = x - np.linalg.solve(normal, (down * free)[..., None])[..., 0]
+        return np.clip(stepped, self.low, self.high)
+
+    def _cost(
+        self, x: FloatArray, usual: FloatArray, usual_rad: float, which: IntArray
+    ) -> tuple[FloatArray, FloatArray, FloatArray]:
+        smooth, skin = self._residuals(x[None], usual, usual_rad, which)
+        place, turn = self.nodes
+        found = [
+            inside_proxy(self.problem.proxies, place[s], turn[s], skin[0, k], self.radius) for k, s in enumerate(which)
+        ]
+        depth, slope = np.stack([depth for depth, _ in found]), np.stack([slope for _, slope in found])
+        cost = np.square(smooth[0]).sum(axis=1) + np.square(pressed(depth)[0] / PENETRATION_M).sum(axis=1)
+        return cost, depth, slope
+
+    def _linear(
+        self, x: FloatArray, usual: FloatArray, usual_rad: float, which: IntArray, depth: FloatArray, slope: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
+        """Jacobian (S, m, n) and residuals (S, m)."""
+        count = x.shape[1]
+        tried = np.repeat(x[None], count + 1, axis=0)
+        step = np.where(x + STEP < self.high, STEP, -STEP).T
+        tried[np.arange(1, count + 1), :, np.arange(count)] += step
+        smooth, skin = self._residuals(tried, usual, usual_rad, which)
+        slant = np.moveaxis((smooth[1:] - smooth[0]) / step[:, :, None], 0, 2)
+        change = (skin[1:] - skin[0]) / step[:, :, None, None]
+        push, rise = pressed(depth)
+        skin_slope = -np.einsum("nsvi,svi->svn", change, slope) * rise[..., None] / PENETRATION_M
+        return (
+            np.concatenate([slant, skin_slope], axis=1),
+            np.concatenate([smooth[0], push / PENETRATION_M], axis=1),
+        )
+
+    def _residuals(
+        self, x: FloatArray, usual: FloatArray, usual_rad: float, which: IntArray
+    ) -> tuple[FloatArray, FloatArray]:
+        """Residuals (B, S, m) without the proxy's, and skin (B, S, V, 3), for angles (B, S, n)."""
+        hand = self.problem.hand
+        pose = np.repeat(self.pose[None, which], len(x), axis=0)
+        pose[:, :, self.joints, self.kinds] = x
+        transforms = wrist_from_joint(hand, joint_rotations(hand, pose.reshape(-1, 16, 3)))
+        matrices = wrist_from_mesh(hand, transforms)
+        scene, shape = self.scene.only(which), (len(x), len(which), -1, 3)
+        flesh = np.concatenate([skinned(matrices, self.skin), ball_centres(hand, transforms)[:, self.balls]], axis=1)
+        at = scene.placed(skinned(matrices, self.points).reshape(shape))
+        facing = scene.turned(turned(matrices, self.normals).reshape(shape))
+        parts = [(x - usual) / usual_rad]
+        if self.number:
+            parts.append(((x[..., 3] - 0.67 * x[..., 2]) / COUPLING_RAD)[..., None])
+        for k, touch in enumerate(self.touches):
+            (place, normal), active = self.ends[k], self.active[k][which, None]
+            parts.append((at[:, :, k] - place[which]) / (touch.spread_m * EXACTER) * active)
+            parts.append((facing[:, :, k] + normal[which]) / touch.spread_normal * active)
+        return np.concatenate(parts, axis=2), scene.placed(flesh.reshape(shape))
+
+
+def _active(contact: Contact, values: FloatArray) -> npt.NDArray[np.bool_]:
+    """At which values of its control a contact counts."""
+    if contact.when == "pressed":
+        return values > 0.0
+    return values == 0.0 if contact.when == "released" else values >= 0.0
 
 
 def finger_table(problem: Problem, scene: Scene, rotations: FloatArray, values: FloatArray, number: int) -> FingerTable:
@@ -212,13 +266,7 @@ def judge(
         at, normal = contact_at(scene.model, touch.contact, scene.mover(touch.contact), fine)
         off = np.linalg.norm(touching[:, number] - at, axis=1)
         angle = np.arccos(np.clip(-np.einsum("si,si->s", facing[:, number], normal), -1.0, 1.0))
-        counts = (
-            fine > 0.0
-            if touch.contact.when == "pressed"
-            else fine == 0.0
-            if touch.contact.when == "released"
-            else fine >= 0.0
-        )
+        counts = _active(touch.contact, fine)
         contact = touch.contact
         contacts.append(
             ContactFit(

@@ -29,7 +29,9 @@ FloatArray = npt.NDArray[np.float64]
 FIRM_M, RESTING_M = 0.0003, 0.0012
 FIRM_NORMAL, RESTING_NORMAL = 0.35, 0.6
 CURL_RAD, SIDEWAYS_RAD, THUMB_RAD, COUPLING_RAD = 0.4, 0.12, 0.4, 0.18
-LIMIT_RAD, LIMIT_SHARE = 0.02, 0.65
+LIMIT_RAD = 0.02
+LIMIT_SHARE, CARRIED_LIMIT_SHARE = 0.65, 0.45
+"""Part of the wrist's range a hold may use: the rest is for the body's motion, which moves a slide's hand most."""
 SWIVEL_RANGE_RAD = (0.2, 0.9)
 """The elbow hangs, off the ribs: its swing from straight down to the outside."""
 METRES = 0.1
@@ -157,7 +159,7 @@ def grip_problem(
         swivel_usual=np.radians(body.postures["standing"].elbow_off_ribs_deg),
         reference_shift_m=np.zeros(3),
         configs=2 if worked else 1,
-        wrist_limits=hand.limits[0] * LIMIT_SHARE,
+        wrist_limits=hand.limits[0] * (LIMIT_SHARE if carrier is None else CARRIED_LIMIT_SHARE),
     )
     low, high = _bounds(problem)
     return replace(problem, low=low, high=high), carrier
