@@ -48,14 +48,16 @@ class BodyMotion:
     ----------
     forward_rad, left_rad, turn_rad : dict of str to array
         Flexion, sideways lean and twist of each joint of trunk and neck.
-    hips_side_m, hips_bob_m, hips_ahead_m : array
-        Of the hips, to the left, down and ahead.
+    hips_side_m, hips_bob_m : array
+        Of the hips, to the left and down.
     hips_roll_rad, hips_turn_rad : array
         Left and left.
     knee_rad : array
         Bend added to both knees.
     bell_rad, bell_cue_rad : array
         Bell up, beside what the head does: with the melody, and to give a cue.
+    bell_down_rad, bell_right_rad : array
+        Bell towards a far hand; what the contacts ask for.
     shoulders_rad : array
         Both shoulders up.
     elbows_rad : array
@@ -75,12 +77,13 @@ class BodyMotion:
     turn_rad: dict[str, FloatArray]
     hips_side_m: FloatArray
     hips_bob_m: FloatArray
-    hips_ahead_m: FloatArray
     hips_roll_rad: FloatArray
     hips_turn_rad: FloatArray
     knee_rad: FloatArray
     bell_rad: FloatArray
     bell_cue_rad: FloatArray
+    bell_down_rad: FloatArray
+    bell_right_rad: FloatArray
     shoulders_rad: FloatArray
     elbows_rad: FloatArray
     eyes_yaw_rad: FloatArray
@@ -313,13 +316,14 @@ def body_motion(
         turn_rad=turn.all(),
         hips_side_m=weight * sizes.of(body.weight_shift.side_m)
         + sizes.wander("weight", body.weight_shift.side_m, times_s),
-        hips_ahead_m=np.zeros(frames),
         hips_bob_m=down * sizes.of(sway.bob_m),
         hips_roll_rad=roll,
         hips_turn_rad=0.3 * twist,
         knee_rad=down * sizes.rad(sway.knee_deg) + dip * sizes.rad(body.cue.knee_deg),
         bell_rad=0.5 * bell_up,
         bell_cue_rad=bell_cue,
+        bell_down_rad=np.zeros(frames),
+        bell_right_rad=np.zeros(frames),
         shoulders_rad=deg(body.breath.shoulder_lift_deg) * inhaled,
         elbows_rad=deg(body.breath.elbow_out_deg) * inhaled,
         eyes_yaw_rad=gaze.yaw_rad.sample(times_s) - 0.5 * head_yaw,

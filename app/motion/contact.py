@@ -32,7 +32,7 @@ class Carried:
     rotation: FloatArray
 
 
-def attitude(pitch_down_rad: FloatArray, yaw_left_rad: float, roll_left_rad: float) -> FloatArray:
+def attitude(pitch_down_rad: FloatArray, yaw_left_rad: FloatArray, roll_left_rad: float) -> FloatArray:
     """Rotation (F, 4) of an instrument from its angles, in the order yaw, pitch, roll."""
     yaw = quaternion.from_axis_angle(Y_AXIS, yaw_left_rad)
     roll = quaternion.from_axis_angle(Z_AXIS, -roll_left_rad)
@@ -74,10 +74,10 @@ def carry(
     frames = len(lowering)
     contact_m, upper_m = hold.lips.contact_m(morphs, frames), hold.lips.upper_m(morphs, frames)
     lips_m = contact_m + (upper_m - contact_m) * mouth_open[:, None]
-    yaw, roll = np.deg2rad(carriage.yaw_left_deg[1]), np.deg2rad(carriage.roll_left_deg[1])
+    yaw, roll = np.deg2rad(carriage.yaw_left_deg[1]) - motion.bell_right_rad, np.deg2rad(carriage.roll_left_deg[1])
     with_head = quaternion.multiply(body.head, quaternion.conjugate(base.head))
-    pitch = bell_pitch(carriage, motion.bell_rad) - motion.bell_cue_rad
-    rotation = quaternion.multiply(with_head, attitude(pitch, float(yaw), float(roll)))
+    pitch = bell_pitch(carriage, motion.bell_rad) - motion.bell_cue_rad + motion.bell_down_rad
+    rotation = quaternion.multiply(with_head, attitude(pitch, yaw, float(roll)))
     position_m = body.head_m + quaternion.rotate(body.head, lips_m)
     if not np.any(lowering):
         return Carried(position_m, rotation)
@@ -88,7 +88,7 @@ def carry(
         with_chest,
         attitude(
             np.array([np.deg2rad(lowered.pitch_down_deg)]),
-            float(np.deg2rad(lowered.yaw_left_deg)),
+            np.array([np.deg2rad(lowered.yaw_left_deg)]),
             float(np.deg2rad(lowered.roll_left_deg)),
         ),
     )

@@ -103,6 +103,7 @@ def perform(
         place=place,
         carriage=carriage,
         lowered=instrument_map.hold.lowered_seated if seated else instrument_map.hold.lowered_standing,
+        still=still,
         base=trunk(skeleton, *hips_path(place, skeleton, still), still),
     )
     return solve(player, curves, fps, float(frame_times(start_s, fps, first_frame, 1)[0]))

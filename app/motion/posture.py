@@ -88,7 +88,6 @@ def hips_path(place: Stance, skeleton: Skeleton, motion: BodyMotion) -> tuple[Fl
     rotation = quaternion.from_rotation_vector(turn)
     hips_m = np.tile(place.hips_m, (frames, 1))
     hips_m[:, 0] += motion.hips_side_m
-    hips_m[:, 2] += motion.hips_ahead_m
     heights = []
     for side in SIDES:
         limb = place.legs[side]

@@ -1,4 +1,4 @@
-"""How trunk and shoulders help far hands: the shoulder comes forwards, the trunk turns, and at last it leans back."""
+"""How a body helps far hands: shoulders come forwards, the trunk turns, at last head and instrument give way."""
 
 from __future__ import annotations
 
@@ -14,7 +14,6 @@ from app.rig import quaternion
 from app.rig.hold import Hold, hand_targets
 from app.rig.ik import arm
 from app.rig.model import Skeleton
-from app.rig.skeleton import rest_positions
 
 Z_AXIS = np.array([0.0, 0.0, 1.0])
 
@@ -30,8 +29,6 @@ CLAVICLE_RAD = float(np.deg2rad(28.0))
 """Most the shoulder comes towards a far hand."""
 TURN_RAD = float(np.deg2rad(50.0))
 """Most hips and trunk turn for a far hand."""
-LEAN_RAD = float(np.deg2rad(19.0))
-"""Most the trunk leans back for a hand that is still too far."""
 
 
 @dataclass(frozen=True)
@@ -42,8 +39,8 @@ class Help:
     ----------
     turn_rad : (F,) float64
         Of the trunk, left positive.
-    lean_rad : (F,) float64
-        Of the trunk backwards, with the head staying upright: the lips draw back farther than the shoulders.
+    short_m : (F,) float64
+        How far the hand still is beyond what its arm reaches then.
     protraction_rad : dict of side to (F,) float64
         Of each clavicle, forwards.
     most_turn_rad, most_protraction_rad : dict of side to (F,) float64
@@ -52,7 +49,7 @@ class Help:
     """
 
     turn_rad: FloatArray
-    lean_rad: FloatArray
+    short_m: FloatArray
     protraction_rad: dict[str, FloatArray]
     most_turn_rad: dict[str, FloatArray]
     most_protraction_rad: dict[str, FloatArray]
@@ -63,10 +60,9 @@ def needed_help(
 ) -> Help:
     """The help a body needs that has none yet; exactly 0 where the arms alone reach.
 
-    The shoulders help first, then the trunk turns, and it leans back for what is left.
+    The shoulders help first, then the trunk turns; what is left is told.
     """
-    turn, lean = np.zeros(len(body.chest_m)), np.zeros(len(body.chest_m))
-    rest_m = rest_positions(skeleton)
+    turn, short_m = np.zeros(len(body.chest_m)), np.zeros(len(body.chest_m))
     protraction: dict[str, FloatArray] = {}
     most_turn: dict[str, FloatArray] = {}
     most_protraction: dict[str, FloatArray] = {}
@@ -84,10 +80,13 @@ def needed_help(
         asked = waist.turn_for(distance_m - softly_over(distance_m - AT_EASE * arm_m, EASE_M))
         given = softly_capped(asked, TURN_RAD, 0.1 * TURN_RAD)
         turn += given if hand.side == "right" else -given
-        left_m = softly_over(waist.distance_m(given) - STRETCHED * arm_m, EASE_M)
-        above_m = float((rest_m[skeleton.index("head")] - rest_m[skeleton.index(f"{hand.side}UpperArm")])[1])
-        lean += softly_capped(left_m / above_m, LEAN_RAD, 0.2 * LEAN_RAD)
-    return Help(turn, lean, protraction, most_turn, most_protraction)
+        short_m = np.maximum(short_m, softly_over(waist.distance_m(given) - STRETCHED * arm_m, EASE_M))
+    return Help(turn, short_m, protraction, most_turn, most_protraction)
+
+
+def shoulder_distance_m(skeleton: Skeleton, side: Side, body: Trunk, target_m: FloatArray) -> float:
+    """From a shoulder that is as far forwards as it comes to its hand's target, in the first frame."""
+    return float(_Girdle.of(skeleton, side, body, target_m).distance_m(CLAVICLE_RAD)[0])
 
 
 def softly_over(x: FloatArray, ease: float) -> FloatArray:

@@ -16,9 +16,9 @@ from app.motion.contact import Carried, carry
 from app.motion.curve import FloatArray
 from app.motion.model import Motion
 from app.motion.posture import Stance, Trunk, hips_path, solve_legs, trunk
-from app.motion.reach import needed_help, softly_capped
+from app.motion.reach import TURN_RAD, needed_help, shoulder_distance_m, softly_capped
 from app.rig import quaternion
-from app.rig.hold import Hold, finger_rotations
+from app.rig.hold import Hold, finger_rotations, hand_targets
 from app.rig.model import Skeleton
 from instrument_maps.model import Carriage, Lowered
 
@@ -33,17 +33,21 @@ HELP_EASE_RAD = 0.06
 HIPS_TURN = 0.16
 TRUNK_TURNS = {"spine": 0.18, "chest": 0.34, "upperChest": 0.32}
 """Shares of the turn for a far hand."""
-TRUNK_LEANS = {"spine": 0.30, "chest": 0.35, "upperChest": 0.35}
-BALANCE_M_PER_RAD = 0.25
-"""The hips go ahead as the trunk leans back, to stay over the feet."""
 NECK_TURNS_BACK = {"neck": 0.5, "head": 0.5}
+DRAWS_RAD = {"neck": float(np.deg2rad(-8.0)), "head": float(np.deg2rad(14.0))}
+"""For the farthest places the neck draws back and the head bows; the trunk stays upright, since leaning it brings
+shoulder and lips no nearer to each other ..."""
+DRAW_DOWN_RAD, DRAW_RIGHT_RAD = float(np.deg2rad(6.0)), float(np.deg2rad(8.0))
+"""... and the bell sinks and turns towards the far hand's shoulder."""
+LEAST_DRAWN_M = 0.01
+"""However little that brings, it is never divided by less."""
 
 
 @dataclass(frozen=True)
 class Player:
     """Everything about a player that does not change with time.
 
-    ``base`` is the trunk in the posture before any motion, one frame.
+    ``still`` is the posture before any motion and ``base`` its trunk, one frame.
     """
 
     skeleton: Skeleton
@@ -51,6 +55,7 @@ class Player:
     place: Stance
     carriage: Carriage
     lowered: Lowered
+    still: BodyMotion
     base: Trunk
 
 
@@ -173,24 +178,60 @@ def _helped(player: Player, curves: Curves, half: int) -> BodyMotion:
     if np.any(asked):
         turn += softly_capped(np.maximum(asked, 0.0), most["right"], HELP_EASE_RAD)
         turn -= softly_capped(np.maximum(-asked, 0.0), most["left"], HELP_EASE_RAD)
-    turns = dict(motion.turn_rad)
-    for shares, sign in ((TRUNK_TURNS, 1.0), (NECK_TURNS_BACK, -1.0)):
-        for joint, share in shares.items():
-            turns[joint] = turns[joint] + sign * share * turn
-    lean = _eased(np.concatenate([part.lean_rad for part in parts]), half)
-    if np.any(lean):
-        lean *= np.abs(turn) / np.maximum(np.abs(asked), 1e-6)
-    forward = dict(motion.forward_rad)
-    for joint, share in TRUNK_LEANS.items():
-        forward[joint] = forward[joint] - share * lean
-    forward["head"] = forward["head"] + lean
+    short_m = _eased(np.concatenate([part.short_m for part in parts]), half)
+    if np.any(short_m):
+        draw = softly_capped(short_m / _drawn_m(player), 1.0, 0.1) * np.abs(turn) / np.maximum(np.abs(asked), 1e-6)
+        motion = _drawn(motion, draw, np.sign(asked))
+    turns = _turned(motion.turn_rad, turn)
     protraction = {}
     for side in parts[0].protraction_rad:
         needed = _eased(np.concatenate([part.protraction_rad[side] for part in parts]), half)
         room = _held_back([part.most_protraction_rad[side] for part in parts], quick)
         protraction[side] = softly_capped(needed, room, HELP_EASE_RAD) if np.any(needed) else needed
     hips_turn = motion.hips_turn_rad + HIPS_TURN * turn
-    return replace(motion, hips_turn_rad=hips_turn, turn_rad=turns, forward_rad=forward, protraction_rad=protraction)
+    return replace(motion, hips_turn_rad=hips_turn, turn_rad=turns, protraction_rad=protraction)
+
+
+def _turned(turn_rad: dict[str, FloatArray], turn: FloatArray) -> dict[str, FloatArray]:
+    """The trunk turned to the left, and neck and head back."""
+    turns = dict(turn_rad)
+    for shares, sign in ((TRUNK_TURNS, 1.0), (NECK_TURNS_BACK, -1.0)):
+        for joint, share in shares.items():
+            turns[joint] = turns[joint] + sign * share * turn
+    return turns
+
+
+def _drawn(motion: BodyMotion, draw: FloatArray, right: FloatArray) -> BodyMotion:
+    """Head and instrument giving way, 0..1, towards a far hand on the right (1) or the left (-1)."""
+    forward = dict(motion.forward_rad)
+    for joint, angle_rad in DRAWS_RAD.items():
+        forward[joint] = forward[joint] + angle_rad * draw
+    return replace(
+        motion,
+        forward_rad=forward,
+        bell_down_rad=motion.bell_down_rad + DRAW_DOWN_RAD * draw,
+        bell_right_rad=motion.bell_right_rad + DRAW_RIGHT_RAD * right * draw,
+    )
+
+
+def _drawn_m(player: Player) -> float:
+    """How much nearer to its turned shoulder the far hand comes when head and instrument give way as far as they do."""
+    one, nothing = np.ones(1), np.zeros(1)
+    nearer = []
+    for hand in player.hold.hands:
+        if hand.motion is None:
+            continue
+        right = 1.0 if hand.side == "right" else -1.0
+        turned = replace(player.still, turn_rad=_turned(player.still.turn_rad, right * TURN_RAD * one))
+        farthest = {hand.motion.control: one}
+        distances_m = []
+        for draw in (0.0, 1.0):
+            motion = _drawn(turned, draw * one, right * one)
+            _, _, upper, carried = _upper(player, Curves(motion, farthest, {}, nothing))
+            target_m, _ = hand_targets(hand, carried.position_m, carried.rotation, farthest)
+            distances_m.append(shoulder_distance_m(player.skeleton, hand.side, upper, target_m))
+        nearer.append(float(distances_m[0] - distances_m[1]))
+    return max([*nearer, LEAST_DRAWN_M])
 
 
 def _held_back(parts: list[FloatArray], half: int) -> FloatArray:
