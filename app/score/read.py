@@ -46,11 +46,12 @@ import mido
 from app.errors import FileError, Message
 from app.score.chunks import Container, Track, read_container
 from app.score.model import Metre, Score
-from app.score.parts import MapChoice, Stream, parts_of
+from app.score.parts import PERCUSSION_CHANNEL, MapChoice, Stream, parts_of
 from app.score.repair import Repaired, last_system_message, repaired
 from app.score.tempo import TempoChange, TempoMap
 from app.score.texts import decoded
 from app.score.tracks import TrackEvents, gather
+from instrument_maps.vocabulary import vocabulary
 
 # What mido raises on bytes it does not understand, found by reading it and by fuzzing.
 _MIDO_ERRORS = (OSError, EOFError, ValueError, LookupError, TypeError, AttributeError, mido.KeySignatureError)
@@ -225,23 +226,35 @@ def _streams(tracks: Sequence[TrackEvents], encoding: str | None) -> list[Stream
             name = "" if match[1].startswith("\\") else match[1].strip()
         if len(tracks) == 1:
             name = name if len(events.channels) == 1 else ""
-        for channel, notes in sorted(events.channels.items()):
+        for channels in _players_channels(events, name if len(tracks) > 1 else ""):
+            notes = events.notes(channels)
+            first = min(channels, key=lambda channel: events.channels[channel].numbers[0])
             streams.append(
                 Stream(
                     track=index,
-                    channel=channel,
+                    channel=first,
                     name=name,
                     instrument_name=decoded(events.instrument_name, encoding),
-                    program=_program(tracks, index, channel, notes.onset_ticks[0]),
+                    program=_program(tracks, index, first, notes.onset_ticks[0]),
                     onset_ticks=notes.onset_ticks,
                     end_ticks=notes.end_ticks,
                     pitches=notes.pitches,
                     velocities=notes.velocities,
                     numbers=notes.numbers,
-                    curves=events.curves(channel),
+                    curves=events.curves(channels),
                 )
             )
     return streams
+
+
+def _players_channels(events: TrackEvents, name: str) -> list[tuple[int, ...]]:
+    """The channels of a track that belong together: all where the track's name is an instrument's and they take turns,
+    for notation programs give one player's muted or plucked notes a channel of their own; else each for itself."""
+    channels = sorted(events.channels)
+    named = vocabulary().by_name(name) if len(channels) > 1 else None
+    if named is None or named.vague or PERCUSSION_CHANNEL in channels or not events.take_turns(channels):
+        return [(channel,) for channel in channels]
+    return [tuple(channels)]
 
 
 def _program(tracks: Sequence[TrackEvents], index: int, channel: int, first_onset: int) -> int | None:

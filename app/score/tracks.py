@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from operator import itemgetter
 from typing import Any
 
@@ -60,12 +60,40 @@ class TrackEvents(msgspec.Struct):
     zero_length: int = 0
     end_tick: int = 0
 
-    def curves(self, channel: int) -> tuple[ControllerCurve, ...]:
-        """The controller curves of a channel, by kind."""
+    def notes(self, channels: Collection[int]) -> ChannelNotes:
+        """The notes of some channels together, in the order of the track."""
+        if len(channels) == 1:
+            return self.channels[next(iter(channels))]
+        together = [self.channels[channel] for channel in channels]
+        rows = sorted(
+            (row for notes in together for row in zip(*msgspec.structs.astuple(notes), strict=True)),
+            key=itemgetter(-1),
+        )
+        return ChannelNotes(*map(list, zip(*rows, strict=True)))
+
+    def take_turns(self, channels: Collection[int]) -> bool:
+        """Whether no note of one channel sounds into a note of another."""
+        spans = sorted(
+            (onset, end, channel)
+            for channel in channels
+            for onset, end in zip(self.channels[channel].onset_ticks, self.channels[channel].end_ticks, strict=True)
+        )
+        ends = dict.fromkeys(channels, 0)
+        for onset, end, channel in spans:
+            if any(onset < ends[other] for other in channels if other != channel):
+                return False
+            ends[channel] = max(ends[channel], end)
+        return True
+
+    def curves(self, channels: Collection[int]) -> tuple[ControllerCurve, ...]:
+        """The controller curves of some channels, by kind; where several speak, the last one holds."""
+        kinds: dict[CurveKind, dict[int, float]] = {}
+        for (owner, kind), points in sorted(self.controls.items(), key=itemgetter(0)):
+            if owner in channels:
+                kinds.setdefault(kind, {}).update(points)
         return tuple(
-            ControllerCurve(kind, tuple(points), tuple(points.values()))
-            for (owner, kind), points in sorted(self.controls.items(), key=itemgetter(0))
-            if owner == channel
+            ControllerCurve(kind, tuple(sorted(points)), tuple(points[tick] for tick in sorted(points)))
+            for kind, points in sorted(kinds.items())
         )
 
 

@@ -165,3 +165,27 @@ def test_the_instrument_name_helps_where_the_track_name_says_nothing(
     assert found["players"][0]["instrument"].startswith("trombone")
     found = inspected(tmp_path / "one.mid", capsys, b"Flute", instrument_name=b"Trombone")
     assert found["unplayed"]
+
+
+@pytest.mark.parametrize(("name", "overlap", "players"), [("Trumpet", 0, 1), ("Score", 0, 2), ("Trumpet", 240, 4)])
+def test_a_player_may_use_several_channels_in_turn(
+    name: str, overlap: int, players: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    # As notation programs write a trumpet that puts in a mute: the muted notes have a channel of their own.
+    track = mido.MidiTrack([mido.MetaMessage("track_name", name=name)])
+    for channel, program in ((0, 56), (1, 59)):
+        track.append(mido.Message("program_change", channel=channel, program=program))
+        track.append(mido.Message("control_change", channel=channel, control=11, value=90 + channel))
+    places = list(enumerate((0, 0, 1, 1, 0)))
+    events = [(index * 480, 80, 65 + index, channel) for index, channel in places]
+    events += [(index * 480 + 480 + overlap, 0, 65 + index, channel) for index, channel in places]
+    tick = 0
+    for at, velocity, pitch, channel in sorted(events):
+        track.append(mido.Message("note_on", note=pitch, velocity=velocity, channel=channel, time=at - tick))
+        tick = at
+    path = tmp_path / "mute.mid"
+    mido.MidiFile(type=1, tracks=[mido.MidiTrack(), track]).save(path)
+    assert main(["inspect", str(path), "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert len(found["players"]) == players
+    assert sorted(note["pitch"] for player in found["players"] for note in player["notes"]) == [65, 66, 67, 68, 69]
