@@ -30,7 +30,7 @@ FIRM_M, RESTING_M = 0.0003, 0.0012
 FIRM_NORMAL, RESTING_NORMAL = 0.35, 0.6
 CURL_RAD, SIDEWAYS_RAD, THUMB_RAD, COUPLING_RAD = 0.4, 0.12, 0.4, 0.18
 LIMIT_RAD = 0.02
-LIMIT_SHARE, CARRIED_LIMIT_SHARE = 0.65, 0.45
+LIMIT_SHARE, CARRIED_LIMIT_SHARE = 0.5, 0.36
 """Part of the wrist's range a hold may use: the rest is for the body's motion, which moves a slide's hand most."""
 SWIVEL_RANGE_RAD = (0.2, 0.9)
 """The elbow hangs, off the ribs: its swing from straight down to the outside."""
