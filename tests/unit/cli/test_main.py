@@ -85,6 +85,14 @@ def test_help_and_version(run: Run) -> None:
         ["inspect", QUARTET, "--set", "*.amplitude=7"],
         ["inspect", QUARTET, "--set", "*.volume=7"],
         ["inspect", QUARTET, "--preroll", "-3"],
+        ["inspect", QUARTET, "--felt-beat", "0"],
+        ["inspect", QUARTET, "--felt-beat", "3/0"],
+        ["inspect", QUARTET, "--felt-beat", "nan"],
+        ["export", QUARTET, "--to", "x", "--felt-beat", "fast"],
+        ["inspect", QUARTET, "--set", "Trumpet 1.lung_s=0"],
+        ["inspect", QUARTET, "--set", "Trumpet 1.instrument=kazoo"],
+        ["inspect", QUARTET, "--set", "Trumpet 9.amplitude=0.1"],
+        ["inspect", QUARTET, "--set", ".=."],
         ["inspect", QUARTET, "--seed", "x"],
         ["inspect", QUARTET, "--encoding", "klingon"],
         ["inspect", QUARTET, "--encoding", "base64"],
@@ -97,6 +105,22 @@ def test_bad_use_ends_with_2(run: Run, arguments: list[str], tmp_path: Path, mon
     assert out == ""
     assert err.strip()
     assert list(tmp_path.iterdir()) == []
+
+
+def test_the_felt_beat_counts_in_pre_roll_cue_and_breaths(run: Run) -> None:
+    quarters = json.loads(run("inspect", LUTKIN, "--json")[1])
+    halves = json.loads(run("inspect", LUTKIN, "--json", "--felt-beat", "2")[1])
+    beat_s = 60.0 / quarters["tempo"][0]["bpm"]
+    first_s = min(note["onset_s"] for player in quarters["players"] for note in player["notes"])
+    assert quarters["first_frame_s"] == pytest.approx(first_s - max(4 * beat_s, 2.0))
+    assert halves["first_frame_s"] == pytest.approx(first_s - max(8 * beat_s, 2.0))
+    for found, beats in ((quarters, 1), (halves, 2)):
+        (cue,) = [
+            cue for player in found["players"] for cue in player["cues"] if cue["end_s"] == pytest.approx(first_s)
+        ]
+        assert cue["beat_s"] == pytest.approx(beats * beat_s)
+        breaths = [player["breaths"][1] for player in found["players"]]
+        assert all(breath["end_beat"] - breath["start_beat"] == pytest.approx(beats) for breath in breaths)
 
 
 def test_an_unknown_player_is_told_who_there_is(run: Run) -> None:
