@@ -17,9 +17,9 @@ from app.rig.model import Skeleton
 
 Z_AXIS = np.array([0.0, 0.0, 1.0])
 
-AT_EASE = 0.96
+AT_EASE = 0.98
 """Share of its length an arm reaches without help from the shoulder."""
-STRETCHED = 0.98
+STRETCHED = 0.985
 """The same, of an arm that is stretched for the farthest places."""
 NEAREST = 0.33
 """A hand is kept at least this share of the arm's length away (the elbow bent by 141 degrees)."""

@@ -24,8 +24,10 @@ from instrument_maps.model import Carriage, Lowered
 
 CHUNK = 4096
 """Frames solved at once: few enough to stay in the processor's cache."""
-HELP_EASE_S = 0.14
+HELP_EASE_S = 0.10
 """Trunk and shoulders come towards a far hand this long before it goes there, and back as long after."""
+SHOULDER_EASE_S = 0.06
+"""The shoulder, which is lighter, this long."""
 ROOM_EASE_S = 0.06
 """How quickly that help gives way to a hand that comes near."""
 HELP_EASE_RAD = 0.06
@@ -172,6 +174,7 @@ def _helped(player: Player, curves: Curves, half: int) -> BodyMotion:
         parts.append(needed_help(player.skeleton, player.hold, upper, carried, chunk.controls))
     motion = curves.body
     quick = max(1, round(ROOM_EASE_S / HELP_EASE_S * half))
+    swift = max(1, round(SHOULDER_EASE_S / HELP_EASE_S * half))
     most = {side: _held_back([part.most_turn_rad[side] for part in parts], quick) for side in parts[0].most_turn_rad}
     asked = _eased(np.concatenate([part.turn_rad for part in parts]), half)
     turn = np.zeros(len(curves))
@@ -185,7 +188,7 @@ def _helped(player: Player, curves: Curves, half: int) -> BodyMotion:
     turns = _turned(motion.turn_rad, turn)
     protraction = {}
     for side in parts[0].protraction_rad:
-        needed = _eased(np.concatenate([part.protraction_rad[side] for part in parts]), half)
+        needed = _eased(np.concatenate([part.protraction_rad[side] for part in parts]), swift)
         room = _held_back([part.most_protraction_rad[side] for part in parts], quick)
         protraction[side] = softly_capped(needed, room, HELP_EASE_RAD) if np.any(needed) else needed
     hips_turn = motion.hips_turn_rad + HIPS_TURN * turn
