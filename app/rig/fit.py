@@ -32,7 +32,7 @@ from metadata.model import Body
 FloatArray = npt.NDArray[np.float64]
 
 TABLE_VALUES = 17
-FIT_VERSION = 8
+FIT_VERSION = 9
 """Part of the digest of stored holds (`app.rig.hold_file`): raise it when a fit comes out differently."""
 
 

@@ -30,12 +30,14 @@ FIRM_M, RESTING_M = 0.0003, 0.0012
 FIRM_NORMAL, RESTING_NORMAL = 0.35, 0.6
 CURL_RAD, SIDEWAYS_RAD, THUMB_RAD, COUPLING_RAD = 0.4, 0.12, 0.4, 0.18
 LIMIT_RAD = 0.02
-LIMIT_SHARE, CARRIED_LIMIT_SHARE = 0.5, 0.36
+LIMIT_SHARE, CARRIED_LIMIT_SHARE = 0.47, 0.45
 """Part of the wrist's range a hold may use: the rest is for the body's motion, which moves a slide's hand most."""
 SWIVEL_RANGE_RAD = (0.2, 0.9)
 """The elbow hangs, off the ribs: its swing from straight down to the outside."""
 METRES = 0.1
 """The wrist's place is solved in units of this many metres, to weigh like radians."""
+HELP_RAD = 0.44
+"""Turn of the trunk that brings the shoulder towards a far hand; it lasts into nearer places."""
 NEAR_M = 0.28
 """Bodies of the proxy farther from the palm than this meet neither hand nor forearm."""
 
@@ -80,6 +82,8 @@ class Problem:
     node_turn: FloatArray
     proxies: Bodies
     shoulder_m: FloatArray
+    helped_m: FloatArray
+    helped: bool
     upper_m: float
     lower_m: float
     swivel_frame: FloatArray
@@ -133,6 +137,9 @@ def grip_problem(
     back = quaternion.conjugate(stand.instrument_rotation)
     joint = [character.skeleton.index(f"{side}{part}") for part in ("UpperArm", "LowerArm", "Hand")]
     shoulder = quaternion.rotate(back, stand.joints_m[joint[0]] - stand.instrument_m)
+    chest = stand.joints_m[character.skeleton.parents[character.skeleton.index(f"{side}Shoulder")]]
+    help_turn = quaternion.from_axis_angle([0.0, 1.0, 0.0], outward * HELP_RAD)
+    helped = chest + quaternion.rotate(help_turn, stand.joints_m[joint[0]] - chest)
     # The elbow hangs: its swivel is counted from straight down towards the outside.
     down = quaternion.rotate(back, [0.0, -1.0, 0.0])
     aside = quaternion.rotate(back, [-outward, 0.0, 0.0])
@@ -158,6 +165,8 @@ def grip_problem(
         swivel_frame=np.stack([down, aside]),
         swivel_usual=np.radians(body.postures["standing"].elbow_off_ribs_deg),
         reference_shift_m=np.zeros(3),
+        helped=False,
+        helped_m=quaternion.rotate(back, helped - stand.instrument_m),
         configs=2 if worked else 1,
         wrist_limits=hand.limits[0] * (LIMIT_SHARE if carrier is None else CARRIED_LIMIT_SHARE),
     )

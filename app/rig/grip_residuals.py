@@ -132,7 +132,7 @@ class Residuals:
     def _forearm(self, x: FloatArray, place: FloatArray) -> FloatArray:
         """Balls (B, configs, C, 3) of the forearm."""
         wrist = place + self.problem.reference_shift_m
-        behind = _elbow_place(self.problem, wrist, x[:, 6]) - wrist
+        behind = _elbow_place(self.problem, wrist, x[:, 6], self.problem.shoulder_m) - wrist
         behind /= np.linalg.norm(behind, axis=1)[:, None]
         balls = place[:, None] + behind[:, None] * self.problem.hand.forearm_balls[:, :1]
         return np.repeat(balls[:, None], self.problem.configs, axis=1)
@@ -158,7 +158,24 @@ class Residuals:
         """Straight wrist: how the forearm enters the hand, how far it is turned, where the elbow is."""
         problem = self.problem
         wrist = place + problem.reference_shift_m
-        elbow = _elbow_place(problem, wrist, x[:, 6])
+        bent, over = self._bend(x, wrist, turn, problem.shoulder_m)
+        far = np.linalg.norm(wrist - problem.shoulder_m, axis=1) - 0.97 * (problem.upper_m + problem.lower_m)
+        parts = [
+            bent / (FLEXION_RAD, DEVIATION_RAD, PRONATION_RAD),
+            over / LIMIT_RAD,
+            ((x[:, 6] - problem.swivel_usual) / SWIVEL_RAD)[:, None],
+            (np.maximum(far, 0.0) / REACH_M)[:, None],
+        ]
+        if problem.helped:
+            parts.append(self._bend(x, wrist, turn, problem.helped_m)[1] / LIMIT_RAD)
+        return np.concatenate(parts, axis=1)
+
+    def _bend(
+        self, x: FloatArray, wrist: FloatArray, turn: FloatArray, shoulder_m: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
+        """Flexion, deviation and pronation (B, 3), and how far these and the judged ones are beyond limits (B, 5)."""
+        problem = self.problem
+        elbow = _elbow_place(problem, wrist, x[:, 6], shoulder_m)
         forearm = wrist - elbow
         forearm /= np.linalg.norm(forearm, axis=1)[:, None]
         sign = 1.0 if problem.hand.side == "left" else -1.0
@@ -167,39 +184,19 @@ class Residuals:
         flexion = np.arctan2(sign * local[:, 1], np.maximum(sign * local[:, 0], 1e-3))
         deviation = np.arctan2(-local[:, 2], np.maximum(sign * local[:, 0], 1e-3))
         # The elbow's hinge, seen from the hand: along the palm's normal where the forearm is neither turned in nor out.
-        hinge = np.cross(elbow - problem.shoulder_m, forearm)
+        hinge = np.cross(elbow - shoulder_m, forearm)
         hinge /= np.maximum(np.linalg.norm(hinge, axis=1), 1e-9)[:, None]
-        hinge = quaternion.rotate(back, hinge) * sign
-        pronation = np.arctan2(hinge[:, 2], -hinge[:, 1])
-        bent = np.stack([flexion, deviation, pronation], axis=1)
-        low, high = problem.wrist_limits[:, 0], problem.wrist_limits[:, 1]
-        low, high = np.array([low[0], low[1], -PRONATION_MOST_RAD]), np.array([high[0], high[1], PRONATION_MOST_RAD])
-        over = np.maximum(bent - high, 0.0) + np.minimum(bent - low, 0.0)
-        shared = self._shared(forearm, np.cross(elbow - problem.shoulder_m, forearm), turn)
-        over = np.concatenate(
-            [
-                over,
-                np.maximum(shared - problem.wrist_limits[:2, 1], 0.0)
-                + np.minimum(shared - problem.wrist_limits[:2, 0], 0.0),
-            ],
-            axis=1,
-        )
-        far = np.linalg.norm(wrist - problem.shoulder_m, axis=1) - 0.97 * (problem.upper_m + problem.lower_m)
-        return np.concatenate(
-            [
-                bent / (FLEXION_RAD, DEVIATION_RAD, PRONATION_RAD),
-                over / LIMIT_RAD,
-                ((x[:, 6] - problem.swivel_usual) / SWIVEL_RAD)[:, None],
-                (np.maximum(far, 0.0) / REACH_M)[:, None],
-            ],
-            axis=1,
-        )
+        seen = quaternion.rotate(back, hinge) * sign
+        bent = np.stack([flexion, deviation, np.arctan2(seen[:, 2], -seen[:, 1])], axis=1)
+        both = np.concatenate([bent, self._shared(forearm, hinge, turn)], axis=1)
+        low, high = problem.wrist_limits[:2].T
+        low, high = np.array([*low, -PRONATION_MOST_RAD, *low]), np.array([*high, PRONATION_MOST_RAD, *high])
+        return bent, np.maximum(both - high, 0.0) + np.minimum(both - low, 0.0)
 
     def _shared(self, forearm: FloatArray, hinge: FloatArray, turn: FloatArray) -> FloatArray:
         """Flexion and deviation (B, 2) as the hand joint has them when the forearm takes its share of the twist."""
         hand = self.problem.hand
         sign = 1.0 if hand.side == "left" else -1.0
-        hinge = hinge / np.maximum(np.linalg.norm(hinge, axis=1), 1e-9)[:, None]
         frame = quaternion.from_frames(sign * forearm, -sign * hinge)
         local = quaternion.multiply(quaternion.conjugate(frame), turn)
         axis = np.array([1.0, 0.0, 0.0])
@@ -217,16 +214,16 @@ class Residuals:
         return off
 
 
-def _elbow_place(problem: Problem, wrist: FloatArray, swivel: FloatArray) -> FloatArray:
+def _elbow_place(problem: Problem, wrist: FloatArray, swivel: FloatArray, shoulder_m: FloatArray) -> FloatArray:
     """Elbow (B, 3) for a wrist (B, 3) and swivel (B,) from straight down to the outside."""
     a, b = problem.upper_m, problem.lower_m
-    line = wrist - problem.shoulder_m
+    line = wrist - shoulder_m
     reach = np.clip(np.linalg.norm(line, axis=1), abs(a - b) + 1e-4, (a + b) * 0.9999)
     direction = line / np.linalg.norm(line, axis=1)[:, None]
     along = (a * a - b * b + reach * reach) / (2.0 * reach)
     aside = np.sqrt(np.maximum(a * a - along * along, 0.0))
     pole = _pole(problem, direction, swivel)
-    elbow: FloatArray = problem.shoulder_m + direction * along[:, None] + pole * aside[:, None]
+    elbow: FloatArray = shoulder_m + direction * along[:, None] + pole * aside[:, None]
     return elbow
 
 

@@ -19,6 +19,8 @@ FloatArray = npt.NDArray[np.float64]
 KNOTS = (0.25, 0.0, 0.5, 0.75, 1.0)
 """Values of the control that carries a hand at which its hold is solved: the first from the seed, the others each from
 its solved neighbour. The grip turns in the fingers as the arm stretches."""
+HELPED_FROM = 0.4
+"""From this value on the trunk may be turned towards the hand."""
 TILTS = (
     (0.0, 0.0, 0.0),
     (0.3, 0.0, 0.0),
@@ -57,6 +59,7 @@ def search_knots(
             node_place=place,
             node_turn=turn,
             reference_shift_m=value * travel(carrier),
+            helped=value >= HELPED_FROM,
             anchor=found[min(found, key=lambda other: abs(other - value))] if found else None,
         )
         if here.anchor is None:
