@@ -22,6 +22,7 @@ import numpy as np
 import numpy.typing as npt
 
 from app.errors import UsageError
+from app.rig.landmarks import found_landmarks
 from app.rig.model import Character, Landmark, Mesh, Skeleton
 from app.rig.source import Source, build_mesh, invalid, moved_mesh, read_source
 
@@ -94,6 +95,8 @@ def _build(source: Source, path: Path) -> Character:
         name: Landmark(place["mesh"], np.asarray(place["vertices"], dtype=np.int32))
         for name, place in extras.get("landmarks", {}).items()
     }
+    if not marks:
+        marks = found_landmarks(skeleton, joint_from_mesh, tuple(meshes))
     return Character(path.stem, skeleton, joint_from_mesh, tuple(meshes), marks)
 
 

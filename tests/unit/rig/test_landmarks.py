@@ -1,0 +1,30 @@
+"""Landmarks found by geometry lie where our own characters' named ones are."""
+
+import numpy as np
+import pytest
+
+from app.rig.character import bundled_character, characters
+from app.rig.landmarks import found_landmarks
+from app.rig.model import Character
+from app.rig.skeleton import forward
+from app.rig.skinning import landmark_normals, landmark_positions
+
+TOLERANCE_M = {"thumb": 0.008, "pad": 0.006, "side": 0.006, "palm": 0.006, "lips": 0.008, "sole": 0.03}
+
+
+@pytest.mark.parametrize("id", characters())
+def test_what_is_found_lies_on_what_is_named(id: str) -> None:
+    named = bundled_character(id)
+    found = found_landmarks(named.skeleton, named.joint_from_mesh, named.meshes)
+    assert set(named.landmarks) <= set(found)
+    bare = Character(named.id, named.skeleton, named.joint_from_mesh, named.meshes, found)
+    still = forward(named.skeleton, np.tile([0.0, 0.0, 0.0, 1.0], (1, len(named.skeleton.names), 1)))
+    names = sorted(name for name in named.landmarks if not name.endswith(".hand"))
+    off = np.linalg.norm(landmark_positions(bare, names, still) - landmark_positions(named, names, still), axis=2)[0]
+    for name, distance in zip(names, off, strict=True):
+        bound = next(bound for part, bound in TOLERANCE_M.items() if part in name)
+        assert distance <= bound, name
+    # Thumbs point their own way in every rig: only the fingers' pads are sure to face as named.
+    pads = [name for name in names if name.endswith(".pad") and "thumb" not in name]
+    alike = np.einsum("li,li->l", landmark_normals(bare, pads, still)[0], landmark_normals(named, pads, still)[0])
+    assert np.degrees(np.arccos(np.clip(alike, -1.0, 1.0))).max() < 25.0
