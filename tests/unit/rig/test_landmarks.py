@@ -27,4 +27,4 @@ def test_what_is_found_lies_on_what_is_named(id: str) -> None:
     # Thumbs point their own way in every rig: only the fingers' pads are sure to face as named.
     pads = [name for name in names if name.endswith(".pad") and "thumb" not in name]
     alike = np.einsum("li,li->l", landmark_normals(bare, pads, still)[0], landmark_normals(named, pads, still)[0])
-    assert np.degrees(np.arccos(np.clip(alike, -1.0, 1.0))).max() < 25.0
+    assert np.degrees(np.arccos(np.clip(alike, -1.0, 1.0))).max() < 35.0
