@@ -5,6 +5,11 @@ finger joints with every control at rest and again with every control fully work
 the map's contacts on the deformed skin, no skin inside the instrument's proxy, fingers that do not pass through each
 other, a straight wrist under a natural elbow, and fingers near their relaxed curl (`app.rig.grip_residuals`). The
 fingers that work a control are then solved for values between (`app.rig.grip_fingers`).
+
+Messages
+--------
+character.landmarks_missing : id, missing
+    "The character '{id}' lacks what playing needs: {missing}"
 """
 
 from __future__ import annotations
@@ -16,6 +21,7 @@ import numpy.typing as npt
 from scipy.interpolate import PchipInterpolator
 from threadpoolctl import threadpool_limits
 
+from app.errors import UsageError
 from app.rig import quaternion
 from app.rig.carriage import Upright, upright
 from app.rig.grip_fingers import Scene, finger_table, judge, solve_table
@@ -51,7 +57,17 @@ def fit_hold(character: Character, model: InstrumentModel, instrument_map: Instr
     -------
     Hold
         What could not be met stands in its ``contacts``, ``penetration_m`` and ``reach``.
+
+    Raises
+    ------
+    UsageError
+        ``character.landmarks_missing``: the body lacks a place the instrument touches.
     """
+    needed = {"lips.contact", "lips.upper", *(contact.part for contact in instrument_map.contacts)}
+    needed |= {f"{seed.hand}.{place}" for seed in instrument_map.hands for place in ("palm", "hand")}
+    missing = sorted(needed - set(character.landmarks))
+    if missing:
+        raise UsageError("character.landmarks_missing", id=character.id, missing=", ".join(missing))
     lips = fit_lips(character)
     stand = upright(character, instrument_map, body, lips)
     # The matrices are small: more threads make it no faster, far slower on a busy machine, and change the last bits.

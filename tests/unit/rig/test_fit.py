@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
+from app.errors import UsageError
 from app.rig import proxy, quaternion, skinning
 from app.rig.character import bundled_character, characters
 from app.rig.fit import fit_hold, fit_lips
@@ -156,3 +157,11 @@ def test_a_second_fit_is_the_same_to_the_bit() -> None:
         assert a.instrument_from_hand_m.tobytes() == b.instrument_from_hand_m.tobytes()
         for x, y in zip(a.fingers, b.fingers, strict=True):
             assert x.rotations.tobytes() == y.rotations.tobytes()
+
+
+def test_a_body_without_a_mouth_is_refused_by_name() -> None:
+    whole, instrument = bundled_character(PAIRS[0][0]), bundled_maps()[PAIRS[0][1]]
+    marks = {name: mark for name, mark in whole.landmarks.items() if not name.startswith("lips.")}
+    mute = Character("mute", whole.skeleton, whole.joint_from_mesh, whole.meshes, marks)
+    with pytest.raises(UsageError, match=r"lips\.contact"):
+        fit_hold(mute, bundled_instrument(instrument), instrument, load_body())
