@@ -89,6 +89,7 @@ TEMPLATES: Final[dict[str, str]] = {
     "metadata.syntax": "{file}: {detail}",
     "metadata.invalid": "{file}: {key}: {detail}",
     "character.missing": "there is no character named {id!r}; there are: {known}",
+    "character.landmarks_missing": "the character {id!r} lacks what playing needs: {missing}",
     "model.invalid": "{file}: {detail}",
     # FBX and BVH
     "fbx.not_binary": "{file} is not a binary FBX file",
