@@ -18,6 +18,9 @@ from app.rig.model import Skeleton
 
 Z_AXIS = np.array([0.0, 0.0, 1.0])
 
+ELBOW_OUT = 1.8
+"""The elbow goes out by this multiple of the angle its shoulder comes forwards, so that the wrist stays straighter."""
+
 
 def solve_arms(
     skeleton: Skeleton,
@@ -57,7 +60,7 @@ def _solve_arm(
     clavicle_world = quaternion.multiply(body.chest, moved)
     joint_m = body.chest_m + quaternion.rotate(body.chest, skeleton.offsets_m[shoulder])
     root_m = joint_m + quaternion.rotate(clavicle_world, clavicle)
-    out = np.tan(motion.elbows_rad)[:, None] * np.array([sign, 0.0, 0.0])
+    out = np.tan(motion.elbows_rad + ELBOW_OUT * motion.protraction_rad[side])[:, None] * np.array([sign, 0.0, 0.0])
     pole = quaternion.rotate(with_chest, hand.elbow_direction + out)
     pose = solve_limb(limb, root_m, clavicle_world, target_m, target_rotation, pole)
     return {

@@ -28,6 +28,9 @@ EYES_LEVEL = 0.6
 QUICK_S = 0.6
 """Gestures shorter than this are smaller in proportion: nobody leans as far in half the time."""
 EXHALE_S = 3.0
+FULLEST = 1.4
+LEAST_DRAWN = 0.3
+"""However soon breaths follow each other, each has this much room: no breath goes unseen."""
 BREATH_LEAD_S = 0.03
 """The inhalation is complete this long before the breath's end."""
 RESIDUE_SHARE = 0.6
@@ -38,6 +41,8 @@ LIFT_LAG = 0.6547
 """Where the side lobe of a bump's acceleration peaks, in half widths: a lift placed there adds to the nod's peak
 without moving it."""
 LIFT_SHARE = 0.6
+LOWER_ELBOWS_RAD = float(np.deg2rad(10.0))
+"""On the instrument's way down and up the elbows come in by this much, so that the wrists stay straight."""
 
 
 @dataclass(frozen=True)
@@ -189,11 +194,11 @@ def lungs(breaths: Sequence[BreathEvent]) -> tuple[Curve, Curve]:
     for breath, following in zip_longest(drawn, drawn[1:]):
         top_s = max(breath.end_s - BREATH_LEAD_S, 0.5 * (breath.start_s + breath.end_s))
         rise = 0.5 + 0.5 * breath.depth
-        level = min(1.4, level + rise)
+        level = min(FULLEST, level + rise)
         full.append((breath.start_s, top_s, level))
         until_s = breath.end_s + EXHALE_S if following is None else min(breath.end_s + EXHALE_S, following.start_s)
         if until_s > breath.end_s:
-            level *= 1.0 - min(1.0, (until_s - breath.end_s) / 1.5)
+            level = min(level * (1.0 - min(1.0, (until_s - breath.end_s) / 1.5)), FULLEST - LEAST_DRAWN)
             full.append((breath.end_s, until_s, level))
     free_s = -np.inf
     for breath in breaths:
@@ -325,7 +330,7 @@ def body_motion(
         bell_down_rad=np.zeros(frames),
         bell_right_rad=np.zeros(frames),
         shoulders_rad=deg(body.breath.shoulder_lift_deg) * inhaled,
-        elbows_rad=deg(body.breath.elbow_out_deg) * inhaled,
+        elbows_rad=deg(body.breath.elbow_out_deg) * inhaled - 4.0 * lowered * (1.0 - lowered) * LOWER_ELBOWS_RAD,
         eyes_yaw_rad=gaze.yaw_rad.sample(times_s) - 0.5 * head_yaw,
         eyes_pitch_rad=gaze.pitch_rad.sample(times_s) - 0.5 * head_pitch,
         inhaled=inhaled,

@@ -20,7 +20,7 @@ from instrument_maps.model import Carriage, Lowered
 
 X_AXIS, Y_AXIS, Z_AXIS = np.eye(3)
 
-CLEAR_M = 0.05
+CLEAR_M = 0.035
 """On its way down and up the instrument swings ahead by this much, clear of the chin."""
 
 

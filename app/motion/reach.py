@@ -17,7 +17,7 @@ from app.rig.model import Skeleton
 
 Z_AXIS = np.array([0.0, 0.0, 1.0])
 
-AT_EASE = 0.98
+AT_EASE = 0.985
 """Share of its length an arm reaches without help from the shoulder."""
 STRETCHED = 0.985
 """The same, of an arm that is stretched for the farthest places."""

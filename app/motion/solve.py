@@ -26,7 +26,7 @@ CHUNK = 4096
 """Frames solved at once: few enough to stay in the processor's cache."""
 HELP_EASE_S = 0.10
 """Trunk and shoulders come towards a far hand this long before it goes there, and back as long after."""
-SHOULDER_EASE_S = 0.06
+SHOULDER_EASE_S = 0.05
 """The shoulder, which is lighter, this long."""
 ROOM_EASE_S = 0.06
 """How quickly that help gives way to a hand that comes near."""
