@@ -55,3 +55,10 @@ def test_the_lungs_fill_over_a_breath_and_empty_over_the_phrase() -> None:
     values = full.sample(np.array([0.5, 0.97, 1.0, 4.0, 6.0, 6.28]))
     np.testing.assert_allclose(values, [0.0, 1.0, 1.0, 0.0, 0.0, 0.6], atol=1e-9)
     np.testing.assert_allclose(lean.sample(np.array([0.0, 0.5, 0.9])), [0.0, 1.0, 0.0], atol=1e-9)
+
+
+def test_breaths_that_follow_each_other_closely_all_show() -> None:
+    breaths = tuple(breath(0.33 * i, 0.33 * i + 0.16, 0.3) for i in range(12))
+    full, _ = lungs(breaths)
+    rises = [full.sample(np.array([each.start_s, each.end_s])) for each in breaths]
+    assert min(end - start for start, end in rises) > 0.29

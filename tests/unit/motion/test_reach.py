@@ -81,3 +81,12 @@ def test_help_that_is_early_does_not_fold_the_elbow() -> None:
     elbow = motion.rotations[:, CHARACTER.skeleton.index("rightLowerArm")].astype(np.float64)
     bend_deg = np.degrees(np.linalg.norm(quaternion.to_rotation_vector(elbow), axis=1))
     assert bend_deg.max() < 150.0
+
+
+def test_the_trunk_does_not_lean_for_a_far_hand() -> None:
+    motion = played(0.42, 2.0)
+    skeleton = CHARACTER.skeleton
+    joints = [skeleton.index("hips"), skeleton.index("neck")]
+    low_m, high_m = (forward(skeleton, motion.rotations, motion.hips_m, joints).of(joint)[0] for joint in joints)
+    upright = high_m - low_m
+    assert np.ptp(np.degrees(np.arctan2(upright[:, 2], upright[:, 1]))) < 4.0
