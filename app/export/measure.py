@@ -330,7 +330,9 @@ def _trace(
     landmarks = {name: np.empty((frames, 3)) for name in surfaces}
     nodes = {node: np.empty((frames, 4, 4)) for node in node_bones}
     torso, depth_m, deviation_m = np.empty((frames, 2)), np.zeros(frames), np.empty(frames)
-    low, high = (player.bone_names.index(name) for name in _TORSO)
+    low = player.bone_names.index(_TORSO[0])
+    # VRM leaves the neck optional; the head is next above it.
+    high = player.bone_names.index(_TORSO[1] if _TORSO[1] in player.bone_names else "head")
     lengths_m = np.linalg.norm(player.rest_m, axis=1)
     parents = np.array(player.parents)
     rigid = np.array([parent > 0 for parent in player.parents])

@@ -6,8 +6,6 @@ import math
 from collections.abc import Mapping
 from fractions import Fraction
 
-import msgspec
-
 from app.motion.body import BodyMotion, body_motion
 from app.motion.controls import control_curves
 from app.motion.curve import frame_times
@@ -17,14 +15,12 @@ from app.motion.model import Motion
 from app.motion.posture import hips_path, stance, trunk
 from app.motion.solve import Curves, Player, padding, solve
 from app.plan.model import PlayerParameters, PlayerPlan, TimeFrame
+from app.rig.carriage import with_head
 from app.rig.hold import Hold
 from app.rig.model import Character
-from instrument_maps.model import Carriage, InstrumentMap
+from instrument_maps.model import InstrumentMap
 from metadata.load import load_expressions
-from metadata.model import Body, Expression, Posture
-
-HEAD_FOLLOWS = 0.4
-"""Share of the instrument's pitch the head goes along with, up to the posture's limit."""
+from metadata.model import Body, Expression
 
 
 def frame_count(time_frame: TimeFrame, fps: Fraction) -> int:
@@ -82,7 +78,7 @@ def perform(
     times_s = frame_times(start_s, fps, first_frame - pad, frames + 2 * pad)
     seated = parameters.posture == "seated"
     carriage = instrument_map.hold.seated if seated else instrument_map.hold.standing
-    posture = _with_head(body.postures[parameters.posture], carriage)
+    posture = with_head(body.postures[parameters.posture], carriage)
 
     gaze = plan_gaze(plan, parameters.seed)
     mouth_open = breath_opening(plan).sample(times_s)
@@ -107,11 +103,3 @@ def perform(
         base=trunk(skeleton, *hips_path(place, skeleton, still), still),
     )
     return solve(player, curves, fps, float(frame_times(start_s, fps, first_frame, 1)[0]))
-
-
-def _with_head(posture: Posture, carriage: Carriage) -> Posture:
-    """The posture with the head bent after the instrument's pitch, as far as the posture allows."""
-    down_deg = min(posture.head_down_deg, HEAD_FOLLOWS * max(carriage.pitch_down_deg[1], 0.0))
-    spine_deg = dict(posture.spine_deg)
-    spine_deg["head"] = spine_deg.get("head", 0.0) + down_deg
-    return msgspec.structs.replace(posture, spine_deg=spine_deg)

@@ -59,7 +59,8 @@ def digest_of(character: Character, model: InstrumentModel, instrument: Instrume
         instrument.proxy,
         instrument.hold,
     )
-    digest.update(msgspec.json.encode((hands, body.limits, body.postures), order="sorted"))
+    ranges = {name: (limit.flexion_deg, limit.sideways_deg, limit.twist_deg) for name, limit in body.limits.items()}
+    digest.update(msgspec.json.encode((hands, ranges, body.postures), order="sorted"))
     return digest.hexdigest()
 
 
