@@ -169,6 +169,7 @@ def measure_player(
     sounding = _within(times_s, [(note.start_s, note.end_s) for note in notes])
     # A catch breath comes out of a note's tail: the note sounds on, but the lips have stopped.
     blowing = sounding & ~_within(times_s, [(event.start_s, event.end_s) for event in plan.breaths])
+    inhaling = [(event.start_s, event.end_s) for event in plan.breaths if event.kind == "breath"]
     traces = _trace(player, held, character, instrument, sounding, progress)
     values = control_values(instrument, held)
     rotations = player.rotations(0, player.clip.frames)
@@ -180,7 +181,7 @@ def measure_player(
             for contact in instrument.contacts
         },
         lips=_spread(np.linalg.norm(_rim_to(instrument, traces, _LIPS)[blowing], axis=1), LIPS_MM),
-        upper_lip_in_breaths=_lip_gap(instrument, traces, blowing, _within(times_s, _catch_breaths(plan, notes))),
+        upper_lip_in_breaths=_lip_gap(instrument, traces, blowing, _within(times_s, inhaling)),
         feet={name: _drift(traces.landmarks[name]) for name in _SOLES},
         bones=_spread(traces.bone_deviation_m, BONES_MM),
         penetration=_spread(traces.depth_m[sounding], PENETRATION_MM),
@@ -432,22 +433,13 @@ def _rim_to(instrument: InstrumentMap, traces: _Traces, landmark: str) -> FloatA
 
 
 def _lip_gap(instrument: InstrumentMap, traces: _Traces, playing: BoolArray, breathing: BoolArray) -> Spread:
-    """How far the rim comes off the upper lip while the mouth breathes, or into it, along the air stream; against
-    where it lies on it while notes sound."""
+    """How far the rim leaves its place on the upper lip while the mouth breathes; its place is where it lies while
+    notes sound."""
     if not playing.any():
         return _spread(np.zeros(0), LIPS_MM)
-    along_m = _rim_to(instrument, traces, _UPPER_LIP) @ np.asarray(instrument.mouthpiece.air_axis)
-    return _spread(np.abs(along_m[breathing] - np.median(along_m[playing])), LIPS_MM)
-
-
-def _catch_breaths(plan: PlayerPlan, notes: Sequence[FingeringEvent]) -> list[tuple[float, float]]:
-    """Breaths soon after a note, in rests too short to take the instrument down."""
-    ends = np.array([note.end_s for note in notes])
-    return [
-        (breath.start_s, breath.end_s)
-        for breath in plan.breaths
-        if breath.kind == "breath" and len(ends) and np.any(np.abs(breath.start_s - ends) < 1.0)
-    ]
+    offset_m = _rim_to(instrument, traces, _UPPER_LIP)
+    place_m = np.median(offset_m[playing], axis=0)
+    return _spread(np.linalg.norm(offset_m[breathing] - place_m, axis=1), LIPS_MM)
 
 
 def _drift(landmark_m: FloatArray) -> Spread:

@@ -57,6 +57,7 @@ def carry(
     motion: BodyMotion,
     morphs: Mapping[str, FloatArray],
     mouth_open: FloatArray,
+    grip_of_lips_m: FloatArray,
 ) -> Carried:
     """Place the instrument: its rim on the lips, or lowered before the body.
 
@@ -69,11 +70,15 @@ def carry(
     morphs : mapping of str to (F,)
     mouth_open : (F,) float64
         How far the mouth is open for a breath, 0..1: then the upper lip alone carries the rim.
+    grip_of_lips_m : (3,) float64
+        Added to where the upper lip alone carries the rim, so that the rim keeps its playing place on that lip.
     """
     lowering = motion.lowered
     frames = len(lowering)
     contact_m, upper_m = hold.lips.contact_m(morphs, frames), hold.lips.upper_m(morphs, frames)
-    lips_m = contact_m + (upper_m - contact_m) * mouth_open[:, None]
+    # The jaw is far enough down to have left the rim long before the mouth is fully open.
+    on_upper = 1.0 - (1.0 - mouth_open) ** 4
+    lips_m = contact_m + (upper_m + grip_of_lips_m - contact_m) * on_upper[:, None]
     yaw, roll = np.deg2rad(carriage.yaw_left_deg[1]) - motion.bell_right_rad, np.deg2rad(carriage.roll_left_deg[1])
     with_head = quaternion.multiply(body.head, quaternion.conjugate(base.head))
     pitch = bell_pitch(carriage, motion.bell_rad) - motion.bell_cue_rad + motion.bell_down_rad

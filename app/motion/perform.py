@@ -6,9 +6,11 @@ import math
 from collections.abc import Mapping
 from fractions import Fraction
 
+import numpy as np
+
 from app.motion.body import BodyMotion, body_motion
 from app.motion.controls import control_curves
-from app.motion.curve import frame_times
+from app.motion.curve import FloatArray, frame_times
 from app.motion.face import breath_opening, face_morphs
 from app.motion.gaze import plan_gaze
 from app.motion.model import Motion
@@ -101,5 +103,17 @@ def perform(
         lowered=instrument_map.hold.lowered_seated if seated else instrument_map.hold.lowered_standing,
         still=still,
         base=trunk(skeleton, *hips_path(place, skeleton, still), still),
+        grip_of_lips_m=_grip_of_lips(hold, body),
     )
     return solve(player, curves, fps, float(frame_times(start_s, fps, first_frame, 1)[0]))
+
+
+def _grip_of_lips(hold: Hold, body: Body) -> FloatArray:
+    """From where the upper lip alone would carry the rim to where both lips hold it, at a middling embouchure (3,)."""
+    shapes = (body.embouchure.relaxed, body.embouchure.tight)
+    morphs = {
+        name: np.array([sum(shape.get(name, 0.0) for shape in shapes) / len(shapes)])
+        for name in sorted({name for shape in shapes for name in shape})
+    }
+    grip_m: FloatArray = (hold.lips.contact_m(morphs, 1) - hold.lips.upper_m(morphs, 1))[0]
+    return grip_m

@@ -49,7 +49,8 @@ LEAST_DRAWN_M = 0.01
 class Player:
     """Everything about a player that does not change with time.
 
-    ``still`` is the posture before any motion and ``base`` its trunk, one frame.
+    ``still`` is the posture before any motion and ``base`` its trunk, one frame; ``grip_of_lips_m`` (3,) is how far
+    playing lips bring the rim from where the upper lip alone would carry it, in the head's frame.
     """
 
     skeleton: Skeleton
@@ -59,6 +60,7 @@ class Player:
     lowered: Lowered
     still: BodyMotion
     base: Trunk
+    grip_of_lips_m: FloatArray
 
 
 @dataclass(frozen=True)
@@ -145,7 +147,15 @@ def _upper(player: Player, curves: Curves) -> tuple[FloatArray, FloatArray, Trun
     hips_m, hips = hips_path(player.place, player.skeleton, curves.body)
     upper = trunk(player.skeleton, hips_m, hips, curves.body)
     carried = carry(
-        player.hold, player.carriage, player.lowered, upper, player.base, curves.body, curves.morphs, curves.mouth_open
+        player.hold,
+        player.carriage,
+        player.lowered,
+        upper,
+        player.base,
+        curves.body,
+        curves.morphs,
+        curves.mouth_open,
+        player.grip_of_lips_m,
     )
     return hips_m, hips, upper, carried
 

@@ -103,6 +103,19 @@ def test_one_bad_frame_is_enough(case: Case) -> None:
     assert before.lips.max_mm < 1.0
 
 
+def test_a_rim_that_slips_across_the_upper_lip_in_a_breath_is_seen(case: Case) -> None:
+    fps, first_s = float(FPS), case.span.first_frame_s
+    breath = next(event for event in case.performance.plan(case.player).breaths if event.kind == "breath")
+    during = slice(round((breath.start_s - first_s) * fps) + 1, round((breath.end_s - first_s) * fps) - 1)
+    before = case.measure().measures.upper_lip_in_breaths
+    # Sideways: at a right angle to the air.
+    slipped = moved(case.held_scene, 0, np.array([0.4, 0.0, 0.0]), during)
+    after = case.measure(held_scene=slipped).measures.upper_lip_in_breaths
+    assert before.kept
+    assert before.frames > 0
+    assert not after.kept
+
+
 def test_a_raised_body_leaves_the_floor(case: Case) -> None:
     hips = [bone.name for bone in case.player_scene.bones].index("hips")
     after = case.measure(
