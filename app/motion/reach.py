@@ -68,13 +68,13 @@ def needed_help(
     most_protraction: dict[str, FloatArray] = {}
     for hand in hold.hands:
         target_m, _ = hand_targets(hand, carried.position_m, carried.rotation, controls)
-        girdle = _Girdle.of(skeleton, hand.side, body, target_m)
+        girdle = _girdle(skeleton, hand.side, body, target_m)
         arm_m = arm(skeleton, hand.side).length_m
         distance_m = girdle.distance_m(0.0)
         asked = girdle.turn_for(distance_m - softly_over(distance_m - AT_EASE * arm_m, EASE_M))
         protraction[hand.side] = softly_capped(asked, CLAVICLE_RAD, 0.15 * CLAVICLE_RAD)
         most_protraction[hand.side] = girdle.turn_for(np.full(len(turn), NEAREST * arm_m))
-        waist = _Waist.of(skeleton, hand.side, body, target_m)
+        waist = _waist(skeleton, hand.side, body, target_m)
         most_turn[hand.side] = waist.turn_for(np.full(len(turn), NEAREST * arm_m))
         distance_m = waist.distance_m(np.zeros(len(turn)))
         asked = waist.turn_for(distance_m - softly_over(distance_m - AT_EASE * arm_m, EASE_M))
@@ -86,7 +86,7 @@ def needed_help(
 
 def shoulder_distance_m(skeleton: Skeleton, side: Side, body: Trunk, target_m: FloatArray) -> float:
     """From a shoulder that is as far forwards as it comes to its hand's target, in the first frame."""
-    return float(_Girdle.of(skeleton, side, body, target_m).distance_m(CLAVICLE_RAD)[0])
+    return float(_girdle(skeleton, side, body, target_m).distance_m(CLAVICLE_RAD)[0])
 
 
 def softly_over(x: FloatArray, ease: float) -> FloatArray:
@@ -101,30 +101,18 @@ def softly_capped(x: FloatArray, most: FloatArray | float, ease: float) -> Float
 
 
 @dataclass(frozen=True)
-class _Girdle:
-    """A clavicle that can come forwards about a fixed axis of the chest, and a target of its hand.
+class _Swing:
+    """A shoulder joint that turns about a fixed axis, and a target of its hand.
 
     The squared distance from the shoulder joint to the target is ``square_m2 - 2 reach_m2 cos(phase_rad - turn)``.
     """
 
-    root_m: FloatArray
     square_m2: FloatArray
     reach_m2: FloatArray
     phase_rad: FloatArray
 
-    @classmethod
-    def of(cls, skeleton: Skeleton, side: Side, body: Trunk, target_m: FloatArray) -> _Girdle:
-        shoulder, clavicle = clavicle_of(skeleton, side)
-        joint_m = body.chest_m + quaternion.rotate(body.chest, skeleton.offsets_m[shoulder])
-        there = quaternion.rotate(quaternion.conjugate(body.chest), target_m - joint_m)
-        ahead = np.cross(forwards_axis(clavicle), clavicle)
-        phase = np.arctan2(there @ ahead, there @ clavicle)
-        square_m2 = np.einsum("fi,fi->f", there, there) + clavicle @ clavicle
-        root_m = joint_m + quaternion.rotate(body.chest, clavicle)
-        return cls(root_m, square_m2, np.hypot(there @ ahead, there @ clavicle), phase)
-
-    def distance_m(self, turned_rad: float) -> FloatArray:
-        """From the shoulder to the target, with the clavicle so far forwards."""
+    def distance_m(self, turned_rad: FloatArray | float) -> FloatArray:
+        """From the shoulder to the target after so much of the turn."""
         cosine = np.cos(np.maximum(self.phase_rad - turned_rad, 0.0))
         distance: FloatArray = np.sqrt(np.maximum(self.square_m2 - 2.0 * self.reach_m2 * cosine, 1e-9))
         return distance
@@ -135,42 +123,31 @@ class _Girdle:
         return np.maximum(self.phase_rad - np.arccos(cosine), 0.0)
 
 
-@dataclass(frozen=True)
-class _Waist:
-    """A chest that can turn about the upright, its shoulder brought forwards as far as it goes, and a target.
+def _girdle(skeleton: Skeleton, side: Side, body: Trunk, target_m: FloatArray) -> _Swing:
+    """The clavicle coming forwards about an axis of the chest."""
+    shoulder, clavicle = clavicle_of(skeleton, side)
+    joint_m = body.chest_m + quaternion.rotate(body.chest, skeleton.offsets_m[shoulder])
+    there = quaternion.rotate(quaternion.conjugate(body.chest), target_m - joint_m)
+    ahead = np.cross(forwards_axis(clavicle), clavicle)
+    phase = np.arctan2(there @ ahead, there @ clavicle)
+    square_m2 = np.einsum("fi,fi->f", there, there) + clavicle @ clavicle
+    return _Swing(square_m2, np.hypot(there @ ahead, there @ clavicle), phase)
 
-    The squared distance from the shoulder joint to the target is ``square_m2 - 2 reach_m2 cos(phase_rad - turn)``.
-    """
 
-    square_m2: FloatArray
-    reach_m2: FloatArray
-    phase_rad: FloatArray
-
-    @classmethod
-    def of(cls, skeleton: Skeleton, side: Side, body: Trunk, target_m: FloatArray) -> _Waist:
-        shoulder, clavicle = clavicle_of(skeleton, side)
-        forwards = quaternion.from_axis_angle(forwards_axis(clavicle), CLAVICLE_RAD)
-        root_m = skeleton.offsets_m[shoulder] + quaternion.rotate(forwards, clavicle)
-        root = quaternion.rotate(body.chest, root_m)
-        there = target_m - body.chest_m
-        # Turning to the left takes what is on the right forwards; a left hand's turn is counted the other way.
-        sign = 1.0 if side == "right" else -1.0
-        across = sign * (root[:, 2] * there[:, 0] - root[:, 0] * there[:, 2])
-        along = root[:, 0] * there[:, 0] + root[:, 2] * there[:, 2]
-        rise_m = there[:, 1] - root[:, 1]
-        flat = root[:, 0] ** 2 + root[:, 2] ** 2 + there[:, 0] ** 2 + there[:, 2] ** 2
-        return cls(flat + rise_m * rise_m, np.hypot(along, across), np.arctan2(across, along))
-
-    def distance_m(self, turned_rad: FloatArray) -> FloatArray:
-        """From the shoulder to the target, with the chest so far turned."""
-        cosine = np.cos(np.maximum(self.phase_rad - turned_rad, 0.0))
-        distance: FloatArray = np.sqrt(np.maximum(self.square_m2 - 2.0 * self.reach_m2 * cosine, 1e-9))
-        return distance
-
-    def turn_for(self, distance_m: FloatArray) -> FloatArray:
-        """The turn that brings the shoulder to this distance from the target, as near as it can."""
-        cosine = np.clip((self.square_m2 - distance_m * distance_m) / (2.0 * self.reach_m2), -1.0, 1.0)
-        return np.maximum(self.phase_rad - np.arccos(cosine), 0.0)
+def _waist(skeleton: Skeleton, side: Side, body: Trunk, target_m: FloatArray) -> _Swing:
+    """The chest turning about the upright, its shoulder brought forwards as far as it goes."""
+    shoulder, clavicle = clavicle_of(skeleton, side)
+    forwards = quaternion.from_axis_angle(forwards_axis(clavicle), CLAVICLE_RAD)
+    root_m = skeleton.offsets_m[shoulder] + quaternion.rotate(forwards, clavicle)
+    root = quaternion.rotate(body.chest, root_m)
+    there = target_m - body.chest_m
+    # Turning to the left takes what is on the right forwards; a left hand's turn is counted the other way.
+    sign = 1.0 if side == "right" else -1.0
+    across = sign * (root[:, 2] * there[:, 0] - root[:, 0] * there[:, 2])
+    along = root[:, 0] * there[:, 0] + root[:, 2] * there[:, 2]
+    rise_m = there[:, 1] - root[:, 1]
+    flat = root[:, 0] ** 2 + root[:, 2] ** 2 + there[:, 0] ** 2 + there[:, 2] ** 2
+    return _Swing(flat + rise_m * rise_m, np.hypot(along, across), np.arctan2(across, along))
 
 
 def clavicle_of(skeleton: Skeleton, side: Side) -> tuple[int, FloatArray]:
