@@ -1,7 +1,7 @@
 """The error family and the messages of the whole program.
 
 Below the command line and the shell nothing is worded: a message is an id plus arguments, and whoever
-shows it holds the templates (English in `app.cli.messages`, translated ones in the shell).
+shows it words it (English templates in `app.messages`, which the editor translates).
 """
 
 from __future__ import annotations

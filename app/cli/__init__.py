@@ -14,9 +14,9 @@ from collections.abc import Callable, Sequence
 import app.cli.export
 import app.cli.inspect
 import app.cli.instruments
-from app.cli.messages import error_text
 from app.cli.version import program_version
 from app.errors import AppError, UsageError
+from app.messages import error_text
 
 DONE, BAD_INPUT, BAD_USE = 0, 1, 2
 

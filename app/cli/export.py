@@ -12,12 +12,12 @@ from pathlib import Path
 from types import FrameType
 from typing import TYPE_CHECKING, Final, Literal
 
-from app.cli.messages import text
 from app.cli.options import Commands, add_source_options, frame_rate, open_project, whole_number
 from app.cli.progress import Progress
 from app.cli.summary import summary
 from app.cli.version import program_version
 from app.errors import UsageError
+from app.messages import text
 from app.plan.generate import PREROLL_LEAST_S
 from app.project.parameters import select_players
 

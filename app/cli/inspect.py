@@ -10,9 +10,9 @@ import msgspec
 import numpy as np
 
 from app.cli.instruments import note_name
-from app.cli.messages import text
 from app.cli.options import Commands, add_source_options, open_project
 from app.cli.summary import columns
+from app.messages import text
 from app.performance.ensemble import Performance
 from app.plan.model import BreathEvent, Clock, CueEvent, FingeringEvent, GestureEvent, Note
 from app.project.model import Player

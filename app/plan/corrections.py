@@ -162,7 +162,7 @@ def sound_corrections(
                 "correction.unknown_expression", {"name": str(item.expression), "known": ", ".join(expressions)}
             )
         elif _is_empty(item):
-            message = Message("correction.empty_span", {"kind": _kind(item), "anchor": anchor(item)})
+            message = Message("correction.empty_span", {"kind": kind(item), "anchor": anchor(item)})
         else:
             sound.append(item)
             continue
@@ -180,7 +180,8 @@ def _is_empty(item: Correction) -> bool:
     return False
 
 
-def _kind(item: Correction) -> str:
+def kind(item: Correction) -> str:
+    """The kind of a correction, as in its file."""
     return str(item.__struct_config__.tag)
 
 
@@ -342,6 +343,6 @@ def orphans(
         else:
             continue
         if not alive:
-            message = Message("correction.orphaned", {"kind": _kind(item), "anchor": anchor(item)})
+            message = Message("correction.orphaned", {"kind": kind(item), "anchor": anchor(item)})
             problems.append(Problem(message, None, at_s, at_s))
     return tuple(problems)

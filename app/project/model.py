@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from fractions import Fraction
 from functools import cached_property
 
 import msgspec
@@ -21,6 +22,7 @@ from app.rig.model import Character
 from app.score.model import Part, Score
 from app.score.parts import MapChoice
 from instrument_maps.model import Control, InstrumentMap
+from metadata.model import Expression
 
 
 class Player(msgspec.Struct, frozen=True):
@@ -35,6 +37,10 @@ class Player(msgspec.Struct, frozen=True):
     part_id, instrument_id, character_id : str
     parameters : PlayerParameters
     stage : StagePosition
+    colour : str
+        ``"#rrggbb"``; empty: the theme's, by the player's place in the project.
+    muted, soloed : bool
+        Whether the player is heard; who is muted still plays in the picture and in exports.
     """
 
     id: str
@@ -44,6 +50,27 @@ class Player(msgspec.Struct, frozen=True):
     character_id: str
     parameters: PlayerParameters
     stage: StagePosition
+    colour: str = ""
+    muted: bool = False
+    soloed: bool = False
+
+
+class AudioTrack(msgspec.Struct, frozen=True):
+    """The recording that the piece is heard with.
+
+    Attributes
+    ----------
+    path : str
+        Absolute, as this machine knows it; a project's file keeps it relative to itself.
+    offset_s : float
+        Performance time (score second 0 is tick 0) at which the recording's first sample sounds.
+    confidence : float or None
+        0..1 of an estimated offset; None: set by hand.
+    """
+
+    path: str
+    offset_s: float = 0.0
+    confidence: float | None = None
 
 
 @dataclass(frozen=True)
@@ -63,6 +90,14 @@ class Project:
         Before the first note, in felt beats.
     felt_beat_quarters : float
         The beat that is felt, in quarters: 1.5 where a fast 6/8 is felt in two.
+    fps : Fraction
+        Frames per second of the picture: what the ruler counts, a step is, and an export starts from.
+    audio : AudioTrack or None
+        None: the built-in synthesiser plays the score.
+    expressions : tuple of Expression
+        The animator's own, by name beside the bundled ones.
+    source : str
+        Absolute path of the MIDI file that the score came from; empty for a piece begun here.
     """
 
     score: Score
@@ -71,6 +106,10 @@ class Project:
     seed: int = 0
     preroll_beats: float = PREROLL_BEATS
     felt_beat_quarters: float = 1.0
+    fps: Fraction = Fraction(60)
+    audio: AudioTrack | None = None
+    expressions: tuple[Expression, ...] = ()
+    source: str = ""
 
     @property
     def felt_beat_ticks(self) -> int:
@@ -80,6 +119,14 @@ class Project:
     def part(self, player: Player) -> Part:
         """What a player plays."""
         return self._parts[player.part_id]
+
+    def player(self, player_id: str) -> Player:
+        """The player of this id; KeyError where there is none."""
+        return self._players[player_id]
+
+    @cached_property
+    def _players(self) -> dict[str, Player]:
+        return {player.id: player for player in self.players}
 
     @cached_property
     def _parts(self) -> dict[str, Part]:

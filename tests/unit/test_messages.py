@@ -10,10 +10,11 @@ from pathlib import Path
 
 import pytest
 
-from app.cli.messages import TEMPLATES
+from app.messages import TEMPLATES
 
-ROOT = Path(__file__).parents[3]
-SOURCES = sorted(path for folder in ("app", "instrument_maps", "metadata") for path in (ROOT / folder).rglob("*.py"))
+ROOT = Path(__file__).parents[2]
+FOLDERS = ("app", "widgets", "instrument_maps", "metadata")
+SOURCES = sorted(path for folder in FOLDERS for path in (ROOT / folder).rglob("*.py"))
 ID = re.compile(r"[a-z][a-z0-9_]*(\.[a-z][a-z0-9_]*)+")
 
 
@@ -53,14 +54,14 @@ def strings(*folders: str) -> set[str]:
     return {
         node.value
         for path in SOURCES
-        if path.name != "messages.py" and path.relative_to(ROOT).parts[0] in folders
+        if path.parent.name != "messages" and path.relative_to(ROOT).parts[0] in folders
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
         if isinstance(node, ast.Constant) and isinstance(node.value, str)
     }
 
 
-STRINGS = strings("app", "instrument_maps", "metadata")
-PROGRAM_STRINGS = strings("app")
+STRINGS = strings("app", "widgets", "instrument_maps", "metadata")
+PROGRAM_STRINGS = strings("app", "widgets")
 ROOMS = {id.split(".")[0] for id in TEMPLATES}
 
 

@@ -1,0 +1,1 @@
+"""Sound without a window: synthesiser, decoding, offset; `playback` alone touches Qt."""

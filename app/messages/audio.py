@@ -1,0 +1,7 @@
+"""Sound: recordings, synthesiser, offset."""
+
+from __future__ import annotations
+
+from typing import Final
+
+TEMPLATES: Final[dict[str, str]] = {}

@@ -1,0 +1,11 @@
+"""Files that cannot be read or written."""
+
+from __future__ import annotations
+
+from typing import Final
+
+TEMPLATES: Final[dict[str, str]] = {
+    "file.cannot_read": "{file} cannot be read: {reason}",
+    "file.cannot_write": "{file} cannot be written: {reason}",
+    "file.unreadable": "{file} cannot be read: {detail}",
+}

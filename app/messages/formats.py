@@ -1,0 +1,21 @@
+"""FBX and BVH files."""
+
+from __future__ import annotations
+
+from typing import Final
+
+TEMPLATES: Final[dict[str, str]] = {
+    "fbx.not_binary": "{file} is not a binary FBX file",
+    "fbx.truncated": "{file} ends in the middle of a record (byte {offset})",
+    "fbx.bad_record": "{file}: the record at byte {offset} does not fit into its surroundings",
+    "fbx.bad_property": "{file}: the property at byte {offset} is of an unknown kind or too long for its record",
+    "fbx.bad_array": "{file}: the array at byte {offset} is damaged",
+    "fbx.too_deep": "{file}: the records at byte {offset} are nested too deeply",
+    "fbx.missing": "{file} has no {what}",
+    "fbx.unsupported": "{file}: {what} is not supported",
+    "fbx.contradiction": "{file} contradicts itself: {detail}",
+    "bvh.syntax": "{file}, line {line}: {found} does not belong here",
+    "bvh.truncated": "{file} ends too early",
+    "bvh.motion": "{file}: the motion does not fit the skeleton ({detail})",
+    "bvh.unsupported": "{file}, line {line}: {what} is not supported",
+}

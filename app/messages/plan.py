@@ -1,0 +1,66 @@
+"""Fingerings, breaths, cues, gestures, faces, corrections: reasons and problems."""
+
+from __future__ import annotations
+
+from typing import Final
+
+TEMPLATES: Final[dict[str, str]] = {
+    # The plan: fingerings
+    "fingering.first_choice": "{label}: the first choice",
+    "fingering.trill": "{label} instead of {first}: less motion in a trill at {time_ms} ms a note",
+    "fingering.speed": "{label} instead of {first}: less motion where a note has {time_ms} ms",
+    "fingering.by_hand": "{label}: set by hand",
+    "fingering.out_of_range": (
+        "note {note} (MIDI {pitch}) lies outside the range {low}-{high} of this instrument; "
+        "shown with the fingering of {played_pitch}"
+    ),
+    "fingering.starts_early": (
+        "the way to {label} takes {needed_ms} ms, but only {available_ms} ms are free before note {note}; "
+        "it starts earlier"
+    ),
+    # The plan: breaths
+    "breath.first": "the first breath, in the {beats:g} beats before the entry",
+    "breath.rest_whole": (
+        "a rest of {rest_beats:g} beats (from {min_beats:g} to below {last_beat_beats:g}): the breath takes all of it"
+    ),
+    "breath.last_beat": (
+        "a rest of {rest_beats:g} beats (from {last_beat_beats:g} to below {prepare_beats:g}): "
+        "the breath takes its last beat"
+    ),
+    "breath.prepared": "a rest of {rest_beats:g} beats (from {prepare_beats:g}): prepared, then the last beat",
+    "breath.preparation": "a rest of {rest_beats:g} beats (from {prepare_beats:g}): getting ready to breathe",
+    "breath.catch": (
+        "a catch breath after note {after_note}: {phrase_s:g} s without a rest ask for more than the {lung_s:g} s of "
+        "a full lung; {from_note_ms:g} ms come out of that note's tail"
+    ),
+    "breath.too_long": (
+        "from note {note} on, {phrase_s:g} s must be played on one breath; it takes {air_s:g} s of air, and there are "
+        "{lung_s:g}"
+    ),
+    "breath.inside_note": "this breath, placed by hand, lies inside the sounding note {note}",
+    # The plan: cues, gestures, faces
+    "cue.start": "starts the piece ({leader_reason}); the preparatory beat lasts {beat_s:g} s",
+    "cue.after_rest": (
+        "brings everyone in after {rest_s:g} s of common rest ({leader_reason}); "
+        "the preparatory beat lasts {beat_s:g} s"
+    ),
+    "gesture.sway": "half a swing in {beats:g} beats of {beat_s:g} s",
+    "gesture.weight_shift": "a shift of weight to the {side} foot",
+    "gesture.bell_height": "the melody is around MIDI {pitch:g}; the line's mean is {mean_pitch:g}",
+    "gesture.lower_instrument": "{rest_s:g} s of rest: the instrument comes down and is up again before the entry",
+    "gesture.lower_at_end": "{after_s:g} s after the last note the instrument comes down",
+    "gesture.lower_at_start": "the entry is {rest_s:g} s away: the instrument is still down",
+    "embouchure.register": "MIDI {pitch} in a range of {low}-{high}, loudness {loudness:g}",
+    "expression.default": "the face at rest",
+    "expression.effort": "effort {effort:g} (from {threshold:g}): high, loud or long",
+    "expression.low_loud": "MIDI {pitch} lies below {easy_low} and is loud ({loudness:g})",
+    "expression.gives_entry": "gives the entry",
+    "expression.takes_entry": "comes in after {rest_s:g} s of rest",
+    "expression.end": "the last note is over",
+    # Corrections
+    "correction.by_hand": "set by hand",
+    "correction.orphaned": "the correction ({kind}) for {anchor} has lost its place: it is kept, but does nothing",
+    "correction.unknown_expression": "there is no expression {name!r}; there are: {known}",
+    "correction.empty_span": "the correction ({kind}) for {anchor} ends before it begins: it is kept, but does nothing",
+    "correction.no_such_fingering": "{label} is not a fingering of note {note} on this instrument; the search chose",
+}

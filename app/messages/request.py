@@ -1,0 +1,21 @@
+"""What a person asked for on the command line or in a dialog."""
+
+from __future__ import annotations
+
+from typing import Final
+
+TEMPLATES: Final[dict[str, str]] = {
+    "set.syntax": "--set {text}: expected PLAYER.parameter=value",
+    "set.player_unknown": "--set: there is no player {player!r}; there are: {possible}",
+    "set.parameter_unknown": "--set: there is no parameter {parameter!r}; there are: {possible}",
+    "set.value_invalid": "--set: {parameter} cannot be {value!r}; possible: {possible}",
+    "player.unknown": "there is no player {player!r}; there are: {possible}",
+    "bars.none": "there are no bars {first} to {last}; the piece has {lowest} to {highest}",
+    "export.nobody": "{file}: there is nobody to export; 'suisou inspect' says why each part is not played",
+    "export.too_long": (
+        "{file}: {frames} frames are more than the {most} that one export holds; "
+        "take some bars with --from-bar and --to-bar"
+    ),
+    "piece.too_long": "the piece lasts {hours:g} hours; at most {most_hours} can be played",
+    "work.stopped": "stopped; nothing was written",
+}

@@ -1,0 +1,56 @@
+"""MIDI files, parts and who plays them."""
+
+from __future__ import annotations
+
+from typing import Final
+
+TEMPLATES: Final[dict[str, str]] = {
+    # MIDI files that cannot be read
+    "midi.empty": "{file} is empty",
+    "midi.not_midi": "{file} is not a MIDI file: byte {byte} has {found} where the header MThd belongs",
+    "midi.header_truncated": "{file} ends within its header, at byte {byte}",
+    "midi.bad_division": "{file}: the time division at byte {byte} is 0, so the notes have no times",
+    "midi.no_tracks": "{file} has no track: byte {byte} has {found} where a track MTrk belongs",
+    "midi.unknown_encoding": "{file}: there is no text encoding {encoding!r}",
+    "midi.track_unreadable": "{file}: track {track}, which begins at byte {byte}, cannot be read: {detail}",
+    # MIDI files that can be read in part, or in an own way
+    "midi.header_length": (
+        "the header says that it is {length} bytes long and is not (byte {byte}); its first 6 bytes were taken"
+    ),
+    "midi.unknown_format": "the file says it has the unknown format {format}; its tracks were taken as simultaneous",
+    "midi.format_0_tracks": (
+        "the file says it has one track (format 0) and has {tracks}; they were taken as simultaneous"
+    ),
+    "midi.track_length": "the length of track {track} (byte {byte}) is wrong; the track was read up to its real end",
+    "midi.tracks_missing": "the header promises {expected} tracks, the file has {found}",
+    "midi.bytes_left_out": (
+        "{count} bytes after the last track, from byte {byte}, are no part of a MIDI file and were left out"
+    ),
+    "midi.track_truncated": "track {track} breaks off within an event at byte {byte}; what came before was read",
+    "midi.bytes_not_understood": (
+        "{count} bytes of track {track} are no MIDI events and were left out, the first at byte {byte}"
+    ),
+    "midi.smpte_rate": ("the file counts time in frames of 1/{rate} s, which is no SMPTE rate; it was taken literally"),
+    "midi.patterns": "the file has {patterns} independent patterns (format 2); they follow one another",
+    "midi.hanging_notes": "{count} notes of track {track} never end; they end with the track",
+    "midi.zero_length_notes": "{count} notes of track {track} have no length; they last one tick",
+    "midi.impossible_metre": "track {track} has an impossible time signature at tick {tick}; it was left out",
+    "midi.impossible_tempo": "track {track} has an impossible tempo at tick {tick}; it was left out",
+    # Parts and who plays them
+    "score.no_map": "there is no instrument map for {instrument} yet",
+    "score.percussion": "{instrument} is percussion",
+    "score.not_wind": "{instrument} is not a wind instrument",
+    "score.outside_ranges": (
+        "neither its name nor its program says what it is, and no instrument map reaches its notes "
+        "(MIDI {lowest} to {highest})"
+    ),
+    "score.substituted": "{part}: there is no instrument map for {instrument}; {map} plays it instead",
+    "score.chosen_by_range": (
+        "{part}: neither its name nor its program says what it is; {map} plays it because the range fits"
+    ),
+    "score.chosen_by_range_partly": (
+        "{part}: neither its name nor its program says what it is; {map} plays it, though {outside} of {total} notes "
+        "lie outside its range"
+    ),
+    "score.voices": "{part}: up to {voices} notes sound together, so {voices} players share it",
+}

@@ -1,0 +1,25 @@
+"""Instrument maps, metadata, models."""
+
+from __future__ import annotations
+
+from typing import Final
+
+TEMPLATES: Final[dict[str, str]] = {
+    "vocabulary.invalid": "{file}: {detail}",
+    "gltf.not_gltf": "{file} is not a glTF 2.0 file",
+    "gltf.damaged": "{file} is damaged: {what} is wrong",
+    "gltf.external": "{file} needs the file {uri} beside it; only files that hold everything themselves are read",
+    "gltf.unsupported": "{file} uses {what}, which is not supported",
+    "gltf.too_large": "{file} describes more data than any character has",
+    "instruments.invalid": "{file} is not valid; problems: {count}",
+    "map.unreadable": "{file}: cannot be read: {detail}",
+    "map.syntax": "{file}, line {line}, column {column}: {detail}",
+    "map.invalid": "{file}: {path}: {detail}",
+    "map.unknown": "there is no instrument map named {id!r}",
+    "metadata.missing": "there is no {kind} named {name!r}; there are: {known}",
+    "metadata.syntax": "{file}: {detail}",
+    "metadata.invalid": "{file}: {key}: {detail}",
+    "character.missing": "there is no character named {id!r}; there are: {known}",
+    "character.landmarks_missing": "the character {id!r} lacks what playing needs: {missing}",
+    "model.invalid": "{file}: {detail}",
+}

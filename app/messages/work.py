@@ -1,0 +1,7 @@
+"""Work in the background: what is being done."""
+
+from __future__ import annotations
+
+from typing import Final
+
+TEMPLATES: Final[dict[str, str]] = {}

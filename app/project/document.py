@@ -1,0 +1,176 @@
+"""The one writer of a project: every edit goes through here, is named, and can be taken back.
+
+Edits are pure functions from project to project (`app.project.edit`); the document only keeps values, so an edit that
+raises leaves nothing behind, and history is cheap because unchanged parts are shared.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+from app.errors import Message
+from app.project.model import Project
+
+MOST_STEPS = 1000
+"""Steps kept; the oldest go first."""
+
+
+@dataclass(frozen=True, eq=False)
+class Step:
+    """An edit that was made: its name, and the project before and after it.
+
+    ``gesture`` is the token of the drag or slider that made it, None for an edit in one go.
+    """
+
+    name: Message
+    before: Project
+    after: Project
+    gesture: object | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Change:
+    """What observers are told: compare what you show by identity (``is``), and never write while told.
+
+    ``origin`` is whoever asked for the edit, so that it can skip its own echo; None for undo, redo and opening.
+    ``opened`` says that another document has taken the place of the one before.
+    """
+
+    before: Project
+    after: Project
+    origin: object | None = None
+    opened: bool = False
+
+
+Observer = Callable[[Change], None]
+
+
+class Document:
+    """A project with its history.
+
+    Parameters
+    ----------
+    project : Project
+    """
+
+    def __init__(self, project: Project) -> None:
+        self._project = project
+        self._undone: list[Step] = []
+        self._done: list[Step] = []
+        self._saved = project
+        self._observers: list[Observer] = []
+        self._telling = False
+
+    @property
+    def project(self) -> Project:
+        """The project as it is now."""
+        return self._project
+
+    @property
+    def is_saved(self) -> bool:
+        """Whether what is here is what was last saved."""
+        return self._project is self._saved
+
+    @property
+    def done(self) -> tuple[Step, ...]:
+        """The steps that undo would take back, oldest first."""
+        return tuple(self._done)
+
+    @property
+    def undone(self) -> tuple[Step, ...]:
+        """The steps that redo would make again, the next one last."""
+        return tuple(self._undone)
+
+    def observe(self, observer: Observer) -> Callable[[], None]:
+        """Tell this observer of every change from now on; the result ends that."""
+        self._observers.append(observer)
+        return lambda: self._observers.remove(observer)
+
+    def apply(
+        self, name: Message, project: Project, gesture: object | None = None, origin: object | None = None
+    ) -> None:
+        """Make this the project.
+
+        Parameters
+        ----------
+        name : Message
+            As the history shows it.
+        project : Project
+            What an edit made of `project`; the very same value is no step.
+        gesture : object, optional
+            Edits in a row with the same token (a drag, a slider) are one step; one that returns to where it started is
+            none.
+        origin : object, optional
+            Handed to the observers.
+        """
+        before = self._project
+        if project is before:
+            return
+        last = self._done[-1] if self._done else None
+        if gesture is not None and last is not None and last.gesture is gesture and last.after is before:
+            self._done.pop()
+            if not _same(project, last.before):
+                self._done.append(replace(last, name=name, after=project))
+            else:
+                project = last.before
+        else:
+            self._done.append(Step(name, before, project, gesture))
+            del self._done[:-MOST_STEPS]
+        self._undone.clear()
+        self._become(project, origin)
+
+    def end_gesture(self) -> None:
+        """Close a drag: an edit that follows is a step of its own even with the same token."""
+        if self._done and self._done[-1].gesture is not None:
+            self._done[-1] = replace(self._done[-1], gesture=None)
+
+    def undo(self) -> Message | None:
+        """Take the last step back; its name, None where there was none."""
+        if not self._done:
+            return None
+        step = self._done.pop()
+        self._undone.append(step)
+        self._become(step.before, None)
+        return step.name
+
+    def redo(self) -> Message | None:
+        """Make the step again that was taken back last; its name, None where there was none."""
+        if not self._undone:
+            return None
+        step = self._undone.pop()
+        self._done.append(replace(step, gesture=None))
+        self._become(step.after, None)
+        return step.name
+
+    def mark_saved(self, project: Project) -> None:
+        """This value is in the file now."""
+        self._saved = project
+
+    def mark_unsaved(self) -> None:
+        """What is here is in no file, e.g. recovered after a crash."""
+        self._saved = replace(self._project)
+
+    def open(self, project: Project) -> None:
+        """Another project takes the place of this one; its history begins here."""
+        self._done.clear()
+        self._undone.clear()
+        self._saved = project
+        self._become(project, None, opened=True)
+
+    def _become(self, project: Project, origin: object | None, opened: bool = False) -> None:
+        if self._telling:
+            raise RuntimeError("an observer writes while it is told of a change")
+        before, self._project = self._project, project
+        if before is project and not opened:
+            return
+        self._telling = True
+        try:
+            for observer in tuple(self._observers):
+                observer(Change(before, project, origin, opened))
+        finally:
+            self._telling = False
+
+
+def _same(one: Project, other: Project) -> bool:
+    return one is other or one == other

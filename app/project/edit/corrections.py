@@ -1,0 +1,38 @@
+"""Putting corrections into a project and taking them out: one for each place, the last one counts."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+from app.plan.corrections import Correction, SetBreath, anchor, kind
+from app.project.model import Project
+
+
+def place(correction: Correction) -> tuple[str, ...]:
+    """What a correction is about: two of a player about the same place exclude one another."""
+    more = (correction.kind,) if isinstance(correction, SetBreath) else ()
+    return (kind(correction), anchor(correction), *more)
+
+
+def put(project: Project, player_id: str, corrections: Iterable[Correction]) -> Project:
+    """Add corrections; each takes the place of one about the same place. KeyError where there is no such player."""
+    before = project.corrections.get(project.player(player_id).id, ())
+    kept = {place(correction): correction for correction in before}
+    for correction in corrections:
+        kept[place(correction)] = correction
+    return _with(project, player_id, tuple(kept.values()))
+
+
+def take_back(project: Project, player_id: str, corrections: Iterable[Correction]) -> Project:
+    """Remove corrections: the generator decides there again. Others are not touched."""
+    places = {place(correction) for correction in corrections}
+    before = project.corrections.get(player_id, ())
+    return _with(project, player_id, tuple(item for item in before if place(item) not in places))
+
+
+def _with(project: Project, player_id: str, corrections: tuple[Correction, ...]) -> Project:
+    if corrections == project.corrections.get(player_id, ()):
+        return project
+    others = {key: value for key, value in project.corrections.items() if key != player_id}
+    return replace(project, corrections={**others, player_id: corrections} if corrections else others)

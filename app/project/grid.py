@@ -1,0 +1,39 @@
+"""The grid that edits snap to: a musical length, counted anew in every bar."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import msgspec
+
+from app.score.model import Score
+
+
+class Grid(msgspec.Struct, frozen=True):
+    """A step of the grid.
+
+    Attributes
+    ----------
+    quarters : Fraction
+        Length of a step in quarters: 1/4 is a sixteenth, 1/3 an eighth triplet.
+    enabled : bool
+        Off: everything stays where it is put, to the tick.
+    """
+
+    quarters: Fraction = Fraction(1, 4)
+    enabled: bool = True
+
+    def step_ticks(self, score: Score) -> Fraction:
+        """Length of a step in ticks, exact; one tick where the grid is off."""
+        return self.quarters * score.ticks_per_quarter if self.enabled else Fraction(1)
+
+    def snap(self, score: Score, tick: float) -> int:
+        """The nearest line of the grid; bars are lines too, so that no step crosses one."""
+        if not self.enabled:
+            return round(tick)
+        bar = score.bar_of_tick(round(tick))
+        start, following = score.tick_of_bar(bar), score.tick_of_bar(bar + 1)
+        step = self.step_ticks(score)
+        below = start + step * ((Fraction(tick) - start) // step)
+        lines = (round(below), min(round(below + step), following))
+        return min(lines, key=lambda line: (abs(line - tick), line))

@@ -1,0 +1,1 @@
+"""The editor: composition of the panels in a window, and nothing else."""

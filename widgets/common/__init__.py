@@ -1,0 +1,1 @@
+"""What all panels share: the session, design tokens, small widgets."""

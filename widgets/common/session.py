@@ -1,0 +1,284 @@
+"""What the panels share: the document, the plans made from it, and the state of the editor that is in no file.
+
+Panels read it, listen to its signals and edit through `Session.apply`; they do not know one another.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from enum import Enum
+from typing import Literal
+
+from PySide6.QtCore import QObject, Signal
+from PySide6.QtGui import QAction
+
+from app.errors import AppError, Message
+from app.performance.ensemble import Performance
+from app.project.document import Change, Document
+from app.project.grid import Grid
+from app.project.model import Player, Project
+from widgets.common.selection import Selection
+from widgets.common.tasks import Tasks
+from widgets.common.tokens import DARK, Tokens
+
+TimeDisplay = Literal["bars", "seconds", "frames"]
+
+
+class Severity(Enum):
+    """How much a notice matters."""
+
+    INFORMATION = "information"
+    WARNING = "warning"
+    ERROR = "error"
+
+
+class PitchDisplay(QObject):
+    """How pitches are named: concert or written, which octave middle C is in, letters or syllables."""
+
+    changed = Signal()
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.written = False
+        self.middle_c_octave = 4
+        self.syllables = False
+
+    def set(
+        self, written: bool | None = None, middle_c_octave: int | None = None, syllables: bool | None = None
+    ) -> None:
+        """Change what is not None."""
+        before = (self.written, self.middle_c_octave, self.syllables)
+        self.written = self.written if written is None else written
+        self.middle_c_octave = self.middle_c_octave if middle_c_octave is None else middle_c_octave
+        self.syllables = self.syllables if syllables is None else syllables
+        if before != (self.written, self.middle_c_octave, self.syllables):
+            self.changed.emit()
+
+
+class Session(QObject):
+    """The editor's shared state.
+
+    Signals
+    -------
+    changed(Change)
+        The document's project is another value now.
+    performance_changed()
+        `performance` is another: new plans are there. It may lag behind the project by a moment.
+    selection_changed(), players_changed(), playhead_changed(float), playing_changed(bool), loop_changed(),
+    grid_changed(), theme_changed(), time_display_changed(), follow_changed()
+        The value of that name is another one.
+    noticed(object, object)
+        Somebody tells the person something: a `Message` and a `Severity`.
+    revealed(float)
+        This time (seconds) should come into view.
+    """
+
+    changed = Signal(object)
+    performance_changed = Signal()
+    selection_changed = Signal()
+    players_changed = Signal()
+    playhead_changed = Signal(float)
+    playing_changed = Signal(bool)
+    loop_changed = Signal()
+    grid_changed = Signal()
+    theme_changed = Signal()
+    time_display_changed = Signal()
+    follow_changed = Signal()
+    noticed = Signal(object, object)
+    revealed = Signal(float)
+
+    def __init__(self, project: Project, tasks: Tasks) -> None:
+        super().__init__()
+        self.document = Document(project)
+        self.tasks = tasks
+        self.pitch_display = PitchDisplay()
+        self.actions: Mapping[str, QAction] = {}
+        """Every action of the table by id; filled by the shell before any panel shows a menu."""
+        self._performance = Performance(project)
+        self._selection = Selection()
+        self._players: tuple[str, ...] = tuple(player.id for player in project.players[:1])
+        self._playhead_s = 0.0
+        self._playing = False
+        self._loop_s: tuple[float, float] | None = None
+        self._grid = Grid()
+        self._tokens = DARK
+        self._time_display: TimeDisplay = "bars"
+        self._follow = True
+        self.document.observe(self._document_changed)
+
+    # The project and its plans
+
+    @property
+    def project(self) -> Project:
+        """The document's project."""
+        return self.document.project
+
+    @property
+    def performance(self) -> Performance:
+        """The newest plans; of `project`, or of the value it had a moment ago (compare ``performance.project``)."""
+        return self._performance
+
+    def set_performance(self, performance: Performance) -> None:
+        """New plans are ready."""
+        if performance is not self._performance:
+            self._performance = performance
+            self.performance_changed.emit()
+
+    def apply(
+        self, name: Message, project: Project, gesture: object | None = None, origin: object | None = None
+    ) -> None:
+        """Edit: see `Document.apply`."""
+        self.document.apply(name, project, gesture, origin)
+
+    def attempt(
+        self,
+        name: Message,
+        edit: Callable[[Project], Project],
+        gesture: object | None = None,
+        origin: object | None = None,
+    ) -> bool:
+        """Edit with a function that may refuse: the person is told why; whether it was done."""
+        try:
+            project = edit(self.project)
+        except AppError as error:
+            self.notice(error.message, Severity.ERROR)
+            return False
+        self.apply(name, project, gesture, origin)
+        return True
+
+    def _document_changed(self, change: Change) -> None:
+        known = {player.id for player in change.after.players}
+        kept = tuple(player_id for player_id in self._players if player_id in known)
+        if not kept:
+            kept = tuple(player.id for player in change.after.players[:1])
+        moved = kept != self._players
+        self._players = kept
+        if change.opened:
+            self._selection = Selection()
+            self._loop_s = None
+        self.changed.emit(change)
+        if moved:
+            self.players_changed.emit()
+        if change.opened:
+            self.selection_changed.emit()
+            self.loop_changed.emit()
+
+    # Who is in front
+
+    @property
+    def players(self) -> tuple[str, ...]:
+        """Ids of the selected players; the first is in front."""
+        return self._players
+
+    @property
+    def player(self) -> Player | None:
+        """The player in front; None in a project without players."""
+        return self.project.player(self._players[0]) if self._players else None
+
+    def set_players(self, players: tuple[str, ...]) -> None:
+        """Select players; the first is in front."""
+        if players != self._players:
+            self._players = players
+            self.players_changed.emit()
+
+    def colour(self, player: Player) -> str:
+        """A player's colour, ``#rrggbb``."""
+        return player.colour or self._tokens.player(self.project.players.index(player))
+
+    # The rest of the state
+
+    @property
+    def selection(self) -> Selection:
+        """What is selected."""
+        return self._selection
+
+    def select(self, selection: Selection) -> None:
+        """Select this instead."""
+        if selection != self._selection:
+            self._selection = selection
+            self.selection_changed.emit()
+
+    @property
+    def playhead_s(self) -> float:
+        """Where the performance is shown, seconds."""
+        return self._playhead_s
+
+    def set_playhead(self, playhead_s: float) -> None:
+        """Show the performance here. While playing only the transport calls this; others call its `seek` action."""
+        if playhead_s != self._playhead_s:
+            self._playhead_s = playhead_s
+            self.playhead_changed.emit(playhead_s)
+
+    @property
+    def playing(self) -> bool:
+        """Whether the performance plays."""
+        return self._playing
+
+    def set_playing(self, playing: bool) -> None:
+        """Said by the transport."""
+        if playing != self._playing:
+            self._playing = playing
+            self.playing_changed.emit(playing)
+
+    @property
+    def loop_s(self) -> tuple[float, float] | None:
+        """The range that is played over and over, seconds; None: none."""
+        return self._loop_s
+
+    def set_loop(self, loop_s: tuple[float, float] | None) -> None:
+        """Play this range over and over."""
+        if loop_s != self._loop_s:
+            self._loop_s = loop_s
+            self.loop_changed.emit()
+
+    @property
+    def grid(self) -> Grid:
+        """What edits snap to."""
+        return self._grid
+
+    def set_grid(self, grid: Grid) -> None:
+        """Snap to this."""
+        if grid != self._grid:
+            self._grid = grid
+            self.grid_changed.emit()
+
+    @property
+    def tokens(self) -> Tokens:
+        """The theme."""
+        return self._tokens
+
+    def set_tokens(self, tokens: Tokens) -> None:
+        """Change the theme."""
+        if tokens != self._tokens:
+            self._tokens = tokens
+            self.theme_changed.emit()
+
+    @property
+    def time_display(self) -> TimeDisplay:
+        """How times are written."""
+        return self._time_display
+
+    def set_time_display(self, display: TimeDisplay) -> None:
+        """Write times so."""
+        if display != self._time_display:
+            self._time_display = display
+            self.time_display_changed.emit()
+
+    @property
+    def follow(self) -> bool:
+        """Whether the timeline follows the playhead."""
+        return self._follow
+
+    def set_follow(self, follow: bool) -> None:
+        """Let the timeline follow the playhead, or not."""
+        if follow != self._follow:
+            self._follow = follow
+            self.follow_changed.emit()
+
+    def notice(self, message: Message, severity: Severity = Severity.INFORMATION) -> None:
+        """Tell the person something, in the status line."""
+        self.noticed.emit(message, severity)
+
+    def reveal(self, time_s: float) -> None:
+        """Bring a time into view."""
+        self.revealed.emit(time_s)

@@ -1,0 +1,1 @@
+"""The inspector: what is selected, what was made by hand, problems, history."""

@@ -1,0 +1,1 @@
+"""The timeline: ruler, piano roll and lanes over one time axis."""

@@ -1,0 +1,1 @@
+"""Transport bar: playing, position, tempo, snapping."""

@@ -1,0 +1,1 @@
+"""The 3D viewport; the only room that knows vispy."""
