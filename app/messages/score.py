@@ -38,6 +38,7 @@ TEMPLATES: Final[dict[str, str]] = {
     "midi.impossible_tempo": "track {track} has an impossible tempo at tick {tick}; it was left out",
     # Parts and who plays them
     "score.no_map": "there is no instrument map for {instrument} yet",
+    "score.left_out": "left out on import",
     "score.percussion": "{instrument} is percussion",
     "score.not_wind": "{instrument} is not a wind instrument",
     "score.outside_ranges": (

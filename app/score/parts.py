@@ -23,6 +23,8 @@ score.chosen_by_range : part, map
 score.chosen_by_range_partly : part, map, outside, total
     "{part}: neither its name nor its program says what it is; {map} plays it, though {outside} of {total} notes lie
     outside its range"
+score.left_out : (a reason)
+    "left out on import"
 score.voices : part, voices
     "{part}: up to {voices} notes sound together, so {voices} players share it"
 """
@@ -129,34 +131,15 @@ def parts_of(
     warnings: list[Message] = []
     for stream in streams:
         instrument = recognised(stream)
-        name = stream.name or stream.instrument_name or (instrument.names[0] if instrument else "")
         by_range = instrument is None or instrument.any_pitch
         candidates = maps if by_range or instrument is None else _maps_for(instrument, maps)
         reason = _refusal(stream, instrument, candidates)
         if reason is not None:
-            name = name or f"Track {stream.track + 1}"
-            unplayed.append(UnplayedPart(name, reason, len(stream.pitches), max(stream.end_ticks)))
+            unplayed.append(UnplayedPart(stream_name(stream), reason, len(stream.pitches), max(stream.end_ticks)))
             continue
         voices = split_voices(stream.notes(), tempo_map)
-        first = len(parts)
-        for voice, notes in enumerate(voices):
-            chosen = _best_by_range([note.pitch for note in notes], candidates)
-            label = name or _name_of(chosen)
-            parts.append(
-                Part(
-                    id=f"{stream.track + 1}.{stream.channel + 1}.{voice + 1}",
-                    name=label,
-                    track=stream.track,
-                    voice=voice,
-                    channel=stream.channel,
-                    program=stream.program,
-                    instrument=instrument.id if instrument is not None else None,
-                    map_id=chosen.map_id,
-                    notes=notes,
-                    curves=stream.curves,
-                )
-            )
-        mine = parts[first:]
+        mine = _parts(stream, stream.name or stream.instrument_name, instrument, voices, candidates)
+        parts += mine
         if len(mine) > 1:
             warnings.append(Message("score.voices", {"part": mine[0].name, "voices": len(mine)}))
         if by_range:
@@ -167,6 +150,109 @@ def parts_of(
                     arguments = {"part": mine[0].name, "instrument": instrument.names[0], "map": map_id}
                     warnings.append(Message("score.substituted", {**arguments}))
     return tuple(parts), tuple(unplayed), tuple(warnings)
+
+
+class PartWish(msgspec.Struct, frozen=True):
+    """What a person wants of some tracks.
+
+    Attributes
+    ----------
+    streams : tuple of int
+        Places among the streams; several are merged into one line.
+    map_id : str or None
+        The instrument map that plays it; None: what the names, programs and ranges say.
+    name : str
+        Of the part; empty: what the file calls it.
+    split : bool
+        Share notes that sound together among players; without it one player has them all.
+    """
+
+    streams: tuple[int, ...]
+    map_id: str | None = None
+    name: str = ""
+    split: bool = True
+
+
+def usual_wishes(streams: Sequence[Stream], maps: Sequence[MapChoice]) -> tuple[PartWish, ...]:
+    """What `parts_of` does, as wishes that a person may change: every stream that somebody can play."""
+    wishes = []
+    for index, stream in enumerate(streams):
+        instrument = recognised(stream)
+        by_range = instrument is None or instrument.any_pitch
+        candidates = maps if by_range or instrument is None else _maps_for(instrument, maps)
+        if _refusal(stream, instrument, candidates) is None:
+            wishes.append(PartWish((index,)))
+    return tuple(wishes)
+
+
+def wished_parts(
+    streams: Sequence[Stream], wishes: Sequence[PartWish], maps: Sequence[MapChoice], tempo_map: TempoMap
+) -> tuple[tuple[Part, ...], tuple[UnplayedPart, ...]]:
+    """The parts a person wants. What nobody asks for stays unplayed.
+
+    Parameters
+    ----------
+    wishes : sequence of PartWish
+        A stream is asked for at most once.
+    """
+    parts: list[Part] = []
+    for wish in wishes:
+        chosen = [streams[index] for index in wish.streams]
+        first = chosen[0]
+        instrument = next((found for found in map(recognised, chosen) if found is not None), None)
+        candidates = [choice for choice in maps if choice.map_id == wish.map_id]
+        if wish.map_id is None:
+            # Whatever is not known, or has no map of its own, goes to the one whose range fits.
+            known = [] if instrument is None or instrument.any_pitch else _maps_for(instrument, maps)
+            candidates = known or list(maps)
+        notes = sorted(
+            (note for stream in chosen for note in stream.notes()), key=lambda note: (note.onset_tick, note.pitch)
+        )
+        voices = split_voices(notes, tempo_map) if wish.split else [tuple(notes)]
+        curves = next((stream.curves for stream in chosen if stream.curves), ())
+        merged = msgspec.structs.replace(first, curves=curves)
+        parts += _parts(merged, wish.name or first.name or first.instrument_name, instrument, voices, candidates)
+    asked = {index for wish in wishes for index in wish.streams}
+    unplayed = tuple(
+        UnplayedPart(stream_name(stream), Message("score.left_out"), len(stream.pitches), max(stream.end_ticks))
+        for index, stream in enumerate(streams)
+        if index not in asked
+    )
+    return tuple(parts), unplayed
+
+
+def stream_name(stream: Stream) -> str:
+    """What a person calls a stream."""
+    instrument = recognised(stream)
+    return stream.name or stream.instrument_name or (instrument.names[0] if instrument else f"Track {stream.track + 1}")
+
+
+def _parts(
+    stream: Stream,
+    name: str,
+    instrument: Instrument | None,
+    voices: Sequence[tuple[Note, ...]],
+    candidates: Sequence[MapChoice],
+) -> list[Part]:
+    """A part for every voice."""
+    parts = []
+    for voice, notes in enumerate(voices):
+        chosen = _best_by_range([note.pitch for note in notes], candidates)
+        parts.append(
+            Part(
+                id=f"{stream.track + 1}.{stream.channel + 1}.{voice + 1}",
+                name=name or (instrument.names[0] if instrument else "") or _name_of(chosen),
+                track=stream.track,
+                voice=voice,
+                channel=stream.channel,
+                program=stream.program,
+                instrument=instrument.id if instrument is not None else None,
+                map_id=chosen.map_id,
+                notes=notes,
+                curves=stream.curves,
+            )
+        )
+    return parts
 
 
 def _maps_for(instrument: Instrument, maps: Sequence[MapChoice]) -> list[MapChoice]:

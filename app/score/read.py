@@ -42,11 +42,12 @@ from fractions import Fraction
 from pathlib import Path
 
 import mido
+import msgspec
 
 from app.errors import FileError, Message
 from app.score.chunks import Container, Track, read_container
-from app.score.model import Metre, Score
-from app.score.parts import PERCUSSION_CHANNEL, MapChoice, Stream, parts_of
+from app.score.model import Metre, Part, Score, UnplayedPart
+from app.score.parts import PERCUSSION_CHANNEL, MapChoice, PartWish, Stream, parts_of, wished_parts
 from app.score.repair import Repaired, last_system_message, repaired
 from app.score.tempo import TempoChange, TempoMap
 from app.score.texts import decoded
@@ -65,8 +66,31 @@ _LEAST_TEMPO = 10_000
 """Microseconds per quarter: nothing is played at 6000 quarters a minute, so less is damage."""
 
 
+class MidiContents(msgspec.Struct, frozen=True):
+    """What a MIDI file holds, before anybody is chosen to play it.
+
+    Attributes
+    ----------
+    title : str
+    tempo_map : TempoMap
+    metres : tuple of Metre
+    pickup_ticks : int
+    streams : tuple of Stream
+        The notes of each track, by channel.
+    warnings : tuple of Message
+        What was repaired or left out.
+    """
+
+    title: str
+    tempo_map: TempoMap
+    metres: tuple[Metre, ...]
+    pickup_ticks: int
+    streams: tuple[Stream, ...]
+    warnings: tuple[Message, ...]
+
+
 def read_midi(path: Path, *, encoding: str | None = None, maps: Sequence[MapChoice]) -> Score:
-    """Read a MIDI file.
+    """Read a MIDI file; names, programs and ranges decide who plays what.
 
     Parameters
     ----------
@@ -81,6 +105,37 @@ def read_midi(path: Path, *, encoding: str | None = None, maps: Sequence[MapChoi
     FileError
         If it cannot be read; what can be read in part opens, and the score's warnings say what was left out.
     """
+    contents = read_contents(path, encoding=encoding)
+    parts, unplayed, warnings = parts_of(contents.streams, maps, contents.tempo_map)
+    return _score(contents, parts, unplayed, (*contents.warnings, *warnings))
+
+
+def wished_score(contents: MidiContents, wishes: Sequence[PartWish], maps: Sequence[MapChoice]) -> Score:
+    """The score in which the parts are those that a person wants."""
+    parts, unplayed = wished_parts(contents.streams, wishes, maps, contents.tempo_map)
+    return _score(contents, parts, unplayed, contents.warnings)
+
+
+def _score(
+    contents: MidiContents,
+    parts: tuple[Part, ...],
+    unplayed: tuple[UnplayedPart, ...],
+    warnings: tuple[Message, ...],
+) -> Score:
+    return Score(
+        title=contents.title,
+        ticks_per_quarter=contents.tempo_map.ticks_per_quarter,
+        tempo_map=contents.tempo_map,
+        metres=contents.metres,
+        pickup_ticks=contents.pickup_ticks,
+        parts=parts,
+        unplayed=unplayed,
+        warnings=warnings,
+    )
+
+
+def read_contents(path: Path, *, encoding: str | None = None) -> MidiContents:
+    """Read a MIDI file's notes, tempo and metres. Raises as `read_midi`."""
     if encoding is not None:
         try:
             codecs.lookup(encoding)
@@ -101,16 +156,13 @@ def read_midi(path: Path, *, encoding: str | None = None, maps: Sequence[MapChoi
         warnings.append(Message("midi.patterns", {"patterns": len(tracks)}))
     tempo_map, tempo_warnings = _tempo_map(container, tracks)
     metres, pickup_ticks, metre_warnings = _metres(tracks, tempo_map.ticks_per_quarter)
-    parts, unplayed, part_warnings = parts_of(_streams(tracks, encoding), maps, tempo_map)
-    return Score(
+    return MidiContents(
         title=_title(tracks, encoding) or path.stem,
-        ticks_per_quarter=tempo_map.ticks_per_quarter,
         tempo_map=tempo_map,
         metres=metres,
         pickup_ticks=pickup_ticks,
-        parts=parts,
-        unplayed=unplayed,
-        warnings=(*warnings, *tempo_warnings, *metre_warnings, *part_warnings),
+        streams=tuple(_streams(tracks, encoding)),
+        warnings=(*warnings, *tempo_warnings, *metre_warnings),
     )
 
 
