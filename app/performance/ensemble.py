@@ -14,6 +14,8 @@ from app.plan.model import PlayerPlan, TimeFrame
 from app.project.model import Player, Project
 from instrument_maps.load import find_map
 from instrument_maps.model import InstrumentMap
+from metadata.load import load_expressions
+from metadata.model import Expression
 
 MOST_HOURS = 12
 """Longer than any concert."""
@@ -73,7 +75,12 @@ class Performance:
     @cached_property
     def plans(self) -> dict[str, PlayerPlan]:
         """Every player's plan by player id."""
-        return make_plans(self.piece, self.lines, self.time_frame, self.project.seed)
+        return make_plans(self.piece, self.lines, self.time_frame, self.project.seed, self.expressions)
+
+    @cached_property
+    def expressions(self) -> dict[str, Expression]:
+        """Every expression by name; the project's own win over the bundled ones."""
+        return load_expressions() | {expression.name: expression for expression in self.project.expressions}
 
     def plan(self, player: Player) -> PlayerPlan:
         """One player's plan."""

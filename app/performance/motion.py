@@ -92,6 +92,7 @@ def player_motion(
                 fps=span.fps,
                 frames=min(CHUNK, span.count - first),
                 first_frame=span.first + first,
+                expressions=performance.expressions,
             )
         )
         progress(min(1.0, (first + CHUNK) / span.count))

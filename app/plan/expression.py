@@ -13,7 +13,7 @@ expression.end(): "The last note is over."
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 import numpy as np
 
@@ -58,9 +58,10 @@ def plan_expressions(
     breaths: tuple[BreathEvent, ...],
     cues: tuple[CueEvent, ...],
     gestures: tuple[GestureEvent, ...],
+    faces: Mapping[str, Expression] | None = None,
 ) -> tuple[ExpressionEvent, ...]:
-    """All expressions of one player, ordered by start."""
-    faces = load_expressions()
+    """All expressions of one player, ordered by start; ``faces`` are the bundled ones unless given."""
+    faces = load_expressions() if faces is None else faces
     events = [
         _event("expression:neutral", faces["neutral"], frame.first_frame_s, frame.end_s, 1.0, clock,
                Message("expression.default"))

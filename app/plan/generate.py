@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import msgspec
 
 from app.plan.breath import BreathPlan, plan_breaths
@@ -22,6 +24,7 @@ from app.plan.gesture import plan_gestures
 from app.plan.line import Line, LineTimes, Piece, line_times
 from app.plan.model import Clock, CueEvent, PlayerPlan, Problem, TimeFrame
 from metadata.load import load_expressions
+from metadata.model import Expression
 
 __all__ = ["Line", "Piece", "make_plans", "time_frame"]
 
@@ -49,7 +52,13 @@ def time_frame(
     return TimeFrame(start_s, clock.seconds(float(last)) + AFTER_LAST_S)
 
 
-def make_plans(piece: Piece, lines: tuple[Line, ...], frame: TimeFrame, seed: int = 0) -> dict[str, PlayerPlan]:
+def make_plans(
+    piece: Piece,
+    lines: tuple[Line, ...],
+    frame: TimeFrame,
+    seed: int = 0,
+    expressions: Mapping[str, Expression] | None = None,
+) -> dict[str, PlayerPlan]:
     """Plan every line of the ensemble, in order.
 
     Parameters
@@ -58,14 +67,16 @@ def make_plans(piece: Piece, lines: tuple[Line, ...], frame: TimeFrame, seed: in
         From `time_frame` (or a longer one).
     seed : int
         Of the whole performance; players and score positions are added to it.
+    expressions : mapping of str to Expression, optional
+        What may be named; at least the bundled ones, which are the default.
 
     Returns
     -------
     dict of str to PlayerPlan
         By player id.
     """
-    expressions = tuple(load_expressions())
-    checked = [sound_corrections(line.corrections, expressions, frame.first_frame_s) for line in lines]
+    faces = load_expressions() if expressions is None else expressions
+    checked = [sound_corrections(line.corrections, tuple(faces), frame.first_frame_s) for line in lines]
     lines = tuple(
         msgspec.structs.replace(line, corrections=sound) for line, (sound, _) in zip(lines, checked, strict=True)
     )
@@ -80,7 +91,7 @@ def make_plans(piece: Piece, lines: tuple[Line, ...], frame: TimeFrame, seed: in
         places = taken.get(part, frozenset())
         ids = frozenset(note.id for note in line.notes if (note.onset_tick, note.pitch) in places)
         own_cues = tuple(cue for cue in cues if cue.player_id == line.player_id)
-        plan, breaths = _plan_line(piece, line, times, frame, own_cues, cue_ids, ids, seed, first_s, unsound)
+        plan, breaths = _plan_line(piece, line, times, frame, own_cues, cue_ids, ids, seed, first_s, unsound, faces)
         plans[line.player_id] = plan
         caught = {(note.onset_tick, note.pitch) for note in line.notes if note.id in breaths.catch_notes}
         taken[part] = places | caught
@@ -98,6 +109,7 @@ def _plan_line(
     seed: int,
     swing_at_s: float,
     unsound: tuple[Problem, ...],
+    faces: Mapping[str, Expression],
 ) -> tuple[PlayerPlan, BreathPlan]:
     notes, instrument, parameters = line.notes, line.instrument_map, line.parameters
     corrections: tuple[Correction, ...] = line.corrections
@@ -111,7 +123,7 @@ def _plan_line(
     made_gestures = plan_gestures(notes, times, piece, frame, breaths.events, cues, seeds, swing_at_s)
     gestures = correct_gestures(made_gestures, corrections, piece.clock)
     made_expressions = plan_expressions(
-        notes, times, piece.clock, instrument, frame, embouchures, breaths.events, cues, gestures
+        notes, times, piece.clock, instrument, frame, embouchures, breaths.events, cues, gestures, faces
     )
     generated = (
         breaths.generated_ids
