@@ -17,6 +17,7 @@ correction.unknown_expression(name, known): "There is no expression {name}; ther
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Literal, TypeAlias, TypeVar
 
 import msgspec
@@ -56,20 +57,38 @@ class RemoveEvent(_Correction, frozen=True, tag="remove"):
 
 class SetBreath(_Correction, frozen=True, tag="set_breath"):
     """Put a breath (or preparation) before a note: added, or in place of the generated one. Ticks are relative to the
-    note's onset, so the breath moves with its note."""
+    note's onset, so the breath moves with its note.
+
+    ``added`` says that the generator had none here: to delete it is to forget it. ``moved_from`` is the note whose
+    breath it was before the animator dragged it here; that one is then left out.
+    """
 
     note_id: str
     start_offset_tick: int
     end_offset_tick: int = 0
     depth: float = 1.0
     kind: Literal["preparation", "breath"] = "breath"
+    added: bool = False
+    moved_from: str | None = None
 
 
 class SetCue(_Correction, frozen=True, tag="set_cue"):
-    """Let this player give a cue to the entry of a note; ``beats`` is how long before it the preparatory beat is."""
+    """Let this player give a cue to the entry of a note; ``beats`` is how long before it the preparatory beat is.
+
+    ``note_id`` is ``"@"`` and a tick where the player gives an entry without playing in it. ``added`` and
+    ``moved_from`` as in `SetBreath`.
+    """
 
     note_id: str
     beats: float = 1.0
+    added: bool = False
+    moved_from: str | None = None
+
+    @property
+    def tick(self) -> int | None:
+        """Where a cue without a note gives the entry; None where it belongs to a note."""
+        digits = self.note_id[1:]
+        return int(digits) if self.note_id.startswith("@") and digits.lstrip("-").isdecimal() else None
 
 
 class SetEmbouchure(_Correction, frozen=True, tag="set_embouchure"):
@@ -101,13 +120,16 @@ class AddGesture(_Correction, frozen=True, tag="add_gesture"):
 
 
 class ChangeExpression(_Correction, frozen=True, tag="change_expression"):
-    """Move a generated expression, replace it by another or change its strength; None keeps what was generated."""
+    """Move a generated expression, replace it by another, change its strength or fades; None keeps what was
+    generated."""
 
     event_id: str
     expression: str | None = None
     start_tick: int | None = None
     end_tick: int | None = None
     strength: float | None = None
+    fade_in_s: float | None = None
+    fade_out_s: float | None = None
 
 
 class AddExpression(_Correction, frozen=True, tag="add_expression"):
@@ -135,6 +157,7 @@ Correction: TypeAlias = (
 )
 
 E = TypeVar("E", BreathEvent, CueEvent, GestureEvent, ExpressionEvent)
+Span = TypeVar("Span", GestureEvent, ExpressionEvent)
 
 
 REMOVABLE = ("breath", "preparation", "cue", "sway", "weight_shift", "bell_height", "lower_instrument", "expression")
@@ -195,8 +218,12 @@ def anchor(item: Correction) -> str:
 
 
 def removed_ids(corrections: tuple[Correction, ...]) -> frozenset[str]:
-    """Ids of the events that must not appear."""
-    return frozenset(item.event_id for item in corrections if isinstance(item, RemoveEvent))
+    """Ids of the events that must not appear: removed, or moved to another place."""
+    removed = {item.event_id for item in corrections if isinstance(item, RemoveEvent)}
+    for item in corrections:
+        if isinstance(item, SetBreath | SetCue) and item.moved_from is not None:
+            removed.add(f"{'cue' if isinstance(item, SetCue) else item.kind}:{item.moved_from}")
+    return frozenset(removed)
 
 
 def without_removed(events: tuple[E, ...], removed: frozenset[str]) -> tuple[E, ...]:
@@ -231,44 +258,22 @@ def correct_gestures(
 ) -> tuple[GestureEvent, ...]:
     """Gestures without the removed ones, with the changed and the added ones, ordered by start."""
     changes = {item.event_id: item for item in corrections if isinstance(item, ChangeGesture)}
-    added = [item for item in corrections if isinstance(item, AddGesture)]
-    result = list(without_removed(events, removed_ids(corrections)))
-    if not changes and not added:
-        return tuple(result)
-    for index, event in enumerate(result):
-        change = changes.get(event.id)
-        if change is None:
-            continue
-        start = event.start_tick if change.start_tick is None else change.start_tick
-        end = event.end_tick if change.end_tick is None else change.end_tick
-        if start >= end:
-            # Only one end was set, and the generated other end has since moved past it: a correction wins.
-            start, end = (start, start + 1) if change.end_tick is None else (end - 1, end)
-        result[index] = msgspec.structs.replace(
-            event,
-            start_tick=start,
-            end_tick=end,
-            start_s=event.start_s if start == event.start_tick else clock.seconds(float(start)),
-            end_s=event.end_s if end == event.end_tick else clock.seconds(float(end)),
-            amount=event.amount if change.amount is None else change.amount,
+    added = tuple(
+        GestureEvent(
+            id=f"{item.kind}:{item.name}",
+            kind=item.kind,
+            start_tick=item.start_tick,
+            end_tick=item.end_tick,
+            start_s=clock.seconds(float(item.start_tick)),
+            end_s=clock.seconds(float(item.end_tick)),
+            amount=item.amount,
             reason=BY_HAND,
             corrected=True,
         )
-    for item in added:
-        result.append(
-            GestureEvent(
-                id=f"{item.kind}:{item.name}",
-                kind=item.kind,
-                start_tick=item.start_tick,
-                end_tick=item.end_tick,
-                start_s=clock.seconds(float(item.start_tick)),
-                end_s=clock.seconds(float(item.end_tick)),
-                amount=item.amount,
-                reason=BY_HAND,
-                corrected=True,
-            )
-        )
-    return tuple(sorted(result, key=lambda event: event.start_s))
+        for item in corrections
+        if isinstance(item, AddGesture)
+    )
+    return _corrected_spans(events, corrections, changes, added, ("amount",), clock)
 
 
 def correct_expressions(
@@ -276,47 +281,64 @@ def correct_expressions(
 ) -> tuple[ExpressionEvent, ...]:
     """Expressions without the removed ones, with the changed and the added ones, ordered by start."""
     changes = {item.event_id: item for item in corrections if isinstance(item, ChangeExpression)}
-    added = [item for item in corrections if isinstance(item, AddExpression)]
-    result = list(without_removed(events, removed_ids(corrections)))
-    if not changes and not added:
-        return tuple(result)
-    for index, event in enumerate(result):
-        change = changes.get(event.id)
-        if change is None:
-            continue
-        start = event.start_tick if change.start_tick is None else change.start_tick
-        end = event.end_tick if change.end_tick is None else change.end_tick
-        if start >= end:
-            # Only one end was set, and the generated other end has since moved past it: a correction wins.
-            start, end = (start, start + 1) if change.end_tick is None else (end - 1, end)
-        result[index] = msgspec.structs.replace(
-            event,
-            expression=event.expression if change.expression is None else change.expression,
-            start_tick=start,
-            end_tick=end,
-            start_s=event.start_s if start == event.start_tick else clock.seconds(float(start)),
-            end_s=event.end_s if end == event.end_tick else clock.seconds(float(end)),
-            strength=event.strength if change.strength is None else change.strength,
+    added = tuple(
+        ExpressionEvent(
+            id=f"expression:{item.name}",
+            expression=item.expression,
+            start_tick=item.start_tick,
+            end_tick=item.end_tick,
+            start_s=clock.seconds(float(item.start_tick)),
+            end_s=clock.seconds(float(item.end_tick)),
+            strength=item.strength,
+            fade_in_s=item.fade_in_s,
+            fade_out_s=item.fade_out_s,
             reason=BY_HAND,
             corrected=True,
         )
-    for item in added:
-        result.append(
-            ExpressionEvent(
-                id=f"expression:{item.name}",
-                expression=item.expression,
-                start_tick=item.start_tick,
-                end_tick=item.end_tick,
-                start_s=clock.seconds(float(item.start_tick)),
-                end_s=clock.seconds(float(item.end_tick)),
-                strength=item.strength,
-                fade_in_s=item.fade_in_s,
-                fade_out_s=item.fade_out_s,
-                reason=BY_HAND,
-                corrected=True,
-            )
-        )
+        for item in corrections
+        if isinstance(item, AddExpression)
+    )
+    fields = ("expression", "strength", "fade_in_s", "fade_out_s")
+    return _corrected_spans(events, corrections, changes, added, fields, clock)
+
+
+def _corrected_spans(
+    events: tuple[Span, ...],
+    corrections: tuple[Correction, ...],
+    changes: Mapping[str, ChangeGesture | ChangeExpression],
+    added: tuple[Span, ...],
+    fields: tuple[str, ...],
+    clock: Clock,
+) -> tuple[Span, ...]:
+    """``fields`` of a change that are not None take the place of the event's."""
+    removed = removed_ids(corrections)
+    kept: list[Span] = [event for event in events if event.id not in removed]
+    if not changes and not added:
+        return tuple(kept)
+    result = [*(_changed(event, changes.get(event.id), fields, clock) for event in kept), *added]
     return tuple(sorted(result, key=lambda event: event.start_s))
+
+
+def _changed(
+    event: Span, change: ChangeGesture | ChangeExpression | None, fields: tuple[str, ...], clock: Clock
+) -> Span:
+    if change is None:
+        return event
+    start = event.start_tick if change.start_tick is None else change.start_tick
+    end = event.end_tick if change.end_tick is None else change.end_tick
+    if start >= end:
+        # Only one end was set, and the generated other end has since moved past it: a correction wins.
+        start, end = (start, start + 1) if change.end_tick is None else (end - 1, end)
+    return msgspec.structs.replace(
+        event,
+        start_tick=start,
+        end_tick=end,
+        start_s=event.start_s if start == event.start_tick else clock.seconds(float(start)),
+        end_s=event.end_s if end == event.end_tick else clock.seconds(float(end)),
+        reason=BY_HAND,
+        corrected=True,
+        **{name: value for name in fields if (value := getattr(change, name)) is not None},
+    )
 
 
 def orphans(
@@ -334,7 +356,7 @@ def orphans(
     problems = []
     for item in corrections:
         if isinstance(item, PinFingering | SetBreath | SetCue | SetEmbouchure):
-            alive = item.note_id in note_ids
+            alive = item.note_id in note_ids or (isinstance(item, SetCue) and item.tick is not None)
         elif isinstance(item, RemoveEvent):
             known = item.note_id in note_ids if item.note_id is not None else item.event_id in event_ids
             alive = known and item.event_id.split(":")[0] in REMOVABLE

@@ -114,8 +114,10 @@ def plan_cues(
                 del events[event.id + event.player_id]
         onsets = {note.id: note.onset_tick for note in line.notes}
         for item in line.corrections:
-            if isinstance(item, SetCue) and item.note_id in onsets:
-                tick = onsets[item.note_id]
+            if isinstance(item, SetCue):
+                tick = onsets.get(item.note_id, item.tick)
+                if tick is None:
+                    continue
                 event = _cue(line.player_id, item.note_id, tick, item.beats, piece, frame, BY_HAND)
                 events[event.id + event.player_id] = msgspec.structs.replace(event, corrected=True)
     ordered = sorted(events.values(), key=lambda event: (event.start_s, event.player_id))
