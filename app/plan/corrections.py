@@ -30,6 +30,7 @@ from app.plan.model import (
     EmbouchureEvent,
     ExpressionEvent,
     GestureEvent,
+    PoseTarget,
     Problem,
 )
 
@@ -144,6 +145,37 @@ class AddExpression(_Correction, frozen=True, tag="add_expression"):
     fade_out_s: float = 0.3
 
 
+class PoseCorrection(_Correction, frozen=True, tag="pose"):
+    """Hold bell, head, an elbow or the trunk differently over a span of the score. ``name`` makes its event id unique.
+
+    The angles are added to what the generator does, before hands, lips and feet are put where they belong. They are
+    whole from ``start_tick`` to ``end_tick``, come in over ``fade_in_ticks`` before it and go over ``fade_out_ticks``
+    after it.
+
+    Attributes
+    ----------
+    target : {"bell", "head", "left_elbow", "right_elbow", "torso"}
+    up_deg : float
+        Bell: raised. Head: the face up. Torso: leaning back. Elbow: outwards and up, about the line from shoulder to
+        wrist.
+    left_deg : float
+        Bell, head and torso: turned to the player's left. An elbow has no such angle.
+    roll_deg : float
+        Bell: the instrument's top leans to the player's left. Head and torso: leaning to the left. An elbow has no
+        such angle.
+    """
+
+    name: str
+    target: PoseTarget
+    start_tick: int
+    end_tick: int
+    up_deg: float = 0.0
+    left_deg: float = 0.0
+    roll_deg: float = 0.0
+    fade_in_ticks: int = 0
+    fade_out_ticks: int = 0
+
+
 Correction: TypeAlias = (
     PinFingering
     | RemoveEvent
@@ -154,6 +186,7 @@ Correction: TypeAlias = (
     | AddGesture
     | ChangeExpression
     | AddExpression
+    | PoseCorrection
 )
 
 E = TypeVar("E", BreathEvent, CueEvent, GestureEvent, ExpressionEvent)
@@ -198,7 +231,7 @@ def _is_empty(item: Correction) -> bool:
         return item.start_offset_tick >= item.end_offset_tick
     if isinstance(item, SetCue):
         return item.beats <= 0.0
-    if isinstance(item, AddGesture | AddExpression | ChangeGesture | ChangeExpression):
+    if isinstance(item, AddGesture | AddExpression | ChangeGesture | ChangeExpression | PoseCorrection):
         return item.start_tick is not None and item.end_tick is not None and item.start_tick >= item.end_tick
     return False
 
@@ -212,7 +245,7 @@ def anchor(item: Correction) -> str:
     """What a correction is tied to: a note, an event, or the name the animator gave."""
     if isinstance(item, PinFingering | SetBreath | SetCue | SetEmbouchure):
         return item.note_id
-    if isinstance(item, AddGesture | AddExpression):
+    if isinstance(item, AddGesture | AddExpression | PoseCorrection):
         return item.name
     return item.event_id
 

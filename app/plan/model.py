@@ -177,8 +177,38 @@ class ExpressionEvent(msgspec.Struct, frozen=True):
     corrected: bool = False
 
 
+PoseTarget: TypeAlias = Literal["bell", "head", "left_elbow", "right_elbow", "torso"]
+"""What the animator takes hold of."""
+
+
+class PoseEvent(msgspec.Struct, frozen=True):
+    """A part of the body held differently over a span: whole from ``start_s`` to ``end_s``, with a fade before and one
+    after it. Angles as in `app.plan.corrections.PoseCorrection`."""
+
+    id: str
+    target: PoseTarget
+    start_tick: int
+    end_tick: int
+    start_s: float
+    end_s: float
+    up_deg: float
+    left_deg: float
+    roll_deg: float
+    fade_in_s: float
+    fade_out_s: float
+    reason: Message
+    corrected: bool = True
+
+
 Event: TypeAlias = (
-    FingeringEvent | BreathEvent | TongueEvent | EmbouchureEvent | CueEvent | GestureEvent | ExpressionEvent
+    FingeringEvent
+    | BreathEvent
+    | TongueEvent
+    | EmbouchureEvent
+    | CueEvent
+    | GestureEvent
+    | ExpressionEvent
+    | PoseEvent
 )
 
 
@@ -211,3 +241,4 @@ class PlayerPlan(msgspec.Struct, frozen=True):
     gestures: tuple[GestureEvent, ...]
     expressions: tuple[ExpressionEvent, ...]
     problems: tuple[Problem, ...]
+    poses: tuple[PoseEvent, ...] = ()
