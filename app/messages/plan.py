@@ -18,6 +18,11 @@ TEMPLATES: Final[dict[str, str]] = {
         "the way to {label} takes {needed_ms} ms, but only {available_ms} ms are free before note {note}; "
         "it starts earlier"
     ),
+    # The plan: notes that cannot sound together
+    "note.struck_together": (
+        "note {note} is struck together with the higher note {other}: only one can sound, and it is left out"
+    ),
+    "note.overlaps": "note {note} still sounds for {overlap_ms} ms when {other} begins: it ends there",
     # The plan: breaths
     "breath.first": "the first breath, in the {beats:g} beats before the entry",
     "breath.rest_whole": (

@@ -37,7 +37,7 @@ def _tracked(
     """A value that is reached at each onset, held, and (``rest_value``) left in rests longer than `HOLD_S`."""
     segments: list[tuple[float, float, float]] = []
     value, free_s, last_s = rest_value or 0.0, -np.inf, -np.inf
-    following = [event.start_s for event in events[1:]] + [np.inf]
+    following = [*(event.start_s for event in events[1:]), np.inf][: len(events)]
     for event, target, next_s in zip(events, values, following, strict=True):
         onset_s = event.start_s
         gap_s = onset_s - last_s

@@ -23,6 +23,7 @@ from app.plan.fingering import plan_fingerings
 from app.plan.gesture import plan_gestures
 from app.plan.line import Line, LineTimes, Piece, line_times
 from app.plan.model import Clock, CueEvent, PlayerPlan, Problem, TimeFrame
+from app.plan.together import one_at_a_time
 from metadata.load import load_expressions
 from metadata.model import Expression
 
@@ -77,21 +78,24 @@ def make_plans(
     """
     faces = load_expressions() if expressions is None else expressions
     checked = [sound_corrections(line.corrections, tuple(faces), frame.first_frame_s) for line in lines]
-    lines = tuple(
-        msgspec.structs.replace(line, corrections=sound) for line, (sound, _) in zip(lines, checked, strict=True)
-    )
+    singles = [
+        one_at_a_time(msgspec.structs.replace(line, corrections=sound), piece.clock)
+        for line, (sound, _) in zip(lines, checked, strict=True)
+    ]
+    lines = tuple(line for line, _ in singles)
     all_times = tuple(line_times(line, piece.clock) for line in lines)
     cues, cue_ids = plan_cues(lines, all_times, piece, frame)
     first_s = min((float(times.onset_s[0]) for times in all_times if len(times.onset_s)), default=0.0)
     taken: dict[tuple[tuple[int, int, int], ...], frozenset[tuple[int, int]]] = {}
     plans = {}
-    for line, times, (_, unsound) in zip(lines, all_times, checked, strict=True):
+    told = [unsound + unplayable for (_, unsound), (_, unplayable) in zip(checked, singles, strict=True)]
+    for line, times, problems in zip(lines, all_times, told, strict=True):
         # Players of one part stagger their catch breaths; the key is what they play.
         part = tuple(zip(times.onset_tick.tolist(), times.played_end_tick.tolist(), times.pitch.tolist(), strict=True))
         places = taken.get(part, frozenset())
         ids = frozenset(note.id for note in line.notes if (note.onset_tick, note.pitch) in places)
         own_cues = tuple(cue for cue in cues if cue.player_id == line.player_id)
-        plan, breaths = _plan_line(piece, line, times, frame, own_cues, cue_ids, ids, seed, first_s, unsound, faces)
+        plan, breaths = _plan_line(piece, line, times, frame, own_cues, cue_ids, ids, seed, first_s, problems, faces)
         plans[line.player_id] = plan
         caught = {(note.onset_tick, note.pitch) for note in line.notes if note.id in breaths.catch_notes}
         taken[part] = places | caught
