@@ -1,0 +1,265 @@
+"""The number control, by mouse and keys."""
+
+from __future__ import annotations
+
+import pytest
+from PySide6.QtCore import QPoint, QPointF, Qt
+from PySide6.QtGui import QGuiApplication, QWheelEvent
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication, QLineEdit, QVBoxLayout, QWidget
+from pytestqt.qtbot import QtBot
+
+from app.project.model import Project
+from app.score.model import Score
+from app.score.tempo import TempoMap
+from widgets.common.number_slider import NumberSlider
+from widgets.common.session import Session
+
+
+class NoTasks:
+    """Nothing slow happens here."""
+
+    def run(self, *arguments: object, **named: object) -> None:
+        raise AssertionError("no work was expected")
+
+
+class Told:
+    """What the control said."""
+
+    def __init__(self, slider: NumberSlider) -> None:
+        self.values: list[float] = []
+        self.tokens: list[object] = []
+        self.releases = 0
+        slider.changed.connect(self.take)
+        slider.released.connect(self.release)
+
+    def take(self, value: float, token: object) -> None:
+        self.values.append(value)
+        self.tokens.append(token)
+
+    def release(self) -> None:
+        self.releases += 1
+
+
+@pytest.fixture
+def slider(qtbot: QtBot) -> NumberSlider:
+    session = Session(Project(Score("t", 480, TempoMap(480)), ()), NoTasks())
+    window = QWidget()
+    qtbot.addWidget(window)
+    layout = QVBoxLayout(window)
+    control = NumberSlider(session, 0.0, 1.0, default=0.5, step=0.05, parent=window)
+    control.set_texts("Amplitude", "beats")
+    layout.addWidget(control)
+    layout.addWidget(QLineEdit())
+    window.resize(240, 120)
+    window.show()
+    qtbot.waitExposed(window)
+    window.activateWindow()
+    control.setFocus()
+    return control
+
+
+def drag(slider: NumberSlider, pixels: int, release: bool = True) -> None:
+    start = QPoint(40, slider.height() // 2)
+    QTest.mousePress(slider, Qt.MouseButton.LeftButton, pos=start)
+    for moved in (4, pixels // 2, pixels):
+        QTest.mouseMove(slider, start + QPoint(moved, 0))
+        QApplication.processEvents()
+    if release:
+        QTest.mouseRelease(slider, Qt.MouseButton.LeftButton, pos=start + QPoint(pixels, 0))
+
+
+def test_it_is_large_enough_for_a_pen(slider: NumberSlider) -> None:
+    assert slider.height() >= 24
+
+
+def test_a_drag_is_one_gesture(slider: NumberSlider) -> None:
+    told = Told(slider)
+    drag(slider, 60)
+    assert slider.value == pytest.approx(0.5 + 56 / slider.width(), abs=0.011)
+    assert len(set(told.tokens)) == 1
+    assert told.tokens[0] is not None
+    assert told.releases == 1
+    drag(slider, -30)
+    assert len(set(told.tokens)) == 2
+
+
+def test_escape_takes_a_drag_back(slider: NumberSlider) -> None:
+    told = Told(slider)
+    drag(slider, 60, release=False)
+    assert slider.value > 0.6
+    QTest.keyClick(slider, Qt.Key.Key_Escape)
+    assert slider.value == 0.5
+    assert told.values[-1] == 0.5
+    assert told.releases == 1
+    QTest.mouseRelease(slider, Qt.MouseButton.LeftButton)
+    assert told.releases == 1
+
+
+def test_a_drag_stays_in_range_and_turns_at_once(slider: NumberSlider) -> None:
+    start = QPoint(40, 10)
+    QTest.mousePress(slider, Qt.MouseButton.LeftButton, pos=start)
+    for x in (44, 900, 890):
+        QTest.mouseMove(slider, QPoint(x, 10))
+    QTest.mouseRelease(slider, Qt.MouseButton.LeftButton, pos=QPoint(890, 10))
+    assert slider.value == pytest.approx(1.0 - 10 / slider.width(), abs=0.011)
+
+
+def test_shift_is_fine(slider: NumberSlider) -> None:
+    start = QPoint(40, 10)
+    QTest.mousePress(slider, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.ShiftModifier, start)
+    for x in (44, 104):
+        position = QPointF(x, 10)
+        from PySide6.QtGui import QMouseEvent
+
+        event = QMouseEvent(
+            QMouseEvent.Type.MouseMove,
+            position,
+            slider.mapToGlobal(position),
+            Qt.MouseButton.NoButton,
+            Qt.MouseButton.LeftButton,
+            Qt.KeyboardModifier.ShiftModifier,
+        )
+        QApplication.sendEvent(slider, event)
+    QTest.mouseRelease(slider, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.ShiftModifier, QPoint(104, 10))
+    assert slider.value == pytest.approx(0.5 + 6 / slider.width(), abs=0.011)
+
+
+def field(slider: NumberSlider) -> QLineEdit:
+    found = slider.findChild(QLineEdit, "number_field")
+    assert found is not None
+    assert found.isVisible()
+    return found
+
+
+def test_a_click_opens_the_field_and_return_takes_what_was_typed(slider: NumberSlider) -> None:
+    told = Told(slider)
+    QTest.mouseClick(slider, Qt.MouseButton.LeftButton, pos=QPoint(100, 10))
+    QTest.keyClicks(field(slider), "1/4")
+    QTest.keyClick(field(slider), Qt.Key.Key_Return)
+    assert told.values == [0.25]
+    assert told.tokens == [None]
+    assert slider.hasFocus()
+
+
+def test_typing_begins_with_the_first_digit(slider: NumberSlider) -> None:
+    QTest.keyClick(slider, Qt.Key.Key_0)
+    QTest.keyClicks(field(slider), ".75")
+    QTest.keyClick(field(slider), Qt.Key.Key_Tab)
+    assert slider.value == 0.75
+
+
+def test_escape_and_nonsense_change_nothing(slider: NumberSlider) -> None:
+    told = Told(slider)
+    QTest.keyClick(slider, Qt.Key.Key_F2)
+    QTest.keyClicks(field(slider), "0.9")
+    QTest.keyClick(field(slider), Qt.Key.Key_Escape)
+    QTest.keyClick(slider, Qt.Key.Key_Return)
+    QTest.keyClicks(slider.findChildren(QLineEdit, "number_field")[-1], "loud")
+    QTest.keyClick(slider.findChildren(QLineEdit, "number_field")[-1], Qt.Key.Key_Return)
+    assert told.values == []
+    assert slider.value == 0.5
+
+
+def test_arrows_step_and_a_held_key_is_one_gesture(slider: NumberSlider) -> None:
+    told = Told(slider)
+    for _ in range(3):
+        QTest.keyPress(slider, Qt.Key.Key_Up)
+    QTest.keyRelease(slider, Qt.Key.Key_Up)
+    assert told.values == [0.55, 0.6, 0.65]
+    assert len(set(told.tokens)) == 1
+    assert told.releases == 1
+    QTest.keyClick(slider, Qt.Key.Key_Down, Qt.KeyboardModifier.ShiftModifier)
+    assert slider.value == 0.64
+    assert len(set(told.tokens)) == 2
+    QTest.keyClick(slider, Qt.Key.Key_End)
+    assert slider.value == 1.0
+
+
+def wheel(slider: NumberSlider) -> QWheelEvent:
+    position = QPointF(20, 10)
+    event = QWheelEvent(
+        position,
+        slider.mapToGlobal(position),
+        QPoint(),
+        QPoint(0, 120),
+        Qt.MouseButton.NoButton,
+        Qt.KeyboardModifier.NoModifier,
+        Qt.ScrollPhase.NoScrollPhase,
+        False,
+    )
+    QApplication.sendEvent(slider, event)
+    return event
+
+
+def test_the_wheel_works_only_with_focus(slider: NumberSlider, qtbot: QtBot) -> None:
+    told = Told(slider)
+    wheel(slider)
+    wheel(slider)
+    assert told.values == [0.55, 0.6]
+    assert told.tokens[0] is told.tokens[1]
+    qtbot.waitUntil(lambda: told.releases == 1, timeout=3000)
+    slider.clearFocus()
+    assert not wheel(slider).isAccepted()
+    assert slider.value == 0.6
+
+
+def test_a_double_click_returns_to_the_default(slider: NumberSlider) -> None:
+    told = Told(slider)
+    slider.show_value(0.9)
+    assert slider.by_hand
+    QTest.mouseDClick(slider, Qt.MouseButton.LeftButton, pos=QPoint(60, 10))
+    assert told.values == [0.5]
+    assert not slider.by_hand
+    slider.show_value(0.2)
+    QTest.mouseClick(slider, Qt.MouseButton.LeftButton, pos=QPoint(60, 10))
+    QTest.mouseDClick(field(slider), Qt.MouseButton.LeftButton, pos=QPoint(60, 10))
+    assert slider.value == 0.5
+
+
+def test_who_listens_to_reset_decides(slider: NumberSlider) -> None:
+    told, wanted = Told(slider), []
+    slider.reset.connect(wanted.append)
+    slider.show_value(0.9, default=0.3)
+    QTest.keyClick(slider, Qt.Key.Key_Backspace)
+    assert wanted == [0.3]
+    assert told.values == []
+
+
+def test_copy_and_paste(slider: NumberSlider) -> None:
+    slider.show_value(0.35)
+    QTest.keyClick(slider, Qt.Key.Key_C, Qt.KeyboardModifier.ControlModifier)
+    assert QGuiApplication.clipboard().text() == "0.35"
+    QGuiApplication.clipboard().setText(" 0.8 beats")
+    QTest.keyClick(slider, Qt.Key.Key_V, Qt.KeyboardModifier.ControlModifier)
+    assert slider.value == 0.8
+
+
+def test_several_values_are_a_dash_until_one_is_chosen(slider: NumberSlider) -> None:
+    told = Told(slider)
+    slider.show_value(0.5, mixed=True)
+    assert slider.value_text() == "—"
+    assert slider.by_hand
+    QTest.keyClick(slider, Qt.Key.Key_F2)
+    assert field(slider).text() == ""
+    QTest.keyClicks(field(slider), "0.5")
+    QTest.keyClick(field(slider), Qt.Key.Key_Return)
+    assert told.values == [0.5]
+    assert slider.value_text() == "0.50"
+
+
+def test_it_takes_its_keys_before_the_window_does(slider: NumberSlider) -> None:
+    from PySide6.QtCore import QEvent
+    from PySide6.QtGui import QKeyEvent
+
+    def taken(key: Qt.Key, modifier: Qt.KeyboardModifier, text: str = "") -> bool:
+        event = QKeyEvent(QEvent.Type.ShortcutOverride, key, modifier, text)
+        event.ignore()
+        QApplication.sendEvent(slider, event)
+        return event.isAccepted()
+
+    assert taken(Qt.Key.Key_1, Qt.KeyboardModifier.NoModifier, "1")
+    assert taken(Qt.Key.Key_C, Qt.KeyboardModifier.ControlModifier)
+    assert taken(Qt.Key.Key_Backspace, Qt.KeyboardModifier.NoModifier)
+    assert not taken(Qt.Key.Key_Space, Qt.KeyboardModifier.NoModifier, " ")
+    assert not taken(Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier)

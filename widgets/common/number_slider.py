@@ -1,0 +1,507 @@
+"""The number control of the whole editor: a slim slider with its name, its number and its unit in it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from PySide6.QtCore import SIGNAL, QEvent, QObject, QPointF, QRectF, QSize, Qt, QTimer, Signal
+from PySide6.QtGui import (
+    QColor,
+    QContextMenuEvent,
+    QFocusEvent,
+    QFontMetricsF,
+    QGuiApplication,
+    QKeyEvent,
+    QKeySequence,
+    QMouseEvent,
+    QPainter,
+    QPainterPath,
+    QPaintEvent,
+    QPen,
+    QResizeEvent,
+    QWheelEvent,
+)
+from PySide6.QtWidgets import QLineEdit, QMenu, QSizePolicy, QWidget
+
+from widgets.common.numbers import MIXED, number_from, number_text
+from widgets.common.session import Session
+from widgets.common.tokens import LEAST_TARGET_PX, Tokens
+
+DRAG_PX = 3
+"""A press that moves less is a click."""
+FREE_DRAG_PX = 4
+"""Without a range to fill, a step is this far."""
+WHEEL_REST_MS = 600
+"""Notches of the wheel closer than this are one turn of it, and one step of the history."""
+FINE = 0.1
+_PAD_PX = 7.0
+_STEP_KEYS = {
+    Qt.Key.Key_Up: 1.0,
+    Qt.Key.Key_Right: 1.0,
+    Qt.Key.Key_Down: -1.0,
+    Qt.Key.Key_Left: -1.0,
+    Qt.Key.Key_PageUp: 10.0,
+    Qt.Key.Key_PageDown: -10.0,
+}
+_TYPE_KEYS = (Qt.Key.Key_Return, Qt.Key.Key_Enter, Qt.Key.Key_F2)
+_RESET_KEYS = (Qt.Key.Key_Backspace, Qt.Key.Key_Delete)
+
+
+class NumberSlider(QWidget):
+    """A number that is dragged, typed (``1/3`` too), stepped by keys and wheel, copied, pasted, and reset by a double
+    click.
+
+    Drag to change (Shift: fine), click to type, double-click or Backspace to reset, Escape to cancel. The wheel works
+    only where the keyboard is, so that scrolling a panel changes nothing.
+
+    Parameters
+    ----------
+    session : Session
+        Its tokens colour the control.
+    minimum, maximum : float
+        The smallest and largest value.
+    default : float
+        What a reset returns to.
+    step : float
+        Of keys and wheel, and of a drag without ``slides``.
+    decimals : int
+    slides : bool
+        Whether the range is short enough to be filled like a slider; else a drag moves by steps.
+    parent : QWidget, optional
+
+    Signals
+    -------
+    changed(float, object)
+        The person wants this value. The object is a token shared by all the values of one drag, None for a value in
+        one go.
+    reset(float)
+        The person wants the default; emitted instead of `changed` where something is connected that knows better than
+        to store the default's value.
+    released()
+        A drag or turn of the wheel is over: end the gesture.
+    """
+
+    changed = Signal(float, object)
+    reset = Signal(float)
+    released = Signal()
+
+    def __init__(
+        self,
+        session: Session,
+        minimum: float = 0.0,
+        maximum: float = 1.0,
+        *,
+        default: float = 0.0,
+        step: float = 0.01,
+        decimals: int = 2,
+        slides: bool = True,
+        parent: QWidget | None = None,
+    ) -> None:
+        super().__init__(parent)
+        self._session = session
+        self._minimum, self._maximum = minimum, maximum
+        self._step, self._decimals, self._slides = step, decimals, slides
+        self._default = default
+        self._value = default
+        self._mixed = False
+        self._by_hand: bool | None = None
+        self._label, self._unit = "", ""
+        self._words: Callable[[float], str] | None = None
+        self._reads: Callable[[str], float | None] | None = None
+        self._token: object | None = None
+        self._press: QPointF | None = None
+        self._press_value = 0.0
+        self._drag_x, self._drag_value = 0.0, 0.0
+        self._dragging = False
+        self._field: QLineEdit | None = None
+        self._wheel_rest = QTimer(self)
+        self._wheel_rest.setSingleShot(True)
+        self._wheel_rest.setInterval(WHEEL_REST_MS)
+        self._wheel_rest.timeout.connect(self._end)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setCursor(Qt.CursorShape.SizeHorCursor)
+        self.setAttribute(Qt.WidgetAttribute.WA_Hover)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        session.theme_changed.connect(self.update)
+
+    # What it shows
+
+    @property
+    def value(self) -> float:
+        """The value shown; of several different ones, that of the first."""
+        return self._value
+
+    @property
+    def default(self) -> float:
+        """What a reset returns to."""
+        return self._default
+
+    @property
+    def mixed(self) -> bool:
+        """Whether it stands for several different values."""
+        return self._mixed
+
+    @property
+    def by_hand(self) -> bool:
+        """Whether the value is marked as a person's."""
+        return self._value != self._default or self._mixed if self._by_hand is None else self._by_hand
+
+    def show_value(
+        self, value: float, *, mixed: bool = False, default: float | None = None, by_hand: bool | None = None
+    ) -> None:
+        """Show a value; no signal follows.
+
+        Parameters
+        ----------
+        value : float
+        mixed : bool
+            It stands for several different ones; a drag starts from ``value``.
+        default : float, optional
+            Another value to reset to.
+        by_hand : bool, optional
+            Whether it is marked as made by hand; None: wherever it is not the default.
+        """
+        self._value, self._mixed, self._by_hand = value, mixed, by_hand
+        if default is not None:
+            self._default = default
+        self.update()
+
+    def set_range(self, minimum: float, maximum: float) -> None:
+        """Allow values from ``minimum`` to ``maximum``."""
+        self._minimum, self._maximum = minimum, maximum
+        self.update()
+
+    def set_texts(self, label: str, unit: str = "", tool_tip: str = "") -> None:
+        """The words around the number, in the language of the editor."""
+        self._label, self._unit = label, unit
+        self.setAccessibleName(label)
+        self.setToolTip(tool_tip)
+        self.updateGeometry()
+        self.update()
+
+    def set_wording(self, words: Callable[[float], str], reads: Callable[[str], float | None]) -> None:
+        """Write and read the value in another way than as a number, e.g. a pitch by its name."""
+        self._words, self._reads = words, reads
+        self.update()
+
+    def value_text(self) -> str:
+        """The value as it is written in the control, without its unit."""
+        if self._mixed:
+            return MIXED
+        return self._words(self._value) if self._words is not None else number_text(self._value, self._decimals)
+
+    # Changing it
+
+    def copy(self) -> None:
+        """Put the number on the clipboard."""
+        QGuiApplication.clipboard().setText(self.value_text().replace("−", "-"))
+
+    def paste(self) -> None:
+        """Take the number on the clipboard, if it holds one."""
+        self._take(QGuiApplication.clipboard().text())
+
+    def reset_value(self) -> None:
+        """Return to the default."""
+        if self.receivers(SIGNAL("reset(double)")) > 0:
+            self.reset.emit(self._default)
+        else:
+            self._want(self._default, None)
+
+    def type_value(self, text: str | None = None) -> None:
+        """Open the field to type in, with the value selected, or beginning with ``text``."""
+        if not self.isEnabled():
+            return
+        field = QLineEdit(self)
+        field.setObjectName("number_field")
+        field.setFrame(False)
+        field.setAlignment(Qt.AlignmentFlag.AlignRight)
+        field.setTextMargins(4, 0, 4, 0)
+        tokens = self._session.tokens
+        field.setStyleSheet(
+            f"QLineEdit {{ background: {tokens.sunken}; color: {tokens.text}; border: 1px solid {tokens.accent};"
+            f" border-radius: 4px; padding: 0; margin: 0; min-height: 0;"
+            f" selection-background-color: {tokens.accent}; selection-color: {tokens.accent_text}; }}"
+        )
+        field.setGeometry(self.rect())
+        field.setText(self.value_text().replace("−", "-") if text is None else text)
+        if self._mixed and text is None:
+            field.clear()
+        field.installEventFilter(self)
+        self._field = field
+        field.show()
+        field.setFocus(Qt.FocusReason.OtherFocusReason)
+        if text is None:
+            field.selectAll()
+
+    def _take(self, text: str) -> bool:
+        value = self._reads(text) if self._reads is not None else number_from(text, self._unit)
+        if value is not None:
+            self._want(value, None)
+        return value is not None
+
+    def _want(self, value: float, token: object | None) -> None:
+        kept = self._kept(value)
+        if kept == self._value and not self._mixed:
+            return
+        self._value, self._mixed = kept, False
+        self.update()
+        self.changed.emit(kept, token)
+
+    def _kept(self, value: float) -> float:
+        """Within the range, and no finer than is shown."""
+        return min(max(round(value, self._decimals), self._minimum), self._maximum) + 0.0
+
+    def _end(self) -> None:
+        self._wheel_rest.stop()
+        if self._token is not None:
+            self._token = None
+            self.released.emit()
+
+    def _close_field(self, commit: bool, focus: bool = True) -> None:
+        field, self._field = self._field, None
+        if field is None:
+            return
+        field.removeEventFilter(self)
+        text = field.text()
+        field.hide()
+        field.deleteLater()
+        if focus:
+            self.setFocus(Qt.FocusReason.OtherFocusReason)
+        if commit and text.strip():
+            self._take(text)
+        self.update()
+
+    def _cancel_drag(self) -> None:
+        if self._dragging:
+            self._dragging = False
+            self._want(self._press_value, self._token)
+        self._press = None
+        self._end()
+
+    def _menu_entries(self) -> QMenu:
+        menu = QMenu(self)
+        menu.setObjectName("number_menu")
+        for text, slot in (
+            (self.tr("Type a value"), lambda: self.type_value()),
+            (self.tr("Copy value"), self.copy),
+            (self.tr("Paste value"), self.paste),
+            (self.tr("Reset"), self.reset_value),
+        ):
+            menu.addAction(text, slot)
+        return menu
+
+    # Drawing
+
+    def _text_width(self, text: str) -> float:
+        return QFontMetricsF(self.font()).horizontalAdvance(text)
+
+    def _share(self) -> float:
+        span = self._maximum - self._minimum
+        return min(max((self._value - self._minimum) / span, 0.0), 1.0) if span > 0 else 0.0
+
+    # Qt's own names
+
+    def sizeHint(self) -> QSize:
+        sample = number_text(self._maximum if self._slides else 0.0, self._decimals) + " " + self._unit
+        width = self._text_width(self._label) + self._text_width(sample) + 4 * _PAD_PX
+        return QSize(round(width), max(LEAST_TARGET_PX + 1, round(QFontMetricsF(self.font()).height()) + 9))
+
+    def minimumSizeHint(self) -> QSize:
+        return QSize(60, self.sizeHint().height())
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        tokens, painter = self._session.tokens, QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        box = QRectF(self.rect()).adjusted(0.75, 0.75, -0.75, -0.75)
+        shape = QPainterPath()
+        shape.addRoundedRect(box, 4, 4)
+        hovered = self.isEnabled() and (self.underMouse() or self._dragging)
+        painter.fillPath(shape, QColor(tokens.raised if hovered else tokens.sunken))
+        painter.save()
+        painter.setClipPath(shape)
+        if self._slides and not self._mixed and self.isEnabled():
+            fill = QColor(tokens.accent)
+            fill.setAlphaF(0.42 if hovered else 0.30)
+            zero = 0.0 if not self._minimum < 0 < self._maximum else -self._minimum / (self._maximum - self._minimum)
+            left, right = sorted((box.left() + zero * box.width(), box.left() + self._share() * box.width()))
+            painter.fillRect(QRectF(left, box.top(), right - left, box.height()), fill)
+            edge = box.left() + self._share() * box.width()
+            painter.fillRect(QRectF(min(edge, box.right() - 2) - 1, box.top(), 2, box.height()), QColor(tokens.accent))
+        if self.by_hand and self.isEnabled():
+            painter.fillRect(QRectF(box.left(), box.top(), 3, box.height()), QColor(tokens.by_hand))
+        painter.restore()
+        focused = self.hasFocus()
+        painter.setPen(QPen(QColor(tokens.accent if focused else tokens.line), 1.5 if focused else 1.0))
+        painter.drawPath(shape)
+        self._paint_texts(painter, box, tokens)
+
+    def _paint_texts(self, painter: QPainter, box: QRectF, tokens: Tokens) -> None:
+        enabled = self.isEnabled()
+        inner = box.adjusted(_PAD_PX + 2, 0, -_PAD_PX, 0)
+        number = self.value_text()
+        unit = f" {self._unit}" if self._unit and not self._mixed else ""
+        middle = Qt.AlignmentFlag.AlignVCenter
+        unit_px, number_px = self._text_width(unit), self._text_width(number)
+        painter.setPen(QColor(tokens.text_dim))
+        painter.drawText(inner, middle | Qt.AlignmentFlag.AlignRight, unit)
+        painter.setPen(QColor(tokens.text if enabled else tokens.text_dim))
+        painter.drawText(inner.adjusted(0, 0, -unit_px, 0), middle | Qt.AlignmentFlag.AlignRight, number)
+        room = inner.width() - unit_px - number_px - 8
+        metrics = QFontMetricsF(self.font())
+        label = metrics.elidedText(self._label, Qt.TextElideMode.ElideRight, max(room, 0.0))
+        painter.setPen(QColor(tokens.text if enabled else tokens.text_dim))
+        painter.drawText(inner, middle | Qt.AlignmentFlag.AlignLeft, label)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        if self._field is not None:
+            self._field.setGeometry(self.rect())
+        super().resizeEvent(event)
+
+    def event(self, event: QEvent) -> bool:
+        # What is typed here must not reach the window's shortcuts (digits are fingerings there).
+        if event.type() == QEvent.Type.ShortcutOverride and isinstance(event, QKeyEvent) and self._takes(event):
+            event.accept()
+            return True
+        return super().event(event)
+
+    def _takes(self, event: QKeyEvent) -> bool:
+        if event.matches(QKeySequence.StandardKey.Copy) or event.matches(QKeySequence.StandardKey.Paste):
+            return True
+        if event.modifiers() & (Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.AltModifier):
+            return False
+        key = Qt.Key(event.key())
+        special = key in _STEP_KEYS or key in _TYPE_KEYS or key in _RESET_KEYS
+        escape = key == Qt.Key.Key_Escape and self._press is not None
+        return special or escape or key in (Qt.Key.Key_Home, Qt.Key.Key_End) or event.text() in _starts()
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        key = Qt.Key(event.key())
+        if key == Qt.Key.Key_Escape and self._press is not None:
+            self._cancel_drag()
+        elif event.matches(QKeySequence.StandardKey.Copy):
+            self.copy()
+        elif event.matches(QKeySequence.StandardKey.Paste):
+            self.paste()
+        elif not self._takes(event):
+            super().keyPressEvent(event)
+        elif key in _STEP_KEYS:
+            fine = FINE if event.modifiers() & Qt.KeyboardModifier.ShiftModifier else 1.0
+            least = 10.0**-self._decimals
+            self._token = self._token or object()
+            self._want(self._value + _STEP_KEYS[key] * max(self._step * fine, least), self._token)
+        elif key in _TYPE_KEYS:
+            self.type_value()
+        elif key in _RESET_KEYS:
+            self.reset_value()
+        elif key in (Qt.Key.Key_Home, Qt.Key.Key_End):
+            if self._slides:
+                self._want(self._minimum if key == Qt.Key.Key_Home else self._maximum, None)
+        else:
+            self.type_value(event.text())
+
+    def keyReleaseEvent(self, event: QKeyEvent) -> None:
+        if Qt.Key(event.key()) in _STEP_KEYS and not event.isAutoRepeat() and self._press is None:
+            self._end()
+        else:
+            super().keyReleaseEvent(event)
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        if event.button() != Qt.MouseButton.LeftButton:
+            event.ignore()
+            return
+        self._end()
+        self._press = event.position()
+        self._press_value = self._value
+        self._drag_x, self._drag_value = event.position().x(), self._value
+        self._dragging = False
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:
+        if self._press is None:
+            return
+        x = event.position().x()
+        if not self._dragging:
+            if abs(x - self._press.x()) < DRAG_PX:
+                return
+            self._dragging, self._token = True, object()
+            self._drag_x = x
+            return
+        per_px = (self._maximum - self._minimum) / max(self.width(), 1) if self._slides else self._step / FREE_DRAG_PX
+        if event.modifiers() & Qt.KeyboardModifier.ShiftModifier:
+            per_px *= FINE
+        # Summed unrounded and held at the ends, so that no slow drag is lost and none has to come back from outside.
+        moved = self._drag_value + (x - self._drag_x) * per_px
+        self._drag_value = min(max(moved, self._minimum), self._maximum)
+        self._drag_x = x
+        self._want(self._drag_value, self._token)
+
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:
+        if event.button() != Qt.MouseButton.LeftButton or self._press is None:
+            return
+        dragged = self._dragging
+        self._press, self._dragging = None, False
+        self.update()
+        self._end()
+        if not dragged and self.rect().contains(event.position().toPoint()):
+            self.type_value()
+
+    def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
+        self._close_field(commit=False)
+        self._press = None
+        self.reset_value()
+
+    def wheelEvent(self, event: QWheelEvent) -> None:
+        if not self.hasFocus() or self._press is not None:
+            event.ignore()
+            return
+        notches = (event.angleDelta().y() or event.angleDelta().x()) / 120.0
+        fine = FINE if event.modifiers() & Qt.KeyboardModifier.ShiftModifier else 1.0
+        self._token = self._token or object()
+        self._wheel_rest.start()
+        self._want(self._value + notches * max(self._step * fine, 10.0**-self._decimals), self._token)
+        event.accept()
+
+    def contextMenuEvent(self, event: QContextMenuEvent) -> None:
+        if self._press is None:
+            menu = self._menu_entries()
+            menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+            menu.popup(event.globalPos())
+
+    def focusOutEvent(self, event: QFocusEvent) -> None:
+        if self._press is None:
+            self._end()
+        super().focusOutEvent(event)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        if watched is not self._field:
+            return super().eventFilter(watched, event)
+        if event.type() == QEvent.Type.MouseButtonDblClick:
+            self._close_field(commit=False)
+            self.reset_value()
+            return True
+        if event.type() == QEvent.Type.FocusOut:
+            if isinstance(event, QFocusEvent) and event.reason() != Qt.FocusReason.PopupFocusReason:
+                self._close_field(commit=True, focus=False)
+            return False
+        if event.type() == QEvent.Type.KeyPress and isinstance(event, QKeyEvent):
+            return self._field_key(Qt.Key(event.key()), event)
+        return False
+
+    def _field_key(self, key: Qt.Key, event: QKeyEvent) -> bool:
+        if key in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
+            self._close_field(commit=True)
+        elif key == Qt.Key.Key_Escape:
+            self._close_field(commit=False)
+        elif key in (Qt.Key.Key_Tab, Qt.Key.Key_Backtab):
+            self._close_field(commit=True)
+            self.focusNextPrevChild(key == Qt.Key.Key_Tab)
+        elif key in (Qt.Key.Key_Up, Qt.Key.Key_Down):
+            self._close_field(commit=True)
+            self.keyPressEvent(event)
+        else:
+            return False
+        return True
+
+
+def _starts() -> tuple[str, ...]:
+    """Characters that begin a number."""
+    return tuple("0123456789.-+(")
