@@ -348,8 +348,9 @@ def _corrected_spans(
     kept: list[Span] = [event for event in events if event.id not in removed]
     if not changes and not added:
         return tuple(kept)
-    result = [*(_changed(event, changes.get(event.id), fields, clock) for event in kept), *added]
-    return tuple(sorted(result, key=lambda event: event.start_s))
+    result: list[Span] = [*(_changed(event, changes.get(event.id), fields, clock) for event in kept), *added]
+    result.sort(key=lambda event: event.start_s)
+    return tuple(result)
 
 
 def _changed(
