@@ -82,6 +82,11 @@ class Performance:
         """Every expression by name; the project's own win over the bundled ones."""
         return load_expressions() | {expression.name: expression for expression in self.project.expressions}
 
+    @property
+    def planned(self) -> bool:
+        """Whether the plans are made already: asking for them then costs nothing."""
+        return "plans" in self.__dict__
+
     def plan(self, player: Player) -> PlayerPlan:
         """One player's plan."""
         return self.plans[player.id]

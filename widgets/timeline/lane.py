@@ -1,0 +1,599 @@
+"""What every lane of the timeline is: a header, and a plot whose time axis is that of all lanes.
+
+A lane draws with `LaneItem`s (in pixels of the plot, with times from ``axis.x_px``) or with pyqtgraph's items (in
+seconds and the lane's own values, through ``view_box.addItem``), and answers the mouse by overriding the hooks.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import pyqtgraph as pg
+from PySide6.QtCore import QEvent, QPoint, QPointF, QRectF, QSize, Qt, QTimer, Signal
+from PySide6.QtGui import (
+    QColor,
+    QContextMenuEvent,
+    QKeyEvent,
+    QMouseEvent,
+    QPainter,
+    QPalette,
+    QPen,
+    QResizeEvent,
+    QWheelEvent,
+)
+from PySide6.QtWidgets import (
+    QHBoxLayout,
+    QLabel,
+    QMenu,
+    QSizePolicy,
+    QStyleOptionGraphicsItem,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from app.plan.model import PlayerPlan
+from app.project.document import Change
+from app.project.model import Player
+from widgets.common.session import Session
+from widgets.timeline.axis import TimeAxis
+from widgets.timeline.lines import Lines, visible_lines
+
+GUTTER_PX = 132
+"""Width of the header of every lane."""
+FOLDED_PX = 26
+AUTOSCROLL_MS = 30
+AUTOSCROLL_SHARE = 0.02
+"""Of the visible span, for each tick of the timer while a drag is held past the edge."""
+ZOOM_A_STEP = 1.2
+PAN_A_STEP = 0.12
+
+
+@dataclass(frozen=True)
+class LaneMouse:
+    """The mouse over a lane's plot.
+
+    Attributes
+    ----------
+    x_px, y_px : float
+        From the upper left corner of the plot.
+    time_s : float
+    value : float
+        On the lane's own vertical scale.
+    tick : float
+        Where ``time_s`` is in the score.
+    snapped_tick : int
+        The nearest line of the session's grid; the nearest tick while Alt is held.
+    modifiers : Qt.KeyboardModifier
+    button : Qt.MouseButton
+        What was pressed; `NoButton` while hovering.
+    screen : QPoint
+        For menus.
+    """
+
+    x_px: float
+    y_px: float
+    time_s: float
+    value: float
+    tick: float
+    snapped_tick: int
+    modifiers: Qt.KeyboardModifier
+    button: Qt.MouseButton
+    screen: QPoint
+
+    @property
+    def shift(self) -> bool:
+        return bool(self.modifiers & Qt.KeyboardModifier.ShiftModifier)
+
+    @property
+    def ctrl(self) -> bool:
+        return bool(self.modifiers & Qt.KeyboardModifier.ControlModifier)
+
+    @property
+    def alt(self) -> bool:
+        return bool(self.modifiers & Qt.KeyboardModifier.AltModifier)
+
+
+class LaneItem(pg.GraphicsObject):  # type: ignore[misc]
+    """Something drawn over the whole plot in pixels. Override `paint_px`, and draw only what meets ``exposed``."""
+
+    def __init__(self, lane: Lane, z: float = 0.0) -> None:
+        super().__init__()
+        self.lane = lane
+        self.setFlag(self.GraphicsItemFlag.ItemUsesExtendedStyleOption)
+        self.setParentItem(lane.view_box)
+        self.setZValue(z)
+
+    def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
+        """Draw; x and y in pixels of the plot, see ``lane.axis.x_px`` and ``lane.y_px``."""
+        raise NotImplementedError
+
+    # Qt overrides
+
+    def boundingRect(self) -> QRectF:
+        return self.lane.plot_rect
+
+    def paint(self, painter: QPainter, option: QStyleOptionGraphicsItem, widget: QWidget | None = None) -> None:
+        self.paint_px(painter, option.exposedRect)
+
+
+class _Background(LaneItem):
+    """Lines of bars, beats and the grid; the loop and the selected span as shades."""
+
+    def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
+        lane = self.lane
+        tokens, axis, session = lane.session.tokens, lane.axis, lane.session
+        top, height = exposed.top(), exposed.height()
+        span = session.selection.span
+        if span is not None:
+            tempo = session.project.score.tempo_map
+            self._shade(painter, exposed, tempo.seconds(float(span[0])), tempo.seconds(float(span[1])), tokens.accent)
+        if session.loop_s is not None:
+            self._shade(painter, exposed, *session.loop_s, tokens.good)
+        lines = lane.lines()
+        for seconds, colour, alpha in (
+            (lines.step_s, tokens.line, 110),
+            (lines.beat_s, tokens.line, 255),
+            (lines.bar_s, tokens.line_strong, 255),
+        ):
+            shade = QColor(colour)
+            shade.setAlpha(alpha)
+            painter.setPen(QPen(shade, 1.0))
+            for x in axis.x_px(seconds).tolist():
+                if exposed.left() - 1 <= x <= exposed.right() + 1:
+                    # Whole pixels and a half: a sharp line.
+                    painter.drawLine(QPointF(int(x) + 0.5, top), QPointF(int(x) + 0.5, top + height))
+
+    def _shade(self, painter: QPainter, exposed: QRectF, start_s: float, end_s: float, colour: str) -> None:
+        axis = self.lane.axis
+        left, right = axis.x_px(start_s), axis.x_px(end_s)
+        shade = QColor(colour)
+        shade.setAlpha(34)
+        painter.fillRect(QRectF(left, exposed.top(), right - left, exposed.height()) & exposed, shade)
+
+
+class Plot(pg.GraphicsView):  # type: ignore[misc]
+    """The drawing area of a lane: pyqtgraph draws, the lane has the mouse."""
+
+    def __init__(self, lane: Lane) -> None:
+        super().__init__(lane, background=None)
+        self._lane = lane
+        self.setCacheMode(self.CacheModeFlag.CacheNone)
+        self.setMinimumSize(40, 0)
+        self.setMouseTracking(True)
+        self.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
+        self.setRenderHint(QPainter.RenderHint.Antialiasing, False)
+        self.view_box = pg.ViewBox(enableMouse=False, enableMenu=False, defaultPadding=0.0)
+        self.view_box.disableAutoRange()
+        self.setCentralItem(self.view_box)
+
+    # Qt overrides: nothing reaches pyqtgraph's scene, whose own hovering would cost more than the drawing.
+
+    def resizeEvent(self, event: QResizeEvent | None) -> None:
+        super().resizeEvent(event)
+        if event is not None:
+            self._lane._plot_resized()
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        self._lane._pressed(event)
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:
+        self._lane._moved(event)
+
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:
+        self._lane._released(event)
+
+    def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
+        self._lane._double_clicked(event)
+
+    def wheelEvent(self, event: QWheelEvent) -> None:
+        self._lane._wheeled(event)
+
+    def contextMenuEvent(self, event: QContextMenuEvent) -> None:
+        event.accept()
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        self._lane._key_pressed(event)
+
+    def keyReleaseEvent(self, event: QKeyEvent) -> None:
+        event.ignore()
+
+    def leaveEvent(self, event: QEvent) -> None:
+        self._lane.hover(None)
+
+
+class Lane(QWidget):
+    """A lane of the timeline.
+
+    Parameters
+    ----------
+    session : Session
+    axis : TimeAxis
+        Shared by all lanes.
+
+    Signals
+    -------
+    sought(float)
+        Somebody wants the playhead at this time (seconds); the panel passes it on.
+    fold_changed()
+
+    Attributes
+    ----------
+    id : str
+        Class attribute: the lane's name in saved layouts, and its object name is ``"lane_" + id``.
+    preferred_height_px : int
+        Class attribute: its height in a new window.
+    least_height_px : int
+        Class attribute.
+    folded_at_first : bool
+        Class attribute.
+    """
+
+    id = ""
+    preferred_height_px = 64
+    least_height_px = 36
+    folded_at_first = False
+
+    sought = Signal(float)
+    fold_changed = Signal()
+
+    def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setObjectName("lane_" + self.id)
+        self.session = session
+        self.axis = axis
+        self._y_range = (0.0, 1.0)
+        self._folded = False
+        self._button = Qt.MouseButton.NoButton
+        self._panned_px: float | None = None
+        self._last: QMouseEvent | None = None
+        self._lines: tuple[tuple[object, ...], Lines] | None = None
+
+        self.header = QWidget(self)
+        self.header.setFixedWidth(GUTTER_PX)
+        self.header.setAutoFillBackground(True)
+        self.fold_button = QToolButton(self.header)
+        self.fold_button.setObjectName("fold")
+        self.fold_button.setAutoRaise(True)
+        self.fold_button.setFixedSize(QSize(24, 24))
+        self.fold_button.setArrowType(Qt.ArrowType.DownArrow)
+        self.fold_button.clicked.connect(self._toggle_fold)
+        self.title = QLabel(self.header)
+        self.title.setObjectName("lane_title")
+        self.title.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
+        self.title_row = QHBoxLayout()
+        self.title_row.setContentsMargins(0, 0, 0, 0)
+        self.title_row.setSpacing(2)
+        self.title_row.addWidget(self.fold_button)
+        self.title_row.addWidget(self.title, 1)
+        self.controls = QVBoxLayout()
+        """Below the title: a lane's own small controls go here."""
+        self.controls.setContentsMargins(4, 0, 4, 2)
+        self.controls.setSpacing(2)
+        column = QVBoxLayout(self.header)
+        column.setContentsMargins(2, 1, 4, 0)
+        column.setSpacing(0)
+        column.addLayout(self.title_row)
+        column.addLayout(self.controls)
+        column.addStretch(1)
+
+        self.plot = Plot(self)
+        self.view_box = self.plot.view_box
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.setSpacing(0)
+        row.addWidget(self.header)
+        row.addWidget(self.plot, 1)
+        self.setMinimumHeight(self.least_height_px)
+
+        self._autoscroll = QTimer(self)
+        self._autoscroll.setInterval(AUTOSCROLL_MS)
+        self._autoscroll.timeout.connect(self._scroll_past_the_edge)
+        self.background = _Background(self, -100.0)
+        axis.changed.connect(self._axis_changed)
+        session.changed.connect(self._session_changed)
+        session.performance_changed.connect(self.performance_changed)
+        session.theme_changed.connect(self._theme_set)
+        session.selection_changed.connect(self._selection_set)
+        session.players_changed.connect(self.players_changed)
+        session.grid_changed.connect(self.background.update)
+        session.loop_changed.connect(self.background.update)
+        self._paint_surfaces()
+        self._axis_changed()
+
+    # What a lane overrides
+
+    def retranslate(self) -> None:
+        """Set every text anew; called when the language changes. Set ``self.title`` here, and call it at the end of
+        the constructor."""
+
+    def project_changed(self, change: Change) -> None:
+        """The project is another value: compare what is shown by identity."""
+
+    def performance_changed(self) -> None:
+        """New plans are there."""
+
+    def selection_changed(self) -> None:
+        """Another selection."""
+
+    def players_changed(self) -> None:
+        """Another player is in front."""
+
+    def theme_changed(self) -> None:
+        """Another theme."""
+
+    def axis_changed(self) -> None:
+        """Another range or zoom; items of the lane are updated without this."""
+
+    def press(self, mouse: LaneMouse) -> None:
+        """The left button went down; `drag` and `release` follow."""
+
+    def drag(self, mouse: LaneMouse) -> None:
+        """The mouse moved with the left button down, or the plot scrolled under it."""
+
+    def release(self, mouse: LaneMouse) -> None:
+        """The left button went up."""
+
+    def cancel(self) -> None:
+        """Escape in mid-drag: undo what the drag has done; neither `drag` nor `release` follows."""
+
+    def double_click(self, mouse: LaneMouse) -> None:
+        """Neither `drag` nor `release` follows."""
+
+    def hover(self, mouse: LaneMouse | None) -> None:
+        """The mouse moved without a button; None: it left."""
+
+    def wheel(self, mouse: LaneMouse, steps: float) -> bool:
+        """The wheel turned (or Alt and the wheel) by notches, away from the hand is positive; whether it was used."""
+        return False
+
+    def context_menu(self, mouse: LaneMouse) -> QMenu | None:
+        """The menu at a place, made anew each time."""
+        return None
+
+    def key(self, event: QKeyEvent) -> bool:
+        """A key went down while the plot has the focus; whether it was used."""
+        return False
+
+    # What a lane uses
+
+    @property
+    def plot_rect(self) -> QRectF:
+        """The plot, pixels."""
+        return QRectF(0.0, 0.0, float(max(self.plot.width(), 1)), float(max(self.plot.height(), 1)))
+
+    @property
+    def y_range(self) -> tuple[float, float]:
+        """The lane's values at the bottom and at the top."""
+        return self._y_range
+
+    def set_y_range(self, bottom: float, top: float) -> None:
+        """Change the vertical scale."""
+        if (bottom, top) != self._y_range:
+            self._y_range = (bottom, top)
+            self.view_box.setYRange(bottom, top, padding=0)
+            self.update_items()
+
+    def y_px(self, value: float) -> float:
+        """Where a value lies, pixels from the top."""
+        bottom, top = self._y_range
+        return (top - value) / (top - bottom) * self.plot_rect.height()
+
+    def value_at(self, y_px: float) -> float:
+        """The value at a height."""
+        bottom, top = self._y_range
+        return top - y_px / self.plot_rect.height() * (top - bottom)
+
+    def plan_of(self, player: Player) -> PlayerPlan | None:
+        """A player's plan if the plans are made already: a lane never waits for them."""
+        performance = self.session.performance
+        return performance.plans.get(player.id) if performance.planned else None
+
+    def lines(self) -> Lines:
+        """Bars, beats and grid lines of the visible range."""
+        axis, score, grid = self.axis, self.session.project.score, self.session.grid
+        key = (score, grid, axis.start_s, axis.end_s, axis.width_px)
+        if self._lines is None or any(a is not b and a != b for a, b in zip(self._lines[0][1:], key[1:], strict=True)):
+            self._lines = None
+        if self._lines is None or self._lines[0][0] is not score:
+            self._lines = (key, visible_lines(score, grid, axis.start_s, axis.end_s, axis.px_per_s))
+        return self._lines[1]
+
+    def update_items(self) -> None:
+        """Draw everything anew."""
+        self.plot.viewport().update()
+
+    @property
+    def folded(self) -> bool:
+        """Whether only the title shows."""
+        return self._folded
+
+    def set_folded(self, folded: bool) -> None:
+        """Fold it up to its title, or unfold it."""
+        if folded == self._folded:
+            return
+        self._folded = folded
+        self.plot.setVisible(not folded)
+        for index in range(self.controls.count()):
+            item = self.controls.itemAt(index)
+            widget = item.widget() if item else None
+            if widget is not None:
+                widget.setVisible(not folded)
+        self.fold_button.setArrowType(Qt.ArrowType.RightArrow if folded else Qt.ArrowType.DownArrow)
+        self.setMinimumHeight(FOLDED_PX if folded else self.least_height_px)
+        self.setMaximumHeight(FOLDED_PX if folded else 16777215)
+        self.fold_changed.emit()
+
+    def _toggle_fold(self) -> None:
+        self.set_folded(not self._folded)
+
+    @property
+    def dragging(self) -> bool:
+        """Whether the left button is held in the plot."""
+        return self._button == Qt.MouseButton.LeftButton
+
+    # How it works
+
+    def _mouse(self, event: QMouseEvent | QWheelEvent) -> LaneMouse:
+        place = event.position()
+        button = self._button
+        if event.type() in (QEvent.Type.MouseButtonPress, QEvent.Type.MouseButtonDblClick):
+            assert isinstance(event, QMouseEvent)
+            button = event.button()
+        return self.mouse_at(place, event.modifiers(), button, event.globalPosition().toPoint())
+
+    def mouse_at(
+        self,
+        place: QPointF,
+        modifiers: Qt.KeyboardModifier = Qt.KeyboardModifier.NoModifier,
+        button: Qt.MouseButton = Qt.MouseButton.NoButton,
+        screen: QPoint | None = None,
+    ) -> LaneMouse:
+        """What a place of the plot means."""
+        score = self.session.project.score
+        time_s = self.axis.seconds(place.x())
+        tick = score.tempo_map.ticks(time_s)
+        free = bool(modifiers & Qt.KeyboardModifier.AltModifier)
+        return LaneMouse(
+            x_px=place.x(),
+            y_px=place.y(),
+            time_s=time_s,
+            value=self.value_at(place.y()),
+            tick=tick,
+            snapped_tick=round(tick) if free else self.session.grid.snap(score, tick),
+            modifiers=modifiers,
+            button=button,
+            screen=screen or self.plot.mapToGlobal(place.toPoint()),
+        )
+
+    def _pressed(self, event: QMouseEvent) -> None:
+        event.accept()
+        if self._button != Qt.MouseButton.NoButton:
+            return
+        self._button = event.button()
+        if event.button() == Qt.MouseButton.LeftButton:
+            self.press(self._mouse(event))
+        elif event.button() == Qt.MouseButton.MiddleButton:
+            self._panned_px = event.position().x()
+            self.plot.setCursor(Qt.CursorShape.ClosedHandCursor)
+        elif event.button() == Qt.MouseButton.RightButton:
+            mouse = self._mouse(event)
+            # A menu takes the release away.
+            self._button = Qt.MouseButton.NoButton
+            menu = self.context_menu(mouse)
+            if menu is not None:
+                menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+                menu.popup(mouse.screen)
+
+    def _moved(self, event: QMouseEvent) -> None:
+        event.accept()
+        if self._button == Qt.MouseButton.LeftButton:
+            self._last = event.clone()
+            outside = not 0 <= event.position().x() <= self.axis.width_px
+            if outside and not self._autoscroll.isActive():
+                self._autoscroll.start()
+            elif not outside:
+                self._autoscroll.stop()
+            self.drag(self._mouse(event))
+        elif self._panned_px is not None:
+            self.axis.pan((self._panned_px - event.position().x()) / self.axis.px_per_s)
+            self._panned_px = event.position().x()
+        elif self._button == Qt.MouseButton.NoButton and event.buttons() == Qt.MouseButton.NoButton:
+            self.hover(self._mouse(event))
+
+    def _released(self, event: QMouseEvent) -> None:
+        event.accept()
+        if event.button() != self._button:
+            return
+        mouse = self._mouse(event)
+        left = self._button == Qt.MouseButton.LeftButton
+        self._end_press()
+        if left:
+            self.release(mouse)
+
+    def _end_press(self) -> None:
+        if self._panned_px is not None:
+            self._panned_px = None
+            self.plot.unsetCursor()
+        self._button = Qt.MouseButton.NoButton
+        self._last = None
+        self._autoscroll.stop()
+
+    def _double_clicked(self, event: QMouseEvent) -> None:
+        event.accept()
+        if event.button() == Qt.MouseButton.LeftButton:
+            self.double_click(self._mouse(event))
+
+    def _wheeled(self, event: QWheelEvent) -> None:
+        event.accept()
+        # With Alt held, some platforms turn the wheel sideways.
+        notches = (event.angleDelta().y() or event.angleDelta().x()) / 120.0
+        modifiers = event.modifiers()
+        sideways = not event.angleDelta().y() and not modifiers & Qt.KeyboardModifier.AltModifier
+        if modifiers & Qt.KeyboardModifier.ControlModifier:
+            self.axis.zoom(ZOOM_A_STEP**notches, self.axis.seconds(event.position().x()))
+        elif sideways or modifiers & Qt.KeyboardModifier.ShiftModifier or not self.wheel(self._mouse(event), notches):
+            self.axis.pan(-notches * PAN_A_STEP * self.axis.span_s)
+
+    def _key_pressed(self, event: QKeyEvent) -> None:
+        if event.key() == Qt.Key.Key_Escape and self.dragging:
+            self._end_press()
+            self.cancel()
+            event.accept()
+        elif self.key(event):
+            event.accept()
+        else:
+            event.ignore()
+
+    def _scroll_past_the_edge(self) -> None:
+        if self._last is None:
+            self._autoscroll.stop()
+            return
+        direction = -1 if self._last.position().x() < 0 else 1
+        self.axis.pan(direction * AUTOSCROLL_SHARE * self.axis.span_s)
+        self.drag(self._mouse(self._last))
+
+    def _axis_changed(self) -> None:
+        self.view_box.setXRange(self.axis.start_s, self.axis.end_s, padding=0)
+        self.axis_changed()
+        self.update_items()
+
+    def _plot_resized(self) -> None:
+        self.background.prepareGeometryChange()
+        for item in self.view_box.childItems():
+            if isinstance(item, LaneItem):
+                item.prepareGeometryChange()
+        if self.isVisible() and not self._folded:
+            self.axis.set_width(self.plot.width())
+
+    def _session_changed(self, change: Change) -> None:
+        if change.opened or change.before.score is not change.after.score:
+            self.background.update()
+        self.project_changed(change)
+
+    def _selection_set(self) -> None:
+        self.background.update()
+        self.selection_changed()
+
+    def _theme_set(self) -> None:
+        self._paint_surfaces()
+        self.theme_changed()
+        self.update_items()
+
+    def _paint_surfaces(self) -> None:
+        tokens = self.session.tokens
+        self.plot.setBackground(QColor(tokens.sunken))
+        palette = self.header.palette()
+        palette.setColor(QPalette.ColorRole.Window, QColor(tokens.surface))
+        palette.setColor(QPalette.ColorRole.WindowText, QColor(tokens.text))
+        self.header.setPalette(palette)
+
+    # Qt overrides
+
+    def changeEvent(self, event: QEvent) -> None:
+        if event.type() == QEvent.Type.LanguageChange:
+            self.retranslate()
+        super().changeEvent(event)
+
+    def sizeHint(self) -> QSize:
+        return QSize(800, FOLDED_PX if self._folded else self.preferred_height_px)
