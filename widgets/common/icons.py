@@ -1,0 +1,77 @@
+"""Icons: line drawings in the colours of the theme.
+
+A drawing is ``resources/icons/<name>.svg``: a view box of 24, lines of ``currentColor``. It is drawn anew for each size, so
+that it is sharp at every scale of the screen.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from importlib.resources import files
+
+from PySide6.QtCore import QByteArray, QRectF, Qt
+from PySide6.QtGui import QIcon, QPainter, QPixmap
+from PySide6.QtSvg import QSvgRenderer
+
+from widgets.common.tokens import Tokens
+
+SIZES_PX = (16, 20, 24, 32, 48)
+"""Drawn sizes in pixels of the screen; other sizes are scaled down from the next one."""
+DISABLED_OPACITY = 0.4
+
+
+def icon(name: str, tokens: Tokens, colour: str | None = None) -> QIcon:
+    """An icon in the theme's text colour, and in its accent where a button is checked.
+
+    Parameters
+    ----------
+    name : str
+        A file of ``resources/icons`` without its ending.
+    tokens : Tokens
+    colour : str, optional
+        ``#rrggbb`` instead of the theme's.
+
+    Raises
+    ------
+    FileNotFoundError
+        There is no such drawing.
+    """
+    return _icon(name, colour or tokens.text, colour or tokens.accent)
+
+
+def pixmap(name: str, size_px: int, colour: str, ratio: float = 1.0) -> QPixmap:
+    """One drawing as a picture of ``size_px`` device-independent pixels."""
+    result = _draw(_source(name, colour), round(size_px * ratio), 1.0)
+    result.setDevicePixelRatio(ratio)
+    return result
+
+
+@lru_cache(maxsize=512)
+def _icon(name: str, colour: str, checked: str) -> QIcon:
+    result = QIcon()
+    off, on = _source(name, colour), _source(name, checked)
+    for size_px in SIZES_PX:
+        result.addPixmap(_draw(off, size_px, 1.0), QIcon.Mode.Normal, QIcon.State.Off)
+        result.addPixmap(_draw(off, size_px, DISABLED_OPACITY), QIcon.Mode.Disabled, QIcon.State.Off)
+        if checked != colour:
+            result.addPixmap(_draw(on, size_px, 1.0), QIcon.Mode.Normal, QIcon.State.On)
+    return result
+
+
+@lru_cache(maxsize=512)
+def _text(name: str) -> str:
+    return (files("resources") / "icons" / f"{name}.svg").read_text(encoding="utf-8")
+
+
+def _source(name: str, colour: str) -> bytes:
+    return _text(name).replace("currentColor", colour).encode()
+
+
+def _draw(source: bytes, size_px: int, opacity: float) -> QPixmap:
+    result = QPixmap(size_px, size_px)
+    result.fill(Qt.GlobalColor.transparent)
+    painter = QPainter(result)
+    painter.setOpacity(opacity)
+    QSvgRenderer(QByteArray(source)).render(painter, QRectF(0.0, 0.0, size_px, size_px))
+    painter.end()
+    return result
