@@ -126,30 +126,7 @@ def parts_of(
         Earlier ones are preferred where all else is equal.
     tempo_map : TempoMap
     """
-    parts: list[Part] = []
-    unplayed: list[UnplayedPart] = []
-    warnings: list[Message] = []
-    for stream in streams:
-        instrument = recognised(stream)
-        by_range = instrument is None or instrument.any_pitch
-        candidates = maps if by_range or instrument is None else _maps_for(instrument, maps)
-        reason = _refusal(stream, instrument, candidates)
-        if reason is not None:
-            unplayed.append(UnplayedPart(stream_name(stream), reason, len(stream.pitches), max(stream.end_ticks)))
-            continue
-        voices = split_voices(stream.notes(), tempo_map)
-        mine = _parts(stream, stream.name or stream.instrument_name, instrument, voices, candidates)
-        parts += mine
-        if len(mine) > 1:
-            warnings.append(Message("score.voices", {"part": mine[0].name, "voices": len(mine)}))
-        if by_range:
-            warnings += [_range_warning(part, maps) for part in mine]
-        elif instrument is not None:
-            for map_id in dict.fromkeys(part.map_id for part in mine):
-                if not any(choice.map_id == map_id and instrument.id in choice.plays for choice in maps):
-                    arguments = {"part": mine[0].name, "instrument": instrument.names[0], "map": map_id}
-                    warnings.append(Message("score.substituted", {**arguments}))
-    return tuple(parts), tuple(unplayed), tuple(warnings)
+    return wished_parts(streams, usual_wishes(streams, maps), maps, tempo_map)
 
 
 class PartWish(msgspec.Struct, frozen=True):
@@ -174,51 +151,70 @@ class PartWish(msgspec.Struct, frozen=True):
 
 
 def usual_wishes(streams: Sequence[Stream], maps: Sequence[MapChoice]) -> tuple[PartWish, ...]:
-    """What `parts_of` does, as wishes that a person may change: every stream that somebody can play."""
-    wishes = []
-    for index, stream in enumerate(streams):
-        instrument = recognised(stream)
-        by_range = instrument is None or instrument.any_pitch
-        candidates = maps if by_range or instrument is None else _maps_for(instrument, maps)
-        if _refusal(stream, instrument, candidates) is None:
-            wishes.append(PartWish((index,)))
-    return tuple(wishes)
+    """What names, programs and ranges say: a wish, which a person may change, for every stream somebody can play."""
+    return tuple(
+        PartWish((index,)) for index, stream in enumerate(streams) if _refusal(stream, recognised(stream), maps) is None
+    )
 
 
 def wished_parts(
     streams: Sequence[Stream], wishes: Sequence[PartWish], maps: Sequence[MapChoice], tempo_map: TempoMap
-) -> tuple[tuple[Part, ...], tuple[UnplayedPart, ...]]:
-    """The parts a person wants. What nobody asks for stays unplayed.
+) -> tuple[tuple[Part, ...], tuple[UnplayedPart, ...], tuple[Message, ...]]:
+    """Sort tracks into the parts that a person wants and those nobody plays, and say what was guessed.
 
     Parameters
     ----------
+    streams : sequence of Stream
     wishes : sequence of PartWish
         A stream is asked for at most once.
+    maps : sequence of MapChoice
+    tempo_map : TempoMap
     """
     parts: list[Part] = []
+    warnings: list[Message] = []
     for wish in wishes:
         chosen = [streams[index] for index in wish.streams]
-        first = chosen[0]
         instrument = next((found for found in map(recognised, chosen) if found is not None), None)
-        candidates = [choice for choice in maps if choice.map_id == wish.map_id]
-        if wish.map_id is None:
-            # Whatever is not known, or has no map of its own, goes to the one whose range fits.
-            known = [] if instrument is None or instrument.any_pitch else _maps_for(instrument, maps)
-            candidates = known or list(maps)
-        notes = sorted(
-            (note for stream in chosen for note in stream.notes()), key=lambda note: (note.onset_tick, note.pitch)
-        )
+        # What is not known, or has no map of its own, goes to the one whose range fits.
+        known = [] if instrument is None or instrument.any_pitch else _maps_for(instrument, maps)
+        candidates = [choice for choice in maps if choice.map_id == wish.map_id] or known or list(maps)
+        notes = [note for stream in chosen for note in stream.notes()]
+        if len(chosen) > 1:
+            notes.sort(key=lambda note: (note.onset_tick, note.pitch))
         voices = split_voices(notes, tempo_map) if wish.split else [tuple(notes)]
         curves = next((stream.curves for stream in chosen if stream.curves), ())
-        merged = msgspec.structs.replace(first, curves=curves)
-        parts += _parts(merged, wish.name or first.name or first.instrument_name, instrument, voices, candidates)
+        name = wish.name or chosen[0].name or chosen[0].instrument_name
+        mine = _parts(msgspec.structs.replace(chosen[0], curves=curves), name, instrument, voices, candidates)
+        parts += mine
+        if len(mine) > 1:
+            warnings.append(Message("score.voices", {"part": mine[0].name, "voices": len(mine)}))
+        if wish.map_id is not None:
+            continue
+        if not known:
+            warnings += [_range_warning(part, maps) for part in mine]
+        elif instrument is not None:
+            warnings += _substitutions(mine, instrument, maps)
     asked = {index for wish in wishes for index in wish.streams}
     unplayed = tuple(
-        UnplayedPart(stream_name(stream), Message("score.left_out"), len(stream.pitches), max(stream.end_ticks))
+        UnplayedPart(
+            stream_name(stream),
+            _refusal(stream, recognised(stream), maps) or Message("score.left_out"),
+            len(stream.pitches),
+            max(stream.end_ticks),
+        )
         for index, stream in enumerate(streams)
         if index not in asked
     )
-    return tuple(parts), unplayed
+    return tuple(parts), unplayed, tuple(warnings)
+
+
+def _substitutions(parts: Sequence[Part], instrument: Instrument, maps: Sequence[MapChoice]) -> list[Message]:
+    """A warning for each map that only stands in for the instrument."""
+    return [
+        Message("score.substituted", {"part": parts[0].name, "instrument": instrument.names[0], "map": map_id})
+        for map_id in dict.fromkeys(part.map_id for part in parts)
+        if not any(choice.map_id == map_id and instrument.id in choice.plays for choice in maps)
+    ]
 
 
 def stream_name(stream: Stream) -> str:
@@ -262,14 +258,14 @@ def _maps_for(instrument: Instrument, maps: Sequence[MapChoice]) -> list[MapChoi
     ]
 
 
-def _refusal(stream: Stream, instrument: Instrument | None, candidates: Sequence[MapChoice]) -> Message | None:
+def _refusal(stream: Stream, instrument: Instrument | None, maps: Sequence[MapChoice]) -> Message | None:
     """Why nobody plays a track; None if somebody does."""
     if instrument is not None and not instrument.any_pitch:
         if instrument.kind != "wind":
             id_ = "score.percussion" if instrument.kind == "percussion" else "score.not_wind"
             return Message(id_, {"instrument": instrument.names[0]})
-        return None if candidates else Message("score.no_map", {"instrument": instrument.names[0]})
-    if max((_share(stream.pitches, choice) for choice in candidates), default=0.0) <= _NEEDED_SHARE:
+        return None if _maps_for(instrument, maps) else Message("score.no_map", {"instrument": instrument.names[0]})
+    if max((_share(stream.pitches, choice) for choice in maps), default=0.0) <= _NEEDED_SHARE:
         return Message("score.outside_ranges", {"lowest": min(stream.pitches), "highest": max(stream.pitches)})
     return None
 

@@ -112,8 +112,8 @@ def read_midi(path: Path, *, encoding: str | None = None, maps: Sequence[MapChoi
 
 def wished_score(contents: MidiContents, wishes: Sequence[PartWish], maps: Sequence[MapChoice]) -> Score:
     """The score in which the parts are those that a person wants."""
-    parts, unplayed = wished_parts(contents.streams, wishes, maps, contents.tempo_map)
-    return _score(contents, parts, unplayed, contents.warnings)
+    parts, unplayed, warnings = wished_parts(contents.streams, wishes, maps, contents.tempo_map)
+    return _score(contents, parts, unplayed, (*contents.warnings, *warnings))
 
 
 def _score(

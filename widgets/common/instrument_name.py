@@ -1,0 +1,27 @@
+"""What an instrument or a character is called in the person's language."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QCoreApplication
+
+from instrument_maps.model import InstrumentMap
+
+
+def language() -> str:
+    """The language the editor speaks now: ``"en"`` or ``"ja"``."""
+    # The translation of this word is the language's own tag, so that it always agrees with the texts around.
+    return QCoreApplication.translate("Language", "en")
+
+
+def instrument_name(instrument: InstrumentMap) -> str:
+    """The instrument's name."""
+    return instrument.name.ja if language() == "ja" else instrument.name.en
+
+
+def character_name(character_id: str) -> str:
+    """The name of a character: the bundled ones have one in every language, others their file's."""
+    names = {
+        "woman_adult": QCoreApplication.translate("Character", "Woman"),
+        "man_adult": QCoreApplication.translate("Character", "Man"),
+    }
+    return names.get(character_id, character_id)
