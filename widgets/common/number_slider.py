@@ -67,6 +67,8 @@ class NumberSlider(QWidget):
     decimals : int
     slides : bool
         Whether the range is short enough to be filled like a slider; else a drag moves by steps.
+    fills : (float, float), optional
+        The part of the range that fills the control and that a drag reaches; the rest can be typed. None: all of it.
     parent : QWidget, optional
 
     Signals
@@ -95,12 +97,14 @@ class NumberSlider(QWidget):
         step: float = 0.01,
         decimals: int = 2,
         slides: bool = True,
+        fills: tuple[float, float] | None = None,
         parent: QWidget | None = None,
     ) -> None:
         super().__init__(parent)
         self._session = session
         self._minimum, self._maximum = minimum, maximum
         self._step, self._decimals, self._slides = step, decimals, slides
+        self._fills = fills
         self._default = default
         self._value = default
         self._mixed = False
@@ -295,14 +299,19 @@ class NumberSlider(QWidget):
     def _text_width(self, text: str) -> float:
         return QFontMetricsF(self.font()).horizontalAdvance(text)
 
-    def _share(self) -> float:
-        span = self._maximum - self._minimum
-        return min(max((self._value - self._minimum) / span, 0.0), 1.0) if span > 0 else 0.0
+    @property
+    def _ends(self) -> tuple[float, float]:
+        """What the control's two ends stand for."""
+        return self._fills or (self._minimum, self._maximum)
+
+    def _share(self, value: float) -> float:
+        low, high = self._ends
+        return min(max((value - low) / (high - low), 0.0), 1.0) if high > low else 0.0
 
     # Qt's own names
 
     def sizeHint(self) -> QSize:
-        sample = number_text(self._maximum if self._slides else 0.0, self._decimals) + " " + self._unit
+        sample = number_text(self._ends[1] if self._slides else 0.0, self._decimals) + " " + self._unit
         width = self._text_width(self._label) + self._text_width(sample) + 4 * _PAD_PX
         return QSize(round(width), max(LEAST_TARGET_PX + 1, round(QFontMetricsF(self.font()).height()) + 9))
 
@@ -322,10 +331,9 @@ class NumberSlider(QWidget):
         if self._slides and not self._mixed and self.isEnabled():
             fill = QColor(tokens.accent)
             fill.setAlphaF(0.42 if hovered else 0.30)
-            zero = 0.0 if not self._minimum < 0 < self._maximum else -self._minimum / (self._maximum - self._minimum)
-            left, right = sorted((box.left() + zero * box.width(), box.left() + self._share() * box.width()))
+            edge = box.left() + self._share(self._value) * box.width()
+            left, right = sorted((box.left() + self._share(0.0) * box.width(), edge))
             painter.fillRect(QRectF(left, box.top(), right - left, box.height()), fill)
-            edge = box.left() + self._share() * box.width()
             painter.fillRect(QRectF(min(edge, box.right() - 2) - 1, box.top(), 2, box.height()), QColor(tokens.accent))
         if self.by_hand and self.isEnabled():
             painter.fillRect(QRectF(box.left(), box.top(), 3, box.height()), QColor(tokens.by_hand))
@@ -425,12 +433,13 @@ class NumberSlider(QWidget):
             self._dragging, self._token = True, object()
             self._drag_x = x
             return
-        per_px = (self._maximum - self._minimum) / max(self.width(), 1) if self._slides else self._step / FREE_DRAG_PX
+        low, high = self._ends
+        per_px = (high - low) / max(self.width(), 1) if self._slides else self._step / FREE_DRAG_PX
         if event.modifiers() & Qt.KeyboardModifier.ShiftModifier:
             per_px *= FINE
         # Summed unrounded and held at the ends, so that no slow drag is lost and none has to come back from outside.
         moved = self._drag_value + (x - self._drag_x) * per_px
-        self._drag_value = min(max(moved, self._minimum), self._maximum)
+        self._drag_value = min(max(moved, min(low, self._press_value)), max(high, self._press_value))
         self._drag_x = x
         self._want(self._drag_value, self._token)
 

@@ -3,24 +3,14 @@
 from __future__ import annotations
 
 import pytest
-from PySide6.QtCore import QPoint, QPointF, Qt
-from PySide6.QtGui import QGuiApplication, QWheelEvent
+from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
+from PySide6.QtGui import QGuiApplication, QKeyEvent, QMouseEvent, QWheelEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QLineEdit, QVBoxLayout, QWidget
 from pytestqt.qtbot import QtBot
 
-from app.project.model import Project
-from app.score.model import Score
-from app.score.tempo import TempoMap
 from widgets.common.number_slider import NumberSlider
 from widgets.common.session import Session
-
-
-class NoTasks:
-    """Nothing slow happens here."""
-
-    def run(self, *arguments: object, **named: object) -> None:
-        raise AssertionError("no work was expected")
 
 
 class Told:
@@ -42,19 +32,24 @@ class Told:
 
 
 @pytest.fixture
-def slider(qtbot: QtBot) -> NumberSlider:
-    session = Session(Project(Score("t", 480, TempoMap(480)), ()), NoTasks())
-    window = QWidget()
-    qtbot.addWidget(window)
-    layout = QVBoxLayout(window)
-    control = NumberSlider(session, 0.0, 1.0, default=0.5, step=0.05, parent=window)
-    control.set_texts("Amplitude", "beats")
-    layout.addWidget(control)
+def window(session: Session, qtbot: QtBot) -> QWidget:
+    made = QWidget()
+    layout = QVBoxLayout(made)
+    layout.addWidget(NumberSlider(session, 0.0, 1.0, default=0.5, step=0.05, parent=made))
     layout.addWidget(QLineEdit())
-    window.resize(240, 120)
-    window.show()
-    qtbot.waitExposed(window)
-    window.activateWindow()
+    made.resize(240, 120)
+    qtbot.addWidget(made)
+    made.show()
+    qtbot.waitExposed(made)
+    made.activateWindow()
+    return made
+
+
+@pytest.fixture
+def slider(window: QWidget) -> NumberSlider:
+    control = window.findChild(NumberSlider)
+    assert control is not None
+    control.set_texts("Amplitude", "beats")
     control.setFocus()
     return control
 
@@ -110,8 +105,6 @@ def test_shift_is_fine(slider: NumberSlider) -> None:
     QTest.mousePress(slider, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.ShiftModifier, start)
     for x in (44, 104):
         position = QPointF(x, 10)
-        from PySide6.QtGui import QMouseEvent
-
         event = QMouseEvent(
             QMouseEvent.Type.MouseMove,
             position,
@@ -249,9 +242,6 @@ def test_several_values_are_a_dash_until_one_is_chosen(slider: NumberSlider) -> 
 
 
 def test_it_takes_its_keys_before_the_window_does(slider: NumberSlider) -> None:
-    from PySide6.QtCore import QEvent
-    from PySide6.QtGui import QKeyEvent
-
     def taken(key: Qt.Key, modifier: Qt.KeyboardModifier, text: str = "") -> bool:
         event = QKeyEvent(QEvent.Type.ShortcutOverride, key, modifier, text)
         event.ignore()

@@ -1,0 +1,107 @@
+"""A small choice among a few that are all seen: fingerings, filters."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QRectF, QSize, Qt
+from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPaintEvent, QPen
+from PySide6.QtWidgets import QAbstractButton, QSizePolicy, QWidget
+
+from widgets.common.session import Session
+from widgets.common.tokens import LEAST_TARGET_PX
+
+_PAD_PX = 9.0
+_GAP_PX = 6.0
+
+
+class Chip(QAbstractButton):
+    """A rounded button with a text and a smaller note; checked it is filled, made by hand it is marked.
+
+    Parameters
+    ----------
+    session : Session
+    text, note : str
+    by_hand : bool
+        It is a person's choice.
+    outlined : bool
+        It is what the generator chose.
+    """
+
+    def __init__(
+        self,
+        session: Session,
+        text: str,
+        note: str = "",
+        *,
+        by_hand: bool = False,
+        outlined: bool = False,
+        parent: QWidget | None = None,
+    ) -> None:
+        super().__init__(parent)
+        self._session = session
+        self._note, self._by_hand, self._outlined = note, by_hand, outlined
+        self.setText(text)
+        self.setCheckable(True)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setCursor(Qt.CursorShape.PointingHandCursor)
+        self.setAttribute(Qt.WidgetAttribute.WA_Hover)
+        self.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
+        self.setAccessibleName(f"{text} {note}".strip())
+        session.theme_changed.connect(self.update)
+
+    @property
+    def by_hand(self) -> bool:
+        """Whether it is marked as a person's choice."""
+        return self._by_hand
+
+    @property
+    def outlined(self) -> bool:
+        """Whether it is marked as the generator's choice."""
+        return self._outlined
+
+    def _note_font(self) -> QFont:
+        font = QFont(self.font())
+        font.setPointSizeF(max(font.pointSizeF() - 1.0, 9.0))
+        return font
+
+    # Qt's own names
+
+    def sizeHint(self) -> QSize:
+        width = QFontMetricsF(self.font()).horizontalAdvance(self.text()) + 2 * _PAD_PX
+        if self._note:
+            width += QFontMetricsF(self._note_font()).horizontalAdvance(self._note) + _GAP_PX
+        if self._by_hand:
+            width += 6
+        return QSize(
+            max(round(width) + 1, LEAST_TARGET_PX + 4),
+            max(LEAST_TARGET_PX + 1, round(QFontMetricsF(self.font()).height()) + 8),
+        )
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        tokens, painter = self._session.tokens, QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        checked, hovered = self.isChecked(), self.underMouse()
+        box = QRectF(self.rect()).adjusted(1, 1, -1, -1)
+        fill = QColor(tokens.accent if checked else tokens.raised if hovered else tokens.sunken)
+        edge = tokens.text_dim if self._outlined else tokens.line
+        painter.setBrush(fill)
+        painter.setPen(QPen(QColor(edge), 1.5 if self._outlined else 1.0))
+        painter.drawRoundedRect(box, 5, 5)
+        if self.hasFocus():
+            painter.setBrush(Qt.BrushStyle.NoBrush)
+            painter.setPen(QPen(QColor(tokens.text if checked else tokens.accent), 1.5))
+            painter.drawRoundedRect(box.adjusted(1.5, 1.5, -1.5, -1.5), 4, 4)
+        inner = box.adjusted(_PAD_PX - 1, 0, -_PAD_PX + 1, 0)
+        if self._by_hand:
+            painter.setPen(Qt.PenStyle.NoPen)
+            painter.setBrush(QColor(tokens.accent_text if checked else tokens.by_hand))
+            painter.drawRect(QRectF(inner.left() - 3, box.center().y() - 3, 6, 6))
+            inner.setLeft(inner.left() + 6)
+        painter.setPen(QColor(tokens.accent_text if checked else tokens.text))
+        align = Qt.AlignmentFlag.AlignVCenter
+        if not self._note:
+            painter.drawText(inner, align | Qt.AlignmentFlag.AlignHCenter, self.text())
+            return
+        painter.drawText(inner, align | Qt.AlignmentFlag.AlignLeft, self.text())
+        painter.setFont(self._note_font())
+        painter.setPen(QColor(tokens.accent_text if checked else tokens.text_dim))
+        painter.drawText(inner, align | Qt.AlignmentFlag.AlignRight, self._note)

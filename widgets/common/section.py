@@ -1,0 +1,155 @@
+"""Parts of a panel that fold."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
+from PySide6.QtGui import QColor, QFont, QFontMetricsF, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen, QPolygonF
+from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QVBoxLayout, QWidget
+
+from widgets.common.session import Session
+from widgets.common.tokens import LEAST_TARGET_PX
+
+_CHEVRON_PX = 4.0
+
+
+class SectionHeader(QWidget):
+    """A line with a title that folds what is below it; by click, Space, Return, or the arrows left and right."""
+
+    toggled = Signal(bool)
+
+    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._session = session
+        self._title, self._note, self._warns = "", "", False
+        self._open = True
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setAttribute(Qt.WidgetAttribute.WA_Hover)
+        self.setCursor(Qt.CursorShape.PointingHandCursor)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        self._row = QHBoxLayout(self)
+        self._row.setContentsMargins(0, 0, 4, 0)
+        self._row.setSpacing(2)
+        self._row.addStretch(1)
+        session.theme_changed.connect(self.update)
+
+    @property
+    def is_open(self) -> bool:
+        """Whether what is below shows."""
+        return self._open
+
+    def set_open(self, is_open: bool) -> None:
+        """Fold or unfold."""
+        if is_open != self._open:
+            self._open = is_open
+            self.update()
+            self.toggled.emit(is_open)
+
+    def set_texts(self, title: str, note: str = "", warns: bool = False) -> None:
+        """The title, and a short note at its right."""
+        if (title, note, warns) != (self._title, self._note, self._warns):
+            self._title, self._note, self._warns = title, note, warns
+            self.setAccessibleName(f"{title} {note}".strip())
+            self.update()
+
+    def add_button(self, button: QWidget) -> None:
+        """Put a small button at the right end."""
+        self._row.addWidget(button)
+
+    def _title_font(self) -> QFont:
+        font = QFont(self.font())
+        font.setBold(True)
+        return font
+
+    # Qt's own names
+
+    def sizeHint(self) -> QSize:
+        return QSize(120, max(LEAST_TARGET_PX + 2, round(QFontMetricsF(self.font()).height()) + 10))
+
+    def minimumSizeHint(self) -> QSize:
+        return QSize(40, self.sizeHint().height())
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        tokens, painter = self._session.tokens, QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.fillRect(self.rect(), QColor(tokens.raised))
+        painter.setPen(QColor(tokens.line))
+        painter.drawLine(self.rect().topLeft(), self.rect().topRight())
+        middle = self.height() / 2.0
+        painter.save()
+        painter.translate(12.0, middle)
+        painter.rotate(0.0 if self._open else -90.0)
+        painter.setPen(QPen(QColor(tokens.text if self.underMouse() else tokens.text_dim), 1.6))
+        painter.drawPolyline(QPolygonF([QPointF(-_CHEVRON_PX, -2), QPointF(0, 2), QPointF(_CHEVRON_PX, -2)]))
+        painter.restore()
+        buttons = [child for child in self.findChildren(QWidget) if child.isVisible()]
+        taken = sum(button.width() + 2 for button in buttons)
+        room = QRectF(self.rect()).adjusted(24, 0, -8 - taken, 0)
+        note_px = QFontMetricsF(self.font()).horizontalAdvance(self._note)
+        painter.setPen(QColor(tokens.warning if self._warns else tokens.text_dim))
+        painter.drawText(room, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignRight, self._note)
+        font = self._title_font()
+        painter.setFont(font)
+        painter.setPen(QColor(tokens.text))
+        title = QFontMetricsF(font).elidedText(
+            self._title, Qt.TextElideMode.ElideRight, max(room.width() - note_px - 8, 0)
+        )
+        painter.drawText(room, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft, title)
+        if self.hasFocus():
+            painter.setPen(QPen(QColor(tokens.accent), 1.5))
+            painter.drawRoundedRect(QRectF(self.rect()).adjusted(1, 1, -1, -1), 3, 3)
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        if event.button() == Qt.MouseButton.LeftButton:
+            self.set_open(not self._open)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        key = event.key()
+        if key in (Qt.Key.Key_Space, Qt.Key.Key_Return, Qt.Key.Key_Enter):
+            self.set_open(not self._open)
+        elif key in (Qt.Key.Key_Left, Qt.Key.Key_Right):
+            self.set_open(key == Qt.Key.Key_Right)
+        else:
+            super().keyPressEvent(event)
+
+
+class Section(QWidget):
+    """A header, and below it what it folds.
+
+    Parameters
+    ----------
+    session : Session
+    name : str
+        Object name.
+    parent : QWidget, optional
+
+    Attributes
+    ----------
+    header : SectionHeader
+    body : QVBoxLayout
+        Put the contents here.
+    """
+
+    def __init__(self, session: Session, name: str, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setObjectName(name)
+        self.header = SectionHeader(session)
+        self._content = QWidget()
+        self.body = QVBoxLayout(self._content)
+        self.body.setContentsMargins(8, 6, 8, 8)
+        self.body.setSpacing(4)
+        outer = QVBoxLayout(self)
+        outer.setContentsMargins(0, 0, 0, 0)
+        outer.setSpacing(0)
+        outer.addWidget(self.header)
+        outer.addWidget(self._content)
+        self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Maximum)
+        self.header.toggled.connect(self._content.setVisible)
+
+    @property
+    def is_open(self) -> bool:
+        """Whether the contents show."""
+        return self.header.is_open
+
+    def set_open(self, is_open: bool) -> None:
+        """Fold or unfold."""
+        self.header.set_open(is_open)

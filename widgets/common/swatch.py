@@ -1,0 +1,96 @@
+"""A colour that can be chosen: the theme's, which colour-blind eyes tell apart, or any other."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QRectF, QSize, Qt, Signal
+from PySide6.QtGui import QColor, QIcon, QPainter, QPaintEvent, QPen, QPixmap
+from PySide6.QtWidgets import QColorDialog, QMenu, QPushButton, QWidget
+
+from widgets.common.session import Session
+from widgets.common.tokens import LEAST_TARGET_PX
+
+
+class ColourSwatch(QPushButton):
+    """Shows a colour; a click offers others.
+
+    Signals
+    -------
+    chosen(str)
+        ``#rrggbb``; empty: back to the automatic colour.
+    """
+
+    chosen = Signal(str)
+
+    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._session = session
+        self._colours: tuple[str, ...] = ()
+        self.setFixedSize(44, LEAST_TARGET_PX + 1)
+        self.setCursor(Qt.CursorShape.PointingHandCursor)
+        self.clicked.connect(self.offer)
+        session.theme_changed.connect(self.update)
+
+    def show_colours(self, colours: tuple[str, ...]) -> None:
+        """Show these, side by side."""
+        if colours != self._colours:
+            self._colours = colours
+            self.update()
+
+    def offer(self) -> None:
+        """Open the list of colours."""
+        menu = QMenu(self)
+        menu.setObjectName("colour_menu")
+        menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        menu.addAction(self.tr("Automatic"), lambda: self.chosen.emit(""))
+        menu.addSeparator()
+        names = (
+            self.tr("Sky blue"),
+            self.tr("Orange"),
+            self.tr("Green"),
+            self.tr("Pink"),
+            self.tr("Yellow"),
+            self.tr("Blue"),
+            self.tr("Vermilion"),
+            self.tr("Grey"),
+        )
+        for name, colour in zip(names, self._session.tokens.players, strict=False):
+            action = menu.addAction(_spot(colour), name)
+            action.triggered.connect(lambda _=False, colour=colour: self.chosen.emit(colour))
+        menu.addSeparator()
+        menu.addAction(self.tr("Other colour..."), self._ask)
+        menu.popup(self.mapToGlobal(self.rect().bottomLeft()))
+
+    def _ask(self) -> None:
+        before = QColor(self._colours[0]) if self._colours else QColor(self._session.tokens.accent)
+        colour = QColorDialog.getColor(before, self, self.tr("Colour of the player"))
+        if colour.isValid():
+            self.chosen.emit(colour.name())
+
+    # Qt's own names
+
+    def sizeHint(self) -> QSize:
+        return QSize(44, LEAST_TARGET_PX + 1)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        tokens, painter = self._session.tokens, QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        box = QRectF(self.rect()).adjusted(1, 1, -1, -1)
+        shown = self._colours[:6]
+        for index, colour in enumerate(shown):
+            width = box.width() / len(shown)
+            painter.fillRect(QRectF(box.left() + index * width, box.top(), width, box.height()), QColor(colour))
+        focused = self.hasFocus()
+        painter.setPen(QPen(QColor(tokens.accent if focused else tokens.line_strong), 2.0 if focused else 1.0))
+        painter.drawRoundedRect(box, 3, 3)
+
+
+def _spot(colour: str) -> QIcon:
+    pixmap = QPixmap(32, 32)
+    pixmap.fill(Qt.GlobalColor.transparent)
+    painter = QPainter(pixmap)
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+    painter.setBrush(QColor(colour))
+    painter.setPen(Qt.PenStyle.NoPen)
+    painter.drawEllipse(3, 3, 26, 26)
+    painter.end()
+    return QIcon(pixmap)
