@@ -348,7 +348,8 @@ def _corrected_spans(
     kept: list[Span] = [event for event in events if event.id not in removed]
     if not changes and not added:
         return tuple(kept)
-    result: list[Span] = [*(_changed(event, changes.get(event.id), fields, clock) for event in kept), *added]
+    result = [_changed(event, changes.get(event.id), fields, clock) for event in kept]
+    result.extend(added)
     result.sort(key=lambda event: event.start_s)
     return tuple(result)
 
