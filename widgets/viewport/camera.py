@@ -1,0 +1,195 @@
+"""The camera as a value: an orbit about a target. Nothing here knows Qt or GL.
+
+World: metres, Y up; the audience is towards +Z, and a camera of yaw 0 looks from there.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+import numpy.typing as npt
+
+Floats = npt.NDArray[np.float64]
+
+FOV_DEG = 32.0
+"""Vertical angle of view, as of a 42 mm lens on a full-frame camera: faces keep their shape."""
+NEAREST_M, FARTHEST_M = 0.08, 120.0
+LOWEST_RAD, HIGHEST_RAD = math.radians(-20.0), math.radians(89.9)
+ORBIT_RAD_PER_PX = math.radians(0.35)
+DOLLY_PER_STEP = 0.88
+"""Distance left after one step of the wheel."""
+
+
+@dataclass(frozen=True)
+class Camera:
+    """Looks at ``target_m`` from a distance.
+
+    Attributes
+    ----------
+    target_m : (float, float, float)
+    yaw_rad : float
+        0: from the audience (+Z); towards +X it grows.
+    pitch_rad : float
+        0: level; positive: from above.
+    distance_m : float
+    fov_deg : float
+        Vertical.
+    """
+
+    target_m: tuple[float, float, float] = (0.0, 1.0, 0.0)
+    yaw_rad: float = 0.0
+    pitch_rad: float = math.radians(8.0)
+    distance_m: float = 6.0
+    fov_deg: float = FOV_DEG
+
+    @property
+    def eye_m(self) -> Floats:
+        """Where the camera is (3,)."""
+        return np.asarray(self.target_m) + self.distance_m * self.backward
+
+    @property
+    def backward(self) -> Floats:
+        """From the target to the eye, unit (3,)."""
+        level = math.cos(self.pitch_rad)
+        return np.array(
+            [math.sin(self.yaw_rad) * level, math.sin(self.pitch_rad), math.cos(self.yaw_rad) * level], np.float64
+        )
+
+    @property
+    def right(self) -> Floats:
+        """To the right of the picture, unit (3,)."""
+        return np.array([math.cos(self.yaw_rad), 0.0, -math.sin(self.yaw_rad)], np.float64)
+
+    @property
+    def up(self) -> Floats:
+        """Upwards in the picture, unit (3,)."""
+        return np.cross(self.backward, self.right)
+
+    @property
+    def near_m(self) -> float:
+        """Distance of the near plane."""
+        return min(max(0.04 * self.distance_m, 0.01), 0.4)
+
+    @property
+    def far_m(self) -> float:
+        """Distance of the far plane."""
+        return self.distance_m + 80.0
+
+    def view(self) -> Floats:
+        """``eye_from_world`` (4, 4)."""
+        rotation = np.stack([self.right, self.up, self.backward])
+        matrix = np.eye(4)
+        matrix[:3, :3] = rotation
+        matrix[:3, 3] = -rotation @ self.eye_m
+        return matrix
+
+    def projection(self, aspect: float) -> Floats:
+        """``clip_from_eye`` (4, 4) for a picture ``aspect`` times as wide as high."""
+        f = 1.0 / math.tan(math.radians(self.fov_deg) / 2.0)
+        near, far = self.near_m, self.far_m
+        return np.array(
+            [
+                [f / aspect, 0.0, 0.0, 0.0],
+                [0.0, f, 0.0, 0.0],
+                [0.0, 0.0, (far + near) / (near - far), 2.0 * far * near / (near - far)],
+                [0.0, 0.0, -1.0, 0.0],
+            ]
+        )
+
+    def clip_from_world(self, aspect: float) -> Floats:
+        """Projection times view (4, 4)."""
+        return self.projection(aspect) @ self.view()
+
+    def pixels_per_metre(self, height_px: float, distance_m: float | None = None) -> float:
+        """How large a metre across the line of sight is in a picture of this height."""
+        distance = self.distance_m if distance_m is None else max(distance_m, 1e-3)
+        return 0.5 * height_px / (distance * math.tan(math.radians(self.fov_deg) / 2.0))
+
+    def project(self, points_m: npt.ArrayLike, width_px: float, height_px: float) -> tuple[Floats, Floats]:
+        """Pixels (N, 2) from the upper left corner, and depths (N,) in metres before the eye, negative behind it."""
+        points = np.atleast_2d(np.asarray(points_m, np.float64))
+        eye = points @ self.view()[:3, :3].T + self.view()[:3, 3]
+        depth = -eye[:, 2]
+        scale = 0.5 * height_px / math.tan(math.radians(self.fov_deg) / 2.0) / np.where(np.abs(depth) < 1e-9, 1e-9, depth)
+        pixels = np.stack([0.5 * width_px + eye[:, 0] * scale, 0.5 * height_px - eye[:, 1] * scale], axis=-1)
+        return pixels, depth
+
+    def ray(self, x_px: float, y_px: float, width_px: float, height_px: float) -> tuple[Floats, Floats]:
+        """Origin and unit direction of the line of sight through a pixel."""
+        scale = math.tan(math.radians(self.fov_deg) / 2.0) / (0.5 * height_px)
+        direction = -self.backward + scale * (
+            (x_px - 0.5 * width_px) * self.right + (0.5 * height_px - y_px) * self.up
+        )
+        return self.eye_m, direction / np.linalg.norm(direction)
+
+
+def orbit(camera: Camera, right_px: float, down_px: float) -> Camera:
+    """Turn about the target as a drag over the picture asks: the picture follows the hand."""
+    pitch = camera.pitch_rad + down_px * ORBIT_RAD_PER_PX
+    return replace(
+        camera,
+        yaw_rad=_wrapped(camera.yaw_rad - right_px * ORBIT_RAD_PER_PX),
+        pitch_rad=min(max(pitch, LOWEST_RAD), HIGHEST_RAD),
+    )
+
+
+def pan(camera: Camera, right_px: float, down_px: float, height_px: float) -> Camera:
+    """Shift so that what lies at the target's distance follows the hand."""
+    metre = 1.0 / camera.pixels_per_metre(height_px)
+    target = np.asarray(camera.target_m) + metre * (down_px * camera.up - right_px * camera.right)
+    return replace(camera, target_m=_point(target))
+
+
+def dolly(camera: Camera, steps: float) -> Camera:
+    """Come nearer by so many steps of the wheel; negative goes away."""
+    distance = camera.distance_m * DOLLY_PER_STEP**steps
+    return replace(camera, distance_m=min(max(distance, NEAREST_M), FARTHEST_M))
+
+
+def frame(camera: Camera, low_m: npt.ArrayLike, high_m: npt.ArrayLike, aspect: float, margin: float = 1.1) -> Camera:
+    """Look, in the same direction, at a box so that all of it is in the picture."""
+    low, high = np.asarray(low_m, np.float64), np.asarray(high_m, np.float64)
+    middle = (low + high) / 2.0
+    corners = np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
+    away = corners - middle
+    tangent = math.tan(math.radians(camera.fov_deg) / 2.0) / margin
+    across, over, before = away @ camera.right, away @ camera.up, away @ camera.backward
+    needed = before + np.maximum(np.abs(across) / (tangent * aspect), np.abs(over) / tangent)
+    distance = min(max(float(needed.max()), NEAREST_M), FARTHEST_M)
+    return replace(camera, target_m=_point(middle), distance_m=distance)
+
+
+def between(start: Camera, end: Camera, share: float) -> Camera:
+    """Part of the way from one camera to another, by the shorter turn, eased at both ends."""
+    if share >= 1.0:
+        return end
+    share = max(share, 0.0)
+    eased = share * share * (3.0 - 2.0 * share)
+    target = (1.0 - eased) * np.asarray(start.target_m) + eased * np.asarray(end.target_m)
+    return Camera(
+        target_m=_point(target),
+        yaw_rad=_wrapped(start.yaw_rad + eased * _wrapped(end.yaw_rad - start.yaw_rad)),
+        pitch_rad=start.pitch_rad + eased * (end.pitch_rad - start.pitch_rad),
+        distance_m=start.distance_m ** (1.0 - eased) * end.distance_m**eased,
+        fov_deg=start.fov_deg + eased * (end.fov_deg - start.fov_deg),
+    )
+
+
+def followed(camera: Camera, target_m: npt.ArrayLike, elapsed_s: float, settle_s: float = 0.35) -> Camera:
+    """The camera drawn after a moving target, as by a damped spring without overshoot.
+
+    ``settle_s`` is the time constant: 63 % of a jump is made up in it.
+    """
+    share = 1.0 - math.exp(-max(elapsed_s, 0.0) / settle_s)
+    target = np.asarray(camera.target_m)
+    return replace(camera, target_m=_point(target + share * (np.asarray(target_m, np.float64) - target)))
+
+
+def _wrapped(angle_rad: float) -> float:
+    return (angle_rad + math.pi) % (2.0 * math.pi) - math.pi
+
+
+def _point(vector: Floats) -> tuple[float, float, float]:
+    return float(vector[0]), float(vector[1]), float(vector[2])

@@ -1,0 +1,260 @@
+"""Who is on the stage, prepared for drawing, and everyone's pose as arrays of bone matrices.
+
+All players of one character are posed at once: the arrays have one row for every player.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from app.performance.motion import body_of, character_of, model_of
+from app.project.casting import StagePosition
+from app.project.model import Player
+from app.rig import quaternion
+from app.rig.instrument import node_transforms
+from app.rig.model import Character, InstrumentModel, Skeleton
+from app.rig.skeleton import rest_positions
+from instrument_maps.load import find_map
+from instrument_maps.model import InstrumentMap
+from metadata.model import Posture
+from widgets.viewport.poses import Posed
+
+Floats = npt.NDArray[np.float64]
+Ints = npt.NDArray[np.intp]
+
+
+@dataclass(frozen=True, eq=False)
+class Kit:
+    """What a player is drawn from."""
+
+    character: Character
+    instrument: InstrumentModel
+    map: InstrumentMap
+
+
+@dataclass(frozen=True, eq=False)
+class Member:
+    """A player on the stage.
+
+    Attributes
+    ----------
+    player_id : str
+    kit : Kit
+    world_from_player : (3, 4) float64
+    seat_m : (3,) float64 or None
+        Middle of the seat's top in the player's frame; None: standing.
+    """
+
+    player_id: str
+    kit: Kit
+    world_from_player: Floats
+    seat_m: Floats | None
+
+
+def kit_of(player: Player) -> Kit:
+    """Load what a player is drawn from. Raises AppError where something is missing or damaged."""
+    instrument_map = find_map(player.instrument_id)
+    return Kit(character_of(player), model_of(instrument_map), instrument_map)
+
+
+def member_of(player: Player, kit: Kit) -> Member:
+    """A player at their place."""
+    posture = body_of(player).postures[player.parameters.posture]
+    return Member(player.id, kit, placed(player.stage), seat(kit.character.skeleton, posture))
+
+
+def placed(stage: StagePosition) -> Floats:
+    """``world_from_player`` (3, 4) of a place on the stage."""
+    cosine, sine = math.cos(stage.turn_rad), math.sin(stage.turn_rad)
+    return np.array([[cosine, 0.0, sine, stage.x_m], [0.0, 1.0, 0.0, 0.0], [-sine, 0.0, cosine, stage.z_m]])
+
+
+def seat(skeleton: Skeleton, posture: Posture) -> Floats | None:
+    """Where the middle of a seat's top is in a posture; None where one stands."""
+    if posture.seat_height_shank <= 0.0:
+        return None
+    rest = rest_positions(skeleton)
+    shank_m = float(np.linalg.norm(skeleton.offsets_m[skeleton.index("leftFoot")]))
+    ankle_m = float(rest[skeleton.index("leftFoot")][1])
+    # The thigh's flesh is as thick below its bone as the seat is under the knee's hollow.
+    height_m = ankle_m + shank_m * posture.seat_height_shank - SITTING_FLESH_M
+    return np.array([0.0, height_m, float(rest[skeleton.index("hips")][2]) + 0.02])
+
+
+SITTING_FLESH_M = 0.095
+"""From the hip joint's height down to what one sits on."""
+
+
+class Troupe:
+    """Members of one character and instrument posed together.
+
+    Parameters
+    ----------
+    members : sequence of Member
+        All of the stage.
+    rows : sequence of int
+        Those that share the character.
+    """
+
+    def __init__(self, members: Sequence[Member], rows: Sequence[int]) -> None:
+        self.rows: Ints = np.array(rows, np.intp)
+        self.character = members[rows[0]].kit.character
+        skeleton = self.character.skeleton
+        self._hips = skeleton.index("hips")
+        self._levels = _levels(skeleton)
+        self._offsets = skeleton.offsets_m
+        self._stages = np.array([members[row].world_from_player for row in rows])
+        self._bind = self.character.joint_from_mesh
+
+    def joints(self, poses: Sequence[Posed]) -> Floats:
+        """``world_from_joint`` (P, J, 3, 4) of these poses, one for every row."""
+        local = quaternion.to_matrix(np.array([pose.rotations for pose in poses]))
+        world = np.empty((*local.shape[:2], 3, 4))
+        offsets = np.broadcast_to(self._offsets, (*local.shape[:2], 3)).copy()
+        offsets[:, self._hips] = [pose.hips_m for pose in poses]
+        stage = self._stages
+        for joints, parents in self._levels:
+            if parents is None:
+                above = stage[:, None]
+            else:
+                above = world[:, parents]
+            rotation = above[..., :3]
+            world[..., :3][:, joints] = rotation @ local[:, joints]
+            world[..., 3][:, joints] = (rotation @ offsets[:, joints, :, None])[..., 0] + above[..., 3]
+        return world
+
+    def skinning(self, joints: Floats) -> Floats:
+        """``world_from_mesh`` (P, J, 3, 4) of joints' transforms."""
+        matrices: Floats = joints @ self._bind
+        return matrices
+
+
+class Stage:
+    """Everyone, and the matrices of their last pose.
+
+    Parameters
+    ----------
+    members : sequence of Member
+
+    Attributes
+    ----------
+    bones : (N, B, 3, 4) float32
+        ``world_from_rest`` of joints, then of the instrument's nodes (from `first_node`), then of the seat.
+    joints : (N, J, 3, 4) float64
+        ``world_from_joint``.
+    shown : (N,) bool
+        Who has a pose.
+    """
+
+    def __init__(self, members: Sequence[Member]) -> None:
+        self.members = tuple(members)
+        self.first_node = max((len(member.kit.character.skeleton.names) for member in members), default=0)
+        nodes = max((len(member.kit.instrument.node_names) for member in members), default=0)
+        self.seat_bone = self.first_node + nodes
+        self.bones = np.zeros((len(members), self.seat_bone + 1, 3, 4), np.float32)
+        self.joints = np.zeros((len(members), self.first_node, 3, 4))
+        self.poses: list[Posed | None] = [None] * len(members)
+        self.shown = np.zeros(len(members), dtype=bool)
+        self._troupes = [
+            Troupe(members, rows) for rows in _grouped([id(member.kit.character) for member in members])
+        ]
+        self._bands = _grouped([id(member.kit.map) for member in members])
+        for row, member in enumerate(members):
+            if member.seat_m is not None:
+                self.bones[row, self.seat_bone, :, :3] = member.world_from_player[:, :3]
+                self.bones[row, self.seat_bone, :, 3] = _moved(member.world_from_player, member.seat_m)
+
+    def pose(self, poses: Mapping[str, Posed | None]) -> bool:
+        """Put everyone into their poses; whether anything is other than before."""
+        fresh = []
+        for row, member in enumerate(self.members):
+            pose = poses.get(member.player_id)
+            if pose is not None and pose is not self.poses[row]:
+                self.poses[row] = pose
+                fresh.append(row)
+        if not fresh:
+            return False
+        self.shown[fresh] = True
+        for troupe in self._troupes:
+            rows, posed = self._posed(troupe.rows)
+            if rows:
+                chosen = troupe if len(rows) == len(troupe.rows) else Troupe(self.members, rows)
+                joints = chosen.joints(posed)
+                self.bones[rows, : joints.shape[1]] = chosen.skinning(joints)
+                self.joints[rows, : joints.shape[1]] = joints
+        for band in self._bands:
+            rows, posed = self._posed(band)
+            if rows:
+                self._hold(rows, posed)
+        return True
+
+    def _posed(self, rows: Sequence[int] | Ints) -> tuple[list[int], list[Posed]]:
+        own = [(int(row), pose) for row in rows if (pose := self.poses[int(row)]) is not None]
+        return [row for row, _ in own], [pose for _, pose in own]
+
+    def _hold(self, rows: list[int], poses: list[Posed]) -> None:
+        """Matrices of the nodes of instruments of one map."""
+        kit = self.members[rows[0]].kit
+        controls = {
+            control.name: np.array([pose.controls.get(control.name, 0.0) for pose in poses])
+            for control in kit.map.controls
+        }
+        places, turns = node_transforms(kit.instrument, kit.map, controls, len(rows))
+        stages = np.array([self.members[row].world_from_player for row in rows])
+        held = stages[:, :, :3] @ quaternion.to_matrix(np.array([pose.instrument_rotation for pose in poses]))
+        held_m = (stages[:, :, :3] @ np.array([pose.instrument_position_m for pose in poses])[..., None])[..., 0]
+        held_m += stages[:, :, 3]
+        rotation = held[:, None] @ quaternion.to_matrix(turns)
+        at = held_m[:, None] + (held[:, None] @ places[..., None])[..., 0]
+        # From where the vertices are at rest: the node's rest place goes to its place now.
+        at -= (rotation @ kit.instrument.node_positions_m[None, :, :, None])[..., 0]
+        nodes = slice(self.first_node, self.first_node + rotation.shape[1])
+        self.bones[rows, nodes, :, :3] = rotation
+        self.bones[rows, nodes, :, 3] = at
+
+    def index(self, player_id: str) -> int | None:
+        """The row of a player; None where there is none."""
+        for row, member in enumerate(self.members):
+            if member.player_id == player_id:
+                return row
+        return None
+
+    def joint_m(self, row: int, name: str) -> Floats:
+        """Where a joint is (3,)."""
+        skeleton = self.members[row].kit.character.skeleton
+        place: Floats = self.joints[row, skeleton.index(name), :, 3]
+        return place
+
+    def node_matrix(self, row: int, node: int = 0) -> Floats:
+        """``world_from_rest`` (3, 4) of an instrument's node."""
+        return self.bones[row, self.first_node + node].astype(np.float64)
+
+
+def _levels(skeleton: Skeleton) -> list[tuple[Ints, Ints | None]]:
+    """Joints by their depth, with their parents; the root has none."""
+    depth = []
+    for parent in skeleton.parents:
+        depth.append(0 if parent < 0 else depth[parent] + 1)
+    result: list[tuple[Ints, Ints | None]] = []
+    for level in range(max(depth) + 1):
+        joints = np.array([joint for joint, own in enumerate(depth) if own == level], np.intp)
+        parents = np.array([skeleton.parents[joint] for joint in joints], np.intp) if level else None
+        result.append((joints, parents))
+    return result
+
+
+def _grouped(keys: Sequence[int]) -> list[list[int]]:
+    groups: dict[int, list[int]] = {}
+    for row, key in enumerate(keys):
+        groups.setdefault(key, []).append(row)
+    return list(groups.values())
+
+
+def _moved(matrix: Floats, point: Floats) -> Floats:
+    moved: Floats = matrix[:, :3] @ point + matrix[:, 3]
+    return moved

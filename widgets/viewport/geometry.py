@@ -1,0 +1,297 @@
+"""Vertex arrays of characters and instruments for the graphics card: levels of detail, faces with their morphs.
+
+Everything here is plain numpy, made once for each character and instrument, away from the window's thread.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from app.rig.model import Character, InstrumentModel, Mesh
+
+Floats = npt.NDArray[np.float32]
+Ints = npt.NDArray[np.int64]
+
+BODY_CELLS_M = (0.0, 0.0055, 0.02)
+"""Vertices nearer to one another than this are one, by level of detail; 0: all are kept."""
+INSTRUMENT_CELLS_M = (0.0, 0.0035, 0.011)
+LEVELS = len(BODY_CELLS_M)
+BONES_PER_VERTEX = 4
+
+SHAPE = np.dtype([("a_position", np.float32, 3), ("a_normal", np.float32, 3)])
+SURFACE = np.dtype(
+    [
+        ("a_bones", np.float32, BONES_PER_VERTEX),
+        ("a_weights", np.float32, BONES_PER_VERTEX),
+        ("a_color", np.float32, 4),
+        ("a_metallic", np.float32),
+    ]
+)
+
+
+@dataclass(frozen=True, eq=False)
+class Face:
+    """Morph targets over the first vertices of a geometry.
+
+    Attributes
+    ----------
+    count : int
+        Vertices that any of them moves: the first ones.
+    names : tuple of str
+    deltas : (len(names), count * 6) float32
+        Displacement and change of normal, interleaved as in `SHAPE`.
+    rest : (count * 6,) float32
+    """
+
+    count: int
+    names: tuple[str, ...]
+    deltas: Floats
+    rest: Floats
+
+    def morphed(self, weights: npt.NDArray[np.float32]) -> npt.NDArray[np.void]:
+        """The first vertices under these weights (len(names),), as `SHAPE` records."""
+        used = np.flatnonzero(np.abs(weights) > 1e-4)
+        shape = self.rest + weights[used] @ self.deltas[used] if len(used) else self.rest
+        return np.ascontiguousarray(shape).view(SHAPE)
+
+
+@dataclass(frozen=True, eq=False)
+class Geometry:
+    """One level of detail of a thing.
+
+    Attributes
+    ----------
+    shape : (V,) SHAPE
+        At rest, in the space the bones' matrices take from.
+    surface : (V,) SURFACE
+        Bones as indices into a player's matrices; base colour (linear) with the roughness beside it; metallic.
+    triangles : (T, 3) uint32
+    face : Face or None
+    """
+
+    shape: npt.NDArray[np.void]
+    surface: npt.NDArray[np.void]
+    triangles: npt.NDArray[np.uint32]
+    face: Face | None = None
+
+
+def character_levels(character: Character) -> tuple[Geometry, ...]:
+    """All levels of detail of a character; the coarsest has no morphs."""
+    return _levels(character.meshes, BODY_CELLS_M, 0)
+
+
+def instrument_levels(model: InstrumentModel, first_bone: int) -> tuple[Geometry, ...]:
+    """All levels of detail of an instrument, whose node n moves with bone ``first_bone + n``."""
+    return _levels(model.meshes, INSTRUMENT_CELLS_M, first_bone)
+
+
+def stool(bone: int, height_m: float) -> Geometry:
+    """A round seat on a single foot, its top in the origin; it moves with one bone."""
+    radius, thick = 0.17, 0.045
+    seat, metal = (0.05, 0.052, 0.058), (0.30, 0.31, 0.33)
+    profiles = (
+        ([(0.0, 0.0), (radius - 0.02, 0.0), (radius, -0.018), (radius - 0.008, -thick), (0.0, -thick)], seat, 0.75, 0.0),
+        ([(0.024, -thick), (0.022, -height_m + 0.03)], metal, 0.4, 1.0),
+        ([(0.0, -height_m + 0.032), (0.13, -height_m + 0.02), (0.16, -height_m + 0.004), (0.16, -height_m)], metal, 0.4, 1.0),
+    )
+    parts = [_turned(np.array(points), color, roughness, metallic, bone) for points, color, roughness, metallic in profiles]
+    return joined(parts)
+
+
+def joined(parts: Sequence[Geometry]) -> Geometry:
+    """Several geometries as one, without their morphs."""
+    starts = np.cumsum([0, *(len(part.shape) for part in parts)])
+    triangles = [part.triangles + np.uint32(start) for part, start in zip(parts, starts, strict=False)]
+    return Geometry(
+        np.concatenate([part.shape for part in parts]),
+        np.concatenate([part.surface for part in parts]),
+        np.concatenate(triangles).astype(np.uint32),
+    )
+
+
+def _turned(
+    profile: npt.NDArray[np.float64], color: tuple[float, float, float], roughness: float, metallic: float, bone: int
+) -> Geometry:
+    """A surface of revolution about Y through points (radius, height), with an edge at every point."""
+    steps = 28
+    angles = np.linspace(0.0, 2.0 * np.pi, steps + 1)
+    around = np.stack([np.cos(angles), np.zeros(steps + 1), np.sin(angles)], axis=1)
+    shapes, triangles = [], []
+    for (r0, y0), (r1, y1) in zip(profile[:-1], profile[1:], strict=True):
+        slope = np.array([y0 - y1, r1 - r0])
+        slope /= max(float(np.linalg.norm(slope)), 1e-9)
+        normals = around * slope[0] + np.array([0.0, slope[1], 0.0])
+        ring0, ring1 = around * r0 + [0.0, y0, 0.0], around * r1 + [0.0, y1, 0.0]
+        first = sum(len(shape) for shape in shapes)
+        shape = np.zeros(2 * (steps + 1), SHAPE)
+        shape["a_position"] = np.concatenate([ring0, ring1])
+        shape["a_normal"] = np.concatenate([normals, normals])
+        shapes.append(shape)
+        a = first + np.arange(steps)
+        b = a + steps + 1
+        triangles += [np.stack([a, a + 1, b], axis=1), np.stack([a + 1, b + 1, b], axis=1)]
+    shape = np.concatenate(shapes)
+    surface = np.zeros(len(shape), SURFACE)
+    surface["a_bones"][:, 0] = bone
+    surface["a_weights"][:, 0] = 1.0
+    surface["a_color"] = (*color, roughness)
+    surface["a_metallic"] = metallic
+    return Geometry(shape, surface, np.concatenate(triangles).astype(np.uint32))
+
+
+def _levels(meshes: Sequence[Mesh], cells_m: Sequence[float], first_bone: int) -> tuple[Geometry, ...]:
+    whole = _Whole([_split(mesh) for mesh in meshes], first_bone)
+    return tuple(whole.level(cell_m, morphs=index < len(cells_m) - 1) for index, cell_m in enumerate(cells_m))
+
+
+@dataclass(frozen=True, eq=False)
+class _Split:
+    """A mesh whose vertices have one material each: those between materials are doubled."""
+
+    mesh: Mesh
+    vertices: Ints
+    """Vertex of the mesh for every vertex here."""
+    materials: Ints
+    triangles: Ints
+
+
+def _split(mesh: Mesh) -> _Split:
+    count = len(mesh.materials)
+    keys = mesh.triangles.astype(np.int64) * count + mesh.triangle_materials.astype(np.int64)[:, None]
+    unique, triangles = np.unique(keys.ravel(), return_inverse=True)
+    return _Split(mesh, unique // count, unique % count, triangles.reshape(-1, 3))
+
+
+class _Whole:
+    """All meshes of a thing end to end."""
+
+    def __init__(self, splits: Sequence[_Split], first_bone: int) -> None:
+        counts = [len(split.vertices) for split in splits]
+        self._starts = np.cumsum([0, *counts])
+        self._splits = splits
+        self._triangles = np.concatenate(
+            [split.triangles + start for split, start in zip(splits, self._starts, strict=False)]
+        )
+        total = int(self._starts[-1])
+        self._shape = np.zeros(total, SHAPE)
+        self._surface = np.zeros(total, SURFACE)
+        self._part = np.repeat(np.arange(len(splits)), counts)
+        for split, start in zip(splits, self._starts, strict=False):
+            own = slice(int(start), int(start) + len(split.vertices))
+            mesh = split.mesh
+            self._shape["a_position"][own] = mesh.positions_m[split.vertices]
+            self._shape["a_normal"][own] = mesh.normals[split.vertices]
+            bones, weights = _strongest(mesh.joints[split.vertices], mesh.weights[split.vertices])
+            self._surface["a_bones"][own, : bones.shape[1]] = bones + first_bone
+            self._surface["a_weights"][own, : bones.shape[1]] = weights
+            colors = np.array([(*material.base_color[:3], material.roughness) for material in mesh.materials], np.float32)
+            metallic = np.array([material.metallic for material in mesh.materials], np.float32)
+            self._surface["a_color"][own] = colors[split.materials]
+            self._surface["a_metallic"][own] = metallic[split.materials]
+        self._morphs = self._all_morphs()
+
+    def level(self, cell_m: float, morphs: bool) -> Geometry:
+        kept, triangles = self._clustered(cell_m)
+        names = tuple(self._morphs) if morphs else ()
+        moved = np.zeros(len(self._shape), dtype=bool)
+        for name in names:
+            moved[self._morphs[name][0]] = True
+        # Vertices that morph come first, so that only they are sent again.
+        order = kept[np.argsort(~moved[kept], kind="stable")]
+        place = np.full(len(self._shape), -1, np.int64)
+        place[order] = np.arange(len(order))
+        count = int(moved[kept].sum())
+        shape = self._shape[order]
+        face = self._face(names, shape, place, count) if count else None
+        return Geometry(shape, self._surface[order], place[triangles].astype(np.uint32), face)
+
+    def _face(self, names: tuple[str, ...], shape: npt.NDArray[np.void], place: Ints, count: int) -> Face:
+        deltas = np.zeros((len(names), count, 6), np.float32)
+        for row, name in enumerate(names):
+            vertices, moves, turns = self._morphs[name]
+            own = place[vertices]
+            here = own >= 0
+            deltas[row, own[here], :3] = moves[here]
+            deltas[row, own[here], 3:] = turns[here]
+        rest = np.ascontiguousarray(shape[:count]).view(np.float32).reshape(-1).copy()
+        return Face(count, names, deltas.reshape(len(names), -1), rest)
+
+    def _clustered(self, cell_m: float) -> tuple[Ints, Ints]:
+        """Vertices kept, and triangles between them: of those in one cell and of one surface the first one stays."""
+        if cell_m <= 0.0:
+            return np.arange(len(self._shape)), self._triangles
+        cells = np.floor(self._shape["a_position"].astype(np.float64) / cell_m).astype(np.int64)
+        # Surfaces that face away from one another are not merged through a thin wall.
+        facing = np.argmax(np.abs(self._shape["a_normal"]), axis=1)
+        sign = np.take_along_axis(self._shape["a_normal"], facing[:, None], axis=1)[:, 0] > 0.0
+        color = np.unique(self._surface["a_color"], axis=0, return_inverse=True)[1].reshape(-1)
+        keys = np.column_stack([cells, facing * 2 + sign, self._part, color])
+        _, first, cluster = np.unique(keys, axis=0, return_index=True, return_inverse=True)
+        triangles = first[cluster.reshape(-1)][self._triangles]
+        a, b, c = triangles.T
+        triangles = triangles[(a != b) & (b != c) & (c != a)]
+        triangles = triangles[np.unique(np.sort(triangles, axis=1), axis=0, return_index=True)[1]]
+        return np.unique(triangles), triangles
+
+    def _all_morphs(self) -> dict[str, tuple[Ints, Floats, Floats]]:
+        """Every morph over all meshes: vertices, displacements, and changes of their normals."""
+        names = list(dict.fromkeys(morph.name for split in self._splits for morph in split.mesh.morphs))
+        result: dict[str, tuple[Ints, Floats, Floats]] = {}
+        welds = {index: _Weld(split) for index, split in enumerate(self._splits) if split.mesh.morphs}
+        for name in names:
+            found = []
+            for index, split in enumerate(self._splits):
+                for morph in split.mesh.morphs:
+                    if morph.name == name and len(morph.vertices):
+                        moves = np.zeros((len(split.mesh.positions_m), 3), np.float32)
+                        moves[morph.vertices] = morph.deltas_m
+                        own = np.flatnonzero(np.abs(moves[split.vertices]).max(axis=1) > 1e-6)
+                        turns = welds[index].turned(moves[split.vertices])
+                        found.append((own + self._starts[index], moves[split.vertices][own], turns[own]))
+            if found:
+                result[name] = (
+                    np.concatenate([item[0] for item in found]),
+                    np.concatenate([item[1] for item in found]),
+                    np.concatenate([item[2] for item in found]),
+                )
+        return result
+
+
+class _Weld:
+    """Smooth normals of a mesh across its seams."""
+
+    def __init__(self, split: _Split) -> None:
+        self._positions = split.mesh.positions_m[split.vertices].astype(np.float64)
+        whole = np.unique(np.round(self._positions, 6), axis=0, return_inverse=True)[1].reshape(-1)
+        self._whole = whole
+        self._corners = whole[split.triangles]
+        self._triangles = split.triangles
+        self._rest = self._normals(self._positions)
+
+    def _normals(self, positions: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+        a, b, c = (positions[self._triangles[:, corner]] for corner in range(3))
+        faces = np.cross(b - a, c - a)
+        count = int(self._whole.max()) + 1
+        total = np.zeros((count, 3))
+        for axis in range(3):
+            for corner in range(3):
+                total[:, axis] += np.bincount(self._corners[:, corner], faces[:, axis], count)
+        total /= np.maximum(np.linalg.norm(total, axis=1, keepdims=True), 1e-20)
+        return total[self._whole]
+
+    def turned(self, moves: Floats) -> Floats:
+        """How normals change under displacements (V, 3)."""
+        return (self._normals(self._positions + moves) - self._rest).astype(np.float32)
+
+
+def _strongest(joints: npt.NDArray[np.int32], weights: Floats) -> tuple[npt.NDArray[np.int32], Floats]:
+    """The few strongest bones of every vertex, their weights summing to 1."""
+    if joints.shape[1] > BONES_PER_VERTEX:
+        order = np.argsort(-weights, axis=1, kind="stable")[:, :BONES_PER_VERTEX]
+        joints, weights = np.take_along_axis(joints, order, 1), np.take_along_axis(weights, order, 1)
+    total = weights.sum(axis=1, keepdims=True)
+    return joints, (weights / np.where(total > 0.0, total, 1.0)).astype(np.float32)

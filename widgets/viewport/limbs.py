@@ -1,0 +1,145 @@
+"""Limbs as capsules: for shadows on the floor and for finding what the pointer is on."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from app.rig.model import InstrumentModel, Skeleton
+from app.rig.skeleton import rest_positions
+from widgets.viewport.cast import Stage
+
+Floats = npt.NDArray[np.float64]
+Ints = npt.NDArray[np.intp]
+
+SOLE_RADIUS_M = 0.038
+FAR_AWAY_M = (0.0, -50.0, 0.0)
+
+_BONES = (
+    ("hips", "upperChest", 0.13),
+    ("head", "head", 0.10),
+    *((side + upper, side + lower, radius) for side in ("left", "right") for upper, lower, radius in (
+        ("UpperArm", "LowerArm", 0.048),
+        ("LowerArm", "Hand", 0.04),
+        ("UpperLeg", "LowerLeg", 0.078),
+        ("LowerLeg", "Foot", 0.052),
+    )),
+)
+_HEAD_UP_M = (0.0, 0.09, 0.02)
+LIMBS = len(_BONES) + 4
+"""Bones, two feet, the instrument, the seat."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Anatomy:
+    """Which joints the capsules of one character hang on, and where in their frames. (L, 2), (L, 2, 3), (L,)."""
+
+    joints: Ints
+    offsets_m: Floats
+    radii_m: Floats
+
+
+def _anatomy(skeleton: Skeleton) -> _Anatomy:
+    rest = rest_positions(skeleton)
+    names = skeleton.names
+    joints, offsets, radii = [], [], []
+    for start, end, radius in _BONES:
+        end = end if end in names else "spine"
+        joints.append((names.index(start), names.index(end)))
+        offsets.append((_HEAD_UP_M, _HEAD_UP_M) if start == "head" else ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0)))
+        radii.append(radius)
+    for side in ("left", "right"):
+        ankle = names.index(side + "Foot")
+        toes = names.index(side + "Toes") if side + "Toes" in names else ankle
+        heel = (0.0, SOLE_RADIUS_M - rest[ankle][1], -0.025)
+        # Without joints for the toes the foot is as long as feet are.
+        tip = (0.0, SOLE_RADIUS_M - rest[toes][1], 0.03 if toes != ankle else 0.15)
+        joints.append((ankle, toes))
+        offsets.append((heel, tip))
+        radii.append(SOLE_RADIUS_M)
+    return _Anatomy(np.array(joints, np.intp), np.array(offsets, np.float64), np.array(radii, np.float64))
+
+
+def instrument_capsule(model: InstrumentModel) -> tuple[Floats, Floats, float]:
+    """The capsule along the longest side of a model's bounds: both ends in its frame, and the radius."""
+    low = np.min([mesh.positions_m.min(axis=0) for mesh in model.meshes], axis=0).astype(np.float64)
+    high = np.max([mesh.positions_m.max(axis=0) for mesh in model.meshes], axis=0).astype(np.float64)
+    size, middle = high - low, (low + high) / 2.0
+    longest = int(np.argmax(size))
+    across = np.delete(size, longest)
+    radius = float(np.clip(across.min() / 2.0, 0.02, 0.09))
+    first, last = middle.copy(), middle.copy()
+    first[longest], last[longest] = low[longest] + radius, max(high[longest] - radius, low[longest] + radius)
+    return first, last, radius
+
+
+class Limbs:
+    """The capsules of everyone on a stage.
+
+    Parameters
+    ----------
+    stage : Stage
+    """
+
+    def __init__(self, stage: Stage) -> None:
+        self._stage = stage
+        kept: dict[int, _Anatomy] = {}
+        anatomies = []
+        for member in stage.members:
+            skeleton = member.kit.character.skeleton
+            if id(skeleton) not in kept:
+                kept[id(skeleton)] = _anatomy(skeleton)
+            anatomies.append(kept[id(skeleton)])
+        self._joints = np.array([anatomy.joints for anatomy in anatomies], np.intp)
+        self._offsets = np.array([anatomy.offsets_m for anatomy in anatomies])
+        self._radii = np.array([anatomy.radii_m for anatomy in anatomies])
+        capsules = [instrument_capsule(member.kit.instrument) for member in stage.members]
+        self._held = np.array([(first, last) for first, last, _ in capsules])
+        self._held_radii = np.array([radius for _, _, radius in capsules])
+        self._seated = np.array([member.seat_m is not None for member in stage.members], dtype=bool)
+
+    def capsules(self) -> Floats:
+        """(N, LIMBS, 2, 4): both ends with their radius beside them, in the world."""
+        stage = self._stage
+        count = len(stage.members)
+        result = np.empty((count, LIMBS, 2, 4))
+        rows = np.arange(count)[:, None, None]
+        matrices = stage.joints[rows, self._joints]
+        bones = self._joints.shape[1]
+        result[:, :bones, :, :3] = (matrices[..., :3] @ self._offsets[..., None])[..., 0] + matrices[..., 3]
+        result[:, :bones, :, 3] = self._radii[..., None]
+        held = stage.bones[:, stage.first_node].astype(np.float64)[:, None]
+        result[:, bones, :, :3] = (held[..., :3] @ self._held[..., None])[..., 0] + held[..., 3]
+        result[:, bones, :, 3] = self._held_radii[:, None]
+        seats = stage.bones[:, stage.seat_bone].astype(np.float64)
+        across = 0.08 * seats[:, :, 0]
+        down = np.array([0.0, 0.07, 0.0])
+        result[:, -1, 0, :3] = seats[:, :, 3] - across - down
+        result[:, -1, 1, :3] = seats[:, :, 3] + across - down
+        result[:, -1, :, 3] = 0.1
+        result[~self._seated, -1] = (*FAR_AWAY_M, 0.0)
+        result[~stage.shown] = (*FAR_AWAY_M, 0.0)
+        return result
+
+
+def hit(capsules: Floats, origin: Floats, direction: Floats) -> tuple[int, float] | None:
+    """The first row of capsules (N, L, 2, 4) that a ray meets, with the distance; None where it meets none."""
+    if not capsules.size:
+        return None
+    a, b = capsules[..., 0, :3], capsules[..., 1, :3]
+    radius = 0.5 * (capsules[..., 0, 3] + capsules[..., 1, 3])
+    ab, ap = b - a, origin - a
+    length2 = np.maximum(np.einsum("nli,nli->nl", ab, ab), 1e-9)
+    along = ab @ direction
+    # The point of the segment nearest to the ray's line, then that of the ray nearest to it.
+    det = np.maximum(length2 - along * along, 1e-9)
+    share = (np.einsum("nli,nli->nl", ab, ap) - along * (ap @ direction)) / det
+    on = a + np.clip(share, 0.0, 1.0)[..., None] * ab
+    reach = (on - origin) @ direction
+    miss = np.linalg.norm(origin + reach[..., None] * direction - on, axis=-1)
+    depth = np.where((miss <= radius) & (reach > 0.0), reach, np.inf)
+    row = int(np.argmin(depth.min(axis=1)))
+    nearest = float(depth[row].min())
+    return (row, nearest) if np.isfinite(nearest) else None

@@ -1,0 +1,90 @@
+"""Colours and lights of the picture, from the design tokens."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from widgets.common.tokens import Tokens
+
+Color = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Look:
+    """Colours 0..1 as the display shows them (backdrop, floor, lines, glow), and lights in linear units."""
+
+    top: Color
+    horizon: Color
+    floor: Color
+    lines: Color
+    glow: Color
+    sky: Color
+    ground: Color
+    rim: Color
+    shadow: float
+    key: Color
+    wire: Color
+
+
+def direction(x: float, y: float, z: float) -> Color:
+    """A unit vector."""
+    length = float(np.linalg.norm((x, y, z)))
+    return x / length, y / length, z / length
+
+
+KEY = direction(-0.55, 1.0, 0.72)
+"""Towards the key light: above the audience's left, as a stage is lit."""
+
+
+def rgb(text: str) -> Color:
+    """``#rrggbb`` as 0..1."""
+    return int(text[1:3], 16) / 255.0, int(text[3:5], 16) / 255.0, int(text[5:7], 16) / 255.0
+
+
+def mixed(one: Color, other: Color, share: float) -> Color:
+    """Between two colours; ``share`` 0 is the first."""
+    return (
+        one[0] + share * (other[0] - one[0]),
+        one[1] + share * (other[1] - one[1]),
+        one[2] + share * (other[2] - one[2]),
+    )
+
+
+def is_dark(tokens: Tokens) -> bool:
+    """Whether a theme's surface is dark."""
+    return sum(rgb(tokens.surface)) < 1.5
+
+
+def look_of(tokens: Tokens) -> Look:
+    """The picture in a theme."""
+    surface, sunken, raised = rgb(tokens.surface), rgb(tokens.sunken), rgb(tokens.raised)
+    text, accent = rgb(tokens.text), rgb(tokens.accent)
+    if is_dark(tokens):
+        return Look(
+            top=mixed(sunken, (0.0, 0.0, 0.0), 0.1),
+            horizon=mixed(surface, text, 0.07),
+            floor=mixed(raised, text, 0.13),
+            lines=mixed(raised, text, 0.42),
+            glow=accent,
+            sky=(0.42, 0.44, 0.48),
+            ground=(0.15, 0.145, 0.14),
+            rim=(2.3, 2.5, 2.9),
+            shadow=0.78,
+            key=KEY,
+            wire=mixed(accent, text, 0.3),
+        )
+    return Look(
+        top=mixed(sunken, text, 0.09),
+        horizon=mixed(surface, (1.0, 1.0, 1.0), 0.2),
+        floor=mixed(surface, (1.0, 1.0, 1.0), 0.4),
+        lines=mixed(surface, text, 0.45),
+        glow=accent,
+        sky=(0.62, 0.63, 0.65),
+        ground=(0.30, 0.295, 0.29),
+        rim=(1.0, 1.05, 1.1),
+        shadow=0.5,
+        key=KEY,
+        wire=mixed(accent, text, 0.2),
+    )

@@ -1,0 +1,46 @@
+"""What the viewport asks of whoever makes motion."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Protocol
+
+import numpy as np
+import numpy.typing as npt
+
+Floats = npt.NDArray[np.floating]
+
+
+class Posed(Protocol):
+    """One frame of a player's motion, in the player's own frame (feet at the origin, facing +Z)."""
+
+    @property
+    def rotations(self) -> Floats:
+        """``parent_from_joint`` of every joint (J, 4), xyzw."""
+
+    @property
+    def hips_m(self) -> Floats:
+        """Translation of the hips in the root's frame (3,)."""
+
+    @property
+    def morphs(self) -> Mapping[str, float]:
+        """Weights 0..1 of the morph targets that move."""
+
+    @property
+    def controls(self) -> Mapping[str, float]:
+        """Value 0..1 of every control of the instrument."""
+
+    @property
+    def instrument_position_m(self) -> Floats:
+        """Origin of the instrument (3,)."""
+
+    @property
+    def instrument_rotation(self) -> Floats:
+        """Rotation of the instrument (4,), xyzw."""
+
+
+class Poses(Protocol):
+    """Poses by player and time."""
+
+    def pose(self, player_id: str, time_s: float) -> Posed | None:
+        """How a player stands at a time; None while that is not made yet. Returns at once."""

@@ -1,0 +1,327 @@
+"""Draws a stage with gloo: everything that holds objects of the graphics card.
+
+Near players are drawn one by one, their faces morphed here and only the moved vertices sent; far players are one call
+together, from coarser shapes. All bones of all players travel in one float texture, one upload a frame.
+"""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from vispy import gloo
+
+from widgets.viewport import shaders
+from widgets.viewport.camera import Camera
+from widgets.viewport.cast import Stage
+from widgets.viewport.geometry import LEVELS, SHAPE, Geometry, character_levels, instrument_levels, joined, stool
+from widgets.viewport.limbs import LIMBS, Limbs
+from widgets.viewport.look import Color, Look
+
+Floats = npt.NDArray[np.float64]
+
+FINE_PX_PER_M = 620.0
+"""Above this a player is drawn from all vertices ..."""
+COARSE_PX_PER_M = 120.0
+"""... and below this from the fewest, with all others."""
+MOST_NEAR = 12
+SPREAD_M = 1.25
+"""No part of a player or instrument is farther from the chest."""
+SHADOW_RADIUS_M = 1.9
+
+
+@dataclass(frozen=True, eq=False)
+class Shapes:
+    """Geometries by level of detail: of characters by id, of instruments by the id of their map."""
+
+    characters: Mapping[str, tuple[Geometry, ...]]
+    instruments: Mapping[str, tuple[Geometry, ...]]
+    stool: Geometry
+
+
+@dataclass(frozen=True)
+class Emphasis:
+    """What stands out: rings by row, the row under the pointer, and how figures are drawn."""
+
+    rings: Mapping[int, Color] = field(default_factory=dict)
+    hovered: int | None = None
+    wireframe: bool = False
+
+
+def shapes_of(stage: Stage, before: Shapes | None = None) -> Shapes:
+    """Make what a stage is drawn from; what ``before`` has is taken from there."""
+    characters = dict(before.characters) if before is not None else {}
+    for member in stage.members:
+        character = member.kit.character
+        if character.id not in characters:
+            characters[character.id] = character_levels(character)
+    # The instruments' nodes and the seat follow the joints: their numbers depend on who else is there.
+    instruments = {}
+    height_m = 0.42
+    for member in stage.members:
+        if member.kit.map.id not in instruments:
+            instruments[member.kit.map.id] = instrument_levels(member.kit.instrument, stage.first_node)
+        if member.seat_m is not None:
+            height_m = float(member.seat_m[1])
+    return Shapes(characters, instruments, stool(stage.seat_bone, height_m))
+
+
+class _Solid:
+    """A geometry on the graphics card."""
+
+    def __init__(self, geometry: Geometry) -> None:
+        self.geometry = geometry
+        self.surface = gloo.VertexBuffer(geometry.surface)
+        self.triangles = gloo.IndexBuffer(geometry.triangles)
+        self._shape: Any = None
+        self._edges: Any = None
+
+    @property
+    def shape(self) -> Any:
+        """The vertices at rest."""
+        if self._shape is None:
+            self._shape = gloo.VertexBuffer(self.geometry.shape)
+        return self._shape
+
+    @property
+    def edges(self) -> Any:
+        """Its edges, each once."""
+        if self._edges is None:
+            triangles = self.geometry.triangles
+            pairs = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
+            self._edges = gloo.IndexBuffer(np.unique(np.sort(pairs, axis=1), axis=0).astype(np.uint32))
+        return self._edges
+
+
+class Renderer:
+    """Draws stages into the current GL context."""
+
+    def __init__(self) -> None:
+        self._figures = gloo.Program(shaders.FIGURE_VERTEX, shaders.FIGURE_FRAGMENT)
+        self._batch = gloo.Program(shaders.FIGURE_VERTEX, shaders.FIGURE_FRAGMENT)
+        self._backdrop = gloo.Program(shaders.BACKDROP_VERTEX, shaders.BACKDROP_FRAGMENT)
+        fragment = shaders.SHADOW_FRAGMENT.replace("LIMBS", str(LIMBS))
+        self._shadows = gloo.Program(shaders.SHADOW_VERTEX, fragment)
+        self._ring = gloo.Program(shaders.RING_VERTEX, shaders.RING_FRAGMENT)
+        corners = np.array([(-1, -1), (1, -1), (-1, 1), (1, 1)], np.float32)
+        self._backdrop["a_corner"] = corners
+        self._ring["a_corner"] = corners
+        self._solids: dict[int, _Solid] = {}
+        self._morphed: OrderedDict[tuple[int, int], tuple[Any, object]] = OrderedDict()
+        self._stage: Stage | None = None
+        self._shapes: Shapes | None = None
+        self._limbs: Limbs | None = None
+
+    def set_stage(self, stage: Stage, shapes: Shapes) -> None:
+        """Draw this stage from now on."""
+        self._stage, self._shapes = stage, shapes
+        alive = {
+            id(level) for levels in (*shapes.characters.values(), *shapes.instruments.values()) for level in levels
+        } | {id(shapes.stool)}
+        self._solids = {key: solid for key, solid in self._solids.items() if key in alive}
+        self._morphed.clear()
+        count = len(stage.members)
+        if not count:
+            return
+        self._limbs = Limbs(stage)
+        self._bone_rows = np.zeros((count, 3 * stage.bones.shape[1] + 1, 4), np.float32)
+        self._bones = gloo.Texture2D(self._bone_rows, internalformat="rgba32f", interpolation="nearest")
+        self._limb_rows = np.zeros((count, 2 * LIMBS + 1, 4), np.float32)
+        self._limb_texture = gloo.Texture2D(self._limb_rows, internalformat="rgba32f", interpolation="nearest")
+        size = (float(self._bone_rows.shape[1]), float(count))
+        for program, batched in ((self._figures, 0.0), (self._batch, 1.0)):
+            program["u_bones"] = self._bones
+            program["u_bones_size"] = size
+            program["u_batched"] = batched
+            program["u_row"] = 0.0
+            program["u_lift"] = 0.0
+            program["u_line"] = (0.0, 0.0, 0.0, 0.0)
+        self._figures["a_row"] = 0.0
+        self._shadows["u_limbs"] = self._limb_texture
+        self._shadows["u_limbs_size"] = (float(self._limb_rows.shape[1]), float(count))
+        square = np.array([(-1, -1), (1, -1), (-1, 1), (-1, 1), (1, -1), (1, 1)], np.float32)
+        corners = np.zeros((count, 6, 3), np.float32)
+        corners[:, :, :2] = square
+        corners[:, :, 2] = np.arange(count)[:, None]
+        self._shadows["a_corner"] = corners.reshape(-1, 3)
+        self._fill_batch(stage, shapes)
+
+    def _fill_batch(self, stage: Stage, shapes: Shapes) -> None:
+        """The coarsest shapes of everyone, end to end."""
+        parts, rows = [], []
+        for row, member in enumerate(stage.members):
+            own = [shapes.characters[member.kit.character.id][-1], shapes.instruments[member.kit.map.id][-1]]
+            if member.seat_m is not None:
+                own.append(shapes.stool)
+            parts += own
+            rows.append(np.full(sum(len(part.shape) for part in own), row, np.float32))
+        whole = joined(parts)
+        self._batch.bind(gloo.VertexBuffer(whole.shape))
+        self._batch.bind(gloo.VertexBuffer(whole.surface))
+        self._batch["a_row"] = gloo.VertexBuffer(np.concatenate(rows))
+        self._batch_triangles = gloo.IndexBuffer(whole.triangles)
+
+    def draw(self, camera: Camera, size_px: tuple[int, int], look: Look, emphasis: Emphasis) -> None:
+        """Draw one picture of this size into the bound framebuffer."""
+        width, height = size_px
+        aspect = width / max(height, 1)
+        gloo.set_viewport(0, 0, width, height)
+        gloo.set_state(depth_test=False, blend=False, cull_face=False)
+        gloo.clear(color=(*look.horizon, 1.0), depth=True)
+        matrix = camera.clip_from_world(aspect)
+        self._draw_backdrop(camera, aspect, look)
+        stage, shapes, limbs = self._stage, self._shapes, self._limbs
+        if stage is None or shapes is None or limbs is None or not stage.members or not stage.shown.any():
+            return
+        level = self._levels(stage, camera, matrix, height)
+        self._upload(stage, limbs, level, emphasis)
+        clip = matrix.T.astype(np.float32)
+        gloo.set_state(blend=True, blend_func=("src_alpha", "one_minus_src_alpha"))
+        self._shadows["u_clip_from_world"] = clip
+        self._shadows["u_key"] = look.key
+        self._shadows["u_strength"] = look.shadow
+        self._shadows.draw("triangles")
+        self._draw_rings(stage, clip, emphasis)
+        gloo.set_state(blend=False, depth_test=True)
+        for program in (self._figures, self._batch):
+            self._light(program, camera, clip, look)
+        if (level == LEVELS - 1).any():
+            self._batch.draw("triangles", self._batch_triangles)
+        self._draw_near(stage, shapes, level, "triangles")
+        if emphasis.wireframe:
+            self._draw_wires(stage, shapes, level, camera, look)
+
+    def _draw_backdrop(self, camera: Camera, aspect: float, look: Look) -> None:
+        program = self._backdrop
+        tangent = float(np.tan(np.radians(camera.fov_deg) / 2.0))
+        program["u_eye"] = camera.eye_m
+        program["u_forward"] = -camera.backward
+        program["u_across"] = camera.right * tangent * aspect
+        program["u_over"] = camera.up * tangent
+        program["u_top"], program["u_horizon"] = look.top, look.horizon
+        program["u_floor"], program["u_lines"] = look.floor, look.lines
+        middle, radius = (0.0, 0.0), 4.5
+        if self._stage is not None and self._stage.members:
+            places = np.array([member.world_from_player[[0, 2], 3] for member in self._stage.members])
+            low, high = places.min(axis=0), places.max(axis=0)
+            middle = tuple(((low + high) / 2.0).tolist())
+            radius = 4.5 + 1.2 * float(np.linalg.norm(high - low)) / 2.0
+        program["u_middle"], program["u_radius"] = middle, radius
+        program.draw("triangle_strip")
+
+    def _levels(self, stage: Stage, camera: Camera, matrix: Floats, height_px: int) -> npt.NDArray[np.intp]:
+        """The level of detail of everyone; -1: not in the picture."""
+        middles = np.array([member.world_from_player[:, 3] for member in stage.members]) + [0.0, 1.0, 0.0]
+        away = np.linalg.norm(middles - camera.eye_m, axis=1)
+        scale = camera.pixels_per_metre(height_px, 1.0) / np.maximum(away - 0.35, 0.2)
+        level = np.where(scale > FINE_PX_PER_M, 0, np.where(scale > COARSE_PX_PER_M, 1, LEVELS - 1))
+        order = np.argsort(away, kind="stable")
+        level[order[MOST_NEAR:]] = LEVELS - 1
+        # A sphere that lies wholly outside one side of the frustum is not seen.
+        planes = matrix[3] + np.array([sign * matrix[axis] for axis in (0, 1) for sign in (1.0, -1.0)])
+        planes /= np.linalg.norm(planes[:, :3], axis=1, keepdims=True)
+        outside = (middles @ planes[:, :3].T + planes[:, 3] < -SPREAD_M).any(axis=1)
+        level[outside | ~stage.shown] = -1
+        return level
+
+    def _upload(self, stage: Stage, limbs: Limbs, level: npt.NDArray[np.intp], emphasis: Emphasis) -> None:
+        count = len(stage.members)
+        rows = self._bone_rows
+        rows[:, :-1] = stage.bones.reshape(count, -1, 4)
+        rows[:, -1] = 0.0
+        rows[:, -1, 0] = level == LEVELS - 1
+        if emphasis.hovered is not None and emphasis.hovered < count:
+            rows[emphasis.hovered, -1, 1] = 1.0
+        self._bones.set_data(rows)
+        capsules = limbs.capsules()
+        self._limb_rows[:, :-1] = capsules.reshape(count, -1, 4)
+        middle = capsules[:, 0, 0, :3]
+        self._limb_rows[:, -1, :3] = middle
+        self._limb_rows[:, -1, 3] = np.where(stage.shown, SHADOW_RADIUS_M, 0.0)
+        self._limb_texture.set_data(self._limb_rows)
+
+    def _draw_rings(self, stage: Stage, clip: npt.NDArray[np.float32], emphasis: Emphasis) -> None:
+        for row, color in emphasis.rings.items():
+            if row < len(stage.members) and stage.shown[row]:
+                place = stage.members[row].world_from_player[:, 3]
+                self._ring["u_clip_from_world"] = clip
+                self._ring["u_middle"] = (place[0], 0.001, place[2])
+                self._ring["u_radius"] = 0.48
+                self._ring["u_color"] = (*color, 0.9)
+                self._ring.draw("triangle_strip")
+
+    @staticmethod
+    def _light(program: Any, camera: Camera, clip: npt.NDArray[np.float32], look: Look) -> None:
+        program["u_clip_from_world"] = clip
+        program["u_eye"] = camera.eye_m
+        program["u_key"] = look.key
+        # The fill comes with the camera, from the side where the key is not.
+        fill = camera.backward + 0.7 * camera.right + 0.15 * camera.up
+        program["u_fill"] = fill / np.linalg.norm(fill)
+        program["u_rim"], program["u_sky"], program["u_ground"] = look.rim, look.sky, look.ground
+        program["u_glow"] = look.glow
+
+    def _draw_near(self, stage: Stage, shapes: Shapes, level: npt.NDArray[np.intp], mode: str) -> None:
+        """Everyone who is drawn alone; things of one kind in a row, so that buffers are bound once."""
+        near = [int(row) for row in np.flatnonzero((level >= 0) & (level < LEVELS - 1))]
+        program = self._figures
+        for row in sorted(near, key=lambda row: (stage.members[row].kit.character.id, level[row])):
+            solid = self._solid(shapes.characters[stage.members[row].kit.character.id][level[row]])
+            program.bind(self._shape(stage, row, int(level[row]), solid))
+            program.bind(solid.surface)
+            self._draw_solid(solid, row, mode)
+        bound: _Solid | None = None
+        for row in sorted(near, key=lambda row: (stage.members[row].kit.map.id, level[row])):
+            solid = self._solid(shapes.instruments[stage.members[row].kit.map.id][level[row]])
+            bound = self._draw_shared(solid, bound, row, mode)
+        for row in near:
+            if stage.members[row].seat_m is not None:
+                bound = self._draw_shared(self._solid(shapes.stool), bound, row, mode)
+
+    def _draw_shared(self, solid: _Solid, bound: _Solid | None, row: int, mode: str) -> _Solid:
+        if solid is not bound:
+            self._figures.bind(solid.shape)
+            self._figures.bind(solid.surface)
+        self._draw_solid(solid, row, mode)
+        return solid
+
+    def _draw_solid(self, solid: _Solid, row: int, mode: str) -> None:
+        self._figures["u_row"] = float(row)
+        self._figures.draw(mode, solid.triangles if mode == "triangles" else solid.edges)
+
+    def _draw_wires(
+        self, stage: Stage, shapes: Shapes, level: npt.NDArray[np.intp], camera: Camera, look: Look
+    ) -> None:
+        gloo.set_state(blend=True, blend_func=("src_alpha", "one_minus_src_alpha"))
+        self._figures["u_line"] = (*look.wire, 0.35)
+        self._figures["u_lift"] = 0.0006 * camera.distance_m
+        drawn = np.where((level >= 0) & (level < LEVELS - 1), level, -1)
+        self._draw_near(stage, shapes, drawn, "lines")
+        self._figures["u_line"] = (0.0, 0.0, 0.0, 0.0)
+        self._figures["u_lift"] = 0.0
+
+    def _solid(self, geometry: Geometry) -> _Solid:
+        solid = self._solids.get(id(geometry))
+        if solid is None:
+            solid = self._solids[id(geometry)] = _Solid(geometry)
+        return solid
+
+    def _shape(self, stage: Stage, row: int, level: int, solid: _Solid) -> Any:
+        """The vertices of a player with the face of the pose; sent only where the pose is another."""
+        pose, face = stage.poses[row], solid.geometry.face
+        if face is None or pose is None:
+            return solid.shape
+        kept = self._morphed.get((row, level))
+        buffer, shown = kept if kept is not None else (gloo.VertexBuffer(solid.geometry.shape.copy()), None)
+        if shown is not pose:
+            weights = np.array([pose.morphs.get(name, 0.0) for name in face.names], np.float32)
+            buffer.set_subdata(face.morphed(weights), offset=0)
+        self._morphed[row, level] = (buffer, pose)
+        self._morphed.move_to_end((row, level))
+        while len(self._morphed) > 2 * MOST_NEAR:
+            self._morphed.popitem(last=False)
+        return buffer
