@@ -18,7 +18,6 @@ from app.cli.summary import summary
 from app.cli.version import program_version
 from app.errors import UsageError
 from app.messages import text
-from app.plan.generate import PREROLL_LEAST_S
 from app.project.parameters import select_players
 
 if TYPE_CHECKING:
@@ -120,21 +119,10 @@ def _bars(performance: Performance, arguments: argparse.Namespace) -> tuple[int,
 
 
 def _span(performance: Performance, arguments: argparse.Namespace) -> FrameSpan:
-    """The frames asked for: the bars with the pre-roll before them, or everything.
-
-    The plan is that of the whole piece, so that a cut shows what the whole would show. Up to the last bar the
-    performance's end belongs to it.
-    """
-    from app.performance.span import cut_span, whole_span
+    """The frames asked for: the bars with the pre-roll before them, or everything."""
+    from app.performance.span import bars_span, whole_span
 
     bars = _bars(performance, arguments)
-    frame = performance.time_frame
     if bars is None:
-        return whole_span(frame, arguments.fps)
-    score, clock = performance.project.score, performance.piece.clock
-    first_tick, end_tick = score.tick_of_bar(bars[0]), score.tick_of_bar(bars[1] + 1)
-    preroll_ticks = arguments.preroll * performance.piece.beat_ticks
-    first_s = clock.seconds(float(first_tick))
-    start_s = min(clock.seconds(first_tick - preroll_ticks), first_s - PREROLL_LEAST_S)
-    end_s = frame.end_s if end_tick >= score.end_tick else clock.seconds(float(end_tick))
-    return cut_span(frame, arguments.fps, start_s, end_s)
+        return whole_span(performance.time_frame, arguments.fps)
+    return bars_span(performance, arguments.fps, bars, performance.project.preroll_beats)

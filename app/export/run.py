@@ -25,7 +25,6 @@ from app.formats.atomic import atomic_write
 from app.formats.bvh import encode_bvh
 from app.formats.fbx.read import read_scene
 from app.formats.fbx.write import write_scene
-from app.motion.model import Motion
 from app.performance.ensemble import Performance
 from app.performance.motion import body_of, character_of, model_of, player_motion
 from app.performance.span import FrameSpan
@@ -98,7 +97,7 @@ def export(
         raise FileError("export.too_long", file=request.source, frames=request.span.count, most=MOST_FRAMES)
     if not request.players:
         raise FileError("export.nobody", file=request.source)
-    stems = _stems(request.performance)
+    stems, names = _stems(request.performance), file_names(request.performance, request.formats)
     reports: list[PlayerReport] = []
     torsos: dict[str, FloatArray] = {}
     with files_into(request.folder) as folder:
@@ -109,31 +108,53 @@ def export(
                     raise Cancelled("work.stopped")
                 progress((done + share) / len(request.players), name)
 
-            report, measured = _export_player(request, player, stems[player.id], folder, told)
+            report, measured = _export_player(request, player, stems[player.id], names[player.id], folder, told)
             reports.append(report)
             if measured is not None:
                 torsos[player.id] = measured.torso_rad
         report_value = _report(request, _compared(reports, request.players, torsos), wording)
-        with atomic_write(folder / "report.json") as stream:
+        with atomic_write(folder / REPORT) as stream:
             stream.write(encode_report(report_value))
     return report_value
 
 
+def file_names(performance: Performance, formats: frozenset[Format]) -> dict[str, dict[str, str]]:
+    """Names of the files of every player: by player id, then by what they hold."""
+    names: dict[str, dict[str, str]] = {}
+    for player_id, stem in _stems(performance).items():
+        files = names[player_id] = {}
+        if "fbx" in formats:
+            files["character_fbx"] = f"{stem}.fbx"
+            files["instrument_fbx"] = f"{stem}_{performance.project.player(player_id).instrument_id}.fbx"
+        if "bvh" in formats:
+            files["character_bvh"] = f"{stem}.bvh"
+    return names
+
+
+REPORT = "report.json"
+"""Name of the file that says what the others hold."""
+
+
 def _export_player(
-    request: Request, player: Player, stem: str, folder: Path, told: Callable[[float], None]
+    request: Request, player: Player, stem: str, files: dict[str, str], folder: Path, told: Callable[[float], None]
 ) -> tuple[PlayerReport, Measured | None]:
     told(0.0)
     performance = request.performance
     motion = player_motion(performance, player, request.span, progress=lambda share: told(_SHARES["motion"] * share))
     done = _SHARES["motion"]
-    files: dict[str, str] = {}
     measured = None
     if "fbx" in request.formats:
-        files["character_fbx"], files["instrument_fbx"] = _write_fbx(request, player, stem, motion, folder)
+        instrument = performance.instrument(player)
+        write_scene(
+            folder / files["character_fbx"], character_scene(character_of(player), motion, stem, request.creator)
+        )
+        write_scene(
+            folder / files["instrument_fbx"],
+            instrument_scene(instrument, model_of(instrument), motion, stem, request.creator),
+        )
         done += _SHARES["fbx"]
         told(done)
     if "bvh" in request.formats:
-        files["character_bvh"] = f"{stem}.bvh"
         with atomic_write(folder / files["character_bvh"]) as stream:
             stream.write(encode_bvh(character_bvh(character_of(player), motion)))
         done += _SHARES["bvh"]
@@ -153,15 +174,6 @@ def _export_player(
         )
     told(1.0)
     return _player_report(request, player, files, measured), measured
-
-
-def _write_fbx(request: Request, player: Player, stem: str, motion: Motion, folder: Path) -> tuple[str, str]:
-    """The player's two files; their names."""
-    instrument = request.performance.instrument(player)
-    names = f"{stem}.fbx", f"{stem}_{instrument.id}.fbx"
-    write_scene(folder / names[0], character_scene(character_of(player), motion, stem, request.creator))
-    write_scene(folder / names[1], instrument_scene(instrument, model_of(instrument), motion, stem, request.creator))
-    return names
 
 
 def _stems(performance: Performance) -> dict[str, str]:

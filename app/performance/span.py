@@ -7,6 +7,8 @@ from fractions import Fraction
 
 import msgspec
 
+from app.performance.ensemble import Performance
+from app.plan.generate import PREROLL_LEAST_S
 from app.plan.model import TimeFrame
 
 _WHOLE = 1e-6
@@ -35,6 +37,29 @@ class FrameSpan(msgspec.Struct, frozen=True):
 def whole_span(frame: TimeFrame, fps: Fraction) -> FrameSpan:
     """All frames of a performance."""
     return cut_span(frame, fps, frame.first_frame_s, frame.end_s)
+
+
+def bars_span(performance: Performance, fps: Fraction, bars: tuple[int, int], preroll_beats: float) -> FrameSpan:
+    """The frames of some bars with the pre-roll before them.
+
+    The plan is that of the whole piece, so that a cut shows what the whole would show. With the last bar the
+    performance's end belongs to it.
+
+    Parameters
+    ----------
+    bars : (int, int)
+        First and last bar, both included.
+    preroll_beats : float
+        In felt beats; at least the seconds that every performance starts before its first note.
+    """
+    frame = performance.time_frame
+    score, clock = performance.project.score, performance.piece.clock
+    first_tick, end_tick = score.tick_of_bar(bars[0]), score.tick_of_bar(bars[1] + 1)
+    preroll_ticks = preroll_beats * performance.piece.beat_ticks
+    first_s = clock.seconds(float(first_tick))
+    start_s = min(clock.seconds(first_tick - preroll_ticks), first_s - PREROLL_LEAST_S)
+    end_s = frame.end_s if end_tick >= score.end_tick else clock.seconds(float(end_tick))
+    return cut_span(frame, fps, start_s, end_s)
 
 
 def cut_span(frame: TimeFrame, fps: Fraction, start_s: float, end_s: float) -> FrameSpan:
