@@ -8,6 +8,7 @@ from __future__ import annotations
 import contextlib
 import os
 import secrets
+import shutil
 from collections.abc import Iterator
 from pathlib import Path
 from typing import BinaryIO
@@ -16,7 +17,7 @@ from app.errors import FileError
 
 
 @contextlib.contextmanager
-def atomic_write(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
+def atomic_write(path: str | os.PathLike[str], backup: Path | None = None) -> Iterator[BinaryIO]:
     """Open a file for writing that takes its name only once it is complete and on the disk.
 
     The bytes go to a temporary file in the same folder; on leaving the block it is flushed, synced and renamed over
@@ -26,6 +27,8 @@ def atomic_write(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
     ----------
     path : str or path-like
         A symbolic link is followed, so that the link stays a link. The folder must exist.
+    backup : path, optional
+        What `path` held before is kept under this name, in the same folder; at every moment one of the two is whole.
 
     Yields
     ------
@@ -48,11 +51,40 @@ def atomic_write(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
             yield stream
             stream.flush()
             os.fsync(stream.fileno())
+        if backup is not None and target.exists():
+            shutil.copymode(target, partial)
+            _keep(target, backup)
         partial.replace(target)
+        _sync_folder(target.parent)
     except OSError as error:
         raise _cannot_write(path, error) from error
     finally:
         partial.unlink(missing_ok=True)
+
+
+def _keep(file: Path, backup: Path) -> None:
+    """Give a file a second name, or make a copy where the file system knows only one name for a file."""
+    partial = file.parent / f".{secrets.token_hex(8)}.partial"
+    try:
+        try:
+            os.link(file, partial)
+        except OSError:
+            shutil.copy2(file, partial)
+        partial.replace(backup)
+    finally:
+        partial.unlink(missing_ok=True)
+
+
+def _sync_folder(folder: Path) -> None:
+    """Bring a new name onto the disk too, where the system can."""
+    if os.name != "posix":
+        return
+    with contextlib.suppress(OSError):
+        descriptor = os.open(folder, os.O_RDONLY)
+        try:
+            os.fsync(descriptor)
+        finally:
+            os.close(descriptor)
 
 
 def _cannot_write(path: str | os.PathLike[str], error: OSError) -> FileError:

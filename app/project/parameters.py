@@ -111,6 +111,21 @@ def parse_settings(
     return tuple(settings.values())
 
 
+def bounds(parameter: str) -> tuple[float, float] | None:
+    """Lowest and highest number of a parameter, both allowed; None for one that is no number."""
+    return _BOUNDS.get(parameter)
+
+
+def is_possible(parameter: str, value: object) -> bool:
+    """Whether a player's parameter may have this value."""
+    try:
+        msgspec.convert(value, _TYPES[parameter])
+    except msgspec.ValidationError:
+        return False
+    low, high = _BOUNDS.get(parameter, (-math.inf, math.inf))
+    return not isinstance(value, int | float) or isinstance(value, bool) or low <= value <= high
+
+
 def with_settings(parameters: PlayerParameters, settings: Iterable[Setting]) -> PlayerParameters:
     """The parameters with those settings that are fields of them."""
     changes = {setting.parameter: setting.value for setting in settings if setting.parameter in _TYPES}
@@ -149,11 +164,11 @@ def _value(parameter: str, text: str, choices: Mapping[str, tuple[str, ...]]) ->
         value = math.nan
     low, high = _BOUNDS.get(parameter, (-math.inf, math.inf))
     if isinstance(value, int | float) and not isinstance(value, bool) and not low <= value <= high:
-        raise UsageError("set.value_invalid", parameter=parameter, value=text, possible=_possible(parameter))
+        raise UsageError("set.value_invalid", parameter=parameter, value=text, possible=range_text(parameter))
     return value
 
 
-def _possible(parameter: str) -> str:
+def range_text(parameter: str) -> str:
     """What a parameter may be, as a text for a message: numbers and words only."""
     if parameter in _BOUNDS:
         low, high = _BOUNDS[parameter]

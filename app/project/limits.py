@@ -1,0 +1,40 @@
+"""How far a project's numbers may go: what an edit refuses, and what a file may not hold.
+
+The bounds lie far beyond music, and near enough that no hostile file can make the program run for hours or out of
+memory.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Final, TypeAlias
+
+Bounds: TypeAlias = tuple[float, float]
+"""Lowest and highest, both allowed."""
+
+LAST_TICK: Final = 2**31 - 1
+TICKS_PER_QUARTER: Final = (1, 32767)
+"""The 15 bits of a MIDI file's division."""
+MICROSECONDS_PER_QUARTER: Final = (5_000.0, 120_000_000.0)
+"""Wider than what a MIDI file can say (24 bits) and its reader accepts, so that a tempo can still be scaled."""
+BPM: Final = (5.0, 1000.0)
+"""Quarters per minute that a person may set."""
+TEMPO_RATIO: Final = (0.25, 4.0)
+METRE_NUMERATOR: Final = (1, 255)
+METRE_DENOMINATORS: Final = (1, 2, 4, 8, 16, 32, 64)
+MOST_BARS: Final = 200_000
+PREROLL_BEATS: Final = (0.0, 64.0)
+FELT_BEAT_QUARTERS: Final = (1 / 16, 16.0)
+FPS: Final = (Fraction(1), Fraction(240))
+SEED: Final = (0, 2**63 - 1)
+OFFSET_S: Final = (-86_400.0, 86_400.0)
+STAGE_M: Final = (-1000.0, 1000.0)
+TURN_RAD: Final = (-1000.0, 1000.0)
+MOST_TEXT: Final = 10_000
+"""Characters of any one text."""
+MOST_ID: Final = 500
+MOST_NAME: Final = 200
+"""Characters of a name that a person gives."""
+MOST_PLAYERS: Final = 1000
+MOST_NUMBER: Final = 1e12
+"""Of any number without a bound of its own."""

@@ -1,0 +1,40 @@
+"""Project files of older versions, brought up to the present one, one version at a time.
+
+A migration is a pure function on the file's decoded JSON; the first takes version 1 to 2, the next 2 to 3 and so on.
+Whoever changes what a file holds adds one here, and a sample of the old version to ``tests/data/projects``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any, Final, TypeAlias
+
+Raw: TypeAlias = dict[str, Any]
+"""A project file as decoded JSON."""
+Migration: TypeAlias = Callable[[Raw], Raw]
+
+VERSION_KEY: Final = "schema_version"
+
+MIGRATIONS: Final[tuple[Migration, ...]] = ()
+"""In order."""
+
+CURRENT: Final = len(MIGRATIONS) + 1
+"""The version that is written."""
+
+
+def migrated(raw: Raw, version: int, migrations: Sequence[Migration] = MIGRATIONS) -> Raw:
+    """The file's content as the present version has it; what is given stays as it is.
+
+    Parameters
+    ----------
+    version : int
+        Of ``raw``, from 1 to ``len(migrations) + 1``.
+
+    Raises
+    ------
+    KeyError, TypeError, ValueError, IndexError, AttributeError
+        The content is not what its version says.
+    """
+    for number, migration in enumerate(migrations[version - 1 :], version + 1):
+        raw = {**migration(raw), VERSION_KEY: number}
+    return raw

@@ -1,0 +1,322 @@
+"""Project files: one readable JSON document, written whole or not at all.
+
+The file says its version first; older ones are migrated (`app.project.migrations`), newer ones refused. Paths of media
+are kept relative to the file where both lie in one tree, so that a folder can be moved or sent. Whatever a file holds,
+names are only texts: nothing but the recording and the MIDI file it came from is ever a path.
+
+Messages (`FileError`)
+--------
+project.damaged : file, detail
+project.invalid : file, place, detail
+project.newer : file, version, known
+project.too_large : file, most_mb
+project.cannot_save : file, place, detail
+project.read_only : file
+file.cannot_read : file, reason
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterator
+from fractions import Fraction
+from pathlib import Path, PurePosixPath, PureWindowsPath
+from typing import Any, Final
+
+import msgspec
+import numpy as np
+
+from app.errors import FileError, Message
+from app.formats.atomic import atomic_write
+from app.plan.corrections import Correction
+from app.project.check import faults
+from app.project.migrations import CURRENT, VERSION_KEY, Raw, migrated
+from app.project.model import AudioTrack, Player, Project
+from app.project.remarks import sayable
+from app.rig.character import characters
+from app.score.model import Score
+from instrument_maps.load import bundled_maps
+from metadata.model import Expression
+
+SUFFIX: Final = ".suisou"
+BACKUP: Final = ".bak"
+"""Put behind the file's name: what it held before it was last saved."""
+
+MOST_BYTES: Final = 256 * 2**20
+
+_PLACE = re.compile(r"^(.*?)(?: - at `(key in )?\$?\.?(.*?)`)?$", re.DOTALL)
+_FPS = re.compile(r"[1-9][0-9]{0,8}(?:/[1-9][0-9]{0,8})?", re.ASCII)
+
+
+class _Content(msgspec.Struct, forbid_unknown_fields=True):
+    """What a file of the present version holds; corrections are read player by player, so that a fault in one of them
+    is found by name."""
+
+    schema_version: int
+    source: str
+    fps: str
+    seed: int
+    preroll_beats: float
+    felt_beat_quarters: float
+    audio: AudioTrack | None
+    players: tuple[Player, ...]
+    corrections: dict[str, list[Any]]
+    expressions: tuple[Expression, ...]
+    score: Score
+
+
+def save(project: Project, path: str | os.PathLike[str]) -> None:
+    """Write a project; what the file held before stays beside it as ``.bak``.
+
+    Raises
+    ------
+    FileError
+        The system refuses, the file is write-protected, or the project holds what could not be read again; the file
+        is as it was.
+    """
+    target = Path(os.path.realpath(path))
+    content = encode(project, target)
+    if target.exists() and not os.access(target, os.W_OK):
+        raise FileError("project.read_only", file=os.fspath(path))
+    with atomic_write(path, backup=backup_path(target)) as stream:
+        stream.write(content)
+
+
+def backup_path(path: Path) -> Path:
+    """Where the version before the last save is."""
+    return path.with_name(path.name + BACKUP)
+
+
+def encode(project: Project, path: Path) -> bytes:
+    """The bytes of a project's file that is to lie at a path; the same project gives the same bytes.
+
+    Raises
+    ------
+    FileError
+        ``project.cannot_save``: the project holds what could not be read again.
+    """
+    for place, detail in faults(project):
+        raise FileError("project.cannot_save", file=os.fspath(path), place=place, detail=detail)
+    folder = path.absolute().parent
+    audio = project.audio
+    if audio is not None:
+        audio = msgspec.structs.replace(audio, path=_stored_path(audio.path, folder))
+    content = _Content(
+        schema_version=CURRENT,
+        source=_stored_path(project.source, folder),
+        fps=str(project.fps),
+        seed=project.seed,
+        preroll_beats=project.preroll_beats,
+        felt_beat_quarters=project.felt_beat_quarters,
+        audio=audio,
+        players=project.players,
+        corrections={player: list(corrections) for player, corrections in project.corrections.items() if corrections},
+        expressions=project.expressions,
+        score=project.score,
+    )
+    try:
+        raw = msgspec.to_builtins(content, order="deterministic", enc_hook=_plain_number)
+        return ("".join(_layout(raw, "")) + "\n").encode()
+    except (TypeError, ValueError, OverflowError) as error:
+        raise FileError("project.cannot_save", file=os.fspath(path), place="-", detail=str(error)) from error
+
+
+def load(path: str | os.PathLike[str]) -> Project:
+    """Read a project.
+
+    What it needs and this computer does not have (an instrument, a character, the recording) stays in it; `missing`
+    and `missing_media` tell.
+
+    Raises
+    ------
+    FileError
+        See the module's docstring.
+    """
+    name = os.fspath(path)
+    try:
+        with Path(path).open("rb") as stream:
+            content = stream.read(MOST_BYTES + 1)
+    except (OSError, ValueError) as error:
+        reason = (error.strerror if isinstance(error, OSError) else None) or str(error)
+        raise FileError("file.cannot_read", file=name, reason=reason) from error
+    if len(content) > MOST_BYTES:
+        raise FileError("project.too_large", file=name, most_mb=MOST_BYTES // 2**20)
+    return decode(content, Path(os.path.realpath(path)), name)
+
+
+def decode(content: bytes, path: Path, name: str | None = None) -> Project:
+    """The project in the bytes of a file that lies at a path.
+
+    Parameters
+    ----------
+    name : str, optional
+        What the file is called in messages, by default its path.
+    """
+    file = os.fspath(path) if name is None else name
+    try:
+        raw = msgspec.json.decode(content)
+    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
+        raise FileError("project.damaged", file=file, detail=str(error)) from error
+    if not isinstance(raw, dict) or not _is_version(raw.get(VERSION_KEY)):
+        raise FileError("project.damaged", file=file, detail=f"no {VERSION_KEY}")
+    version = raw[VERSION_KEY]
+    if version > CURRENT:
+        raise FileError("project.newer", file=file, version=version, known=CURRENT)
+    try:
+        raw = migrated(raw, version)
+    except (KeyError, TypeError, ValueError, IndexError, AttributeError) as error:
+        raise FileError("project.invalid", file=file, place=f"version {version}", detail=repr(error)) from error
+    project = _project(raw, path.parent, file)
+    for place, detail in faults(project):
+        raise FileError("project.invalid", file=file, place=place, detail=detail)
+    return project
+
+
+def missing(project: Project) -> tuple[Message, ...]:
+    """What players need and this computer does not have; the project keeps it, and plays again where it is there.
+
+    Messages: ``project.instrument_missing`` (player, id), ``project.character_missing`` (player, id).
+    """
+    instruments, bodies = bundled_maps(), characters()
+    found = []
+    for player in project.players:
+        if player.instrument_id not in instruments:
+            found.append(Message("project.instrument_missing", {"player": player.name, "id": player.instrument_id}))
+        if player.character_id not in bodies:
+            found.append(Message("project.character_missing", {"player": player.name, "id": player.character_id}))
+    return tuple(found)
+
+
+def missing_media(project: Project) -> Path | None:
+    """The recording, where it is not at its place (any more); to be asked for."""
+    if project.audio is None:
+        return None
+    path = Path(project.audio.path)
+    try:
+        return None if path.is_file() else path
+    except (OSError, ValueError):
+        return path
+
+
+def _is_version(value: object) -> bool:
+    return isinstance(value, int) and not isinstance(value, bool) and value >= 1
+
+
+def _project(raw: Raw, folder: Path, file: str) -> Project:
+    """The typed values of a file's content; what they mean is not looked at yet."""
+    content = _converted(raw, _Content, "", file)
+    if not _FPS.fullmatch(content.fps):
+        raise FileError("project.invalid", file=file, place="fps", detail='must be like "60" or "30000/1001"')
+    corrections = {
+        player: _converted(items, tuple[Correction, ...], f"corrections[{player!r}]", file)
+        for player, items in content.corrections.items()
+    }
+    # What a struct does not forbid it passes over: nothing in a file may be lost by saving it again.
+    for key in ("audio", "players", "expressions", "score"):
+        for place in _unknown(raw[key], msgspec.to_builtins(getattr(content, key)), key):
+            raise FileError("project.invalid", file=file, place=place, detail="unknown key")
+    audio = content.audio
+    if audio is not None:
+        audio = msgspec.structs.replace(audio, path=_full_path(audio.path, folder))
+    score = content.score
+    return Project(
+        score=msgspec.structs.replace(
+            score,
+            warnings=tuple(map(sayable, score.warnings)),
+            unplayed=tuple(msgspec.structs.replace(part, reason=sayable(part.reason)) for part in score.unplayed),
+        ),
+        players=content.players,
+        corrections=corrections,
+        seed=content.seed,
+        preroll_beats=content.preroll_beats,
+        felt_beat_quarters=content.felt_beat_quarters,
+        fps=Fraction(content.fps),
+        audio=audio,
+        expressions=content.expressions,
+        source=_full_path(content.source, folder),
+    )
+
+
+def _converted(raw: Any, type_: Any, prefix: str, file: str) -> Any:
+    try:
+        return msgspec.convert(raw, type_)
+    except msgspec.ValidationError as error:
+        found = _PLACE.match(str(error))
+        detail, place = (found.group(1), found.group(3) or "") if found else (str(error), "")
+        where = f"{prefix}{place}" if prefix else place
+        raise FileError("project.invalid", file=file, place=where or "$", detail=detail) from error
+    except RecursionError as error:
+        raise FileError("project.damaged", file=file, detail=str(error)) from error
+
+
+def _unknown(raw: Any, known: Any, place: str) -> Iterator[str]:
+    """Key paths that were in the file and are not in what was made of it."""
+    if isinstance(raw, dict) and isinstance(known, dict):
+        for key, value in raw.items():
+            if key not in known:
+                yield f"{place}.{key}"
+            elif isinstance(value, dict | list):
+                yield from _unknown(value, known[key], f"{place}.{key}")
+    elif isinstance(raw, list) and isinstance(known, list | tuple):
+        for index, (value, kept) in enumerate(zip(raw, known, strict=True)):
+            if isinstance(value, dict | list):
+                yield from _unknown(value, kept, f"{place}[{index}]")
+
+
+# Paths
+
+
+def _stored_path(path: str, folder: Path) -> str:
+    """As the file has it: relative, with slashes, where both lie in one tree below the root; else as it is."""
+    if not path or not Path(path).is_absolute():
+        return path
+    try:
+        shared = Path(os.path.commonpath([path, folder]))
+    except ValueError:  # two drives
+        return path
+    if shared == Path(shared.anchor):
+        return path
+    return Path(os.path.relpath(path, folder)).as_posix()
+
+
+def _full_path(path: str, folder: Path) -> str:
+    """Absolute; a path that is absolute on another system only stays what it is."""
+    if not path or PurePosixPath(path).is_absolute() or PureWindowsPath(path).is_absolute():
+        return path
+    return os.path.normpath(folder / path)
+
+
+# Layout
+
+
+def _layout(value: Any, indent: str) -> Iterator[str]:
+    """JSON with two spaces a level, in which what holds no other values, a note for one, takes one line."""
+    if not isinstance(value, dict | list | tuple) or not any(map(_is_nested, _values(value))):
+        yield msgspec.json.format(msgspec.json.encode(value), indent=0).decode()
+        return
+    deeper = indent + "  "
+    brackets = "{}" if isinstance(value, dict) else "[]"
+    before = brackets[0]
+    for key, item in value.items() if isinstance(value, dict) else enumerate(value):
+        yield f"{before}\n{deeper}"
+        if isinstance(value, dict):
+            yield f"{msgspec.json.encode(key).decode()}: "
+        yield from _layout(item, deeper)
+        before = ","
+    yield f"\n{indent}{brackets[1]}"
+
+
+def _values(value: Any) -> Any:
+    return value.values() if isinstance(value, dict) else value
+
+
+def _is_nested(value: Any) -> bool:
+    return isinstance(value, dict | list | tuple) and len(value) > 0
+
+
+def _plain_number(value: Any) -> Any:
+    """Numbers of numpy, which calculations leave behind, are numbers."""
+    if isinstance(value, np.generic):
+        return value.item()
+    raise TypeError(f"{type(value).__name__} cannot be kept in a file")
