@@ -8,4 +8,5 @@ TEMPLATES: Final[dict[str, str]] = {
     "file.cannot_read": "{file} cannot be read: {reason}",
     "file.cannot_write": "{file} cannot be written: {reason}",
     "file.unreadable": "{file} cannot be read: {detail}",
+    "export.done": "{count} files written to {folder}",
 }

@@ -4,4 +4,6 @@ from __future__ import annotations
 
 from typing import Final
 
-TEMPLATES: Final[dict[str, str]] = {}
+TEMPLATES: Final[dict[str, str]] = {
+    "work.export": "writing the files",
+}

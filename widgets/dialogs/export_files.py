@@ -1,0 +1,384 @@
+"""Export: which players, files and bars, where to; what will be replaced; progress, cancel, show in folder."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+from pathlib import Path
+
+from PySide6.QtCore import QEvent, QSize, Qt, QUrl, Signal
+from PySide6.QtGui import QCloseEvent, QDesktopServices
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QComboBox,
+    QDialog,
+    QDialogButtonBox,
+    QDoubleSpinBox,
+    QFileDialog,
+    QFormLayout,
+    QHBoxLayout,
+    QLabel,
+    QLineEdit,
+    QListWidget,
+    QListWidgetItem,
+    QProgressBar,
+    QPushButton,
+    QSpinBox,
+    QVBoxLayout,
+    QWidget,
+)
+
+from app.errors import AppError, Cancelled, Message
+from app.export.report import Report
+from app.export.run import REPORT, Format, Request, export, file_names
+from app.performance.ensemble import Performance
+from app.performance.span import bars_span, whole_span
+from widgets.common.session import Session
+from widgets.common.tasks import Progress, StopWanted
+from widgets.common.text import message_text
+
+RATES = tuple(map(Fraction, ("24", "25", "30000/1001", "30", "48", "50", "60000/1001", "60", "120")))
+_WHOLE, _BARS, _SELECTION = "whole", "bars", "selection"
+
+
+class ExportDialog(QDialog):
+    """Writes the players' files; stays usable while it works, and says what was written.
+
+    Parameters
+    ----------
+    session : Session
+    folder : Path
+        Where the last export went, or beside the project.
+    source, creator : str
+        Name of the piece's file; program and version, for the report.
+    parent : QWidget, optional
+    """
+
+    exported = Signal(object)
+    """The folder that files were written to."""
+    _told = Signal(float)
+    _stopped = Signal()
+
+    def __init__(
+        self, session: Session, folder: Path, source: str, creator: str, parent: QWidget | None = None
+    ) -> None:
+        super().__init__(parent)
+        self.setObjectName("export_files")
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        self._session, self._source, self._creator = session, source, creator
+        # What is exported is the piece as it is now, whatever is edited meanwhile.
+        self._project = session.project
+        self._running = self._stop = False
+
+        self._players = QListWidget()
+        self._players.setObjectName("export_players")
+        for player in self._project.players:
+            item = QListWidgetItem(player.name)
+            item.setData(Qt.ItemDataRole.UserRole, player.id)
+            item.setFlags(Qt.ItemFlag.ItemIsEnabled | Qt.ItemFlag.ItemIsUserCheckable | Qt.ItemFlag.ItemIsSelectable)
+            item.setCheckState(Qt.CheckState.Checked)
+            self._players.addItem(item)
+        self._everybody = QPushButton()
+        self._everybody.setObjectName("export_everybody")
+        self._everybody.clicked.connect(self._toggle_everybody)
+        self._formats: dict[Format, QCheckBox] = {"fbx": QCheckBox(), "bvh": QCheckBox()}
+        for name, box in self._formats.items():
+            box.setObjectName(f"export_{name}")
+            box.setChecked(True)
+        self._range = QComboBox()
+        self._range.setObjectName("export_range")
+        self._first_bar, self._last_bar = QSpinBox(), QSpinBox()
+        self._first_bar.setObjectName("export_first_bar")
+        self._last_bar.setObjectName("export_last_bar")
+        score = self._project.score
+        lowest = 0 if score.pickup_ticks else 1
+        highest = max(score.bar_of_tick(max(score.end_tick - 1, 0)), lowest)
+        for bar, value in ((self._first_bar, lowest), (self._last_bar, highest)):
+            bar.setRange(lowest, highest)
+            bar.setValue(value)
+        self._preroll = QDoubleSpinBox()
+        self._preroll.setObjectName("export_preroll")
+        self._preroll.setRange(0.0, 64.0)
+        self._preroll.setSingleStep(1.0)
+        self._preroll.setDecimals(2)
+        self._preroll.setValue(self._project.preroll_beats)
+        self._rate = QComboBox()
+        self._rate.setObjectName("export_rate")
+        for rate in sorted({*RATES, self._project.fps}):
+            self._rate.addItem(f"{float(rate):.6g}", str(rate))
+        self._rate.setCurrentIndex(self._rate.findData(str(self._project.fps)))
+        self._folder = QLineEdit(str(folder))
+        self._folder.setObjectName("export_folder")
+        self._choose = QPushButton()
+        self._choose.clicked.connect(self._choose_folder)
+        self._files = QLabel()
+        self._files.setObjectName("export_outcome")
+        self._files.setWordWrap(True)
+        self._files.setMinimumHeight(60)
+        self._files.setAlignment(Qt.AlignmentFlag.AlignTop | Qt.AlignmentFlag.AlignLeft)
+        self._progress = QProgressBar()
+        self._progress.setRange(0, 1000)
+        self._progress.hide()
+        self._buttons = QDialogButtonBox()
+        self._export = self._buttons.addButton("", QDialogButtonBox.ButtonRole.ActionRole)
+        self._export.setObjectName("export_start")
+        self._export.setDefault(True)
+        self._show = self._buttons.addButton("", QDialogButtonBox.ButtonRole.ActionRole)
+        self._show.setObjectName("export_show_folder")
+        self._show.hide()
+        self._close = self._buttons.addButton("", QDialogButtonBox.ButtonRole.RejectRole)
+        self._close.setObjectName("export_close")
+        self._export.clicked.connect(self.start)
+        self._show.clicked.connect(self._show_folder)
+        self._close.clicked.connect(self._close_or_cancel)
+        self._stopped.connect(self._finish)
+        self._told.connect(lambda share: self._progress.setValue(round(1000 * share)))
+
+        self._labels = {
+            name: QLabel() for name in ("players", "files", "range", "preroll", "rate", "folder", "outcome")
+        }
+        self._lay_out()
+        for signal in (
+            self._players.itemChanged,
+            self._folder.textChanged,
+            self._range.currentIndexChanged,
+            self._first_bar.valueChanged,
+            self._last_bar.valueChanged,
+            *(box.toggled for box in self._formats.values()),
+        ):
+            signal.connect(self._show_outcome)
+        self.retranslate()
+
+    def _lay_out(self) -> None:
+        left = QVBoxLayout()
+        top = QHBoxLayout()
+        top.addWidget(self._labels["players"], 1)
+        top.addWidget(self._everybody)
+        left.addLayout(top)
+        left.addWidget(self._players, 1)
+        formats = QHBoxLayout()
+        for box in self._formats.values():
+            formats.addWidget(box)
+        formats.addStretch()
+        bars = QHBoxLayout()
+        bars.addWidget(self._range, 1)
+        bars.addWidget(self._first_bar)
+        self._dash = QLabel("–")
+        bars.addWidget(self._dash)
+        bars.addWidget(self._last_bar)
+        folder = QHBoxLayout()
+        folder.addWidget(self._folder, 1)
+        folder.addWidget(self._choose)
+        form = QFormLayout()
+        form.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
+        form.addRow(self._labels["files"], formats)
+        form.addRow(self._labels["range"], bars)
+        form.addRow(self._labels["preroll"], self._preroll)
+        form.addRow(self._labels["rate"], self._rate)
+        form.addRow(self._labels["folder"], folder)
+        form.addRow(self._labels["outcome"], self._files)
+        columns = QHBoxLayout()
+        columns.addLayout(left, 1)
+        columns.addLayout(form, 2)
+        layout = QVBoxLayout(self)
+        layout.addLayout(columns, 1)
+        layout.addWidget(self._progress)
+        layout.addWidget(self._buttons)
+
+    # What is wanted
+
+    @property
+    def player_ids(self) -> tuple[str, ...]:
+        """The ticked players."""
+        items = (self._players.item(row) for row in range(self._players.count()))
+        return tuple(
+            str(item.data(Qt.ItemDataRole.UserRole)) for item in items if item.checkState() == Qt.CheckState.Checked
+        )
+
+    @property
+    def formats(self) -> frozenset[Format]:
+        """The ticked kinds of file."""
+        return frozenset(name for name, box in self._formats.items() if box.isChecked())
+
+    def _bars(self) -> tuple[int, int] | None:
+        if self._range.currentData() == _WHOLE:
+            return None
+        span = self._session.selection.span
+        if self._range.currentData() == _SELECTION and span is not None:
+            score = self._project.score
+            return score.bar_of_tick(span[0]), score.bar_of_tick(max(span[1] - 1, span[0]))
+        return self._first_bar.value(), self._last_bar.value()
+
+    def _request(self) -> Request:
+        project = replace(self._project, preroll_beats=self._preroll.value())
+        performance = Performance(project)
+        fps, bars = Fraction(self._rate.currentData()), self._bars()
+        span = (
+            whole_span(performance.time_frame, fps)
+            if bars is None
+            else bars_span(performance, fps, bars, self._preroll.value())
+        )
+        wanted = set(self.player_ids)
+        return Request(
+            performance=performance,
+            players=tuple(player for player in project.players if player.id in wanted),
+            folder=Path(self._folder.text()),
+            formats=self.formats,
+            span=span,
+            bars=bars,
+            source=self._source,
+            creator=self._creator,
+        )
+
+    # Doing it
+
+    def start(self) -> None:
+        """Write the files, beside the window."""
+        if self._running or not self._export.isEnabled():
+            return
+        self._running, self._stop = True, False
+        self._progress.setValue(0)
+        self._progress.show()
+        self._show.hide()
+        self._enable(False)
+        # Worded here: the worker touches nothing of Qt.
+        request = self._request()
+
+        def work(progress: Progress, stop_wanted: StopWanted) -> Report:
+            def told(share: float, label: str) -> None:
+                progress(share)
+                self._told.emit(share)
+
+            try:
+                return export(request, message_text, lambda: self._stop or stop_wanted(), told)
+            except Cancelled:
+                self._stopped.emit()
+                raise
+
+        self._session.tasks.run(Message("work.export"), work, self._done, self._failed, key="export")
+        self.retranslate()
+
+    def _done(self, report: Report) -> None:
+        self._finish()
+        count = sum(len(player.files) for player in report.players) + 1
+        self._files.setText(
+            self.tr("%n file(s) written to {folder}", "", count).format(folder=self._folder.text())
+            + "".join(f"\n⚠ {warning}" for warning in report.warnings[:6])
+        )
+        self._show.show()
+        self._session.notice(Message("export.done", {"count": count, "folder": self._folder.text()}))
+        self.exported.emit(Path(self._folder.text()))
+
+    def _failed(self, error: AppError) -> None:
+        self._finish()
+        self._files.setText(message_text(error.message))
+
+    def _finish(self) -> None:
+        self._running = False
+        self._progress.hide()
+        self._enable(True)
+        self.retranslate()
+
+    def _close_or_cancel(self) -> None:
+        if self._running:
+            self._stop = True
+        else:
+            self.reject()
+
+    def _enable(self, enabled: bool) -> None:
+        for widget in (
+            *(self._players, self._everybody, self._range, self._first_bar, self._last_bar, self._preroll),
+            *(self._rate, self._folder, self._choose, self._export, *self._formats.values()),
+        ):
+            widget.setEnabled(enabled)
+
+    def _toggle_everybody(self) -> None:
+        state = Qt.CheckState.Unchecked if len(self.player_ids) == self._players.count() else Qt.CheckState.Checked
+        for row in range(self._players.count()):
+            self._players.item(row).setCheckState(state)
+
+    def _choose_folder(self) -> None:
+        chosen = QFileDialog.getExistingDirectory(self, self.tr("Folder for the files"), self._folder.text())
+        if chosen:
+            self._folder.setText(chosen)
+
+    def _show_folder(self) -> None:
+        QDesktopServices.openUrl(QUrl.fromLocalFile(self._folder.text()))
+
+    # What will come of it
+
+    def _show_outcome(self) -> None:
+        ticked = self._range.currentData() == _BARS
+        for widget in (self._first_bar, self._dash, self._last_bar):
+            widget.setVisible(ticked)
+        folder = self._folder.text().strip()
+        problem = ""
+        if not self.player_ids:
+            problem = self.tr("Tick at least one player.")
+        elif not self.formats:
+            problem = self.tr("Tick at least one kind of file.")
+        elif ticked and self._first_bar.value() > self._last_bar.value():
+            problem = self.tr("The last bar comes before the first one.")
+        elif not folder:
+            problem = self.tr("Choose a folder.")
+        self._export.setEnabled(not problem and not self._running)
+        if problem:
+            self._files.setText(problem)
+            return
+        names = file_names(Performance(self._project), self.formats)
+        wanted = [name for player_id in self.player_ids for name in names[player_id].values()] + [REPORT]
+        replaced = [name for name in wanted if (Path(folder) / name).exists()]
+        text = self.tr("%n file(s) will be written.", "", len(wanted))
+        if replaced:
+            shown = ", ".join(replaced[:6]) + (" …" if len(replaced) > 6 else "")
+            text += "\n" + self.tr("%n of them will be replaced: {names}", "", len(replaced)).format(names=shown)
+        self._files.setText(text)
+
+    def retranslate(self) -> None:
+        """Set every text anew."""
+        self.setWindowTitle(self.tr("Export"))
+        texts = {
+            "players": self.tr("Players"),
+            "files": self.tr("Files"),
+            "range": self.tr("Range"),
+            "preroll": self.tr("Pre-roll"),
+            "rate": self.tr("Frames per second"),
+            "folder": self.tr("Folder"),
+            "outcome": "",
+        }
+        for name, text in texts.items():
+            self._labels[name].setText(text)
+        self._everybody.setText(self.tr("All or none"))
+        self._formats["fbx"].setText(self.tr("FBX (characters and instruments)"))
+        self._formats["bvh"].setText(self.tr("BVH (body motion)"))
+        self._preroll.setSuffix(self.tr(" beats"))
+        choice = self._range.currentData() or _WHOLE
+        self._range.blockSignals(True)
+        self._range.clear()
+        self._range.addItem(self.tr("Whole piece"), _WHOLE)
+        self._range.addItem(self.tr("Bars"), _BARS)
+        if self._session.selection.span is not None:
+            self._range.addItem(self.tr("Bars of the selection"), _SELECTION)
+        self._range.setCurrentIndex(max(self._range.findData(choice), 0))
+        self._range.blockSignals(False)
+        self._choose.setText(self.tr("Choose..."))
+        self._export.setText(self.tr("Export"))
+        self._show.setText(self.tr("Show in folder"))
+        self._close.setText(self.tr("Cancel") if self._running else self.tr("Close"))
+        if not self._running and not self._show.isVisible():
+            self._show_outcome()
+
+    def sizeHint(self) -> QSize:
+        return QSize(860, 440)
+
+    def changeEvent(self, event: QEvent) -> None:
+        if event.type() == QEvent.Type.LanguageChange:
+            self.retranslate()
+        super().changeEvent(event)
+
+    def closeEvent(self, event: QCloseEvent) -> None:
+        if self._running:
+            self._stop = True
+            event.ignore()
+            return
+        super().closeEvent(event)
