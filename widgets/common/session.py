@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from enum import Enum
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QAction
@@ -17,9 +17,13 @@ from app.performance.ensemble import Performance
 from app.project.document import Change, Document
 from app.project.grid import Grid
 from app.project.model import Player, Project
+from widgets.common.listening import Listening
 from widgets.common.selection import Selection
 from widgets.common.tasks import Tasks
 from widgets.common.tokens import DARK, Tokens
+
+if TYPE_CHECKING:
+    from app.audio.playback import Playback
 
 TimeDisplay = Literal["bars", "seconds", "frames"]
 
@@ -92,6 +96,9 @@ class Session(QObject):
         self.document = Document(project)
         self.tasks = tasks
         self.pitch_display = PitchDisplay()
+        self.listening = Listening()
+        self.playback: Playback | None = None
+        """Plays the performance; None where nothing is heard, as in a picture made without a window."""
         self.actions: Mapping[str, QAction] = {}
         """Every action of the table by id; filled by the shell before any panel shows a menu."""
         self._performance = Performance(project)

@@ -1,0 +1,105 @@
+"""The picture of a recording: least and greatest sample per column, fast at every zoom."""
+
+from __future__ import annotations
+
+from typing import TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+Floats: TypeAlias = npt.NDArray[np.float32]
+
+BASE_SAMPLES = 64
+"""Samples in a bin of the finest level; nearer than that the samples themselves are drawn."""
+FACTOR = 4
+"""Bins of one level in a bin of the next."""
+_FULL_SCALE = np.float32(1.0 / 32768.0)
+
+
+class Peaks:
+    """A pyramid of extremes.
+
+    Parameters
+    ----------
+    samples : int16 array, shape (samples, channels)
+        Kept, not copied.
+    rate_hz : int
+    """
+
+    def __init__(self, samples: npt.NDArray[np.int16], rate_hz: int) -> None:
+        self.rate_hz = rate_hz
+        self._samples = samples
+        self._levels: list[tuple[npt.NDArray[np.int16], npt.NDArray[np.int16]]] = []
+        low, high = samples.min(axis=1, initial=0), samples.max(axis=1, initial=0)
+        if samples.shape[1]:
+            low, high = samples.min(axis=1), samples.max(axis=1)
+        size = BASE_SAMPLES
+        while len(low):
+            low, high = _bins(low, size, np.minimum), _bins(high, size, np.maximum)
+            self._levels.append((low, high))
+            if len(low) <= FACTOR:
+                break
+            size = FACTOR
+
+    @property
+    def duration_s(self) -> float:
+        """Length of the recording."""
+        return len(self._samples) / self.rate_hz
+
+    def levels(self, start_s: float, end_s: float, width_px: int) -> tuple[Floats, Floats]:
+        """Extremes of the span, one pair a column.
+
+        Parameters
+        ----------
+        start_s, end_s : float
+            Seconds of the recording; what lies outside of it is silence.
+        width_px : int
+
+        Returns
+        -------
+        low, high : float32 arrays, shape (width_px,)
+            -1..1, of all channels together.
+        """
+        low, high = np.zeros(width_px, np.float32), np.zeros(width_px, np.float32)
+        if width_px <= 0 or end_s <= start_s or not len(self._samples):
+            return low, high
+        edges = np.linspace(start_s, end_s, width_px + 1) * self.rate_hz
+        per_column = (end_s - start_s) * self.rate_hz / width_px
+        size, level = 1, -1
+        while level + 1 < len(self._levels) and BASE_SAMPLES * FACTOR ** (level + 1) <= per_column:
+            level += 1
+            size = BASE_SAMPLES * FACTOR**level
+        bins = len(self._samples) if level < 0 else len(self._levels[level][0])
+        first = np.floor(edges[:-1] / size).astype(np.int64)
+        last = np.maximum(np.ceil(edges[1:] / size).astype(np.int64), first + 1)
+        inside = (last > 0) & (first < bins)
+        if not inside.any():
+            return low, high
+        first, last = np.clip(first[inside], 0, bins - 1), np.clip(last[inside], 1, bins)
+        start, end = int(first[0]), int(last[-1])
+        if level < 0:
+            part = self._samples[start:end]
+            lows, highs = part.min(axis=1), part.max(axis=1)
+        else:
+            lows, highs = (extreme[start:end] for extreme in self._levels[level])
+        low[inside] = _reduced(lows, first - start, last - start, np.minimum) * _FULL_SCALE
+        high[inside] = _reduced(highs, first - start, last - start, np.maximum) * _FULL_SCALE
+        return low, high
+
+
+def _bins(values: npt.NDArray[np.int16], size: int, of: np.ufunc) -> npt.NDArray[np.int16]:
+    """Extremes of every ``size`` values; the last bin may be shorter."""
+    result: npt.NDArray[np.int16] = of.reduceat(values, np.arange(0, len(values), size))
+    return result
+
+
+def _reduced(
+    values: npt.NDArray[np.int16], first: npt.NDArray[np.int64], last: npt.NDArray[np.int64], of: np.ufunc
+) -> npt.NDArray[np.int16]:
+    """Extremes of ``values[first:last]`` of every column; neighbours may share a value."""
+    # reduceat takes pairs of indices; an end at the array's own end must be left to its padding.
+    padded = np.append(values, values[-1:])
+    indices = np.empty(2 * len(first), np.int64)
+    indices[0::2], indices[1::2] = first, last
+    result: npt.NDArray[np.int16] = of.reduceat(padded, indices)[0::2]
+    return result

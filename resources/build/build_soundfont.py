@@ -1,0 +1,294 @@
+"""Cut the winds out of a General MIDI soundfont: `resources/soundfont/winds.sf2`.
+
+    python -m resources.build.build_soundfont FluidR3_GM.sf2
+
+The source is Fluid R3 GM 3.1 (Frank Wen; MIT), as Debian's package ``fluid-soundfont-gm`` ships it. Of its 148 MB stay
+the presets of wind instruments, one channel of each stereo pair (a player stands somewhere: the mixer pans), at most
+`MOST_RATE_HZ`, and of a long held tone `LONGEST_S` with a loop of its own.
+
+Format: SoundFont Technical Specification 2.04 (E-mu, 2006), chapters 4 to 8.
+"""
+
+from __future__ import annotations
+
+import struct
+import sys
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+import soxr
+
+from instrument_maps.vocabulary import vocabulary
+
+OUT = Path(__file__).parents[1] / "soundfont" / "winds.sf2"
+MOST_RATE_HZ = 22050.0
+LONGEST_S = 1.25
+ALIASES = {62: 61, 63: 61}
+"""Synthetic brass is played by the brass section."""
+
+PAN, INSTRUMENT, SAMPLE_ID, KEY_RANGE = 17, 41, 53, 43
+OFFSETS = {0, 1, 2, 3, 4, 12, 45, 50}
+"""Generators that move a sample's ends and loop: folded into the samples themselves."""
+RIGHT = 2
+"""Type of a sample that is the right half of a pair."""
+SILENCE = 46
+"""Zeros after every sample, as the specification asks."""
+
+Generators = list[tuple[int, int]]
+Audio = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Sample:
+    """One recorded tone, mono, -1..1, with its loop in samples."""
+
+    name: str
+    audio: Audio
+    loop: tuple[int, int]
+    rate_hz: float
+    pitch: int
+    cents: int
+
+
+@dataclass
+class Zone:
+    """Generators in order, and modulators as they are in the file."""
+
+    generators: Generators
+    modulators: list[bytes] = field(default_factory=list)
+
+
+class Font:
+    """The chunks of a soundfont and what its tables say."""
+
+    def __init__(self, data: bytes) -> None:
+        self.chunks: dict[str, bytes] = {}
+        at = 12
+        while at < len(data):
+            size = struct.unpack_from("<I", data, at + 4)[0]
+            inner = at + 12
+            while inner < at + 8 + size:
+                name, length = data[inner : inner + 4].decode(), struct.unpack_from("<I", data, inner + 4)[0]
+                self.chunks[name] = data[inner + 8 : inner + 8 + length]
+                inner += 8 + length + (length & 1)
+            at += 8 + size + (size & 1)
+        self.presets = list(struct.iter_unpack("<20sHHHIII", self.chunks["phdr"]))
+        self.instruments = list(struct.iter_unpack("<20sH", self.chunks["inst"]))
+        self.samples = list(struct.iter_unpack("<20sIIIIIBbHH", self.chunks["shdr"]))
+        self.audio = np.frombuffer(self.chunks["smpl"], "<i2")
+
+    def zones(self, kind: str, first: int, end: int) -> list[Zone]:
+        """Zones of the bags ``first`` to ``end`` of presets (``"p"``) or instruments (``"i"``)."""
+        bags = list(struct.iter_unpack("<HH", self.chunks[f"{kind}bag"]))
+        generators = list(struct.iter_unpack("<Hh", self.chunks[f"{kind}gen"]))
+        modulators = [self.chunks[f"{kind}mod"][at : at + 10] for at in range(0, len(self.chunks[f"{kind}mod"]), 10)]
+        return [
+            Zone(
+                [(int(g), int(v)) for g, v in generators[bags[bag][0] : bags[bag + 1][0]]],
+                modulators[bags[bag][1] : bags[bag + 1][1]],
+            )
+            for bag in range(first, end)
+        ]
+
+
+def build(source: Path, to: Path = OUT) -> None:
+    """Write the small soundfont."""
+    font = Font(source.read_bytes())
+    programs = sorted({p for item in vocabulary().instruments.values() if item.kind == "wind" for p in item.programs})
+    presets: list[tuple[str, int, list[Zone]]] = []
+    instruments: dict[int, list[Zone]] = {}
+    samples: dict[tuple[int, ...], tuple[int, Sample]] = {}
+    for program in programs:
+        index = next(i for i, row in enumerate(font.presets[:-1]) if row[1:3] == (ALIASES.get(program, program), 0))
+        name, zones = _name(font.presets[index][0]), []
+        chosen: set[str] = set()
+        for zone in font.zones("p", font.presets[index][3], font.presets[index + 1][3]):
+            number = dict(zone.generators).get(INSTRUMENT)
+            if number is not None:
+                # The section's two halves differ by their place alone.
+                half = _name(font.instruments[number][0]).removesuffix(" Left").removesuffix(" Right")
+                if half != _name(font.instruments[number][0]) and half in chosen and number not in instruments:
+                    continue
+                chosen.add(half)
+                if number not in instruments:
+                    instruments[number] = _instrument(font, number, samples)
+            zones.append(Zone([item for item in zone.generators if item[0] != PAN], zone.modulators))
+        presets.append((name, program, zones))
+    tones = [sample for _, sample in sorted(samples.values(), key=lambda item: item[0])]
+    to.parent.mkdir(exist_ok=True)
+    to.write_bytes(_file(presets, instruments, font, tones))
+    for name, program, _ in presets:
+        print(f"{program:3d} {name}")
+    print(f"{len(tones)} tones, {to.stat().st_size / 1e6:.1f} MB")
+
+
+def _instrument(font: Font, number: int, samples: dict[tuple[int, ...], tuple[int, Sample]]) -> list[Zone]:
+    """An instrument's zones with one channel of each pair; the samples they need are added to ``samples``."""
+    start, end = font.instruments[number][1], font.instruments[number + 1][1]
+    shared: dict[int, int] = {}
+    kept = []
+    for zone in font.zones("i", start, end):
+        own = dict(zone.generators)
+        if SAMPLE_ID not in own:
+            shared = own
+            kept.append(Zone([item for item in zone.generators if item[0] not in OFFSETS | {PAN}], zone.modulators))
+            continue
+        if font.samples[own[SAMPLE_ID]][9] == RIGHT:
+            continue
+        offsets = tuple({**shared, **own}.get(generator, 0) for generator in sorted(OFFSETS))
+        key = (own[SAMPLE_ID], *offsets)
+        if key not in samples:
+            samples[key] = (
+                len(samples),
+                _sample(font, own[SAMPLE_ID], dict(zip(sorted(OFFSETS), offsets, strict=True))),
+            )
+        generators = [item for item in zone.generators if item[0] not in OFFSETS | {PAN, SAMPLE_ID}]
+        kept.append(Zone([*generators, (SAMPLE_ID, samples[key][0])], zone.modulators))
+    return kept
+
+
+def _sample(font: Font, number: int, offsets: dict[int, int]) -> Sample:
+    """A tone with its offsets applied, brought to the lower rate and shortened."""
+    name, start, end, loop_start, loop_end, rate_hz, pitch, cents, _, _ = font.samples[number]
+    start += offsets[0] + 32768 * offsets[4]
+    end += offsets[1] + 32768 * offsets[12]
+    loop_start += offsets[2] + 32768 * offsets[45]
+    loop_end += offsets[3] + 32768 * offsets[50]
+    loop_end = min(loop_end, end)
+    audio = font.audio[start:end].astype(np.float64) / 32768.0
+    sample = Sample(_name(name), audio, (loop_start - start, loop_end - start), float(rate_hz), pitch, cents)
+    return _resampled(_shortened(sample))
+
+
+def _shortened(sample: Sample) -> Sample:
+    """Of a long tone its beginning, with a new loop where it repeats best, cross-faded."""
+    longest = round(LONGEST_S * sample.rate_hz)
+    if sample.loop[1] <= longest * 1.15:
+        return sample
+    audio = sample.audio
+    window = round(0.04 * sample.rate_hz)
+    fade = round(0.06 * sample.rate_hz)
+    best = (-2.0, 0, 0)
+    for end in range(longest - round(0.25 * sample.rate_hz), longest, max(window // 3, 1)):
+        pattern = audio[end - window : end]
+        low, high = round(0.35 * sample.rate_hz) + fade, end - round(0.45 * sample.rate_hz)
+        field_ = audio[low - window : high]
+        products = np.correlate(field_, pattern, "valid")
+        energies = np.convolve(field_**2, np.ones(window), "valid")
+        likeness = products / np.sqrt(np.maximum(energies, 1e-9) * max(float((pattern**2).sum()), 1e-9))
+        # Loudness must match too: a swell in a loop is heard as a throb.
+        ratio = np.sqrt(np.maximum(energies, 1e-9) / max(float((pattern**2).sum()), 1e-9))
+        score = likeness - np.abs(np.log(ratio))
+        at = int(score.argmax())
+        if score[at] > best[0]:
+            best = (float(score[at]), low + at, end)
+    _, loop_start, loop_end = best
+    blend = np.linspace(0.0, 1.0, fade)
+    out = audio[: loop_end + fade].copy()
+    # Towards the loop's end the tone becomes what comes before the loop's start, so that the jump is not heard.
+    out[loop_end - fade : loop_end] = (
+        audio[loop_end - fade : loop_end] * (1 - blend) + audio[loop_start - fade : loop_start] * blend
+    )
+    return replace(sample, audio=out[:loop_end], loop=(loop_start, loop_end))
+
+
+def _resampled(sample: Sample) -> Sample:
+    """At most `MOST_RATE_HZ`, by a ratio that makes the loop a whole number of samples."""
+    loop_start, loop_end = sample.loop
+    length = loop_end - loop_start
+    if sample.rate_hz <= MOST_RATE_HZ * 1.02 or length < 8:
+        tail = np.resize(sample.audio[loop_start:loop_end], 16) if length else np.zeros(0)
+        return replace(sample, audio=np.concatenate([sample.audio[:loop_end], tail]))
+    new_length = max(round(length * MOST_RATE_HZ / sample.rate_hz), 4)
+    # A loop of one period would be coarse: several of them are one loop.
+    times = max(1, -(-512 // new_length))
+    new_length = max(round(times * length * MOST_RATE_HZ / sample.rate_hz), 4)
+    ratio = new_length / (times * length)
+    rolled = np.concatenate(
+        [sample.audio[:loop_end], np.resize(sample.audio[loop_start:loop_end], times * length + 4096)]
+    )
+    audio = soxr.resample(rolled, 1.0, ratio, quality="VHQ")
+    start = round(loop_start * ratio)
+    return replace(
+        sample, audio=audio[: start + new_length + 16], loop=(start, start + new_length), rate_hz=sample.rate_hz * ratio
+    )
+
+
+def _file(
+    presets: list[tuple[str, int, list[Zone]]], instruments: dict[int, list[Zone]], font: Font, tones: list[Sample]
+) -> bytes:
+    order = {number: index for index, number in enumerate(instruments)}
+    smpl, shdr, at = bytearray(), bytearray(), 0
+    for tone in tones:
+        data = np.clip(np.round(tone.audio * 32768.0), -32768, 32767).astype("<i2")
+        rate_hz = round(tone.rate_hz)
+        # What rounding the rate does to the pitch (under a tenth of a cent) is left.
+        shdr += struct.pack(
+            "<20sIIIIIBbHH", tone.name.encode()[:19], at, at + len(data), at + tone.loop[0], at + tone.loop[1],
+            rate_hz, tone.pitch, tone.cents, 0, 1,
+        )  # fmt: skip
+        smpl += data.tobytes() + bytes(2 * SILENCE)
+        at += len(data) + SILENCE
+    shdr += struct.pack("<20sIIIIIBbHH", b"EOS", 0, 0, 0, 0, 0, 0, 0, 0, 0)
+
+    phdr, pzones = bytearray(), []
+    for name, program, zones in presets:
+        phdr += struct.pack("<20sHHHIII", name.encode()[:19], program, 0, len(pzones), 0, 0, 0)
+        pzones += [
+            Zone([(g, order[v] if g == INSTRUMENT else v) for g, v in zone.generators], zone.modulators)
+            for zone in zones
+        ]
+    phdr += struct.pack("<20sHHHIII", b"EOP", 0, 0, len(pzones), 0, 0, 0)
+    inst, izones = bytearray(), []
+    for number, zones in instruments.items():
+        inst += struct.pack("<20sH", font.instruments[number][0], len(izones))
+        izones += zones
+    inst += struct.pack("<20sH", b"EOI", len(izones))
+
+    info = _list(
+        b"INFO",
+        _chunk(b"ifil", struct.pack("<HH", 2, 1))
+        + _chunk(b"isng", b"EMU8000\0")
+        + _chunk(b"INAM", b"Winds of Fluid R3 GM\0\0")
+        + _chunk(b"ICOP", font.chunks["ICOP"])
+        + _chunk(b"ICMT", font.chunks["ICMT"]),
+    )
+    pdta = _list(
+        b"pdta",
+        _chunk(b"phdr", phdr)
+        + _tables("p", pzones)
+        + _chunk(b"inst", inst)
+        + _tables("i", izones)
+        + _chunk(b"shdr", shdr),
+    )
+    body = b"sfbk" + info + _list(b"sdta", _chunk(b"smpl", smpl)) + pdta
+    return b"RIFF" + struct.pack("<I", len(body)) + body
+
+
+def _tables(kind: str, zones: list[Zone]) -> bytes:
+    bag, gen, mod = bytearray(), bytearray(), bytearray()
+    for zone in zones:
+        bag += struct.pack("<HH", len(gen) // 4, len(mod) // 10)
+        gen += b"".join(struct.pack("<Hh", *item) for item in zone.generators)
+        mod += b"".join(zone.modulators)
+    bag += struct.pack("<HH", len(gen) // 4, len(mod) // 10)
+    names = [f"{kind}{table}".encode() for table in ("bag", "mod", "gen")]
+    return _chunk(names[0], bag) + _chunk(names[1], mod + bytes(10)) + _chunk(names[2], gen + bytes(4))
+
+
+def _chunk(name: bytes, data: bytes | bytearray) -> bytes:
+    return name + struct.pack("<I", len(data)) + bytes(data) + bytes(len(data) & 1)
+
+
+def _list(name: bytes, data: bytes) -> bytes:
+    return _chunk(b"LIST", name + data)
+
+
+def _name(raw: bytes) -> str:
+    return raw.split(b"\0")[0].decode("latin-1")
+
+
+if __name__ == "__main__":
+    build(Path(sys.argv[1]))
