@@ -21,6 +21,7 @@ from widgets.common.listening import Listening
 from widgets.common.selection import Selection
 from widgets.common.tasks import Tasks
 from widgets.common.tokens import DARK, Tokens
+from widgets.common.viewport_state import ViewportState
 
 if TYPE_CHECKING:
     from app.audio.playback import Playback
@@ -96,6 +97,7 @@ class Session(QObject):
         self.document = Document(project)
         self.tasks = tasks
         self.pitch_display = PitchDisplay()
+        self.viewport = ViewportState()
         self.listening = Listening()
         self.playback: Playback | None = None
         """Plays the performance; None where nothing is heard, as in a picture made without a window."""

@@ -1,0 +1,73 @@
+"""What the viewport shows, so that commands, menus and the viewport's own buttons are one thing."""
+
+from __future__ import annotations
+
+from typing import Literal, get_args
+
+from PySide6.QtCore import QObject, Signal
+
+View = Literal["ensemble", "front", "side", "top", "hands", "mouth", "feet"]
+VIEWS: tuple[View, ...] = get_args(View)
+Shown = Literal["wireframe", "skeleton", "contacts", "names"]
+SHOWN: tuple[Shown, ...] = get_args(Shown)
+
+
+class ViewportState(QObject):
+    """The chosen view and what is drawn beside the players.
+
+    Signals
+    -------
+    changed()
+        Something is shown otherwise.
+    viewed()
+        A view was asked for, perhaps the same once more.
+    framed(bool)
+        The camera should frame the selected players (True) or the ensemble.
+    """
+
+    changed = Signal()
+    viewed = Signal()
+    framed = Signal(bool)
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._view: View = "ensemble"
+        self._shown: frozenset[Shown] = frozenset(("names",))
+        self._posing = False
+
+    @property
+    def view(self) -> View:
+        """The view that was asked for last."""
+        return self._view
+
+    def set_view(self, view: View) -> None:
+        """Look so."""
+        self._view = view
+        self.viewed.emit()
+        self.changed.emit()
+
+    def shows(self, what: Shown) -> bool:
+        """Whether it is drawn."""
+        return what in self._shown
+
+    def show(self, what: Shown, shown: bool) -> None:
+        """Draw it, or not."""
+        after = self._shown | {what} if shown else self._shown - {what}
+        if after != self._shown:
+            self._shown = after
+            self.changed.emit()
+
+    @property
+    def posing(self) -> bool:
+        """Whether the pose tool is in hand."""
+        return self._posing
+
+    def set_posing(self, posing: bool) -> None:
+        """Take the pose tool, or put it down."""
+        if posing != self._posing:
+            self._posing = posing
+            self.changed.emit()
+
+    def frame(self, selected: bool) -> None:
+        """Bring the selected players, or everyone, into the picture."""
+        self.framed.emit(selected)
