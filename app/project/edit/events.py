@@ -1,0 +1,473 @@
+"""Edits of a player's events: what a person wishes of an event becomes the correction that makes it so.
+
+All take the plan that the person saw, and event ids of that plan. Those that may give an event another id (a breath
+dragged to another note) return the new ids beside the project.
+
+Messages
+--------
+edit.no_note_to_breathe_for(): "There is no note after this place to breathe for."
+edit.no_note_to_cue(): "There is no note after this place to give a cue to."
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_left
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Literal, NamedTuple, TypeAlias
+
+import msgspec
+
+from app.errors import AppError
+from app.plan.corrections import (
+    AddExpression,
+    AddGesture,
+    ChangeExpression,
+    ChangeGesture,
+    Correction,
+    PinFingering,
+    PoseCorrection,
+    RemoveEvent,
+    SetBreath,
+    SetCue,
+    SetEmbouchure,
+)
+from app.plan.cue import LEAD_BEATS
+from app.plan.model import BreathEvent, CueEvent, Event, ExpressionEvent, GestureEvent, PlayerPlan, PoseEvent
+from app.project.edit.corrections import put, take_back
+from app.project.model import Project
+from app.score.model import Note
+
+GestureKind: TypeAlias = Literal["sway", "weight_shift", "bell_height", "lower_instrument"]
+BreathKind: TypeAlias = Literal["preparation", "breath"]
+Placed: TypeAlias = BreathEvent | CueEvent | GestureEvent | ExpressionEvent | PoseEvent
+"""What has a place that a person may change."""
+
+GESTURE_KINDS: tuple[GestureKind, ...] = ("sway", "weight_shift", "bell_height", "lower_instrument")
+CATCH_S = 0.3
+"""A breath added where notes touch is this long."""
+OWN = "own-"
+"""How the names of added events begin."""
+
+
+class Edited(NamedTuple):
+    """A project after an edit, and the ids that the edited events have in it, in the order they were given."""
+
+    project: Project
+    event_ids: tuple[str, ...]
+
+
+# Finding
+
+
+def event_id_of(correction: Correction) -> str:
+    """The id of the event that a correction is about, as a plan has it (or would have it, were it not removed)."""
+    match correction:
+        case PinFingering():
+            return f"fingering:{correction.note_id}"
+        case SetEmbouchure():
+            return f"embouchure:{correction.note_id}"
+        case SetBreath():
+            return f"{correction.kind}:{correction.note_id}"
+        case SetCue():
+            return f"cue:{correction.note_id}"
+        case AddGesture():
+            return f"{correction.kind}:{correction.name}"
+        case AddExpression():
+            return f"expression:{correction.name}"
+        case PoseCorrection():
+            return f"pose:{correction.name}"
+        case _:
+            return correction.event_id
+
+
+def corrections_of(project: Project, player_id: str, event_ids: Iterable[str]) -> tuple[Correction, ...]:
+    """What a person said about these events."""
+    wanted = frozenset(event_ids)
+    return tuple(item for item in project.corrections.get(player_id, ()) if event_id_of(item) in wanted)
+
+
+def events_of(plan: PlayerPlan) -> dict[str, Event]:
+    """Every event of a plan that a person may select, by id."""
+    groups: tuple[Sequence[Event], ...] = (
+        plan.fingerings, plan.breaths, plan.embouchures, plan.cues, plan.gestures, plan.expressions, plan.poses,
+    )  # fmt: skip
+    return {event.id: event for group in groups for event in group}
+
+
+def placed_events(plan: PlayerPlan, event_ids: Iterable[str]) -> list[Placed]:
+    """The events of these ids that have a place of their own, in the order of the ids."""
+    wanted = tuple(event_ids)
+    among = frozenset(wanted)
+    groups: tuple[Sequence[Placed], ...] = (plan.breaths, plan.cues, plan.gestures, plan.expressions, plan.poses)
+    found = {event.id: event for group in groups for event in group if event.id in among}
+    return [found[event_id] for event_id in wanted if event_id in found]
+
+
+# Changing
+
+
+def move(project: Project, plan: PlayerPlan, event_ids: Sequence[str], ticks: int) -> Edited:
+    """Shift events in time. Breaths and cues that come to another note belong to that one from then on."""
+    return _placed(project, plan, event_ids, ticks, ticks)
+
+
+def resize(
+    project: Project, plan: PlayerPlan, event_ids: Sequence[str], start_ticks: int = 0, end_ticks: int = 0
+) -> Project:
+    """Shift the starts and the ends of events; each keeps a tick of length and its note. A cue has its entry as end:
+    only its start, the time of the preparatory beat, can be drawn."""
+    return _placed(project, plan, event_ids, start_ticks, end_ticks).project
+
+
+def set_amounts(project: Project, plan: PlayerPlan, amounts: Mapping[str, float]) -> Project:
+    """How deep (breaths), how far (gestures, -1..1) or how strong (expressions) events are, by id; clipped to what
+    there is."""
+    corrections: list[Correction] = []
+    for event in placed_events(plan, amounts):
+        amount = round(amounts[event.id], 4)
+        if isinstance(event, BreathEvent):
+            depth = min(max(amount, 0.0), 1.0)
+            corrections.append(msgspec.structs.replace(_breath(project, plan.player_id, event), depth=depth))
+        elif isinstance(event, GestureEvent):
+            corrections.append(_with(_gesture(project, plan.player_id, event), amount=min(max(amount, -1.0), 1.0)))
+        elif isinstance(event, ExpressionEvent):
+            corrections.append(_with(_expression(project, plan.player_id, event), strength=min(max(amount, 0.0), 1.0)))
+    return put(project, plan.player_id, corrections)
+
+
+def set_fades(
+    project: Project,
+    plan: PlayerPlan,
+    event_ids: Iterable[str],
+    fade_in_s: float | None = None,
+    fade_out_s: float | None = None,
+) -> Project:
+    """How long expressions and poses take to come and to go, seconds; None leaves it."""
+    clock = project.score.tempo_map
+    corrections: list[Correction] = []
+    for event in placed_events(plan, event_ids):
+        if isinstance(event, ExpressionEvent):
+            fades = {"fade_in_s": fade_in_s, "fade_out_s": fade_out_s}
+            given = {name: round(max(value, 0.0), 4) for name, value in fades.items() if value is not None}
+            corrections.append(_with(_expression(project, plan.player_id, event), **given))
+        elif isinstance(event, PoseEvent):
+            ticks = {}
+            if fade_in_s is not None:
+                ticks["fade_in_ticks"] = event.start_tick - round(clock.ticks(event.start_s - max(fade_in_s, 0.0)))
+            if fade_out_s is not None:
+                ticks["fade_out_ticks"] = round(clock.ticks(event.end_s + max(fade_out_s, 0.0))) - event.end_tick
+            corrections += [_with(pose, **ticks) for pose in _poses(project, plan.player_id, event)]
+    return put(project, plan.player_id, corrections)
+
+
+def set_expression(project: Project, plan: PlayerPlan, event_ids: Iterable[str], expression: str) -> Project:
+    """Show another face there."""
+    return put(
+        project,
+        plan.player_id,
+        [
+            _with(_expression(project, plan.player_id, event), expression=expression)
+            for event in placed_events(plan, event_ids)
+            if isinstance(event, ExpressionEvent)
+        ],
+    )
+
+
+def set_embouchure(project: Project, player_id: str, note_ids: Iterable[str], **values: float) -> Project:
+    """Set ``tension``, ``effort`` or ``air`` of notes, 0..1; what else was set by hand stays."""
+    before = {item.note_id: item for item in project.corrections.get(player_id, ()) if isinstance(item, SetEmbouchure)}
+    clipped = {name: round(min(max(value, 0.0), 1.0), 4) for name, value in values.items()}
+    return put(
+        project,
+        player_id,
+        [msgspec.structs.replace(before.get(note_id, SetEmbouchure(note_id)), **clipped) for note_id in note_ids],
+    )
+
+
+def pin_fingerings(project: Project, player_id: str, labels: Mapping[str, str]) -> Project:
+    """Play notes (by id) with the fingerings of these labels."""
+    return put(project, player_id, [PinFingering(note_id, label) for note_id, label in labels.items()])
+
+
+# Adding
+
+
+def add_breath(
+    project: Project, plan: PlayerPlan, tick: int, kind: BreathKind = "breath", depth: float = 1.0
+) -> Edited:
+    """A breath (or preparation) for the first note at or after a tick. One that is there already stays as it is.
+
+    It takes the rest before the note, at most one felt beat; where notes touch, `CATCH_S` of the note before, at most
+    half of it. A preparation takes the beat before the breath.
+    """
+    notes = _notes(project, plan.player_id)
+    index = bisect_left(notes, tick, key=lambda note: note.onset_tick)
+    if index == len(notes):
+        raise AppError("edit.no_note_to_breathe_for")
+    note = notes[index]
+    event_id = f"{kind}:{note.id}"
+    there = {event.id: event for event in plan.breaths}
+    if event_id in there:
+        return Edited(project, (event_id,))
+    removed = [item for item in corrections_of(project, plan.player_id, (event_id,)) if isinstance(item, RemoveEvent)]
+    end = note.onset_tick
+    if kind == "preparation":
+        breath = there.get(f"breath:{note.id}")
+        end = breath.start_tick if breath is not None else end - project.felt_beat_ticks
+        start = end - project.felt_beat_ticks
+    else:
+        start = _room_before(project, notes, index)
+    added = SetBreath(note.id, start - note.onset_tick, end - note.onset_tick, depth, kind, added=not removed)
+    return Edited(put(take_back(project, plan.player_id, removed), plan.player_id, (added,)), (event_id,))
+
+
+def toggle_preparation(project: Project, plan: PlayerPlan, note_id: str) -> Edited:
+    """Take the preparatory motion before a note's breath away, or give it one."""
+    event_id = f"preparation:{note_id}"
+    if any(event.id == event_id for event in plan.breaths):
+        return Edited(remove(project, plan, (event_id,)), ())
+    removed = [item for item in corrections_of(project, plan.player_id, (event_id,)) if isinstance(item, RemoveEvent)]
+    if removed:
+        return Edited(take_back(project, plan.player_id, removed), (event_id,))
+    note = next(note for note in _notes(project, plan.player_id) if note.id == note_id)
+    return add_breath(project, plan, note.onset_tick, "preparation")
+
+
+def add_cue(project: Project, plan: PlayerPlan, tick: int, beats: float = 1.0) -> Edited:
+    """A cue to the player's first entry at or after a tick. One that is there already stays as it is."""
+    notes = _notes(project, plan.player_id)
+    index = bisect_left(notes, tick, key=lambda note: note.onset_tick)
+    if index == len(notes):
+        raise AppError("edit.no_note_to_cue")
+    event_id = f"cue:{notes[index].id}"
+    if any(event.id == event_id for event in plan.cues):
+        return Edited(project, (event_id,))
+    removed = [item for item in corrections_of(project, plan.player_id, (event_id,)) if isinstance(item, RemoveEvent)]
+    added = SetCue(notes[index].id, beats, added=not removed)
+    return Edited(put(take_back(project, plan.player_id, removed), plan.player_id, (added,)), (event_id,))
+
+
+def add_gesture(
+    project: Project, player_id: str, kind: GestureKind, start_tick: int, end_tick: int, amount: float = 0.5
+) -> Edited:
+    """A gesture of one's own."""
+    added = AddGesture(_new_name(project, player_id), kind, start_tick, max(end_tick, start_tick + 1), amount)
+    return Edited(put(project, player_id, (added,)), (event_id_of(added),))
+
+
+def add_expression(
+    project: Project,
+    player_id: str,
+    expression: str,
+    start_tick: int,
+    end_tick: int,
+    strength: float = 1.0,
+    fade_in_s: float = 0.2,
+    fade_out_s: float = 0.3,
+) -> Edited:
+    """An expression of one's own."""
+    added = AddExpression(
+        _new_name(project, player_id),
+        expression,
+        start_tick,
+        max(end_tick, start_tick + 1),
+        strength,
+        fade_in_s,
+        fade_out_s,
+    )
+    return Edited(put(project, player_id, (added,)), (event_id_of(added),))
+
+
+# Taking away
+
+
+def remove(project: Project, plan: PlayerPlan, event_ids: Iterable[str]) -> Project:
+    """Leave events out: what a person added is forgotten, what the generator made is marked as removed."""
+    player_id = plan.player_id
+    note_ids = frozenset(note.id for note in _notes(project, player_id))
+    for event in placed_events(plan, event_ids):
+        said = corrections_of(project, player_id, (event.id,))
+        project = take_back(project, player_id, said)
+        if any(_is_added(item) for item in said):
+            continue
+        gone = event.id
+        for item in said:
+            if isinstance(item, SetBreath | SetCue) and item.moved_from is not None:
+                gone = f"{event.id.split(':')[0]}:{item.moved_from}"
+        project = put(project, player_id, (RemoveEvent(gone, _note_in(gone, note_ids)),))
+    return project
+
+
+def give_back(project: Project, player_id: str, event_ids: Iterable[str] = (), note_ids: Iterable[str] = ()) -> Project:
+    """Let the generator decide again about events, and about the fingering and embouchure of notes. What a person
+    added has nothing to go back to, and goes."""
+    notes = tuple(note_ids)
+    ids = (*event_ids, *(f"fingering:{note}" for note in notes), *(f"embouchure:{note}" for note in notes))
+    return take_back(project, player_id, corrections_of(project, player_id, ids))
+
+
+def give_back_player(project: Project, player_id: str) -> Project:
+    """Let the generator decide about everything of a player again."""
+    return take_back(project, player_id, project.corrections.get(player_id, ()))
+
+
+# How it works
+
+
+def _placed(project: Project, plan: PlayerPlan, event_ids: Sequence[str], start_ticks: int, end_ticks: int) -> Edited:
+    if not start_ticks and not end_ticks:
+        return Edited(project, tuple(event_ids))
+    player_id = plan.player_id
+    moves = start_ticks == end_ticks
+    new_ids: dict[str, str] = {}
+    stale: list[Correction] = []
+    fresh: list[Correction] = []
+    for event in placed_events(plan, event_ids):
+        start, end = event.start_tick + start_ticks, event.end_tick + end_ticks
+        if start >= end:
+            start, end = (end - 1, end) if start_ticks else (start, start + 1)
+        made: Sequence[Correction]
+        if isinstance(event, BreathEvent):
+            stale += corrections_of(project, player_id, (event.id,))
+            made = (_breath_at(project, player_id, event, start, end, moves),)
+        elif isinstance(event, CueEvent):
+            stale += corrections_of(project, player_id, (event.id,))
+            made = (_cue_at(project, player_id, event, start, end if moves else event.end_tick),)
+        else:
+            ends = {}
+            if start != event.start_tick:
+                ends["start_tick"] = start
+            if end != event.end_tick:
+                ends["end_tick"] = end
+            if isinstance(event, GestureEvent):
+                made = (_with(_gesture(project, player_id, event), **ends),)
+            elif isinstance(event, ExpressionEvent):
+                made = (_with(_expression(project, player_id, event), **ends),)
+            else:
+                made = [_with(pose, **ends) for pose in _poses(project, player_id, event)]
+        fresh += made
+        for item in made:
+            new_ids[event.id] = event_id_of(item)
+    project = put(take_back(project, player_id, stale), player_id, fresh)
+    return Edited(project, tuple(new_ids.get(event_id, event_id) for event_id in event_ids))
+
+
+def _notes(project: Project, player_id: str) -> tuple[Note, ...]:
+    return project.part(project.player(player_id)).notes
+
+
+def _is_added(item: Correction) -> bool:
+    if isinstance(item, SetBreath | SetCue):
+        return item.added
+    return isinstance(item, AddGesture | AddExpression | PoseCorrection)
+
+
+def _with(item: Correction, **values: object) -> Correction:
+    return msgspec.structs.replace(item, **values)
+
+
+def _note_in(event_id: str, note_ids: frozenset[str]) -> str | None:
+    """The note whose id an event's id ends with: ``breath:1:5``, ``expression:strained:1:5``."""
+    parts = event_id.split(":")
+    for first in range(1, len(parts)):
+        if (rest := ":".join(parts[first:])) in note_ids:
+            return rest
+    return None
+
+
+def _new_name(project: Project, player_id: str) -> str:
+    """The first ``own-n`` that no added event of the player has."""
+    taken = {
+        item.name
+        for item in project.corrections.get(player_id, ())
+        if isinstance(item, AddGesture | AddExpression | PoseCorrection)
+    }
+    number = 1
+    while f"{OWN}{number}" in taken:
+        number += 1
+    return f"{OWN}{number}"
+
+
+def _gesture(project: Project, player_id: str, event: GestureEvent) -> Correction:
+    """The correction that already speaks of a gesture, or one that changes nothing yet."""
+    said = corrections_of(project, player_id, (event.id,))
+    return next((item for item in said if isinstance(item, AddGesture | ChangeGesture)), ChangeGesture(event.id))
+
+
+def _expression(project: Project, player_id: str, event: ExpressionEvent) -> Correction:
+    said = corrections_of(project, player_id, (event.id,))
+    return next(
+        (item for item in said if isinstance(item, AddExpression | ChangeExpression)), ChangeExpression(event.id)
+    )
+
+
+def _poses(project: Project, player_id: str, event: PoseEvent) -> list[Correction]:
+    said = corrections_of(project, player_id, (event.id,))
+    return [item for item in said if isinstance(item, PoseCorrection)]
+
+
+def _breath(project: Project, player_id: str, event: BreathEvent) -> SetBreath:
+    """The correction that already speaks of a breath, or one that repeats the generated one."""
+    for item in corrections_of(project, player_id, (event.id,)):
+        if isinstance(item, SetBreath):
+            return item
+    note_id = event.id.split(":", 1)[1]
+    onset = next(note.onset_tick for note in _notes(project, player_id) if note.id == note_id)
+    return SetBreath(note_id, event.start_tick - onset, event.end_tick - onset, event.depth, event.kind)
+
+
+def _breath_at(
+    project: Project, player_id: str, event: BreathEvent, start: int, end: int, may_change_note: bool
+) -> SetBreath:
+    before = _breath(project, player_id, event)
+    notes = _notes(project, player_id)
+    index = next(index for index, note in enumerate(notes) if note.id == before.note_id)
+    if may_change_note:
+        index = _note_after(notes, end)
+    note = notes[index]
+    if end > note.onset_tick:
+        # A breath never ends after the onset it serves.
+        start, end = (start - end + note.onset_tick if may_change_note else start), note.onset_tick
+    return msgspec.structs.replace(
+        before,
+        note_id=note.id,
+        start_offset_tick=min(start, end - 1) - note.onset_tick,
+        end_offset_tick=end - note.onset_tick,
+        moved_from=_moved_from(before, note.id),
+    )
+
+
+def _note_after(notes: Sequence[Note], end: int) -> int:
+    """The note that a breath ending at a tick serves: the next one, or the one whose first half it ends in."""
+    index = bisect_left(notes, end, key=lambda note: note.onset_tick)
+    if index > 0 and (index == len(notes) or end < notes[index - 1].onset_tick + notes[index - 1].duration_tick / 2):
+        return index - 1
+    return index
+
+
+def _moved_from(before: SetBreath | SetCue, note_id: str) -> str | None:
+    if before.added:
+        return None
+    home = before.note_id if before.moved_from is None else before.moved_from
+    return None if home == note_id else home
+
+
+def _cue_at(project: Project, player_id: str, event: CueEvent, start: int, end: int) -> SetCue:
+    said = corrections_of(project, player_id, (event.id,))
+    before = next((item for item in said if isinstance(item, SetCue)), SetCue(event.id.split(":", 1)[1]))
+    note = next((note.id for note in _notes(project, player_id) if note.onset_tick == end), f"@{end}")
+    beats = max(round((end - start) / (LEAD_BEATS * project.felt_beat_ticks), 4), 0.05)
+    return msgspec.structs.replace(before, note_id=note, beats=beats, moved_from=_moved_from(before, note))
+
+
+def _room_before(project: Project, notes: Sequence[Note], index: int) -> int:
+    """Where an added breath before a note begins."""
+    onset, beat, clock = notes[index].onset_tick, project.felt_beat_ticks, project.score.tempo_map
+    if index == 0:
+        return onset - beat
+    before = notes[index - 1]
+    silence = onset - before.end_tick
+    if silence >= beat // 4:
+        return onset - min(silence, beat)
+    catch = onset - round(clock.ticks(clock.seconds(float(onset)) - CATCH_S))
+    return onset - max(min(catch, (onset - before.onset_tick) // 2), 1)
