@@ -1,0 +1,139 @@
+"""Pictures and sound to an MP4 file (H.264 and AAC), by the ffmpeg that imageio-ffmpeg brings.
+
+Messages
+--------
+video.failed(file, detail): the encoder refused.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import secrets
+import subprocess
+import tempfile
+from collections.abc import Iterator
+from fractions import Fraction
+from pathlib import Path
+from typing import IO
+
+import imageio_ffmpeg
+import numpy as np
+import numpy.typing as npt
+import soundfile
+
+from app.errors import FileError
+
+QUALITY_CRF = 18
+"""x264's constant rate factor at which most people see no loss."""
+_TOLD = 2000
+"""Characters of the encoder's complaint that are passed on."""
+
+
+class VideoWriter:
+    """Takes pictures one after the other; see `video_into`."""
+
+    def __init__(self, encoder: subprocess.Popen[bytes], pipe: IO[bytes], size: tuple[int, int]) -> None:
+        self._encoder, self._pipe, self._size = encoder, pipe, size
+
+    def write(self, picture: npt.NDArray[np.uint8]) -> None:
+        """Add a picture.
+
+        Parameters
+        ----------
+        picture : (H, W, 3) or (H, W, 4) uint8
+            Top row first; alpha is dropped.
+
+        Raises
+        ------
+        BrokenPipeError
+            The encoder has gone; `video_into` tells why.
+        """
+        width, height = self._size
+        if picture.shape[:2] != (height, width):
+            raise ValueError(f"a picture of {picture.shape[1]} x {picture.shape[0]} in a film of {width} x {height}")
+        self._pipe.write(np.ascontiguousarray(picture[..., :3]).tobytes())
+
+
+@contextlib.contextmanager
+def video_into(
+    path: Path,
+    size: tuple[int, int],
+    fps: Fraction,
+    sound: npt.NDArray[np.float32] | None = None,
+    sound_rate: int = 48_000,
+) -> Iterator[VideoWriter]:
+    """A film that appears whole when the block is done, or not at all.
+
+    Parameters
+    ----------
+    path : path
+        An existing file is replaced.
+    size : (int, int)
+        Width and height, pixels; even, as H.264 with 4:2:0 colours needs.
+    fps : Fraction
+    sound : (N, 2) float32, optional
+        -1..1; it begins with the first picture.
+    sound_rate : int
+        Samples per second.
+
+    Raises
+    ------
+    FileError
+        ``video.failed``, ``file.cannot_write``.
+    """
+    if any(length % 2 or length <= 0 for length in size):
+        raise ValueError(f"a film's width and height are even: {size}")
+    partial = path.with_name(f".{secrets.token_hex(8)}.partial.mp4")
+    try:
+        with contextlib.ExitStack() as stack:
+            try:
+                folder = Path(stack.enter_context(tempfile.TemporaryDirectory()))
+                wave = folder / "sound.wav"
+                if sound is not None:
+                    soundfile.write(wave, sound, sound_rate, subtype="PCM_16")
+                complaint = stack.enter_context((folder / "complaint.txt").open("w+b"))
+                encoder = subprocess.Popen(
+                    _command(partial, size, fps, wave if sound is not None else None),
+                    stdin=subprocess.PIPE,
+                    stdout=subprocess.DEVNULL,
+                    stderr=complaint,
+                )
+            except (OSError, RuntimeError, soundfile.SoundFileError) as error:
+                raise FileError("video.failed", file=str(path), detail=str(error)) from error
+            pipe = encoder.stdin
+            assert pipe is not None
+            try:
+                yield VideoWriter(encoder, pipe, size)
+                pipe.close()
+                status = encoder.wait()
+            except BrokenPipeError:
+                status = encoder.wait() or 1
+            except BaseException:
+                encoder.kill()
+                encoder.wait()
+                raise
+            finally:
+                with contextlib.suppress(OSError):
+                    pipe.close()
+            if status:
+                complaint.seek(0)
+                detail = complaint.read().decode(errors="replace").strip()[-_TOLD:]
+                raise FileError("video.failed", file=str(path), detail=detail or f"status {status}")
+        try:
+            partial.replace(path)
+        except OSError as error:
+            raise FileError("file.cannot_write", file=os.fspath(path), reason=error.strerror or str(error)) from error
+    finally:
+        partial.unlink(missing_ok=True)
+
+
+def _command(path: Path, size: tuple[int, int], fps: Fraction, wave: Path | None) -> list[str]:
+    pictures = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{size[0]}x{size[1]}", "-framerate", str(fps), "-i", "-"]
+    listened = ["-i", str(wave), "-c:a", "aac", "-b:a", "192k", "-shortest"] if wave is not None else []
+    coded = ["-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", str(QUALITY_CRF), "-preset", "fast"]
+    # The index at the front: a browser plays it while it loads.
+    return [
+        *(imageio_ffmpeg.get_ffmpeg_exe(), "-hide_banner", "-loglevel", "error", "-y"),
+        *(*pictures, *listened, *coded, "-movflags", "+faststart", f"file:{path}"),
+    ]
