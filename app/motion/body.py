@@ -8,16 +8,17 @@ amplitude.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
+from functools import lru_cache
 from itertools import zip_longest
 from typing import Any, Literal
 
 import numpy as np
 
-from app.motion.curve import Curve, FloatArray, Noise, bump, moves, through
+from app.motion.curve import Curve, FloatArray, Noise, bump, moves, rows_changed_s, through
 from app.motion.gaze import Gaze
 from app.motion.seed import generator
-from app.plan.model import BreathEvent, CueEvent, GestureEvent, PlayerParameters, PlayerPlan
+from app.plan.model import BreathEvent, CueEvent, GestureEvent, PlayerParameters, PlayerPlan, same_events
 from metadata.model import AmplitudeScale, Body, Posture, at_amplitude
 
 TRUNK_SHARES = {"spine": 0.40, "chest": 0.35, "upperChest": 0.25}
@@ -134,9 +135,13 @@ class _Sizes:
 
     def wander(self, layer: str, scale: AmplitudeScale, times_s: FloatArray) -> FloatArray:
         """Noise of this player's layer: the residue, and a share of the planned motion's size."""
-        low_hz = self.body.sway.residual_hz
-        noise = Noise.of(generator(self.player_id, self.parameters.seed, layer), 0.4 * low_hz, 2.5 * low_hz)
+        noise = _noise(self.player_id, self.parameters.seed, layer, self.body.sway.residual_hz)
         return noise.sample(times_s) * (RESIDUE_SHARE * scale[0] + NOISE_SHARE * (self.of(scale) - scale[0]))
+
+
+@lru_cache(maxsize=4096)
+def _noise(player_id: str, seed: int, layer: str, low_hz: float) -> Noise:
+    return Noise.of(generator(player_id, seed, layer), 0.4 * low_hz, 2.5 * low_hz)
 
 
 def follow(
@@ -166,23 +171,64 @@ def follow(
     return moves(segments)
 
 
-def bobbing(events: Sequence[GestureEvent], beat_ticks: int, times_s: FloatArray) -> FloatArray:
-    """Down-ness 0..1 of a body that bobs with the sway's beats: lowest on each beat, where its acceleration peaks."""
-    swings = [event for event in events if event.kind == "sway" and event.end_s > event.start_s]
-    if not swings:
-        return np.zeros(len(times_s))
-    start_s = np.array([event.start_s for event in swings])
-    length_s = np.array([event.end_s for event in swings]) - start_s
-    beats = np.maximum(1.0, np.round([(event.end_tick - event.start_tick) / beat_ticks for event in swings]))
-    size = np.square(np.minimum(1.0, length_s / beats / QUICK_S))
-    size *= 0.4 + 0.6 * np.abs([event.amount for event in swings])
-    inner = np.clip(np.searchsorted(start_s, times_s, side="right") - 1, 0, len(swings) - 1)
-    phase = (times_s - start_s[inner]) / length_s[inner]
-    ends = np.append(start_s, start_s[-1] + length_s[-1])
-    level = through(ends, np.append(size, 0.0)).sample(times_s)
-    within = (phase >= 0.0) & (phase <= 1.0)
-    down: FloatArray = np.where(within, level * (0.5 + 0.5 * np.cos(2.0 * np.pi * beats[inner] * phase)), level)
-    return down
+@dataclass(frozen=True)
+class Bobbing:
+    """Down-ness 0..1 of a body that bobs with the sway's beats: lowest on each beat, where its acceleration peaks.
+
+    Attributes
+    ----------
+    start_s, length_s, beats : (N,) float64
+        Swings in order, and how many beats each lasts.
+    level : Curve
+        How far down the body goes.
+    """
+
+    start_s: FloatArray
+    length_s: FloatArray
+    beats: FloatArray
+    level: Curve
+
+    @classmethod
+    def of(cls, events: Sequence[GestureEvent], beat_ticks: int) -> Bobbing:
+        """From the sways among a player's gestures."""
+        swings = [event for event in events if event.kind == "sway" and event.end_s > event.start_s]
+        if not swings:
+            nothing = np.zeros(0)
+            return cls(nothing, nothing, nothing, moves(()))
+        start_s = np.array([event.start_s for event in swings])
+        length_s = np.array([event.end_s for event in swings]) - start_s
+        beats = np.maximum(1.0, np.round([(event.end_tick - event.start_tick) / beat_ticks for event in swings]))
+        size = np.square(np.minimum(1.0, length_s / beats / QUICK_S))
+        size *= 0.4 + 0.6 * np.abs([event.amount for event in swings])
+        ends = np.append(start_s, start_s[-1] + length_s[-1])
+        return cls(start_s, length_s, beats, through(ends, np.append(size, 0.0)))
+
+    def sample(self, times_s: FloatArray) -> FloatArray:
+        """Values at ascending times, (F,) float64."""
+        if len(self.start_s) == 0:
+            return np.zeros(len(times_s))
+        inner = np.clip(np.searchsorted(self.start_s, times_s, side="right") - 1, 0, len(self.start_s) - 1)
+        phase = (times_s - self.start_s[inner]) / self.length_s[inner]
+        level = self.level.sample(times_s)
+        within = (phase >= 0.0) & (phase <= 1.0)
+        waving = level * (0.5 + 0.5 * np.cos(2.0 * np.pi * self.beats[inner] * phase))
+        down: FloatArray = np.where(within, waving, level)
+        return down
+
+    def changed_s(self, other: Bobbing) -> FloatArray:
+        """Spans (K, 2) outside of which both have the very same values."""
+        swings = rows_changed_s(self._rows, other._rows, self._spans_s, other._spans_s)
+        return np.concatenate((swings, self.level.changed_s(other.level)))
+
+    @property
+    def _rows(self) -> FloatArray:
+        return np.stack((self.start_s, self.length_s, self.beats), axis=1)
+
+    @property
+    def _spans_s(self) -> FloatArray:
+        """A swing holds to its end, or to the next one."""
+        end_s = self.start_s + self.length_s
+        return np.stack((self.start_s, np.maximum(end_s, np.append(self.start_s[1:], -np.inf)[: len(end_s)])), axis=1)
 
 
 def lungs(breaths: Sequence[BreathEvent]) -> tuple[Curve, Curve]:
@@ -221,18 +267,42 @@ def lowering(gestures: Sequence[GestureEvent], lower_s: float, raise_s: float) -
     return moves(segments)
 
 
-def nods(cues: Sequence[CueEvent], times_s: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Dip and lift of all cues, 0..1: the dip's acceleration peaks on the preparatory beat, its width is the beat."""
-    dip, lift = np.zeros(len(times_s)), np.zeros(len(times_s))
-    for cue in cues:
-        half_s = min(0.6 * cue.beat_s, cue.peak_s - cue.start_s)
-        if half_s <= 0.0:
-            continue
-        first, last = np.searchsorted(times_s, [cue.peak_s - half_s, cue.peak_s + 2.0 * half_s])
-        here = slice(first, last)
-        np.maximum(dip[here], bump(times_s[here], cue.peak_s, half_s), out=dip[here])
-        np.maximum(lift[here], bump(times_s[here], cue.peak_s + LIFT_LAG * half_s, half_s), out=lift[here])
-    return dip, lift
+@dataclass(frozen=True)
+class Nods:
+    """Dips and lifts of all cues: the dip's acceleration peaks on the preparatory beat, its width is the beat.
+
+    Attributes
+    ----------
+    peak_s, half_s : (N,) float64
+    """
+
+    peak_s: FloatArray
+    half_s: FloatArray
+
+    @classmethod
+    def of(cls, cues: Sequence[CueEvent]) -> Nods:
+        """From a player's cues."""
+        rows = [(cue.peak_s, min(0.6 * cue.beat_s, cue.peak_s - cue.start_s)) for cue in cues]
+        table = np.array([row for row in rows if row[1] > 0.0], dtype=np.float64).reshape(-1, 2)
+        return cls(table[:, 0], table[:, 1])
+
+    def sample(self, times_s: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Dip and lift 0..1 at ascending times, each (F,) float64."""
+        dip, lift = np.zeros(len(times_s)), np.zeros(len(times_s))
+        first = np.searchsorted(times_s, self.peak_s - self.half_s)
+        last = np.searchsorted(times_s, self.peak_s + 2.0 * self.half_s)
+        for index in np.flatnonzero(last > first):
+            here = slice(first[index], last[index])
+            peak_s, half_s = float(self.peak_s[index]), float(self.half_s[index])
+            np.maximum(dip[here], bump(times_s[here], peak_s, half_s), out=dip[here])
+            np.maximum(lift[here], bump(times_s[here], peak_s + LIFT_LAG * half_s, half_s), out=lift[here])
+        return dip, lift
+
+    def changed_s(self, other: Nods) -> FloatArray:
+        """Spans (K, 2) outside of which both have the very same values."""
+        mine, others = (np.stack((nods.peak_s, nods.half_s), axis=1) for nods in (self, other))
+        spans = [np.stack((row[:, 0] - row[:, 1], row[:, 0] + 2.0 * row[:, 1]), axis=1) for row in (mine, others)]
+        return rows_changed_s(mine, others, *spans)
 
 
 @dataclass
@@ -253,28 +323,74 @@ class _Sum:
         return {joint: self.angles.get(joint, np.zeros(self.frames)) for joint in TRUNK}
 
 
+@dataclass(frozen=True)
+class Layers:
+    """What one player's plan asks of the body, as curves of time; each is sampled with the sizes of the player.
+
+    Attributes
+    ----------
+    full, leaning : Curve
+        How full the lungs are, and the lean that prepares a breath.
+    nods : Nods
+    sway, weight, height : Curve
+        Where sway, weight and bell go, -1..1.
+    bobbing : Bobbing
+    lowered : Curve
+    """
+
+    full: Curve
+    leaning: Curve
+    nods: Nods
+    sway: Curve
+    weight: Curve
+    height: Curve
+    bobbing: Bobbing
+    lowered: Curve
+
+    @classmethod
+    def of(
+        cls, plan: PlayerPlan, body: Body, beat_ticks: int, before: tuple[Layers, PlayerPlan] | None = None
+    ) -> Layers:
+        """From a whole plan, or from what is the same as in the plan ``before``."""
+        if before is not None:
+            layers, other = before
+            if same_events(plan, other, "gestures"):
+                if not same_events(plan, other, "breaths"):
+                    full, leaning = lungs(plan.breaths)
+                    layers = replace(layers, full=full, leaning=leaning)
+                return layers if same_events(plan, other, "cues") else replace(layers, nods=Nods.of(plan.cues))
+        full, leaning = lungs(plan.breaths)
+        return cls(
+            full=full,
+            leaning=leaning,
+            nods=Nods.of(plan.cues),
+            sway=follow(plan.gestures, "sway"),
+            weight=follow(plan.gestures, "weight_shift", body.weight_shift.transition_s),
+            height=follow(plan.gestures, "bell_height", 0.5),
+            bobbing=Bobbing.of(plan.gestures, beat_ticks),
+            lowered=lowering(plan.gestures, body.bell.lower_s, body.bell.raise_s),
+        )
+
+
 def body_motion(
-    plan: PlayerPlan,
+    layers: Layers,
+    player_id: str,
     parameters: PlayerParameters,
     body: Body,
     posture: Posture,
     gaze: Gaze,
-    beat_ticks: int,
     times_s: FloatArray,
 ) -> BodyMotion:
     """Sum of all layers at ascending ``times_s`` (F,), on top of the posture's own angles."""
-    sizes = _Sizes(body, parameters, plan.player_id)
+    sizes = _Sizes(body, parameters, player_id)
     sway, frames = body.sway, len(times_s)
-    level, preparing = lungs(plan.breaths)
-    inhaled, lean = level.sample(times_s), preparing.sample(times_s)
-    dip, lift = nods(plan.cues, times_s)
+    inhaled, lean = layers.full.sample(times_s), layers.leaning.sample(times_s)
+    dip, lift = layers.nods.sample(times_s)
 
-    aside = parameters.sway * follow(plan.gestures, "sway").sample(times_s)
-    down = parameters.sway * bobbing(plan.gestures, beat_ticks, times_s) * (1.0 - np.clip(inhaled, 0.0, 1.0))
-    weight = parameters.weight_shift * follow(plan.gestures, "weight_shift", body.weight_shift.transition_s).sample(
-        times_s
-    )
-    height = parameters.bell_height * follow(plan.gestures, "bell_height", 0.5).sample(times_s)
+    aside = parameters.sway * layers.sway.sample(times_s)
+    down = parameters.sway * layers.bobbing.sample(times_s) * (1.0 - np.clip(inhaled, 0.0, 1.0))
+    weight = parameters.weight_shift * layers.weight.sample(times_s)
+    height = parameters.bell_height * layers.height.sample(times_s)
     bell_up = np.maximum(height, 0.0) * sizes.rad(body.bell.up_deg) + np.minimum(height, 0.0) * sizes.rad(
         body.bell.down_deg
     )
@@ -310,7 +426,7 @@ def body_motion(
     turn.add(NECK_SHARES, 0.5 * head_yaw)
     forward.add(NECK_SHARES, 0.5 * head_pitch)
 
-    lowered = lowering(plan.gestures, body.bell.lower_s, body.bell.raise_s).sample(times_s)
+    lowered = layers.lowered.sample(times_s)
     forward.add(TRUNK_SHARES, deg(body.bell.lowered_trunk_deg) * lowered)
 
     roll = weight * sizes.rad(body.weight_shift.roll_deg)

@@ -32,6 +32,25 @@ def minimum_jerk(phase: FloatArray) -> FloatArray:
     return phase * phase * phase * (10.0 + phase * (6.0 * phase - 15.0))
 
 
+NOWHERE: FloatArray = np.zeros((0, 2))
+EVERYWHERE: FloatArray = np.array([[-np.inf, np.inf]])
+
+
+def rows_changed_s(mine: FloatArray, others: FloatArray, mine_s: FloatArray, others_s: FloatArray) -> FloatArray:
+    """Spans (K, 2) of the rows that are in one table (N, C) and not in the other; ``mine_s`` (N, 2) are a row's own."""
+    shorter = min(len(mine), len(others))
+    same = np.all(mine[:shorter] == others[:shorter], axis=1)
+    head = shorter if same.all() else int(np.argmin(same))
+    back = np.all(mine[len(mine) - shorter :] == others[len(others) - shorter :], axis=1)[::-1][: shorter - head]
+    tail = len(back) if back.all() else int(np.argmin(back))
+    here, there = slice(head, len(mine) - tail), slice(head, len(others) - tail)
+    own, foreign = list(map(tuple, mine[here].tolist())), list(map(tuple, others[there].tolist()))
+    known, asked = set(own), set(foreign)
+    alone = [row not in asked for row in own]
+    missing = [row not in known for row in foreign]
+    return np.concatenate((mine_s[here][alone], others_s[there][missing]))
+
+
 @dataclass(frozen=True)
 class Curve:
     """A value that rests and moves: minimum-jerk segments, held between them.
@@ -56,6 +75,11 @@ class Curve:
         """Values at ascending times, (F,) float64."""
         if len(self.start_s) == 0:
             return np.full(len(times_s), self.initial)
+        if len(times_s) < len(self.start_s):  # a short span of a long curve: look at its own segments only
+            here = np.maximum(np.searchsorted(self.start_s, times_s, side="right") - 1, 0)
+            start_s, before = self.start_s[here], self.before[here]
+            phase = np.clip((times_s - start_s) / (self.end_s[here] - start_s), 0.0, 1.0)
+            return before + (self.after[here] - before) * minimum_jerk(phase)
         first = np.searchsorted(times_s, self.start_s, side="left")
         counts = np.diff(np.concatenate(([0], first, [len(times_s)])))
         segment = np.repeat(np.arange(-1, len(self.start_s)), counts)
@@ -68,6 +92,34 @@ class Curve:
     def still(self) -> bool:
         """Whether the value never changes."""
         return len(self.start_s) == 0
+
+    def changed_s(self, other: Curve) -> FloatArray:
+        """Spans (K, 2) outside of which both curves have the very same values."""
+        mine = (self.start_s, self.end_s, self.before, self.after)
+        others = (other.start_s, other.end_s, other.before, other.after)
+        if self.initial == other.initial and all(map(np.array_equal, mine, others)):
+            return NOWHERE
+        edges = np.unique(np.concatenate((self.start_s, self.end_s, other.start_s, other.end_s)))
+        if len(edges) == 0:
+            return EVERYWHERE
+        # Between two edges each of them either rests at a value or is in one of its moves.
+        inner = np.concatenate(([edges[0] - 1.0], 0.5 * (edges[:-1] + edges[1:]), [edges[-1] + 1.0]))
+        differ = np.any(self._described(inner) != other._described(inner), axis=1)
+        bounds = np.concatenate(([-np.inf], edges, [np.inf]))
+        return np.stack((bounds[:-1][differ], bounds[1:][differ]), axis=1)
+
+    def _described(self, times_s: FloatArray) -> FloatArray:
+        """(F, 4): what gives the value at each time; equal rows give equal values."""
+        if len(self.start_s) == 0:
+            return np.tile([0.0, 0.0, 0.0, self.initial], (len(times_s), 1))
+        segment = np.searchsorted(self.start_s, times_s, side="right") - 1
+        here = np.maximum(segment, 0)
+        rows = np.stack((self.start_s, self.end_s, self.before, self.after), axis=1)[here]
+        resting = (segment < 0) | (times_s >= rows[:, 1])
+        value = np.where(segment < 0, rows[:, 2], rows[:, 2] + (rows[:, 3] - rows[:, 2]))
+        rows[resting] = 0.0
+        rows[resting, 3] = value[resting]
+        return rows
 
 
 def moves(segments: Sequence[tuple[float, float, float]], initial: float = 0.0) -> Curve:
@@ -109,6 +161,20 @@ class Envelopes:
     fall_s: FloatArray
     end_s: FloatArray
     height: FloatArray
+
+    def changed_s(self, other: Envelopes) -> FloatArray:
+        """Spans (K, 2) outside of which both have the very same values."""
+        mine, others = self._rows, other._rows
+        return rows_changed_s(mine, others, mine[:, [0, 3]], others[:, [0, 3]])
+
+    @property
+    def spans_s(self) -> FloatArray:
+        """(N, 2): where it may be raised."""
+        return np.stack((self.start_s, self.end_s), axis=1)
+
+    @property
+    def _rows(self) -> FloatArray:
+        return np.stack((self.start_s, self.full_s, self.fall_s, self.end_s, self.height), axis=1)
 
     @classmethod
     def of(cls, rows: Sequence[tuple[float, float, float, float, float]]) -> Envelopes:

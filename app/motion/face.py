@@ -6,12 +6,13 @@ Every morph is a sum of drivers, each a curve 0..1 of time, with weights from `m
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from app.motion.curve import Curve, Envelopes, FloatArray, moves
 from app.motion.gaze import Gaze
-from app.plan.model import EmbouchureEvent, PlayerParameters, PlayerPlan
+from app.plan.model import EmbouchureEvent, PlayerPlan, same_events
 from metadata.model import Body, BreathMotion, Expression
 
 FORM_S = 0.16
@@ -80,12 +81,13 @@ def _tongue(plan: PlayerPlan) -> Envelopes:
     return Envelopes.of(rows)
 
 
-def _expressions(plan: PlayerPlan) -> dict[str, Envelopes]:
+def _shown(plan: PlayerPlan) -> dict[str, Envelopes]:
     rows: dict[str, list[tuple[float, float, float, float, float]]] = {}
     for event in plan.expressions:
         full_s, fall_s = event.start_s + event.fade_in_s, event.end_s - event.fade_out_s
         rows.setdefault(event.expression, []).append((event.start_s, full_s, fall_s, event.end_s, event.strength))
-    return {name: Envelopes.of(spans) for name, spans in rows.items()}
+    # In the order of their names: an expression that is shown earlier does not change how the others add up.
+    return {name: Envelopes.of(rows[name]) for name in sorted(rows)}
 
 
 def _inhaling(breath: BreathMotion) -> dict[str, float]:
@@ -99,9 +101,57 @@ def _inhaling(breath: BreathMotion) -> dict[str, float]:
     }
 
 
+@dataclass(frozen=True)
+class Face:
+    """What one player's plan asks of the face, as curves of time.
+
+    Attributes
+    ----------
+    at_lips : Curve
+        1 while the lips are formed.
+    tension, effort, air : Curve
+    tongue, mouth_open : Envelopes
+    expressions : dict of str to Envelopes
+        By name.
+    """
+
+    at_lips: Curve
+    tension: Curve
+    effort: Curve
+    air: Curve
+    tongue: Envelopes
+    mouth_open: Envelopes
+    expressions: dict[str, Envelopes]
+
+    @classmethod
+    def of(
+        cls, plan: PlayerPlan, embouchure_tension: float, before: tuple[Face, PlayerPlan, float] | None = None
+    ) -> Face:
+        """From a whole plan, or from what is the same as in the plan ``before``. ``embouchure_tension`` scales the
+        tension; 1 is as planned."""
+        events = plan.embouchures
+        if before is not None and before[2] == embouchure_tension and same_events(plan, before[1], "embouchures"):
+            face, other, _ = before
+            return replace(
+                face,
+                tongue=face.tongue if same_events(plan, other, "tongues") else _tongue(plan),
+                mouth_open=face.mouth_open if same_events(plan, other, "breaths") else breath_opening(plan),
+                expressions=face.expressions if same_events(plan, other, "expressions") else _shown(plan),
+            )
+        tensions = [min(1.0, embouchure_tension * event.tension) for event in events]
+        return cls(
+            at_lips=_tracked(events, [1.0] * len(events), FORM_S, 0.0),
+            tension=_tracked(events, tensions, SHIFT_S, None),
+            effort=_tracked(events, [event.effort for event in events], SWELL_S, 0.0),
+            air=_tracked(events, [event.air for event in events], SWELL_S, 0.0),
+            tongue=_tongue(plan),
+            mouth_open=breath_opening(plan),
+            expressions=_shown(plan),
+        )
+
+
 def face_morphs(
-    plan: PlayerPlan,
-    parameters: PlayerParameters,
+    face: Face,
     body: Body,
     expressions: Mapping[str, Expression],
     gaze: Gaze,
@@ -112,9 +162,7 @@ def face_morphs(
 
     Parameters
     ----------
-    plan : PlayerPlan
-    parameters : PlayerParameters
-        ``embouchure_tension`` scales the tension; 1 is as planned.
+    face : Face
     body : Body
         Weights of embouchure and breath.
     expressions : mapping of str to Expression
@@ -122,27 +170,23 @@ def face_morphs(
     gaze : Gaze
         For the lids.
     mouth_open : (F,) float64
-        `breath_opening`, sampled.
+        ``face.mouth_open``, sampled.
     times_s : (F,) float64
         Ascending.
     """
-    events = plan.embouchures
-    tensions = [min(1.0, parameters.embouchure_tension * event.tension) for event in events]
     inhaling = mouth_open
-    at_lips = _tracked(events, [1.0] * len(events), FORM_S, 0.0).sample(times_s)
+    at_lips = face.at_lips.sample(times_s)
     formed = at_lips * (1.0 - 0.9 * inhaling)
-    tension = _tracked(events, tensions, SHIFT_S, None).sample(times_s)
-    effort = _tracked(events, [event.effort for event in events], SWELL_S, 0.0).sample(times_s)
-    air = _tracked(events, [event.air for event in events], SWELL_S, 0.0).sample(times_s)
+    tension, effort, air = face.tension.sample(times_s), face.effort.sample(times_s), face.air.sample(times_s)
     drivers: list[tuple[FloatArray, Mapping[str, float]]] = [
         (formed * (1.0 - tension), body.embouchure.relaxed),
         (formed * tension, body.embouchure.tight),
         (formed * air, body.embouchure.air),
         (formed * effort, body.embouchure.effort),
-        (_tongue(plan).sample(times_s), body.embouchure.tongue_stroke),
+        (face.tongue.sample(times_s), body.embouchure.tongue_stroke),
         (inhaling, _inhaling(body.breath)),
     ]
-    for name, envelopes in _expressions(plan).items():
+    for name, envelopes in face.expressions.items():
         expression = expressions[name]
         shown = envelopes.sample(times_s)
         drivers.append((shown if expression.while_playing else shown * (1.0 - at_lips), expression.weights))

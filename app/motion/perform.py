@@ -4,31 +4,212 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import dataclass, fields
 from fractions import Fraction
 
 import numpy as np
 
-from app.motion.body import BodyMotion, body_motion
+from app.motion.body import BodyMotion, Layers, body_motion
 from app.motion.controls import control_curves
-from app.motion.curve import FloatArray, frame_times
-from app.motion.face import breath_opening, face_morphs
-from app.motion.gaze import plan_gaze
+from app.motion.curve import EVERYWHERE, Curve, Envelopes, FloatArray, frame_times
+from app.motion.face import Face, face_morphs
+from app.motion.gaze import Gaze, plan_gaze
 from app.motion.model import Motion
 from app.motion.posture import hips_path, stance, trunk
 from app.motion.solve import Curves, Player, padding, solve
-from app.plan.model import PlayerParameters, PlayerPlan, TimeFrame
+from app.plan.model import PlayerParameters, PlayerPlan, TimeFrame, same_events
 from app.rig.carriage import with_head
 from app.rig.hold import Hold
 from app.rig.model import Character
 from instrument_maps.model import InstrumentMap
 from metadata.load import load_expressions
-from metadata.model import Body, Expression
+from metadata.model import Body, Expression, Posture
+
+PLANNED_WITH = ("breath_min_beats", "breath_last_beat_beats", "breath_prepare_beats", "lung_s", "cue_leader")
+"""Parameters that decide what is planned, and not how a plan looks."""
 
 
 def frame_count(time_frame: TimeFrame, fps: Fraction) -> int:
     """Number of frames of a performance: those in ``[first_frame_s, end_s)``."""
     exact = (time_frame.end_s - time_frame.first_frame_s) * fps.numerator / fps.denominator
     return max(1, math.ceil(exact - 1e-9))
+
+
+@dataclass(frozen=True, eq=False)
+class Playing:
+    """One player's plan as curves over the whole performance: what any of its frames are made from.
+
+    Attributes
+    ----------
+    plan : PlayerPlan
+    instrument_map : InstrumentMap
+    beat_ticks : int
+    parameters : PlayerParameters
+    posture : Posture
+        With the head bent after the instrument.
+    body : Body
+    expressions : dict of str to Expression
+        Those the plan names.
+    player : Player
+        What does not change with time.
+    layers, face, gaze
+    controls : dict of str to Curve
+        By the instrument's control.
+    """
+
+    plan: PlayerPlan
+    instrument_map: InstrumentMap
+    beat_ticks: int
+    parameters: PlayerParameters
+    posture: Posture
+    body: Body
+    expressions: dict[str, Expression]
+    player: Player
+    layers: Layers
+    face: Face
+    gaze: Gaze
+    controls: dict[str, Curve]
+
+    @property
+    def player_id(self) -> str:
+        """Whose."""
+        return self.plan.player_id
+
+    @property
+    def start_s(self) -> float:
+        """Time of frame 0."""
+        return self.plan.time_frame.first_frame_s
+
+    def motion(self, fps: Fraction, first_frame: int, frames: int) -> Motion:
+        """Make some frames of the motion. The same frames are the same bits in every span."""
+        pad = padding(fps)
+        times_s = frame_times(self.start_s, fps, first_frame - pad, frames + 2 * pad)
+        mouth_open = self.face.mouth_open.sample(times_s)
+        curves = Curves(
+            body=body_motion(
+                self.layers, self.player_id, self.parameters, self.body, self.posture, self.gaze, times_s
+            ),
+            controls={name: curve.sample(times_s) for name, curve in self.controls.items()},
+            morphs=face_morphs(self.face, self.body, self.expressions, self.gaze, mouth_open, times_s),
+            mouth_open=mouth_open,
+        )
+        return solve(self.player, curves, fps, float(frame_times(self.start_s, fps, first_frame, 1)[0]))
+
+    def changed_s(self, other: Playing) -> FloatArray:
+        """Spans (K, 2) of seconds, outside of which (and of `padding` frames around) both make the very same frames."""
+        mine, others = self._settings, other._settings
+        if mine[0] != others[0] or any(a is not b for a, b in zip(mine[1:], others[1:], strict=True)):
+            return EVERYWHERE
+        if self.controls.keys() != other.controls.keys():
+            return EVERYWHERE
+        spans = [curve.changed_s(other.controls[name]) for name, curve in self.controls.items()]
+        for ours, theirs in ((self.layers, other.layers), (self.face, other.face), (self.gaze, other.gaze)):
+            for member in fields(ours):
+                value = getattr(ours, member.name)
+                if not isinstance(value, dict):
+                    spans.append(value.changed_s(getattr(theirs, member.name)))
+        for name in self.face.expressions.keys() | other.face.expressions.keys():
+            shown = self.face.expressions.get(name, NOT_SHOWN)
+            others_shown = other.face.expressions.get(name, NOT_SHOWN)
+            if self.expressions.get(name) == other.expressions.get(name):
+                spans.append(shown.changed_s(others_shown))
+            else:
+                spans += [shown.spans_s, others_shown.spans_s]
+        return np.concatenate(spans)
+
+    @property
+    def _settings(self) -> tuple[object, ...]:
+        """What every frame depends on: values first, the others by identity."""
+        parameters = {name: value for name, value in _fields(self.parameters).items() if name not in PLANNED_WITH}
+        still = self.player
+        values = (self.player_id, self.start_s, parameters, self.posture, still.carriage, still.lowered)
+        return (values, still.skeleton, still.hold, self.body)
+
+
+NOT_SHOWN = Envelopes.of(())
+
+
+def _fields(parameters: PlayerParameters) -> dict[str, object]:
+    return {name: getattr(parameters, name) for name in parameters.__struct_fields__}
+
+
+def prepare(
+    plan: PlayerPlan,
+    parameters: PlayerParameters,
+    instrument_map: InstrumentMap,
+    character: Character,
+    hold: Hold,
+    body: Body,
+    *,
+    beat_ticks: int,
+    expressions: Mapping[str, Expression] | None = None,
+    before: Playing | None = None,
+) -> Playing:
+    """Make a plan ready to be seen; parameters as of `perform`.
+
+    Curves of events that are the very same tuples in ``before`` (the player as it was prior to an edit) are taken from
+    there.
+    """
+    if before is not None and not _comparable(before, plan, parameters, instrument_map, body, beat_ticks):
+        before = None
+    known = load_expressions() if expressions is None else expressions
+    seated = parameters.posture == "seated"
+    carriage = instrument_map.hold.seated if seated else instrument_map.hold.standing
+    posture = with_head(body.postures[parameters.posture], carriage)
+    tension = parameters.embouchure_tension
+    if before is None:
+        face, layers = Face.of(plan, tension), Layers.of(plan, body, beat_ticks)
+        gaze = plan_gaze(plan, parameters.seed)
+        controls = control_curves(plan.fingerings, instrument_map.controls, beat_ticks)
+    else:
+        old = before.plan
+        face = Face.of(plan, tension, (before.face, old, before.parameters.embouchure_tension))
+        layers = Layers.of(plan, body, beat_ticks, (before.layers, old))
+        looks_same = same_events(plan, old, "fingerings", "cues") and plan.time_frame == old.time_frame
+        seed = before.parameters.seed
+        gaze = before.gaze if looks_same and seed == parameters.seed else plan_gaze(plan, parameters.seed)
+        controls = before.controls
+        if not same_events(plan, old, "fingerings"):
+            controls = control_curves(plan.fingerings, instrument_map.controls, beat_ticks)
+    skeleton = character.skeleton
+    place = stance(skeleton, posture)
+    still = BodyMotion.still(posture)
+    return Playing(
+        plan=plan,
+        instrument_map=instrument_map,
+        beat_ticks=beat_ticks,
+        parameters=parameters,
+        posture=posture,
+        body=body,
+        expressions={name: known[name] for name in face.expressions},
+        player=Player(
+            skeleton=skeleton,
+            hold=hold,
+            place=place,
+            carriage=carriage,
+            lowered=instrument_map.hold.lowered_seated if seated else instrument_map.hold.lowered_standing,
+            still=still,
+            base=trunk(skeleton, *hips_path(place, skeleton, still), still),
+            grip_of_lips_m=_grip_of_lips(hold, body),
+        ),
+        layers=layers,
+        face=face,
+        gaze=gaze,
+        controls=controls,
+    )
+
+
+def _comparable(
+    before: Playing,
+    plan: PlayerPlan,
+    parameters: PlayerParameters,
+    instrument_map: InstrumentMap,
+    body: Body,
+    beat_ticks: int,
+) -> bool:
+    """Whether curves of the same events are the same curves."""
+    same = before.instrument_map is instrument_map and before.body is body and before.beat_ticks == beat_ticks
+    return same and before.player_id == plan.player_id
 
 
 def perform(
@@ -75,37 +256,10 @@ def perform(
     """
     if frames is None:
         frames = max(0, frame_count(plan.time_frame, fps) - first_frame)
-    start_s = plan.time_frame.first_frame_s
-    pad = padding(fps)
-    times_s = frame_times(start_s, fps, first_frame - pad, frames + 2 * pad)
-    seated = parameters.posture == "seated"
-    carriage = instrument_map.hold.seated if seated else instrument_map.hold.standing
-    posture = with_head(body.postures[parameters.posture], carriage)
-
-    gaze = plan_gaze(plan, parameters.seed)
-    mouth_open = breath_opening(plan).sample(times_s)
-    known = load_expressions() if expressions is None else expressions
-    controls = control_curves(plan.fingerings, instrument_map.controls, beat_ticks)
-    curves = Curves(
-        body=body_motion(plan, parameters, body, posture, gaze, beat_ticks, times_s),
-        controls={name: curve.sample(times_s) for name, curve in controls.items()},
-        morphs=face_morphs(plan, parameters, body, known, gaze, mouth_open, times_s),
-        mouth_open=mouth_open,
+    playing = prepare(
+        plan, parameters, instrument_map, character, hold, body, beat_ticks=beat_ticks, expressions=expressions
     )
-    skeleton = character.skeleton
-    place = stance(skeleton, posture)
-    still = BodyMotion.still(posture)
-    player = Player(
-        skeleton=skeleton,
-        hold=hold,
-        place=place,
-        carriage=carriage,
-        lowered=instrument_map.hold.lowered_seated if seated else instrument_map.hold.lowered_standing,
-        still=still,
-        base=trunk(skeleton, *hips_path(place, skeleton, still), still),
-        grip_of_lips_m=_grip_of_lips(hold, body),
-    )
-    return solve(player, curves, fps, float(frame_times(start_s, fps, first_frame, 1)[0]))
+    return playing.motion(fps, first_frame, frames)
 
 
 def _grip_of_lips(hold: Hold, body: Body) -> FloatArray:

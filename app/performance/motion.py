@@ -11,7 +11,7 @@ import numpy as np
 
 from app.errors import Cancelled
 from app.motion.model import Motion
-from app.motion.perform import perform
+from app.motion.perform import Playing, prepare
 from app.performance.cache import IdentityCache
 from app.performance.ensemble import Performance
 from app.performance.span import FrameSpan
@@ -36,6 +36,7 @@ CHUNK = 16384
 
 _MODELS: IdentityCache[InstrumentModel] = IdentityCache(16)
 _HOLDS: IdentityCache[Hold] = IdentityCache(64)
+_PLAYING: IdentityCache[Playing] = IdentityCache(64)
 
 
 def character_of(player: Player) -> Character:
@@ -59,6 +60,28 @@ def hold_of(player: Player, instrument: InstrumentMap) -> Hold:
     return _HOLDS.get((character, model, instrument, body), lambda: hold_for(character, model, instrument, body))
 
 
+def playing_of(performance: Performance, player: Player, before: Playing | None = None) -> Playing:
+    """A player's plan made ready to be seen; made once for each plan, and from what is still right of ``before``."""
+    instrument = performance.instrument(player)
+    character, body, plan = character_of(player), body_of(player), performance.plan(player)
+    hold, beat_ticks = hold_of(player, instrument), performance.piece.beat_ticks
+    keys = (plan, player.parameters, instrument, character, hold, body, performance.expressions)
+    return _PLAYING.get(
+        keys,
+        lambda: prepare(
+            plan,
+            player.parameters,
+            instrument,
+            character,
+            hold,
+            body,
+            beat_ticks=beat_ticks,
+            expressions=performance.expressions,
+            before=before,
+        ),
+    )
+
+
 def player_motion(
     performance: Performance,
     player: Player,
@@ -73,28 +96,12 @@ def player_motion(
     Cancelled
         ``stop_wanted`` said so.
     """
-    instrument = performance.instrument(player)
-    character, body = character_of(player), body_of(player)
-    hold = hold_of(player, instrument)
+    playing = playing_of(performance, player)
     pieces = []
     for first in range(0, span.count, CHUNK):
         if stop_wanted():
             raise Cancelled("work.stopped")
-        pieces.append(
-            perform(
-                performance.plan(player),
-                player.parameters,
-                instrument,
-                character,
-                hold,
-                body,
-                beat_ticks=performance.piece.beat_ticks,
-                fps=span.fps,
-                frames=min(CHUNK, span.count - first),
-                first_frame=span.first + first,
-                expressions=performance.expressions,
-            )
-        )
+        pieces.append(playing.motion(span.fps, span.first + first, min(CHUNK, span.count - first)))
         progress(min(1.0, (first + CHUNK) / span.count))
     return _joined(pieces)
 

@@ -242,3 +242,8 @@ class PlayerPlan(msgspec.Struct, frozen=True):
     expressions: tuple[ExpressionEvent, ...]
     problems: tuple[Problem, ...]
     poses: tuple[PoseEvent, ...] = ()
+
+
+def same_events(plan: PlayerPlan, other: PlayerPlan, *kinds: str) -> bool:
+    """Whether the events of these kinds (names of the tuples) are the very same objects in both plans."""
+    return all(getattr(plan, kind) is getattr(other, kind) for kind in kinds)

@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from app.motion.body import bobbing, follow, lowering, lungs
+from app.motion.body import Bobbing, follow, lowering, lungs
 from app.plan.model import GestureEvent
 from tests.unit.motion.events import REASON, TICKS, breath
 
@@ -28,7 +28,7 @@ def test_a_weight_shift_goes_over_in_its_transition_and_stays() -> None:
 def test_nothing_planned_is_nothing_done() -> None:
     times_s = np.linspace(0.0, 10.0, 50)
     assert not follow((), "sway").sample(times_s).any()
-    assert not bobbing((), TICKS, times_s).any()
+    assert not Bobbing.of((), TICKS).sample(times_s).any()
     assert not lowering((), 1.0, 1.0).sample(times_s).any()
     assert not lungs(())[0].sample(times_s).any()
 
@@ -38,7 +38,7 @@ def test_a_bob_is_lowest_and_accelerates_most_on_every_beat(beats) -> None:
     beat_s = 0.5
     swings = [gesture("sway", i * beats * beat_s, (i + 1) * beats * beat_s) for i in range(8)]
     times_s = np.arange(0.0, 8 * beats * beat_s, 1e-3)
-    down = bobbing(swings, TICKS, times_s)
+    down = Bobbing.of(swings, TICKS).sample(times_s)
     for beat in np.arange(1, 8 * beats - 2):
         near = np.abs(times_s - beat * beat_s) < 0.24
         assert times_s[near][down[near].argmax()] == pytest.approx(beat * beat_s, abs=0.02)

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from app.errors import Message
-from app.motion.face import breath_opening, face_morphs
+from app.motion.face import Face, breath_opening, face_morphs
 from app.motion.gaze import ENTRY_GUARD_S, plan_gaze
 from app.plan.model import EmbouchureEvent, ExpressionEvent, PlayerParameters, PlayerPlan
 from metadata.load import load_body, load_expressions
@@ -26,7 +26,8 @@ def plan(**changes: object) -> PlayerPlan:
 def face(made: PlayerPlan, times_s: np.ndarray = TIMES_S, **parameters: float) -> dict[str, np.ndarray]:
     settings = PlayerParameters(**parameters)
     opening = breath_opening(made).sample(times_s)
-    return face_morphs(made, settings, load_body(), load_expressions(), plan_gaze(made, 0), opening, times_s)
+    face = Face.of(made, settings.embouchure_tension)
+    return face_morphs(face, load_body(), load_expressions(), plan_gaze(made, 0), opening, times_s)
 
 
 def embouchure(tension: float, effort: float = 0.0, air: float = 0.0) -> tuple[EmbouchureEvent, ...]:

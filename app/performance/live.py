@@ -1,0 +1,467 @@
+"""The motion of all players as the viewport needs it: what is looked at first, the rest behind it, memory bounded.
+
+The performance is cut into chunks of frames. Whoever owns the worker thread calls `LiveMotion.work` as long as it
+makes something; whoever draws asks `LiveMotion.pose`, which never waits. After an edit only the chunks are made again
+whose curves changed.
+
+Messages: ``player.no_instrument`` (player, instrument), ``player.no_character`` (player, character): see
+`app.performance.ensemble`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from fractions import Fraction
+from threading import Lock
+
+import numpy as np
+import numpy.typing as npt
+
+from app.errors import AppError, Message
+from app.motion.model import Motion
+from app.motion.perform import Playing, frame_count
+from app.motion.solve import padding
+from app.performance.ensemble import Performance
+from app.performance.motion import playing_of
+from app.plan.model import PlayerPlan, TimeFrame
+from app.project.model import Player
+
+Floats = npt.NDArray[np.float32]
+StopWanted = Callable[[], bool]
+
+CHUNK_S = 2.0
+"""Length of a chunk: long enough that numpy's overhead is small, short enough that a correction is seen at once."""
+BUDGET_BYTES = 256 * 1024 * 1024
+OVERHEAD_BYTES = 1024
+"""Of a chunk, beside its numbers."""
+SEEN_S = 4.0
+"""Looked at unless somebody says otherwise."""
+BEHIND_COSTS = 3
+"""What lies before the playhead is wanted as much as what lies this many times as far after it."""
+
+
+@dataclass(frozen=True)
+class Pose:
+    """One player at one moment; members as of `app.motion.model.Motion`, for one frame.
+
+    Attributes
+    ----------
+    rotations : (J, 4) float32
+    hips_m : (3,) float32
+    morphs, controls : dict of str to float
+        Morphs that are not named are 0.
+    instrument_position_m, instrument_rotation : (3,) and (4,) float32
+    """
+
+    rotations: Floats
+    hips_m: Floats
+    morphs: dict[str, float]
+    controls: dict[str, float]
+    instrument_position_m: Floats
+    instrument_rotation: Floats
+
+
+@dataclass(frozen=True, eq=False)
+class _Chunk:
+    """Some frames of one player; joints that do not move in it are kept once.
+
+    ``values`` (F, M + C) are morphs, then controls.
+    """
+
+    still: Floats
+    moving: npt.NDArray[np.intp]
+    rotations: Floats
+    placed: Floats
+    values: Floats
+    morphs: tuple[str, ...]
+    controls: tuple[str, ...]
+    bytes: int
+
+    @classmethod
+    def of(cls, motion: Motion) -> _Chunk:
+        moves = np.any(motion.rotations != motion.rotations[:1], axis=(0, 2))
+        columns = [*motion.morphs.values(), *motion.controls.values()]
+        still = motion.rotations[0].copy()
+        rotations = np.ascontiguousarray(motion.rotations[:, moves])
+        placed = np.concatenate((motion.hips_m, motion.instrument_position_m, motion.instrument_rotation), axis=1)
+        values = np.stack(columns, axis=1) if columns else np.zeros((motion.frames, 0), np.float32)
+        return cls(
+            still=still,
+            moving=np.flatnonzero(moves),
+            rotations=rotations,
+            placed=placed,
+            values=values,
+            morphs=tuple(motion.morphs),
+            controls=tuple(motion.controls),
+            bytes=still.nbytes + rotations.nbytes + placed.nbytes + values.nbytes + OVERHEAD_BYTES,
+        )
+
+    @property
+    def frames(self) -> int:
+        return len(self.placed)
+
+    def pose(self, frame: int, share: float) -> Pose:
+        """The pose at a frame, or between it and the next one of the chunk."""
+        rotations = self.still.copy()
+        if share > 0.0 and frame + 1 < len(self.placed):
+            rotations[self.moving] = _between(self.rotations[frame], self.rotations[frame + 1], share)
+            placed = self.placed[frame] + np.float32(share) * (self.placed[frame + 1] - self.placed[frame])
+            placed[6:] = _between(self.placed[frame : frame + 1, 6:], self.placed[frame + 1 : frame + 2, 6:], share)[0]
+            values = self.values[frame] + np.float32(share) * (self.values[frame + 1] - self.values[frame])
+        else:
+            rotations[self.moving] = self.rotations[frame]
+            placed, values = self.placed[frame].copy(), self.values[frame]
+        numbers = values.tolist()
+        count = len(self.morphs)
+        return Pose(
+            rotations=rotations,
+            hips_m=placed[:3],
+            morphs=dict(zip(self.morphs, numbers, strict=False)),
+            controls=dict(zip(self.controls, numbers[count:], strict=True)),
+            instrument_position_m=placed[3:6],
+            instrument_rotation=placed[6:],
+        )
+
+
+def _between(before: Floats, after: Floats, share: float) -> Floats:
+    """Rotations (N, 4) on the straight way from one frame's to the next one's, which are near each other."""
+    sign = np.where(np.einsum("ji,ji->j", before, after) < 0.0, np.float32(-share), np.float32(share))
+    mixed: Floats = before * np.float32(1.0 - share) + after * sign[:, None]
+    mixed /= np.sqrt(np.einsum("ji,ji->j", mixed, mixed))[:, None]
+    return mixed
+
+
+@dataclass(frozen=True)
+class _Grid:
+    """The frames of a performance, and how they are cut."""
+
+    fps: Fraction
+    start_s: float
+    frames: int
+    length: int
+
+    @classmethod
+    def of(cls, time_frame: TimeFrame, fps: Fraction) -> _Grid:
+        return cls(fps, time_frame.first_frame_s, frame_count(time_frame, fps), max(1, round(CHUNK_S * fps)))
+
+    @property
+    def chunks(self) -> int:
+        return -(-self.frames // self.length)
+
+    def place(self, time_s: float) -> tuple[int, float]:
+        """The frame at or before a time, and how far the time is on its way to the next one; within the performance."""
+        exact = (time_s - self.start_s) * self.fps.numerator / self.fps.denominator
+        frame = math.floor(exact + 1e-6)
+        if frame < 0:
+            return 0, 0.0
+        if frame >= self.frames - 1:
+            return self.frames - 1, 0.0
+        return frame, max(exact - frame, 0.0) if exact - frame > 1e-6 else 0.0
+
+    def span(self, chunk: int) -> tuple[int, int]:
+        """First frame and number of frames of a chunk; the last one is as long as the others, cut at the end."""
+        first = chunk * self.length
+        return first, min(self.length, self.frames - first)
+
+    def same_frames(self, other: _Grid) -> bool:
+        """Whether a frame of one is the same moment in the other."""
+        return self.fps == other.fps and self.start_s == other.start_s
+
+
+@dataclass(eq=False)
+class _Track:
+    """What is there of one player.
+
+    Attributes
+    ----------
+    player : Player
+    plan : PlayerPlan
+    playing : Playing or None
+        None until it is first needed, and for who cannot play.
+    chunks : dict of int to _Chunk
+        Made from ``playing``.
+    basis : Playing or None
+        What ``unproven`` was made from: chunks of the performance before, some of which are still right.
+    unproven, outdated : dict of int to _Chunk
+        Shown as long as there is nothing better.
+    error : Message or None
+        Why the player cannot be seen.
+    """
+
+    player: Player
+    plan: PlayerPlan
+    playing: Playing | None = None
+    chunks: dict[int, _Chunk] = field(default_factory=dict)
+    basis: Playing | None = None
+    unproven: dict[int, _Chunk] = field(default_factory=dict)
+    outdated: dict[int, _Chunk] = field(default_factory=dict)
+    error: Message | None = None
+
+    @property
+    def bytes(self) -> int:
+        kinds = (self.chunks, self.unproven, self.outdated)
+        return sum(chunk.bytes for chunks in kinds for chunk in tuple(chunks.values()))
+
+    def after(self, player: Player, plan: PlayerPlan) -> _Track:
+        """The track of the same player after an edit."""
+        if self.playing is None:
+            return _Track(player, plan, basis=self.basis, unproven=self.unproven, outdated=self.outdated)
+        return _Track(player, plan, basis=self.playing, unproven=self.chunks, outdated=self.outdated)
+
+
+@dataclass(frozen=True, eq=False)
+class _Shown:
+    performance: Performance
+    grid: _Grid
+    tracks: dict[str, _Track]
+
+
+class LiveMotion:
+    """Poses of all players of the newest performance.
+
+    One thread works (`work`); any thread may ask (`pose`) and say what is wanted.
+
+    Parameters
+    ----------
+    performance : Performance
+    budget_bytes : int
+        What all chunks together may take; what is farthest from the playhead goes first.
+    """
+
+    def __init__(self, performance: Performance, budget_bytes: int = BUDGET_BYTES) -> None:
+        self._budget_bytes = budget_bytes
+        self._lock = Lock()
+        self._wanted: tuple[float, float, tuple[str, ...]] = (0.0, SEEN_S, ())
+        self._todo: Iterator[tuple[str, int]] | None = None
+        self._chunk_bytes = 0
+        self._shown = _Shown(performance, _Grid.of(performance.time_frame, performance.project.fps), {})
+        self.show(performance)
+
+    @property
+    def performance(self) -> Performance:
+        """What is shown."""
+        return self._shown.performance
+
+    def show(self, performance: Performance) -> None:
+        """Show another performance. What did not change stays; what did is shown as it was until it is made again."""
+        grid = _Grid.of(performance.time_frame, performance.project.fps)
+        with self._lock:
+            before = self._shown
+            same_frames = grid.same_frames(before.grid)
+            same_faces = performance.expressions is before.performance.expressions
+            tracks = {}
+            for player in performance.project.players:
+                plan, old = performance.plan(player), before.tracks.get(player.id)
+                if old is None or not same_frames:
+                    tracks[player.id] = _Track(player, plan)
+                elif plan is old.plan and same_faces and _looks_same(player, old.player):
+                    tracks[player.id] = old
+                else:
+                    tracks[player.id] = old.after(player, plan)
+            self._shown = _Shown(performance, grid, tracks)
+            self._todo = None
+
+    def want(self, time_s: float, span_s: float = SEEN_S, player_ids: tuple[str, ...] = ()) -> None:
+        """Say what is looked at: from a time on, for some seconds, these players before the others (empty: all)."""
+        grid, (last_s, last_span_s, last_ids) = self._shown.grid, self._wanted
+        self._wanted = (time_s, span_s, player_ids)
+        moved = grid.place(time_s)[0] // grid.length != grid.place(last_s)[0] // grid.length
+        if moved or span_s != last_span_s or player_ids != last_ids:
+            with self._lock:
+                self._todo = None
+
+    def pose(self, player_id: str, time_s: float) -> Pose | None:
+        """A player's pose at a time, between two frames too; None if there is none yet. Never waits.
+
+        After an edit it is the pose before it, until the new one is made.
+        """
+        shown = self._shown
+        track = shown.tracks.get(player_id)
+        if track is None:
+            return None
+        frame, share = shown.grid.place(time_s)
+        index, inner = divmod(frame, shown.grid.length)
+        chunk = track.chunks.get(index) or track.unproven.get(index) or track.outdated.get(index)
+        if chunk is None or inner >= chunk.frames:
+            return None
+        return chunk.pose(inner, share)
+
+    def pose_now(self, player_id: str, time_s: float) -> Pose | None:
+        """A player's pose at a time as the newest performance has it, made here and now where it is not there yet.
+
+        None for a player who cannot be seen (see `error`).
+        """
+        shown = self._shown
+        track = shown.tracks.get(player_id)
+        if track is None:
+            return None
+        frame, share = shown.grid.place(time_s)
+        index, inner = divmod(frame, shown.grid.length)
+        chunk = track.chunks.get(index)
+        if chunk is not None and inner < chunk.frames:
+            return chunk.pose(inner, share)
+        playing = self._playing(shown, track)
+        if playing is None:
+            return None
+        return _Chunk.of(playing.motion(shown.grid.fps, frame, 2 if share > 0.0 else 1)).pose(0, share)
+
+    def error(self, player_id: str) -> Message | None:
+        """Why a player cannot be seen; None if nothing is known against it."""
+        track = self._shown.tracks.get(player_id)
+        return None if track is None else track.error
+
+    def work(self, stop_wanted: StopWanted = lambda: False) -> bool:
+        """Make the most wanted chunk that is missing; whether there was one."""
+        with self._lock:
+            shown = self._shown
+            if self._todo is None:
+                self._todo = self._missing(shown)
+            todo = self._todo
+        for player_id, index in todo:
+            track = shown.tracks[player_id]
+            if stop_wanted():
+                return True
+            if track.playing is None or track.basis is not None:
+                self._prove(shown, track)
+            if track.playing is None or index in track.chunks:
+                continue
+            if not self._make_room(shown, track, index):
+                return False
+            chunk = _Chunk.of(track.playing.motion(shown.grid.fps, *shown.grid.span(index)))
+            with self._lock:
+                track.chunks[index] = chunk
+                track.outdated.pop(index, None)
+                self._chunk_bytes = chunk.bytes
+            return True
+        return False
+
+    @property
+    def ready_share(self) -> float:
+        """How much is made of what there is room for, 0..1."""
+        shown = self._shown
+        ready = sum(len(track.chunks) for track in shown.tracks.values())
+        wanted = shown.grid.chunks * sum(1 for track in shown.tracks.values() if track.error is None)
+        if self._chunk_bytes:
+            wanted = min(wanted, self._budget_bytes // self._chunk_bytes)
+        return min(ready / wanted, 1.0) if wanted else 1.0
+
+    def ready_spans(self, player_id: str) -> tuple[tuple[float, float], ...]:
+        """Where a player's motion is made, as spans of seconds in order."""
+        shown = self._shown
+        track = shown.tracks.get(player_id)
+        if track is None:
+            return ()
+        grid, spans = shown.grid, list[tuple[int, int]]()
+        for index in sorted(tuple(track.chunks)):
+            if spans and spans[-1][1] == index:
+                spans[-1] = (spans[-1][0], index + 1)
+            else:
+                spans.append((index, index + 1))
+        step_s = grid.length * grid.fps.denominator / grid.fps.numerator
+        end_s = grid.start_s + grid.frames * grid.fps.denominator / grid.fps.numerator
+        return tuple(
+            (grid.start_s + first * step_s, min(grid.start_s + last * step_s, end_s)) for first, last in spans
+        )
+
+    @property
+    def bytes(self) -> int:
+        """What all chunks take."""
+        return sum(track.bytes for track in tuple(self._shown.tracks.values()))
+
+    def _playing(self, shown: _Shown, track: _Track) -> Playing | None:
+        if track.playing is not None or track.error is not None:
+            return track.playing
+        try:
+            return playing_of(shown.performance, track.player, track.basis)
+        except AppError as error:
+            track.error = error.message
+            return None
+
+    def _prove(self, shown: _Shown, track: _Track) -> None:
+        """Find out which chunks of the performance before are still right."""
+        playing = self._playing(shown, track)
+        if playing is None:
+            track.unproven, track.outdated, track.basis = {}, {}, None
+            return
+        kept: dict[int, _Chunk] = {}
+        if track.basis is not None:
+            touched = _touched(playing.changed_s(track.basis), shown.grid)
+            for index, chunk in track.unproven.items():
+                right = index < len(touched) and not touched[index] and chunk.frames == shown.grid.span(index)[1]
+                (kept if right else track.outdated)[index] = chunk
+        with self._lock:
+            track.playing, track.chunks, track.basis, track.unproven = playing, kept, None, {}
+
+    def _missing(self, shown: _Shown) -> Iterator[tuple[str, int]]:
+        """Players and chunks, the most wanted first: what is looked at, then the rest by its distance in time."""
+        time_s, span_s, player_ids = self._wanted
+        grid = shown.grid
+        asked = [player_id for player_id in player_ids if player_id in shown.tracks]
+        everyone = asked + [player_id for player_id in shown.tracks if player_id not in asked]
+        here = grid.place(time_s)[0] // grid.length
+        last = grid.place(time_s + span_s)[0] // grid.length
+        for index in range(here, last + 1):
+            yield from ((player_id, index) for player_id in asked or everyone)
+        for index in sorted(range(grid.chunks), key=lambda index: _distance(index, here)):
+            yield from ((player_id, index) for player_id in everyone)
+
+    def _make_room(self, shown: _Shown, track: _Track, index: int) -> bool:
+        """Let go of what is farther away than a chunk, as much as it needs; False if there is nothing farther."""
+        time_s, span_s, player_ids = self._wanted
+        grid = shown.grid
+        here = grid.place(time_s)[0] // grid.length
+        last = grid.place(time_s + span_s)[0] // grid.length
+
+        def rank(of: _Track, place: int) -> tuple[bool, int]:
+            seen = here <= place <= last and (not player_ids or of.player.id in player_ids)
+            return (not seen, _distance(place, here))
+
+        over = self.bytes + self._chunk_bytes - self._budget_bytes
+        if over <= 0:
+            return True
+        held = [
+            (rank(other, place), place, chunks)
+            for other in tuple(shown.tracks.values())
+            for chunks in (other.chunks, other.unproven, other.outdated)
+            for place in tuple(chunks)
+        ]
+        held.sort(key=lambda row: row[0], reverse=True)
+        own = rank(track, index)
+        with self._lock:
+            for far, place, chunks in held:
+                if far <= own:
+                    return False
+                chunk = chunks.pop(place, None)
+                over -= chunk.bytes if chunk is not None else 0
+                if over <= 0:
+                    return True
+        return False
+
+
+def _distance(index: int, here: int) -> int:
+    return index - here if index >= here else BEHIND_COSTS * (here - index)
+
+
+def _looks_same(player: Player, before: Player) -> bool:
+    """Whether nothing of a player changed that is seen in the motion, beside the plan."""
+    if player is before:
+        return True
+    same = player.instrument_id == before.instrument_id and player.character_id == before.character_id
+    return same and player.parameters == before.parameters
+
+
+def _touched(spans_s: npt.NDArray[np.float64], grid: _Grid) -> list[bool]:
+    """For every chunk whether one of the spans lies in it or in the frames around it that it is made from."""
+    rate = grid.fps.numerator / grid.fps.denominator
+    pad = padding(grid.fps) + 2
+    result = np.zeros(grid.chunks + 1, np.int64)
+    first = np.clip((spans_s[:, 0] - grid.start_s) * rate - pad, -1.0, grid.frames)
+    last = np.clip((spans_s[:, 1] - grid.start_s) * rate + pad, -1.0, grid.frames)
+    low = np.maximum(np.floor(first / grid.length), 0.0).astype(np.int64)
+    high = np.minimum(np.floor(last / grid.length) + 1.0, grid.chunks).astype(np.int64)
+    some = (high > low) & (last >= 0.0)
+    np.add.at(result, low[some], 1)
+    np.add.at(result, high[some], -1)
+    return [bool(count) for count in np.cumsum(result)[:-1].tolist()]
