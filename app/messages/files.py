@@ -9,5 +9,6 @@ TEMPLATES: Final[dict[str, str]] = {
     "file.cannot_write": "{file} cannot be written: {reason}",
     "file.unreadable": "{file} cannot be read: {detail}",
     "export.done": "{count} files written to {folder}",
+    "video.done": "the film is written: {file}",
     "video.failed": "{file} cannot be written as a film: {detail}",
 }

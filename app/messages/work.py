@@ -6,4 +6,5 @@ from typing import Final
 
 TEMPLATES: Final[dict[str, str]] = {
     "work.export": "writing the files",
+    "work.playblast": "making the film",
 }

@@ -1,0 +1,317 @@
+"""Playblast: what the viewport shows, as a film with sound."""
+
+from __future__ import annotations
+
+import queue
+from collections.abc import Callable
+from fractions import Fraction
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+import numpy.typing as npt
+from PySide6.QtCore import QEvent, QSize, Qt, QTimer, QUrl, Signal
+from PySide6.QtGui import QCloseEvent, QDesktopServices
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QComboBox,
+    QDialog,
+    QDialogButtonBox,
+    QFileDialog,
+    QFormLayout,
+    QHBoxLayout,
+    QLabel,
+    QLineEdit,
+    QProgressBar,
+    QPushButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from app.errors import AppError, Cancelled, Message
+from app.export.video import video_into
+from app.performance.span import FrameSpan, cut_span, whole_span
+from widgets.common.session import Session
+from widgets.common.tasks import Progress, StopWanted
+from widgets.common.text import message_text
+from widgets.common.viewport_state import View
+
+Pictures = npt.NDArray[np.uint8]
+Render = Callable[[int, int, float, View | None], Pictures]
+"""Width, height, time in seconds, view (None: as the viewport shows it now) to a picture (H, W, 3 or 4)."""
+Sound = Callable[[float, float, int], npt.NDArray[np.float32]]
+"""Start, end in seconds and samples per second to (N, 2) of what is heard; runs beside the window."""
+
+SIZES: Final = ((1280, 720), (1920, 1080), (2560, 1440), (3840, 2160), (1080, 1920))
+_WHOLE, _LOOP, _SELECTION = "whole", "loop", "selection"
+_SOUND_RATE = 48_000
+_AHEAD = 8
+"""Pictures drawn before the encoder has taken them."""
+
+
+class PlayblastDialog(QDialog):
+    """Makes a film of the viewport.
+
+    Parameters
+    ----------
+    session : Session
+    render : Render
+        Called in the window's thread.
+    sound : Sound
+    path : Path
+        Proposed file.
+    parent : QWidget, optional
+    """
+
+    filmed = Signal(object)
+    """The film's path."""
+    _ended = Signal()
+
+    def __init__(
+        self, session: Session, render: Render, sound: Sound, path: Path, parent: QWidget | None = None
+    ) -> None:
+        super().__init__(parent)
+        self.setObjectName("playblast")
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        self._session, self._render, self._sound = session, render, sound
+        self._performance = session.performance
+        self._pictures: queue.Queue[Pictures] = queue.Queue(_AHEAD)
+        self._running = self._stop = False
+        self._span: FrameSpan | None = None
+        self._drawn = 0
+
+        self._size = QComboBox()
+        self._size.setObjectName("playblast_size")
+        for width, height in SIZES:
+            self._size.addItem(f"{width} × {height}", (width, height))
+        self._rate = QComboBox()
+        self._rate.setObjectName("playblast_rate")
+        for rate in sorted({*map(Fraction, ("24", "25", "30000/1001", "30", "60")), session.project.fps}):
+            self._rate.addItem(f"{float(rate):.6g}", str(rate))
+        self._rate.setCurrentIndex(self._rate.findData(str(min(session.project.fps, Fraction(30)))))
+        self._range = QComboBox()
+        self._range.setObjectName("playblast_range")
+        self._view = QComboBox()
+        self._view.setObjectName("playblast_view")
+        self._with_sound = QCheckBox()
+        self._with_sound.setObjectName("playblast_sound")
+        self._with_sound.setChecked(True)
+        self._file = QLineEdit(str(path))
+        self._file.setObjectName("playblast_file")
+        self._choose = QPushButton()
+        self._choose.clicked.connect(self._choose_file)
+        self._state = QLabel()
+        self._state.setObjectName("playblast_state")
+        self._state.setWordWrap(True)
+        self._state.setMinimumHeight(40)
+        self._progress = QProgressBar()
+        self._progress.setRange(0, 1000)
+        self._progress.hide()
+        self._buttons = QDialogButtonBox()
+        self._start = self._buttons.addButton("", QDialogButtonBox.ButtonRole.ActionRole)
+        self._start.setObjectName("playblast_start")
+        self._start.setDefault(True)
+        self._show = self._buttons.addButton("", QDialogButtonBox.ButtonRole.ActionRole)
+        self._show.setObjectName("playblast_show_folder")
+        self._show.hide()
+        self._close = self._buttons.addButton("", QDialogButtonBox.ButtonRole.RejectRole)
+        self._close.setObjectName("playblast_close")
+        self._start.clicked.connect(self.start)
+        self._show.clicked.connect(self._show_folder)
+        self._close.clicked.connect(self._close_or_cancel)
+        self._ended.connect(self._finish)
+        self._file.textChanged.connect(self._show_state)
+
+        # One picture in each turn of the event loop: the window stays alive.
+        self._timer = QTimer(self)
+        self._timer.setInterval(0)
+        self._timer.timeout.connect(self._draw)
+
+        self._labels = {name: QLabel() for name in ("size", "rate", "range", "view", "sound", "file")}
+        form = QFormLayout()
+        form.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
+        file = QHBoxLayout()
+        file.addWidget(self._file, 1)
+        file.addWidget(self._choose)
+        form.addRow(self._labels["view"], self._view)
+        form.addRow(self._labels["range"], self._range)
+        form.addRow(self._labels["size"], self._size)
+        form.addRow(self._labels["rate"], self._rate)
+        form.addRow(self._labels["sound"], self._with_sound)
+        form.addRow(self._labels["file"], file)
+        layout = QVBoxLayout(self)
+        layout.addLayout(form)
+        layout.addWidget(self._state, 1)
+        layout.addWidget(self._progress)
+        layout.addWidget(self._buttons)
+        self.retranslate()
+
+    def start(self) -> None:
+        """Begin the film."""
+        if self._running or not self._start.isEnabled():
+            return
+        self._performance = self._session.performance
+        self._span = span = self._wanted_span()
+        self._running, self._stop, self._drawn = True, False, 0
+        pictures: queue.Queue[Pictures] = queue.Queue(_AHEAD)
+        self._pictures = pictures
+        self._enable(False)
+        self._show.hide()
+        self._progress.setValue(0)
+        self._progress.show()
+        self._state.setText("")
+        path, size = Path(self._file.text()), self._size.currentData()
+        with_sound, sound = self._with_sound.isChecked(), self._sound
+
+        def work(progress: Progress, stop_wanted: StopWanted) -> Path:
+            try:
+                heard = sound(span.first_frame_s, span.end_s, _SOUND_RATE) if with_sound else None
+                with video_into(path, (size[0], size[1]), span.fps, heard, _SOUND_RATE) as film:
+                    for index in range(span.count):
+                        film.write(_next(pictures, lambda: self._stop or stop_wanted()))
+                        progress((index + 1) / span.count)
+                return path
+            finally:
+                self._ended.emit()
+
+        self._session.tasks.run(Message("work.playblast"), work, self._done, self._failed, key="playblast")
+        self._timer.start()
+        self.retranslate()
+
+    def _draw(self) -> None:
+        """Draw the next picture, if the encoder has room for it."""
+        span = self._span
+        if span is None or not self._running or self._drawn >= span.count:
+            self._timer.stop()
+            return
+        if self._pictures.full():
+            self._timer.setInterval(2)
+            return
+        self._timer.setInterval(0)
+        time_s = span.first_frame_s + self._drawn * span.fps.denominator / span.fps.numerator
+        width, height = self._size.currentData()
+        self._pictures.put(self._render(width, height, time_s, self._view.currentData()))
+        self._drawn += 1
+        self._progress.setValue(round(1000 * self._drawn / span.count))
+
+    def _done(self, path: Path) -> None:
+        self._state.setText(self.tr("The film is written: {file}").format(file=path))
+        self._show.show()
+        self._session.notice(Message("video.done", {"file": str(path)}))
+        self.filmed.emit(path)
+
+    def _failed(self, error: AppError) -> None:
+        self._state.setText(message_text(error.message))
+
+    def _finish(self) -> None:
+        self._running = False
+        self._timer.stop()
+        self._progress.hide()
+        self._enable(True)
+        self.retranslate()
+
+    def _wanted_span(self) -> FrameSpan:
+        frame, fps = self._performance.time_frame, Fraction(self._rate.currentData())
+        span, clock = self._session.selection.span, self._session.project.score.tempo_map
+        if self._range.currentData() == _LOOP and self._session.loop_s is not None:
+            return cut_span(frame, fps, *self._session.loop_s)
+        if self._range.currentData() == _SELECTION and span is not None:
+            return cut_span(frame, fps, clock.seconds(float(span[0])), clock.seconds(float(span[1])))
+        return whole_span(frame, fps)
+
+    def _enable(self, enabled: bool) -> None:
+        for widget in (
+            *(self._size, self._rate, self._range, self._view, self._with_sound, self._file, self._choose),
+            self._start,
+        ):
+            widget.setEnabled(enabled)
+
+    def _close_or_cancel(self) -> None:
+        if self._running:
+            self._stop = True
+        else:
+            self.reject()
+
+    def _choose_file(self) -> None:
+        chosen, _ = QFileDialog.getSaveFileName(self, self.tr("Film"), self._file.text(), self.tr("Films (*.mp4)"))
+        if chosen:
+            self._file.setText(chosen if chosen.lower().endswith(".mp4") else f"{chosen}.mp4")
+
+    def _show_folder(self) -> None:
+        QDesktopServices.openUrl(QUrl.fromLocalFile(str(Path(self._file.text()).parent)))
+
+    def _show_state(self) -> None:
+        path = self._file.text().strip()
+        self._start.setEnabled(bool(path) and not self._running)
+        exists = bool(path) and Path(path).is_file()
+        self._state.setText(self.tr("This file is there and will be replaced.") if exists else "")
+
+    def retranslate(self) -> None:
+        """Set every text anew."""
+        self.setWindowTitle(self.tr("Playblast"))
+        for name, text in {
+            "size": self.tr("Size"),
+            "rate": self.tr("Frames per second"),
+            "range": self.tr("Range"),
+            "view": self.tr("View"),
+            "sound": self.tr("Sound"),
+            "file": self.tr("File"),
+        }.items():
+            self._labels[name].setText(text)
+        self._with_sound.setText(self.tr("With what is heard"))
+        self._choose.setText(self.tr("Choose..."))
+        self._start.setText(self.tr("Make the film"))
+        self._show.setText(self.tr("Show in folder"))
+        self._close.setText(self.tr("Cancel") if self._running else self.tr("Close"))
+        ranges = [(self.tr("Whole piece"), _WHOLE)]
+        if self._session.loop_s is not None:
+            ranges.append((self.tr("Loop"), _LOOP))
+        if self._session.selection.span is not None:
+            ranges.append((self.tr("Selection"), _SELECTION))
+        _refill(self._range, ranges)
+        views: list[tuple[str, object]] = [
+            (self.tr("As the viewport shows it"), None),
+            (self.tr("Ensemble"), "ensemble"),
+            (self.tr("Front"), "front"),
+            (self.tr("Side"), "side"),
+            (self.tr("Top"), "top"),
+            (self.tr("Hands"), "hands"),
+            (self.tr("Mouth"), "mouth"),
+            (self.tr("Feet"), "feet"),
+        ]
+        _refill(self._view, views)
+        if not self._running and not self._show.isVisible():
+            self._show_state()
+
+    def sizeHint(self) -> QSize:
+        return QSize(620, 360)
+
+    def changeEvent(self, event: QEvent) -> None:
+        if event.type() == QEvent.Type.LanguageChange:
+            self.retranslate()
+        super().changeEvent(event)
+
+    def closeEvent(self, event: QCloseEvent) -> None:
+        if self._running:
+            self._stop = True
+            event.ignore()
+            return
+        super().closeEvent(event)
+
+
+def _next(pictures: queue.Queue[Pictures], stop_wanted: Callable[[], bool]) -> Pictures:
+    """The next picture, as soon as it is drawn. Raises Cancelled."""
+    while not stop_wanted():
+        try:
+            return pictures.get(timeout=0.1)
+        except queue.Empty:
+            continue
+    raise Cancelled("work.stopped")
+
+
+def _refill(box: QComboBox, entries: list[tuple[str, object]] | list[tuple[str, str]]) -> None:
+    chosen = box.currentIndex()
+    box.clear()
+    for text, data in entries:
+        box.addItem(text, data)
+    box.setCurrentIndex(min(max(chosen, 0), box.count() - 1))
