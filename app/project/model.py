@@ -154,7 +154,7 @@ def project_from_score(
     parts = score.parts
     instruments = [maps[part.map_id] for part in parts]
     names = unique_names(part.name for part in parts)
-    cast = _characters(instruments)
+    cast = characters_for(instruments)
     places = stage_arc(len(parts))
     players = tuple(
         Player(
@@ -202,7 +202,7 @@ def with_settings(project: Project, settings: Sequence[Setting]) -> Project:
     return replace(project, players=tuple(players))
 
 
-def _characters(instruments: Sequence[InstrumentMap]) -> tuple[str, ...]:
+def characters_for(instruments: Sequence[InstrumentMap]) -> tuple[str, ...]:
     """A character for each instrument, by the reach it asks for."""
     travels_m = [
         max((control.motion.travel_m or 0.0 for control in instrument.controls if _by_hand(control)), default=0.0)

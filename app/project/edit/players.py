@@ -1,0 +1,280 @@
+"""Edits of players: who is there, what they play, how they move, and where they stand.
+
+Messages
+--------
+player.no_name(): a name must have at least one sign that can be seen.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import replace
+from typing import Final
+
+import msgspec
+
+from app.errors import AppError
+from app.plan.model import PlayerParameters
+from app.project.casting import SPACING_M, StagePosition, amplitude, chance, player_seed, stage_arc
+from app.project.ids import fresh_part_ids, fresh_player_ids
+from app.project.model import Player, Project, characters_for
+from app.project.names import clean_name
+from app.project.parameters import Value, bounds
+from app.score.model import Part
+from instrument_maps.model import InstrumentMap
+
+SPREADS: Final[Mapping[str, float]] = {
+    "amplitude": 0.5,
+    "lung_s": 4.0,
+    "embouchure_tension": 0.5,
+    "sway": 1.0,
+    "weight_shift": 1.0,
+    "bell_height": 1.0,
+}
+"""What `randomise` varies, and how far from the ensemble's middle at a spread of 1."""
+
+
+def cast_parameters(project: Project, player_id: str) -> PlayerParameters:
+    """The parameters a player has before anybody changes them."""
+    return PlayerParameters(amplitude=amplitude(project.seed, player_id), seed=player_seed(project.seed, player_id))
+
+
+def change(project: Project, player_ids: Collection[str], **fields: object) -> Project:
+    """Set fields of `Player` (``instrument_id``, ``muted`` ...) for several players; see `rename` for names."""
+    return _with_players(
+        project,
+        (
+            msgspec.structs.replace(player, **fields) if player.id in player_ids else player
+            for player in project.players
+        ),
+    )
+
+
+def rename(project: Project, player_id: str, name: str) -> Project:
+    """Call a player something else; a name that another carries gets a number. Raises AppError ``player.no_name``."""
+    wanted = clean_name(name)
+    if not wanted:
+        raise AppError("player.no_name")
+    taken = [player.name for player in project.players if player.id != player_id]
+    return change(project, (player_id,), name=_free_name(wanted, taken))
+
+
+def set_parameters(project: Project, player_ids: Collection[str], **values: Value) -> Project:
+    """Set parameters for several players; numbers are held within their bounds."""
+    held = {name: _held(name, value) for name, value in values.items()}
+    return _with_players(
+        project,
+        (
+            msgspec.structs.replace(player, parameters=msgspec.structs.replace(player.parameters, **held))
+            if player.id in player_ids
+            else player
+            for player in project.players
+        ),
+    )
+
+
+def reset_parameters(project: Project, player_ids: Collection[str], names: Collection[str] | None = None) -> Project:
+    """Return parameters to what each player was cast with; all of them where no names are given."""
+    result = []
+    for player in project.players:
+        if player.id in player_ids:
+            cast = cast_parameters(project, player.id)
+            wanted = cast.__struct_fields__ if names is None else names
+            values = {name: getattr(cast, name) for name in wanted}
+            player = msgspec.structs.replace(player, parameters=msgspec.structs.replace(player.parameters, **values))
+        result.append(player)
+    return _with_players(project, result)
+
+
+def randomise(project: Project, player_ids: Collection[str], spread: float) -> Project:
+    """Make players differ: each of `SPREADS` by chance around what they have on average now, and a seed of their own.
+
+    Parameters
+    ----------
+    spread : float
+        0: everyone the same; 1: as far apart as is sensible.
+    """
+    chosen = [player for player in project.players if player.id in player_ids]
+    if not chosen:
+        return project
+    # The seeds of before are the dice of now: the same ensemble gives the same result, pressed again another.
+    roll = sum(player.parameters.seed for player in chosen) % 2**63
+    values: dict[str, dict[str, Value]] = {player.id: {} for player in chosen}
+    for name, reach in SPREADS.items():
+        low, high = bounds(name) or (0.0, 1.0)
+        middle = sum(getattr(player.parameters, name) for player in chosen) / len(chosen)
+        steps = [2.0 * chance("randomise", name, roll, player.id) - 1.0 for player in chosen]
+        mean = sum(steps) / len(steps) if len(steps) > 1 else 0.0
+        for player, step in zip(chosen, steps, strict=True):
+            values[player.id][name] = round(min(max(middle + spread * reach * (step - mean), low), high), 2)
+    for player in chosen:
+        values[player.id]["seed"] = int(chance("seed", roll, player.id) * 2**31)
+        project = set_parameters(project, (player.id,), **values[player.id])
+    return project
+
+
+def place(project: Project, places: Mapping[str, StagePosition]) -> Project:
+    """Put players somewhere on the stage."""
+    return _with_players(
+        project,
+        (
+            msgspec.structs.replace(player, stage=places.get(player.id, player.stage))
+            if places.get(player.id, player.stage) != player.stage
+            else player
+            for player in project.players
+        ),
+    )
+
+
+def arrange(project: Project) -> Project:
+    """Put everyone on an arc open to the audience, in the order of the players."""
+    arc = stage_arc(len(project.players))
+    return place(project, {player.id: spot for player, spot in zip(project.players, arc, strict=True)})
+
+
+def add_player(
+    project: Project, instrument: InstrumentMap, maps: Mapping[str, InstrumentMap], name: str
+) -> tuple[Project, str]:
+    """Add a player with an empty part of their own; the player's id comes with the project.
+
+    Parameters
+    ----------
+    maps : mapping of str to InstrumentMap
+        By id: whatever the other players play.
+    name : str
+        Gets a number where another carries it.
+    """
+    [player_id], [part_id] = fresh_player_ids(project), fresh_part_ids(project)
+    called = _free_name(clean_name(name) or instrument.name.en, [player.name for player in project.players])
+    parts = project.score.parts
+    part = Part(
+        id=part_id,
+        name=called,
+        track=max((part.track for part in parts), default=-1) + 1,
+        voice=0,
+        channel=_free_channel(parts),
+        program=next((part.program for part in parts if part.map_id == instrument.id), None),
+        instrument=instrument.plays[0] if instrument.plays else None,
+        map_id=instrument.id,
+        notes=(),
+    )
+    playing = [maps[player.instrument_id] for player in project.players if player.instrument_id in maps]
+    player = Player(
+        id=player_id,
+        name=called,
+        part_id=part_id,
+        instrument_id=instrument.id,
+        character_id=characters_for([*playing, instrument])[-1],
+        parameters=cast_parameters(project, player_id),
+        stage=StagePosition(0.0, 0.0, 0.0),
+    )
+    score = msgspec.structs.replace(project.score, parts=(*parts, part))
+    return _joined(replace(project, score=score), (player,)), player_id
+
+
+def duplicate_players(project: Project, player_ids: Sequence[str]) -> tuple[Project, tuple[str, ...]]:
+    """Let others play the same parts, with the same corrections but a seed of their own; their ids come with the
+    project. Each stands after the one they double."""
+    originals = [player for player in project.players if player.id in player_ids]
+    new_ids = fresh_player_ids(project, len(originals))
+    names = [player.name for player in project.players]
+    copies: dict[str, Player] = {}
+    for player, new_id in zip(originals, new_ids, strict=True):
+        name = _free_name(player.name, names)
+        names.append(name)
+        parameters = msgspec.structs.replace(player.parameters, seed=player_seed(project.seed, new_id), cue_leader=None)
+        copies[player.id] = msgspec.structs.replace(
+            player, id=new_id, name=name, colour="", soloed=False, parameters=parameters
+        )
+    corrections = dict(project.corrections)
+    for original, copy in copies.items():
+        if original in corrections:
+            corrections[copy.id] = corrections[original]
+    result = _joined(replace(project, corrections=corrections), tuple(copies.values()))
+    order: list[Player] = []
+    for player in result.players[: len(project.players)]:
+        order.append(player)
+        if player.id in copies:
+            order.append(result.player(copies[player.id].id))
+    on_arc = _on_arc(result)
+    result = _with_players(result, order)
+    return (arrange(result) if on_arc else result), new_ids
+
+
+def remove_players(project: Project, player_ids: Collection[str]) -> Project:
+    """Send players away, with their corrections. A part that nobody plays any more stays in the score while it has
+    notes, so that somebody else may be given it."""
+    on_arc = _on_arc(project)
+    kept = tuple(player for player in project.players if player.id not in player_ids)
+    played = {player.part_id for player in kept}
+    left = {player.part_id for player in project.players if player.id in player_ids} - played
+    parts = tuple(part for part in project.score.parts if part.notes or part.id not in left)
+    result = replace(
+        project,
+        players=kept,
+        corrections={id: items for id, items in project.corrections.items() if id not in player_ids},
+    )
+    if len(parts) < len(project.score.parts):
+        result = replace(result, score=msgspec.structs.replace(project.score, parts=parts))
+    return arrange(result) if on_arc else result
+
+
+def move_players(project: Project, player_ids: Collection[str], before: int) -> Project:
+    """Put players, in their order, before the one who has the number ``before`` now; the arc follows the order."""
+    on_arc = _on_arc(project)
+    carried = [player for player in project.players if player.id in player_ids]
+    ahead = [player for player in project.players[:before] if player.id not in player_ids]
+    behind = [player for player in project.players[before:] if player.id not in player_ids]
+    result = _with_players(project, [*ahead, *carried, *behind])
+    return arrange(result) if on_arc and result is not project else result
+
+
+def _with_players(project: Project, players: Iterable[Player]) -> Project:
+    new = tuple(players)
+    return project if new == project.players else replace(project, players=new)
+
+
+def _joined(project: Project, newcomers: tuple[Player, ...]) -> Project:
+    """The project with more players: on the arc if the others are, else each to the right of them."""
+    on_arc = _on_arc(project)
+    right_m = max((player.stage.x_m for player in project.players), default=-SPACING_M)
+    middle_m = sum(player.stage.z_m for player in project.players) / max(len(project.players), 1)
+    placed = [
+        msgspec.structs.replace(player, stage=StagePosition(round(right_m + number * SPACING_M, 3), middle_m, 0.0))
+        for number, player in enumerate(newcomers, 1)
+    ]
+    result = replace(project, players=(*project.players, *placed))
+    return arrange(result) if on_arc else result
+
+
+def _on_arc(project: Project) -> bool:
+    """Whether nobody was moved by hand."""
+    return tuple(player.stage for player in project.players) == stage_arc(len(project.players))
+
+
+def _free_name(wanted: str, taken: Iterable[str]) -> str:
+    """The name itself, or with the first free number, counted on where it ends in one."""
+    keys = {name.casefold() for name in taken}
+    if wanted.casefold() not in keys:
+        return wanted
+    stem, _, last = wanted.rpartition(" ")
+    base = stem if stem and last.isdecimal() else wanted
+    number = 2
+    while f"{base} {number}".casefold() in keys:
+        number += 1
+    return f"{base} {number}"
+
+
+def _free_channel(parts: Sequence[Part]) -> int:
+    """A channel no part uses, not the percussion's; the first again where all are taken."""
+    used = {part.channel for part in parts}
+    return next((channel for channel in range(16) if channel != 9 and channel not in used), 0)
+
+
+def _held(name: str, value: Value) -> Value:
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return value
+    low, high = bounds(name) or (float(value), float(value))
+    if name == "seed":
+        return int(min(max(value, low), high))
+    return min(max(float(value), low), high)
