@@ -8,13 +8,14 @@ from __future__ import annotations
 from typing import Final
 
 from app.errors import AppError, Message
-from app.messages import audio, edit, files, formats, plan, project, request, score, tables, work
+from app.messages import audio, edit, files, formats, notes, plan, project, request, score, tables, work
 
 TEMPLATES: Final[dict[str, str]] = {
     **audio.TEMPLATES,
     **edit.TEMPLATES,
     **files.TEMPLATES,
     **formats.TEMPLATES,
+    **notes.TEMPLATES,
     **plan.TEMPLATES,
     **project.TEMPLATES,
     **request.TEMPLATES,

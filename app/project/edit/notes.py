@@ -1,0 +1,353 @@
+"""Edits of notes. Ids stay with their notes, so corrections stay where they belong.
+
+A note made here is called ``"n:<number>"``, the next one free: no file's note is called so ("track:number"), and the
+same edits give the same names. Whoever erases a note erases its corrections with it; undo brings both back.
+
+Messages
+--------
+notes.before_start(): a note would begin before the piece.
+notes.pitch_outside(pitch, low, high): there is no such pitch.
+notes.velocity_outside(velocity, low, high): there is no such velocity.
+notes.too_short(): a note would have no length.
+notes.nothing_to_split(): no chosen note sounds across that place.
+notes.nothing_to_join(): no two chosen notes follow one another at one pitch.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterable, Iterator
+from dataclasses import replace
+from fractions import Fraction
+from itertools import count, groupby
+
+import msgspec
+
+from app.errors import AppError
+from app.plan.corrections import Correction, anchor
+from app.project.grid import Grid
+from app.project.model import Project
+from app.score.model import Note, Part
+
+LOW_PITCH, HIGH_PITCH = 0, 127
+LOW_VELOCITY, HIGH_VELOCITY = 1, 127
+NEW_ID = "n:"
+
+
+def chosen_notes(project: Project, note_ids: Collection[str]) -> Iterator[tuple[Part, list[Note]]]:
+    """The parts that have some of these notes, each with its own of them in order."""
+    wanted = frozenset(note_ids)
+    for part in project.score.parts:
+        mine = [note for note in part.notes if note.id in wanted]
+        if mine:
+            yield part, mine
+
+
+def add_note(
+    project: Project, part_id: str, onset_tick: int, duration_tick: int, pitch: int, velocity: int
+) -> tuple[Project, str]:
+    """Add a note to a part; its id comes with the project. KeyError where there is no such part."""
+    note = _checked(Note(next(_new_ids(project)), onset_tick, duration_tick, pitch, velocity))
+    if part_id not in {part.id for part in project.score.parts}:
+        raise KeyError(part_id)
+    return _edited(project, {part_id}, lambda notes: [*notes, note]), note.id
+
+
+def reach_of_move(project: Project, note_ids: Collection[str], by_tick: int, by_pitch: int) -> tuple[int, int]:
+    """How far these notes can be moved together, towards (by_tick, by_pitch)."""
+    notes = [note for _, mine in chosen_notes(project, note_ids) for note in mine]
+    if not notes:
+        return 0, 0
+    pitches = [note.pitch for note in notes]
+    return (
+        max(by_tick, -min(note.onset_tick for note in notes)),
+        min(max(by_pitch, LOW_PITCH - min(pitches)), HIGH_PITCH - max(pitches)),
+    )
+
+
+def move(project: Project, note_ids: Collection[str], by_tick: int, by_pitch: int) -> Project:
+    """Move notes in time and pitch together."""
+
+    def moved(note: Note) -> Note:
+        return _checked(
+            msgspec.structs.replace(note, onset_tick=note.onset_tick + by_tick, pitch=note.pitch + by_pitch)
+        )
+
+    return _each(project, note_ids, moved) if by_tick or by_pitch else project
+
+
+def resize(project: Project, note_ids: Collection[str], by_tick: int, *, at_start: bool = False) -> Project:
+    """Move the ends of notes, or their beginnings. None gets shorter than a tick, none begins before the piece."""
+
+    def resized(note: Note) -> Note:
+        if at_start:
+            onset = min(max(note.onset_tick + by_tick, 0), note.end_tick - 1)
+            return msgspec.structs.replace(note, onset_tick=onset, duration_tick=note.end_tick - onset)
+        return msgspec.structs.replace(note, duration_tick=max(note.duration_tick + by_tick, 1))
+
+    return _each(project, note_ids, resized) if by_tick else project
+
+
+def erase(project: Project, note_ids: Collection[str]) -> Project:
+    """Remove notes, and what was corrected by hand about them."""
+    gone = {note.id for _, mine in chosen_notes(project, note_ids) for note in mine}
+    if not gone:
+        return project
+    parts = {part.id for part, _ in chosen_notes(project, gone)}
+    project = _edited(project, parts, lambda notes: [note for note in notes if note.id not in gone])
+    kept = {
+        player_id: tuple(item for item in items if not (_notes_of(item) & gone))
+        for player_id, items in project.corrections.items()
+    }
+    if all(len(kept[player_id]) == len(items) for player_id, items in project.corrections.items()):
+        return project
+    return replace(project, corrections={player_id: items for player_id, items in kept.items() if items})
+
+
+def split(project: Project, note_ids: Collection[str], tick: int) -> tuple[Project, tuple[str, ...]]:
+    """Cut notes in two at a place; the first half keeps the id. The ids of the second halves come with the project."""
+    ids = _new_ids(project)
+    seconds: dict[str, Note] = {}
+    for _, mine in chosen_notes(project, note_ids):
+        for note in mine:
+            if note.onset_tick < tick < note.end_tick:
+                seconds[note.id] = msgspec.structs.replace(
+                    note, id=next(ids), onset_tick=tick, duration_tick=note.end_tick - tick
+                )
+    if not seconds:
+        raise AppError("notes.nothing_to_split")
+    project = _each(
+        project, seconds.keys(), lambda note: msgspec.structs.replace(note, duration_tick=tick - note.onset_tick)
+    )
+    return _with_more(project, seconds), tuple(note.id for note in seconds.values())
+
+
+def join(project: Project, note_ids: Collection[str]) -> Project:
+    """Make one note of chosen notes of one pitch that follow one another in their part. The first of them stays."""
+    longer: dict[str, int] = {}
+    absorbed: set[str] = set()
+    wanted = frozenset(note_ids)
+    for part, _ in chosen_notes(project, wanted):
+        for joined, group in groupby(_runs(part, wanted), key=lambda pair: pair[0]):
+            run = [note for _, note in group]
+            if joined and len(run) > 1:
+                longer[run[0].id] = max(note.end_tick for note in run)
+                absorbed.update(note.id for note in run[1:])
+    if not absorbed:
+        raise AppError("notes.nothing_to_join")
+    return _each(
+        erase(project, absorbed),
+        longer.keys(),
+        lambda note: msgspec.structs.replace(note, duration_tick=longer[note.id] - note.onset_tick),
+    )
+
+
+def _runs(part: Part, wanted: Collection[str]) -> Iterator[tuple[int, Note]]:
+    """A part's notes, each with the number of its run: 0 for notes that were not chosen."""
+    run = 0
+    before: Note | None = None
+    for note in part.notes:
+        if note.id not in wanted:
+            before = None
+            yield 0, note
+            continue
+        if before is None or before.pitch != note.pitch:
+            run += 1
+        before = note
+        yield run, note
+
+
+def duplicate(
+    project: Project, note_ids: Collection[str], by_tick: int, by_pitch: int = 0
+) -> tuple[Project, tuple[str, ...]]:
+    """Copy notes within their parts, moved by a distance; the ids of the copies come with the project."""
+    ids = _new_ids(project)
+    copies = {
+        note.id: _checked(
+            msgspec.structs.replace(
+                note, id=next(ids), onset_tick=note.onset_tick + by_tick, pitch=note.pitch + by_pitch
+            )
+        )
+        for _, mine in chosen_notes(project, note_ids)
+        for note in mine
+    }
+    return _with_more(project, copies), tuple(note.id for note in copies.values())
+
+
+def set_velocity(project: Project, note_ids: Collection[str], velocity: int) -> Project:
+    """Give notes one velocity."""
+    return _each(project, note_ids, lambda note: _checked(msgspec.structs.replace(note, velocity=velocity)))
+
+
+def change_velocity(project: Project, note_ids: Collection[str], by: int = 0, factor: float = 1.0) -> Project:
+    """Scale velocities, then add; what would leave 1..127 stays at its end."""
+
+    def changed(note: Note) -> Note:
+        velocity = round(note.velocity * factor) + by
+        return msgspec.structs.replace(note, velocity=min(max(velocity, LOW_VELOCITY), HIGH_VELOCITY))
+
+    return _each(project, note_ids, changed)
+
+
+def quantise(
+    project: Project,
+    note_ids: Collection[str],
+    quarters: Fraction,
+    strength: float = 1.0,
+    *,
+    onsets: bool = True,
+    ends: bool = False,
+) -> Project:
+    """Draw notes towards the lines of a grid.
+
+    Parameters
+    ----------
+    quarters : Fraction
+        The grid's step.
+    strength : float
+        0..1: the share of the way to the line.
+    onsets, ends : bool
+        What is drawn. Of a note whose onset alone is drawn the length stays; where its end would come before its onset
+        it keeps a tick.
+    """
+    grid, score = Grid(quarters), project.score
+
+    def drawn(tick: int) -> int:
+        return round(tick + strength * (grid.snap(score, tick) - tick))
+
+    def quantised(note: Note) -> Note:
+        onset = drawn(note.onset_tick) if onsets else note.onset_tick
+        onset = max(onset, 0)
+        end = drawn(note.end_tick) if ends else onset + note.duration_tick
+        return msgspec.structs.replace(note, onset_tick=onset, duration_tick=max(end - onset, 1))
+
+    return _each(project, note_ids, quantised)
+
+
+# Copies to be carried elsewhere
+
+
+class CopiedNote(msgspec.Struct, frozen=True):
+    """A note on the clipboard: its onset counts from the first one's."""
+
+    offset_tick: int
+    duration_tick: int
+    pitch: int
+    velocity: int
+
+
+class CopiedLine(msgspec.Struct, frozen=True):
+    """The notes that came from one part."""
+
+    part_id: str
+    notes: tuple[CopiedNote, ...]
+
+
+class Clip(msgspec.Struct, frozen=True):
+    """Notes on the clipboard, with the resolution that their ticks are counted in."""
+
+    ticks_per_quarter: int
+    lines: tuple[CopiedLine, ...]
+
+
+def copied(project: Project, note_ids: Collection[str]) -> Clip:
+    """Notes, ready to be pasted."""
+    chosen = list(chosen_notes(project, note_ids))
+    first = min((notes[0].onset_tick for _, notes in chosen), default=0)
+    lines = tuple(
+        CopiedLine(
+            part.id,
+            tuple(CopiedNote(note.onset_tick - first, note.duration_tick, note.pitch, note.velocity) for note in notes),
+        )
+        for part, notes in chosen
+    )
+    return Clip(project.score.ticks_per_quarter, lines)
+
+
+def paste(project: Project, part_id: str, clip: Clip, at_tick: int) -> tuple[Project, tuple[str, ...]]:
+    """Put copied notes at a place; the ids of the new ones come with the project.
+
+    Notes of one part go to ``part_id``, whatever they came from; those of several parts go back to their own, and to
+    ``part_id`` where there is none of that id.
+    """
+    ids = _new_ids(project)
+    scale = Fraction(project.score.ticks_per_quarter, clip.ticks_per_quarter)
+    known = {part.id for part in project.score.parts}
+    if part_id not in known:
+        raise KeyError(part_id)
+    added: dict[str, list[Note]] = {}
+    for line in clip.lines:
+        target = line.part_id if len(clip.lines) > 1 and line.part_id in known else part_id
+        for item in line.notes:
+            onset = at_tick + round(item.offset_tick * scale)
+            duration = max(round(item.duration_tick * scale), 1)
+            note = _checked(Note(next(ids), onset, duration, item.pitch, item.velocity))
+            added.setdefault(target, []).append(note)
+    for target, notes in added.items():
+        project = _edited(project, {target}, lambda before, notes=notes: [*before, *notes])  # type: ignore[misc]
+    return project, tuple(note.id for notes in added.values() for note in notes)
+
+
+# How it is done
+
+
+def _checked(note: Note) -> Note:
+    if note.onset_tick < 0:
+        raise AppError("notes.before_start")
+    if note.duration_tick < 1:
+        raise AppError("notes.too_short")
+    if not LOW_PITCH <= note.pitch <= HIGH_PITCH:
+        raise AppError("notes.pitch_outside", pitch=note.pitch, low=LOW_PITCH, high=HIGH_PITCH)
+    if not LOW_VELOCITY <= note.velocity <= HIGH_VELOCITY:
+        raise AppError("notes.velocity_outside", velocity=note.velocity, low=LOW_VELOCITY, high=HIGH_VELOCITY)
+    return note
+
+
+def _new_ids(project: Project) -> Iterator[str]:
+    """Free ids: neither a note's nor one that a correction still waits for."""
+    used = [note.id for part in project.score.parts for note in part.notes if note.id.startswith(NEW_ID)]
+    for items in project.corrections.values():
+        used.extend(id for item in items for id in _notes_of(item) if id.startswith(NEW_ID))
+    numbers = [int(id[len(NEW_ID) :]) for id in used if id[len(NEW_ID) :].isdecimal()]
+    return (f"{NEW_ID}{number}" for number in count(max(numbers, default=0) + 1))
+
+
+def _notes_of(item: Correction) -> set[str]:
+    """What a correction is about, as a note's id: also of the event that belongs to a note, ``"breath:<note>"``."""
+    about = anchor(item)
+    return {about, about.partition(":")[2], getattr(item, "note_id", None) or about}
+
+
+def _each(project: Project, note_ids: Iterable[str], edit: Callable[[Note], Note]) -> Project:
+    wanted = frozenset(note_ids)
+    parts = {part.id for part in project.score.parts if any(note.id in wanted for note in part.notes)}
+    return _edited(project, parts, lambda notes: [edit(note) if note.id in wanted else note for note in notes])
+
+
+def _with_more(project: Project, beside: dict[str, Note]) -> Project:
+    """With a new note in the part of each note named."""
+
+    def more(notes: tuple[Note, ...]) -> list[Note]:
+        return [*notes, *(beside[note.id] for note in notes if note.id in beside)]
+
+    return _edited(project, {part.id for part, _ in chosen_notes(project, beside)}, more)
+
+
+def _edited(project: Project, part_ids: Collection[str], edit: Callable[[tuple[Note, ...]], list[Note]]) -> Project:
+    """With these parts' notes edited and in order; the very same project where nothing is different."""
+    parts = []
+    for part in project.score.parts:
+        if part.id in part_ids:
+            notes = edit(part.notes)
+            if len(notes) != len(part.notes) or any(
+                a is not b and a != b for a, b in zip(notes, part.notes, strict=True)
+            ):
+                notes.sort(key=_order)
+                part = msgspec.structs.replace(part, notes=tuple(notes))
+        parts.append(part)
+    if all(after is before for after, before in zip(parts, project.score.parts, strict=True)):
+        return project
+    return replace(project, score=msgspec.structs.replace(project.score, parts=tuple(parts)))
+
+
+def _order(note: Note) -> tuple[int, int]:
+    return note.onset_tick, note.pitch
