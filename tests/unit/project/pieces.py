@@ -1,0 +1,103 @@
+"""Small projects for tests, with something of everything a project can hold."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from app.errors import Message
+from app.plan.corrections import (
+    AddExpression,
+    AddGesture,
+    ChangeExpression,
+    ChangeGesture,
+    PinFingering,
+    RemoveEvent,
+    SetBreath,
+    SetCue,
+    SetEmbouchure,
+)
+from app.plan.model import PlayerParameters
+from app.project.casting import stage_arc
+from app.project.model import AudioTrack, Player, Project
+from app.score.model import ControllerCurve, Metre, Note, Part, Score, UnplayedPart
+from app.score.tempo import TempoChange, TempoMap
+from metadata.model import Expression
+
+ANGRY = Expression("angry", "brows down", {"browDownLeft": 0.8, "browDownRight": 0.8}, True, 0.2, 0.3)
+
+
+def small_project() -> Project:
+    """A trumpet and a trombone, four quarters each."""
+    parts = tuple(
+        Part(
+            id=f"{number}.1.1",
+            name=name,
+            track=number,
+            voice=0,
+            channel=number,
+            program=program,
+            instrument=name,
+            map_id=map_id,
+            notes=tuple(Note(f"{number}:{index + 1}", index * 480, 480, base + index, 80) for index in range(4)),
+        )
+        for number, name, program, map_id, base in (
+            (1, "trumpet", 56, "trumpet_Bb", 60),
+            (2, "trombone", 57, "trombone_tenor_F_attachment", 48),
+        )
+    )
+    players = tuple(
+        Player(part.id, part.name, part.id, part.map_id, "man_adult", PlayerParameters(amplitude=0.4), place)
+        for part, place in zip(parts, stage_arc(2), strict=True)
+    )
+    return Project(Score("Small piece", 480, TempoMap(480), parts=parts), players)
+
+
+def full_project(folder: str = "/music") -> Project:
+    """Every field of every kind of value is used, none at its default."""
+    small = small_project()
+    score = small.score
+    curve = ControllerCurve("breath", (0, 240, 480), (0.0, 0.1 + 0.2, 1.0))
+    first = Part(**{**{f: getattr(score.parts[0], f) for f in Part.__struct_fields__}, "curves": (curve,)})
+    full_score = Score(
+        title="全部 “everything” \n\t\u2028",
+        ticks_per_quarter=480,
+        tempo_map=TempoMap(480, (TempoChange(0, 500_000.0), TempoChange(960, 1e6 / 3.0))),
+        metres=(Metre(0, 4, 4), Metre(240, 4, 4), Metre(2160, 3, 8)),
+        pickup_ticks=240,
+        parts=(first, score.parts[1]),
+        unplayed=(UnplayedPart("../../etc/passwd", Message("score.percussion", {"instrument": "drums"}), 3, 960),),
+        warnings=(Message("midi.zero_length_notes", {"track": 1, "count": 2}),),
+    )
+    trumpet, trombone = small.players
+    parameters = PlayerParameters(0.1, 0.6, 1.1, 2.1, 8.5, 0.9, 0.8, 0.7, 0.6, "seated", False, 7)
+    corrections = {
+        trumpet.id: (
+            PinFingering("1:1", "1·3"),
+            RemoveEvent("breath:1:1", "1:1"),
+            SetBreath("1:2", -120, -10, 0.3),
+            SetCue("1:1", 2.0),
+            SetEmbouchure("1:3", 0.1, None, 0.3),
+            ChangeGesture("sway:@0", 1, 2, 0.5),
+            AddGesture("mine", "bell_height", 0, 480, 1.5),
+            ChangeExpression("expression:neutral", "angry", 0, 100, 0.7),
+            AddExpression("yours", "angry", 10, 20, 0.4, 0.1, 0.1),
+        ),
+        trombone.id: (PinFingering("2:1", "1"),),
+    }
+    return Project(
+        score=full_score,
+        players=(
+            Player(
+                "1.1.1", "Trompete: 1/2", "1.1.1", "trumpet_Bb", "woman_adult", parameters, stage_arc(2)[0], "#AABBCC"
+            ),
+            Player("x", "con", "2.1.1", "not_installed", "nobody", parameters, stage_arc(2)[1], "", True, True),
+        ),
+        corrections={"1.1.1": corrections["1.1.1"], "x": corrections["2.1.1"]},
+        seed=2**63 - 1,
+        preroll_beats=3.5,
+        felt_beat_quarters=1.5,
+        fps=Fraction(30000, 1001),
+        audio=AudioTrack(f"{folder}/録音.wav", -0.132, 0.94),
+        expressions=(ANGRY,),
+        source=f"{folder}/piece.mid",
+    )
