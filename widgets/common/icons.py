@@ -1,7 +1,7 @@
 """Icons: line drawings in the colours of the theme.
 
-A drawing is ``resources/icons/<name>.svg``: a view box of 24, lines of ``currentColor``. It is drawn anew for each size, so
-that it is sharp at every scale of the screen.
+A drawing is ``resources/icons/<name>.svg``: a view box of 24, lines of ``currentColor``. It is drawn anew for each
+size, so that it is sharp at every scale of the screen.
 """
 
 from __future__ import annotations

@@ -1,0 +1,173 @@
+"""What a person chose for the editor on this machine; in a file of their configuration folder, never in a project."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Final, TypeVar
+
+import platformdirs
+from PySide6.QtCore import QByteArray, QSettings
+
+T = TypeVar("T")
+
+MOST_RECENT: Final = 12
+"""Recent files kept."""
+
+
+def settings_path() -> Path:
+    """Where the settings of this person are."""
+    return Path(platformdirs.user_config_dir("suisou", appauthor=False)) / "editor.ini"
+
+
+class Settings:
+    """Typed values in an INI file; each is written at once.
+
+    Parameters
+    ----------
+    path : Path
+        Need not exist.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self._file = QSettings(str(path), QSettings.Format.IniFormat)
+
+    def _get(self, key: str, default: T) -> T:
+        # A new process reads every value as a string unless it is told the type.
+        try:
+            value = self._file.value(key, default, type(default))
+        except (TypeError, ValueError, EOFError):
+            # Somebody edited the file by hand, or it is damaged: what cannot be understood is as if it were not there.
+            return default
+        return value if isinstance(value, type(default)) else default
+
+    def _set(self, key: str, value: object) -> None:
+        self._file.setValue(key, value)
+
+    def sync(self) -> None:
+        """Write to the disk now."""
+        self._file.sync()
+
+    @property
+    def language(self) -> str:
+        """``"en"``, ``"ja"``; empty: the system's."""
+        return self._get("interface/language", "")
+
+    @language.setter
+    def language(self, value: str) -> None:
+        self._set("interface/language", value)
+
+    @property
+    def theme(self) -> str:
+        """``"dark"`` or ``"light"``."""
+        return self._get("interface/theme", "dark")
+
+    @theme.setter
+    def theme(self, value: str) -> None:
+        self._set("interface/theme", value)
+
+    @property
+    def written_pitch(self) -> bool:
+        """Pitches as written for the instrument instead of as they sound."""
+        return self._get("pitch/written", False)
+
+    @written_pitch.setter
+    def written_pitch(self, value: bool) -> None:
+        self._set("pitch/written", value)
+
+    @property
+    def middle_c_octave(self) -> int:
+        """3 or 4."""
+        return self._get("pitch/middle_c_octave", 4)
+
+    @middle_c_octave.setter
+    def middle_c_octave(self, value: int) -> None:
+        self._set("pitch/middle_c_octave", value)
+
+    @property
+    def syllables(self) -> bool:
+        """Do re mi instead of C D E."""
+        return self._get("pitch/syllables", False)
+
+    @syllables.setter
+    def syllables(self, value: bool) -> None:
+        self._set("pitch/syllables", value)
+
+    @property
+    def time_display(self) -> str:
+        """``"bars"``, ``"seconds"`` or ``"frames"``."""
+        return self._get("interface/time_display", "bars")
+
+    @time_display.setter
+    def time_display(self, value: str) -> None:
+        self._set("interface/time_display", value)
+
+    @property
+    def geometry(self) -> QByteArray:
+        """Where the window is and how large."""
+        return self._get("window/geometry", QByteArray())
+
+    @geometry.setter
+    def geometry(self, value: QByteArray) -> None:
+        self._set("window/geometry", value)
+
+    @property
+    def layout(self) -> QByteArray:
+        """Where the panels are."""
+        return self._get("window/layout", QByteArray())
+
+    @layout.setter
+    def layout(self, value: QByteArray) -> None:
+        self._set("window/layout", value)
+
+    @property
+    def folder(self) -> str:
+        """Where a file was last opened or saved."""
+        return self._get("files/folder", "")
+
+    @folder.setter
+    def folder(self, value: str) -> None:
+        self._set("files/folder", value)
+
+    @property
+    def recent(self) -> tuple[str, ...]:
+        """Files opened lately, the newest first."""
+        count = self._file.beginReadArray("recent")
+        try:
+            found = []
+            for index in range(min(count, MOST_RECENT)):
+                self._file.setArrayIndex(index)
+                found.append(self._get("path", ""))
+            return tuple(path for path in found if path)
+        finally:
+            self._file.endArray()
+
+    def add_recent(self, path: Path) -> None:
+        """This file was opened or saved just now."""
+        text = str(path)
+        self._write_recent((text, *(other for other in self.recent if other != text))[:MOST_RECENT])
+
+    def remove_recent(self, path: str) -> None:
+        """Forget a file."""
+        self._write_recent(tuple(other for other in self.recent if other != path))
+
+    def _write_recent(self, paths: tuple[str, ...]) -> None:
+        self._file.remove("recent")
+        self._file.beginWriteArray("recent", len(paths))
+        for index, path in enumerate(paths):
+            self._file.setArrayIndex(index)
+            self._file.setValue("path", path)
+        self._file.endArray()
+
+    def shortcut(self, action_id: str) -> str | None:
+        """A person's own shortcut of an action, ``;`` between several, empty for none; None: as it comes."""
+        key = f"shortcuts/{action_id}"
+        return self._get(key, "") if self._file.contains(key) else None
+
+    def set_shortcut(self, action_id: str, keys: str | None) -> None:
+        """Give an action a shortcut of one's own; None: as it comes."""
+        key = f"shortcuts/{action_id}"
+        if keys is None:
+            self._file.remove(key)
+        else:
+            self._file.setValue(key, keys)

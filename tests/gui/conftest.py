@@ -1,0 +1,72 @@
+"""What tests of the editor share: a session with the bundled quartet, the theme, and no silent complaints of Qt."""
+
+from __future__ import annotations
+
+import gc
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import QCoreApplication, Qt
+from PySide6.QtWidgets import QApplication
+
+from app.project.model import Project, map_choices, project_from_score
+from app.score.read import read_midi
+from app.shell.theme import apply_font, apply_theme
+from instrument_maps.load import bundled_maps
+from tests.support.tasks import ImmediateTasks
+from widgets.common.session import Session
+from widgets.common.tokens import DARK
+
+QUARTET = Path(__file__).parents[2] / "resources" / "examples" / "quartet.mid"
+
+# Before the application is made: the viewport's context survives docking and floating.
+QCoreApplication.setAttribute(Qt.ApplicationAttribute.AA_ShareOpenGLContexts)
+
+
+@cache
+def quartet_project() -> Project:
+    """The bundled quartet, read once; values never change."""
+    maps = bundled_maps()
+    return project_from_score(read_midi(QUARTET, maps=map_choices(maps.values())), maps)
+
+
+@pytest.fixture(scope="session")
+def qapp_args() -> list[str]:
+    """The program's name."""
+    return ["suisou"]
+
+
+@pytest.fixture
+def qt_app(qapp: QApplication) -> QApplication:
+    """The application in the dark theme."""
+    apply_font(qapp)
+    apply_theme(qapp, DARK)
+    return qapp
+
+
+@pytest.fixture
+def tasks() -> ImmediateTasks:
+    """Slow work, done at once."""
+    return ImmediateTasks()
+
+
+@pytest.fixture
+def session(qt_app: QApplication, tasks: ImmediateTasks) -> Iterator[Session]:
+    """The editor's state with the bundled quartet open."""
+    result = Session(quartet_project(), tasks)
+    yield result
+    result.deleteLater()
+
+
+@pytest.fixture(autouse=True)
+def _widgets_die_here(qapp: QApplication) -> Iterator[None]:
+    """What a test leaves behind is deleted before the next one begins, so that a fault shows where it is made."""
+    yield
+    for widget in QApplication.topLevelWidgets():
+        widget.close()
+        widget.deleteLater()
+    QCoreApplication.sendPostedEvents(None, 0)
+    QCoreApplication.processEvents()
+    gc.collect()

@@ -1,0 +1,40 @@
+"""A task runner that works at once, so that a test never waits."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TypeVar
+
+from app.errors import AppError, Cancelled, Message
+from widgets.common.tasks import Progress, StopWanted
+
+T = TypeVar("T")
+
+
+class ImmediateTasks:
+    """Runs work where it is asked for; remembers its names and its errors."""
+
+    def __init__(self) -> None:
+        self.names: list[Message] = []
+        self.errors: list[AppError] = []
+
+    def run(
+        self,
+        name: Message,
+        work: Callable[[Progress, StopWanted], T],
+        done: Callable[[T], None],
+        failed: Callable[[AppError], None] | None = None,
+        key: str | None = None,
+    ) -> None:
+        """Work now."""
+        self.names.append(name)
+        try:
+            result = work(lambda share: None, lambda: False)
+        except Cancelled:
+            return
+        except AppError as error:
+            self.errors.append(error)
+            if failed is not None:
+                failed(error)
+            return
+        done(result)
