@@ -25,6 +25,13 @@ TEMPLATES: Final[dict[str, str]] = {
     "edit.set_audio_offset": "offset of the recording",
     "edit.no_note_to_breathe_for": "there is no note after this place to breathe for",
     "edit.no_note_to_cue": "there is no note after this place to give a cue to",
+    # Poses
+    "edit.hold_bell": "hold the bell differently",
+    "edit.hold_head": "hold the head differently",
+    "edit.hold_left_elbow": "hold the left elbow differently",
+    "edit.hold_right_elbow": "hold the right elbow differently",
+    "edit.hold_torso": "hold the torso differently",
+    "edit.release_pose": "pose back to the generator's",
     # Players
     "edit.rename_player": "rename {player}",
     "edit.add_player": "add {player}",
