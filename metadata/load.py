@@ -9,13 +9,14 @@ from __future__ import annotations
 
 import re
 import tomllib
+from collections.abc import Iterable
 from functools import cache
 from pathlib import Path
 from typing import TypeVar
 
 import msgspec
 
-from app.errors import MapError
+from app.errors import MapError, Message
 from metadata.model import ARKIT_MORPHS, Body, Embouchure, Expression, SkeletonProfile
 
 ROOT = Path(__file__).parent
@@ -60,6 +61,26 @@ def read_expression(path: Path) -> Expression:
     _check_name(path, expression.name)
     _check_morphs(path, "weights", expression.weights)
     return expression
+
+
+def load_folder_expressions(
+    folder: Path, paths: Iterable[Path] | None = None
+) -> tuple[dict[str, Expression], tuple[Message, ...]]:
+    """The expressions in a further folder by the names in them, which need not be those of the files, and what is wrong
+    with files that hold none. A folder that is not there holds none."""
+    found: dict[str, Expression] = {}
+    problems = []
+    for path in sorted(folder.glob("*.toml")) if paths is None else paths:
+        try:
+            expression = _decode(path, Expression)
+            if not expression.name.strip() or not expression.name.isprintable():
+                raise _invalid(path, "name", "must be a name on one line")
+            _check_morphs(path, "weights", expression.weights)
+        except MapError as error:
+            problems.append(error.message)
+        else:
+            found[expression.name] = expression
+    return found, tuple(problems)
 
 
 def read_skeleton(path: Path) -> SkeletonProfile:

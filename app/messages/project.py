@@ -30,4 +30,25 @@ TEMPLATES: Final[dict[str, str]] = {
         "{player} is the character {id!r}, which is not installed; choose another one or install it"
     ),
     "project.unknown_remark": "a remark of another version of the program ({remark})",
+    # Edits of the piece
+    "tempo.outside": "a tempo must be from {low:g} to {high:g} quarters per minute",
+    "tempo.first_stays": "what holds from the beginning can be changed, but neither moved nor removed",
+    "tempo.none_here": "no tempo begins at tick {tick}",
+    "tempo.place_outside": "tick {tick} lies outside every piece",
+    "tempo.too_many_bars": "the piece would have more than {most} bars; choose a longer metre",
+    "metre.none_here": "no metre begins at tick {tick}",
+    "metre.impossible": "{numerator}/{denominator} is no metre; the lower number must be 1, 2, 4, 8, 16, 32 or 64",
+    "metre.pickup_too_long": "a pickup is shorter than a whole bar: at most {most} ticks",
+    "metre.inside_pickup": "no metre can begin within the pickup; change the pickup first",
+    "piece.value_outside": "{what} must be from {low:g} to {high:g}",
+    "piece.no_recording": "there is no recording that an offset could belong to; choose one first",
+    "piece.path_unusable": "the path {path} cannot be kept in a project; rename the file or move it",
+    "expression.invalid": "the expression {name!r} cannot be kept: {place}: {detail}",
+    "expression.no_name": "an expression needs a name that can be seen",
+    "expression.name_taken": "there is an expression {name!r} already; choose another name",
+    "expression.none_of_name": "there is no expression {name!r} of your own in this project",
+    # Presets
+    "preset.no_name": "a preset needs a name that can be seen",
+    "preset.none_of_name": "there is no preset {name!r}",
+    "preset.invalid": "{file}: {place}: {detail}",
 }

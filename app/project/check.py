@@ -12,11 +12,11 @@ import msgspec
 
 from app.plan.corrections import Correction
 from app.project import limits
-from app.project.model import Player, Project
+from app.project.model import AudioTrack, Player, Project
 from app.project.parameters import is_possible, range_text
 from app.score.model import ControllerCurve, Metre, Note, Part, Score
 from app.score.tempo import TempoChange
-from metadata.model import ARKIT_MORPHS
+from metadata.model import ARKIT_MORPHS, Expression
 
 Fault: TypeAlias = tuple[str, str]
 """The key path, and what is wrong there."""
@@ -27,43 +27,43 @@ _MORPHS = frozenset(ARKIT_MORPHS)
 
 def faults(project: Project) -> Iterator[Fault]:
     """Everything that is wrong, one by one as it is found; whoever needs the first one only stops there."""
-    yield from _score_faults(project.score)
+    yield from _within("score", _score_faults(project.score))
     yield from _player_faults(project)
     yield from _correction_faults(project)
     yield from _setting_faults(project)
 
 
 def _score_faults(score: Score) -> Iterator[Fault]:
-    yield from _text("score.title", score.title)
-    yield from _between("score.ticks_per_quarter", score.ticks_per_quarter, limits.TICKS_PER_QUARTER)
+    yield from _text("title", score.title)
+    yield from _between("ticks_per_quarter", score.ticks_per_quarter, limits.TICKS_PER_QUARTER)
     if score.tempo_map.ticks_per_quarter != score.ticks_per_quarter:
-        yield "score.tempo_map.ticks_per_quarter", "differs from the score's"
+        yield "tempo_map.ticks_per_quarter", "differs from the score's"
     yield from _tempo_faults(score.tempo_map.changes)
     yield from _metre_faults(score.metres)
     if not score.metres or score.metres[0].tick != 0:
         return
-    yield from _between("score.pickup_ticks", score.pickup_ticks, (0, limits.LAST_TICK))
+    yield from _between("pickup_ticks", score.pickup_ticks, (0, limits.LAST_TICK))
     if score.pickup_ticks and (len(score.metres) < 2 or score.metres[1].tick != score.pickup_ticks):
-        yield "score.pickup_ticks", "no metre begins after the pickup"
-    yield from _unique("score.parts", (part.id for part in score.parts))
+        yield "pickup_ticks", "no metre begins after the pickup"
+    yield from _unique("parts", (part.id for part in score.parts))
     seen: set[str] = set()
     for index, part in enumerate(score.parts):
-        place = f"score.parts[{index}]"
+        place = f"parts[{index}]"
         yield from _part_faults(part, place)
         for number, note in enumerate(part.notes):
             if note.id in seen:
                 yield f"{place}.notes[{number}].id", f"{note.id!r} appears twice"
             seen.add(note.id)
     for index, unplayed in enumerate(score.unplayed):
-        yield from _text(f"score.unplayed[{index}].name", unplayed.name)
-        yield from _between(f"score.unplayed[{index}].end_tick", unplayed.end_tick, (0, limits.LAST_TICK))
-        yield from _between(f"score.unplayed[{index}].note_count", unplayed.note_count, (0, limits.LAST_TICK))
+        yield from _text(f"unplayed[{index}].name", unplayed.name)
+        yield from _between(f"unplayed[{index}].end_tick", unplayed.end_tick, (0, limits.LAST_TICK))
+        yield from _between(f"unplayed[{index}].note_count", unplayed.note_count, (0, limits.LAST_TICK))
     if score.bar_of_tick(score.sounding_end_tick) > limits.MOST_BARS:
-        yield "score.metres", f"more than {limits.MOST_BARS} bars"
+        yield "metres", f"more than {limits.MOST_BARS} bars"
 
 
 def _tempo_faults(changes: Sequence[TempoChange]) -> Iterator[Fault]:
-    place = "score.tempo_map.changes"
+    place = "tempo_map.changes"
     yield from _in_order(place, [change.tick for change in changes])
     for index, change in enumerate(changes):
         yield from _between(
@@ -74,9 +74,9 @@ def _tempo_faults(changes: Sequence[TempoChange]) -> Iterator[Fault]:
 
 
 def _metre_faults(metres: Sequence[Metre]) -> Iterator[Fault]:
-    yield from _in_order("score.metres", [metre.tick for metre in metres])
+    yield from _in_order("metres", [metre.tick for metre in metres])
     for index, metre in enumerate(metres):
-        place = f"score.metres[{index}]"
+        place = f"metres[{index}]"
         yield from _between(f"{place}.numerator", metre.numerator, limits.METRE_NUMERATOR)
         if not 1 <= metre.denominator <= limits.METRE_DENOMINATORS[-1]:
             yield f"{place}.denominator", f"must be from 1 to {limits.METRE_DENOMINATORS[-1]}"
@@ -203,18 +203,22 @@ def _setting_faults(project: Project) -> Iterator[Fault]:
         yield "fps", f"must be from {limits.FPS[0]} to {limits.FPS[1]}"
     yield from _text("source", project.source)
     if project.audio is not None:
-        yield from _text("audio.path", project.audio.path)
-        if not project.audio.path or "\0" in project.audio.path:
-            yield "audio.path", "must be the path of a recording"
-        yield from _between("audio.offset_s", project.audio.offset_s, limits.OFFSET_S)
-        if project.audio.confidence is not None:
-            yield from _between("audio.confidence", project.audio.confidence, (0.0, 1.0))
+        yield from _within("audio", _audio_faults(project.audio))
     yield from _unique("expressions", (expression.name for expression in project.expressions), "name")
     for index, expression in enumerate(project.expressions):
         yield from expression_faults(expression, f"expressions[{index}]")
 
 
-def expression_faults(expression: Any, place: str) -> Iterator[Fault]:
+def _audio_faults(audio: AudioTrack) -> Iterator[Fault]:
+    yield from _text("path", audio.path)
+    if not audio.path or "\0" in audio.path:
+        yield "path", "must be the path of a recording"
+    yield from _between("offset_s", audio.offset_s, limits.OFFSET_S)
+    if audio.confidence is not None:
+        yield from _between("confidence", audio.confidence, (0.0, 1.0))
+
+
+def expression_faults(expression: Expression, place: str) -> Iterator[Fault]:
     """What is wrong with an expression of the animator's own."""
     yield from _id(f"{place}.name", expression.name)
     yield from _text(f"{place}.description", expression.description)
@@ -226,6 +230,11 @@ def expression_faults(expression: Any, place: str) -> Iterator[Fault]:
         value = getattr(expression, field)
         if not 0.0 < value <= 60.0:
             yield f"{place}.{field}", "must be more than 0 and at most 60"
+
+
+def _within(prefix: str, found: Iterable[Fault]) -> Iterator[Fault]:
+    for place, detail in found:
+        yield f"{prefix}.{place}", detail
 
 
 def _between(place: str, value: float, bounds: limits.Bounds) -> Iterator[Fault]:

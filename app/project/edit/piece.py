@@ -1,0 +1,178 @@
+"""The piece as a whole: begun anew, its title, picture rate, beat, recording, and the animator's own expressions.
+
+Messages (`UsageError`)
+--------
+piece.value_outside : what, low, high
+piece.no_recording
+piece.path_unusable : path
+expression.invalid : name, place, detail
+expression.no_name
+expression.name_taken : name
+expression.none_of_name : name
+"""
+
+from __future__ import annotations
+
+import math
+import os
+from dataclasses import replace
+from fractions import Fraction
+from typing import Any
+
+import msgspec
+
+from app.errors import UsageError
+from app.plan.corrections import Correction
+from app.project import limits
+from app.project.check import expression_faults
+from app.project.edit.tempo import set_metre, set_tempo
+from app.project.model import AudioTrack, Project
+from app.project.names import clean_name
+from app.score.model import Score
+from app.score.tempo import TempoMap
+from metadata.load import names
+from metadata.model import Expression
+
+
+def new_piece(
+    title: str = "", bpm: float = 120.0, metre: tuple[int, int] = (4, 4), ticks_per_quarter: int = 480
+) -> Project:
+    """A piece without players, to be filled by hand or by recording. Raises UsageError."""
+    _check("ticks_per_quarter", ticks_per_quarter, limits.TICKS_PER_QUARTER)
+    score = Score(clean_name(title)[: limits.MOST_NAME], ticks_per_quarter, TempoMap(ticks_per_quarter))
+    return set_metre(set_tempo(Project(score, ()), 0, bpm), 0, *metre)
+
+
+def set_title(project: Project, title: str) -> Project:
+    """Call the piece something else; may be empty."""
+    cleaned = clean_name(title)[: limits.MOST_NAME]
+    if cleaned == project.score.title:
+        return project
+    return replace(project, score=msgspec.structs.replace(project.score, title=cleaned))
+
+
+def set_fps(project: Project, fps: Fraction) -> Project:
+    """Frames per second of the picture."""
+    _check("fps", fps, limits.FPS)
+    return _with(project, fps=Fraction(fps))
+
+
+def set_preroll(project: Project, beats: float) -> Project:
+    """Felt beats before the first note."""
+    _check("preroll_beats", beats, limits.PREROLL_BEATS)
+    return _with(project, preroll_beats=float(beats))
+
+
+def set_felt_beat(project: Project, quarters: float) -> Project:
+    """The beat that is felt, in quarters."""
+    _check("felt_beat_quarters", quarters, limits.FELT_BEAT_QUARTERS)
+    return _with(project, felt_beat_quarters=float(quarters))
+
+
+def set_seed(project: Project, seed: int) -> Project:
+    """Another seed is another performance of the same plan; the players' own seeds stay."""
+    _check("seed", seed, limits.SEED)
+    return _with(project, seed=int(seed))
+
+
+def set_audio(project: Project, path: str | os.PathLike[str] | None) -> Project:
+    """Hear the piece with this recording, or with the built-in synthesiser (None). Another recording begins with the
+    offset of the one before, which is set anew or estimated."""
+    if path is None:
+        return _with(project, audio=None)
+    text = os.path.abspath(path)  # noqa: PTH100 - a symbolic link is what the person chose
+    try:
+        text.encode()
+    except UnicodeEncodeError:
+        raise UsageError("piece.path_unusable", path=ascii(text)) from None
+    if "\0" in text or len(text) > limits.MOST_TEXT:
+        raise UsageError("piece.path_unusable", path=ascii(text))
+    before = project.audio
+    if before is None:
+        return _with(project, audio=AudioTrack(text))
+    return _with(project, audio=msgspec.structs.replace(before, path=text))
+
+
+def set_offset(project: Project, offset_s: float, confidence: float | None = None) -> Project:
+    """Performance time at which the recording's first sample sounds; ``confidence`` 0..1 where it was estimated."""
+    if project.audio is None:
+        raise UsageError("piece.no_recording")
+    _check("offset_s", offset_s, limits.OFFSET_S)
+    if confidence is not None:
+        _check("confidence", confidence, (0.0, 1.0))
+        confidence = float(confidence)
+    audio = msgspec.structs.replace(project.audio, offset_s=float(offset_s), confidence=confidence)
+    return _with(project, audio=audio)
+
+
+def put_expression(project: Project, expression: Expression, former_name: str | None = None) -> Project:
+    """Keep an expression of the animator's own in the project.
+
+    Parameters
+    ----------
+    expression : Expression
+        One of its name is replaced; one of a bundled name takes the bundled one's place in this project.
+    former_name : str, optional
+        What it was called before: the one of that name goes, and corrections that show it show the new name.
+    """
+    expression = msgspec.structs.replace(expression, name=_expression_name(expression.name))
+    for place, detail in expression_faults(expression, ""):
+        raise UsageError("expression.invalid", name=expression.name, place=place.lstrip("."), detail=detail)
+    own = {item.name: item for item in project.expressions}
+    if former_name is None or former_name == expression.name:
+        if own.get(expression.name) == expression:
+            return project
+        return replace(project, expressions=tuple({**own, expression.name: expression}.values()))
+    if former_name not in own:
+        raise UsageError("expression.none_of_name", name=former_name)
+    if expression.name in own or expression.name in names("expression"):
+        raise UsageError("expression.name_taken", name=expression.name)
+    renamed = tuple(expression if item.name == former_name else item for item in project.expressions)
+    corrections = {
+        player: tuple(_showing(correction, former_name, expression.name) for correction in items)
+        for player, items in project.corrections.items()
+    }
+    return replace(project, expressions=renamed, corrections=corrections)
+
+
+def remove_expression(project: Project, name: str) -> Project:
+    """Take an own expression out. Corrections that show it stay, and do nothing until there is one of its name."""
+    kept = tuple(item for item in project.expressions if item.name != name)
+    if len(kept) == len(project.expressions):
+        raise UsageError("expression.none_of_name", name=name)
+    return replace(project, expressions=kept)
+
+
+def is_shown(project: Project, name: str) -> bool:
+    """Whether a correction shows an expression: removing it would leave that without effect."""
+    return any(
+        getattr(correction, "expression", None) == name
+        for items in project.corrections.values()
+        for correction in items
+    )
+
+
+def _expression_name(name: str) -> str:
+    cleaned = clean_name(name)[: limits.MOST_NAME]
+    if not cleaned:
+        raise UsageError("expression.no_name")
+    return cleaned
+
+
+def _showing(correction: Correction, former: str, name: str) -> Correction:
+    if getattr(correction, "expression", None) != former:
+        return correction
+    changed: Any = msgspec.structs.replace(correction, expression=name)
+    result: Correction = changed
+    return result
+
+
+def _check(what: str, value: float | Fraction, bounds: tuple[float | Fraction, float | Fraction]) -> None:
+    if not math.isfinite(value) or not bounds[0] <= value <= bounds[1]:
+        raise UsageError("piece.value_outside", what=what, low=float(bounds[0]), high=float(bounds[1]))
+
+
+def _with(project: Project, **fields: Any) -> Project:
+    if all(getattr(project, name) == value for name, value in fields.items()):
+        return project
+    return replace(project, **fields)

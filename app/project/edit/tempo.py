@@ -1,0 +1,171 @@
+"""Tempo, metre and pickup. Notes keep their ticks; what changes is when they sound and where the bar lines stand.
+
+Messages (`UsageError`)
+--------
+tempo.outside : low, high
+    A tempo in quarters per minute that nobody can play.
+tempo.first_stays
+    The tempo and the metre at the beginning can be changed, but neither moved nor removed.
+tempo.none_here : tick
+metre.none_here : tick
+metre.impossible : numerator, denominator
+metre.pickup_too_long : most
+metre.inside_pickup
+tempo.place_outside : tick
+    A place before the piece, or beyond what a project can hold.
+tempo.too_many_bars : most
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+import msgspec
+
+from app.errors import UsageError
+from app.project import limits
+from app.project.model import Project
+from app.score.model import Metre, Score
+from app.score.tempo import TempoChange, TempoMap
+
+
+def set_tempo(project: Project, tick: int, bpm: float) -> Project:
+    """From a tick on this tempo holds, in quarters per minute; a change that stands there is replaced."""
+    if not limits.BPM[0] <= bpm <= limits.BPM[1]:
+        raise UsageError("tempo.outside", low=limits.BPM[0], high=limits.BPM[1])
+    _check_place(tick)
+    changes = {change.tick: change for change in project.score.tempo_map.changes}
+    changes[tick] = TempoChange(tick, 60e6 / bpm)
+    return _with_tempi(project, changes.values())
+
+
+def move_tempo(project: Project, tick: int, to_tick: int) -> Project:
+    """Let a tempo begin elsewhere; one that stands there gives way."""
+    changes = {change.tick: change for change in project.score.tempo_map.changes}
+    moved = changes.get(tick)
+    if moved is None:
+        raise UsageError("tempo.none_here", tick=tick)
+    if tick == to_tick:
+        return project
+    if tick == 0 or to_tick == 0:
+        raise UsageError("tempo.first_stays")
+    _check_place(to_tick)
+    del changes[tick]
+    changes[to_tick] = msgspec.structs.replace(moved, tick=to_tick)
+    return _with_tempi(project, changes.values())
+
+
+def remove_tempo(project: Project, tick: int) -> Project:
+    """Let the tempo before go on."""
+    if tick == 0:
+        raise UsageError("tempo.first_stays")
+    changes = project.score.tempo_map.changes
+    kept = tuple(change for change in changes if change.tick != tick)
+    if len(kept) == len(changes):
+        raise UsageError("tempo.none_here", tick=tick)
+    return _with_tempi(project, kept)
+
+
+def scale_tempo(project: Project, ratio: float) -> Project:
+    """Play everything this much faster (1.02: two percent), as a recording does whose tempo is slightly another.
+
+    The recording's offset stays: whoever scales to a recording sets both.
+    """
+    low, high = limits.TEMPO_RATIO
+    changes = tuple(
+        msgspec.structs.replace(change, microseconds_per_quarter=change.microseconds_per_quarter / ratio)
+        for change in project.score.tempo_map.changes
+        if low <= ratio <= high
+    )
+    slowest, fastest = limits.MICROSECONDS_PER_QUARTER[::-1]
+    if not changes or not all(fastest <= change.microseconds_per_quarter <= slowest for change in changes):
+        raise UsageError("tempo.outside", low=limits.BPM[0], high=limits.BPM[1])
+    return _with_tempi(project, changes)
+
+
+def set_metre(project: Project, tick: int, numerator: int, denominator: int) -> Project:
+    """From a tick on this metre holds, and a bar begins there; a bar before it may be cut short by it. A pickup and the
+    bar after it are changed together where they are of one metre."""
+    _check_metre(numerator, denominator)
+    _check_place(tick)
+    score = project.score
+    places: tuple[int, ...] = (tick,)
+    if 0 < tick < score.pickup_ticks:
+        raise UsageError("metre.inside_pickup")
+    if score.pickup_ticks and tick <= score.pickup_ticks:
+        if _is_same(score.metres[0], score.metres[1]):
+            places = (0, score.pickup_ticks)
+        _check_pickup(score, score.pickup_ticks, numerator, denominator)
+    metres = {metre.tick: metre for metre in score.metres}
+    metres |= {place: Metre(place, numerator, denominator) for place in places}
+    return _with_metres(project, metres.values(), score.pickup_ticks)
+
+
+def remove_metre(project: Project, tick: int) -> Project:
+    """Let the metre before go on. The one after a pickup goes with the pickup: see `set_pickup`."""
+    if tick == 0:
+        raise UsageError("tempo.first_stays")
+    score = project.score
+    if tick == score.pickup_ticks:
+        return set_pickup(project, 0)
+    kept = tuple(metre for metre in score.metres if metre.tick != tick)
+    if len(kept) == len(score.metres):
+        raise UsageError("metre.none_here", tick=tick)
+    return _with_metres(project, kept, score.pickup_ticks)
+
+
+def set_pickup(project: Project, ticks: int) -> Project:
+    """Begin with an incomplete bar of this length, 0 for none: the first whole bar begins after it."""
+    score = project.score
+    if ticks == score.pickup_ticks:
+        return project
+    # What the first whole bar has is the piece's metre, whatever a file gave the pickup for itself.
+    whole = score.metres[1] if score.pickup_ticks else score.metres[0]
+    _check_pickup(score, ticks, whole.numerator, whole.denominator)
+    later = [metre for metre in score.metres if metre.tick > max(ticks, score.pickup_ticks)]
+    first = msgspec.structs.replace(whole, tick=0)
+    after = [msgspec.structs.replace(whole, tick=ticks)] if ticks else []
+    return _with_metres(project, [first, *after, *later], ticks)
+
+
+def _check_place(tick: int) -> None:
+    if not 0 <= tick <= limits.LAST_TICK:
+        raise UsageError("tempo.place_outside", tick=tick)
+
+
+def _check_metre(numerator: int, denominator: int) -> None:
+    low, high = limits.METRE_NUMERATOR
+    if not low <= numerator <= high or denominator not in limits.METRE_DENOMINATORS:
+        raise UsageError("metre.impossible", numerator=numerator, denominator=denominator)
+
+
+def _check_pickup(score: Score, ticks: int, numerator: int, denominator: int) -> None:
+    """A pickup is shorter than a whole bar."""
+    most = 4 * score.ticks_per_quarter * numerator // denominator - 1
+    if not 0 <= ticks <= most:
+        raise UsageError("metre.pickup_too_long", most=most)
+
+
+def _is_same(one: Metre, other: Metre) -> bool:
+    return (one.numerator, one.denominator) == (other.numerator, other.denominator)
+
+
+def _with_tempi(project: Project, changes: Iterable[TempoChange]) -> Project:
+    before = project.score.tempo_map
+    ordered = tuple(sorted(changes, key=lambda change: change.tick))
+    if ordered == before.changes:
+        return project
+    tempo_map = TempoMap(before.ticks_per_quarter, ordered)
+    return replace(project, score=msgspec.structs.replace(project.score, tempo_map=tempo_map))
+
+
+def _with_metres(project: Project, metres: Iterable[Metre], pickup_ticks: int) -> Project:
+    before = project.score
+    ordered = tuple(sorted(metres, key=lambda metre: metre.tick))
+    if ordered == before.metres and pickup_ticks == before.pickup_ticks:
+        return project
+    score: Score = msgspec.structs.replace(before, metres=ordered, pickup_ticks=pickup_ticks)
+    if score.bar_of_tick(score.sounding_end_tick) > limits.MOST_BARS:
+        raise UsageError("tempo.too_many_bars", most=limits.MOST_BARS)
+    return replace(project, score=score)

@@ -1,0 +1,228 @@
+"""What a person keeps for other projects: presets of a player's parameters, and expressions of their own.
+
+Each is a small TOML file in a folder of the user's; its name stands in it, and the file is called by a cleaned form of
+that, so that a name can be anything and never becomes a path. A project holds a copy of the expressions it uses and
+does not need these files.
+
+Messages
+--------
+preset.no_name, preset.none_of_name : name, preset.invalid : file, place, detail
+file.cannot_read : file, reason; file.cannot_write : file, reason
+"""
+
+from __future__ import annotations
+
+import json
+import tomllib
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Final, Generic, TypeVar
+
+import msgspec
+import platformdirs
+
+from app.errors import AppError, FileError, Message, UsageError
+from app.formats.atomic import atomic_write
+from app.plan.model import PlayerParameters
+from app.project import limits
+from app.project.check import expression_faults
+from app.project.names import clean_name, file_stem
+from app.project.parameters import is_possible, range_text
+from metadata.load import load_folder_expressions
+from metadata.model import Expression
+
+T = TypeVar("T")
+
+NOT_IN_PRESETS: Final = frozenset({"seed", "cue_leader"})
+"""Parameters that make one player differ from the others: a preset is for many."""
+_MOST_BYTES: Final = 2**20
+_NAME: Final = "name"
+
+
+class Preset(msgspec.Struct, frozen=True):
+    """Some of a player's parameters under a name."""
+
+    name: str
+    parameters: dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Found(Generic[T]):
+    """What is in a folder: the sound ones by name, and what is wrong with the others."""
+
+    items: Mapping[str, T]
+    problems: tuple[Message, ...] = ()
+
+
+def preset_folder() -> Path:
+    """Where the user's presets are."""
+    return platformdirs.user_config_path("suisou", appauthor=False) / "presets"
+
+
+def expression_folder() -> Path:
+    """Where the user's expressions are."""
+    return platformdirs.user_data_path("suisou", appauthor=False) / "expressions"
+
+
+def preset_of(parameters: PlayerParameters, name: str, only: Iterable[str] | None = None) -> Preset:
+    """A preset with a player's parameters, all that can be shared or only some. Raises UsageError without a name."""
+    cleaned = clean_name(name)[: limits.MOST_NAME]
+    if not cleaned:
+        raise UsageError("preset.no_name")
+    kept = [field for field in parameters.__struct_fields__ if field not in NOT_IN_PRESETS]
+    wanted = kept if only is None else [field for field in kept if field in set(only)]
+    return Preset(cleaned, {field: getattr(parameters, field) for field in wanted})
+
+
+def presets(folder: Path) -> Found[Preset]:
+    """Every preset in a folder, by name in alphabetical order."""
+    return _found(folder, _read_preset, lambda preset: preset.name)
+
+
+def save_preset(folder: Path, preset: Preset) -> None:
+    """Write a preset; one of the same name is replaced. Raises FileError."""
+    _save(folder, preset.name, presets(folder).items, _path_of_preset, preset.parameters)
+
+
+def delete_preset(folder: Path, name: str) -> None:
+    """Raises UsageError ``preset.none_of_name``, FileError."""
+    _delete(folder, name, _path_of_preset)
+
+
+def expressions(folder: Path) -> Found[Expression]:
+    """Every expression in a folder, by name in alphabetical order."""
+    items, problems = load_folder_expressions(folder)
+    return Found(dict(sorted(items.items())), problems)
+
+
+def save_expression(folder: Path, expression: Expression) -> None:
+    """Write an expression; one of the same name is replaced. Raises UsageError, FileError."""
+    cleaned = clean_name(expression.name)[: limits.MOST_NAME]
+    if not cleaned:
+        raise UsageError("expression.no_name")
+    for place, detail in expression_faults(expression, ""):
+        raise UsageError("expression.invalid", name=cleaned, place=place.lstrip("."), detail=detail)
+    table = {field: getattr(expression, field) for field in Expression.__struct_fields__ if field != _NAME}
+    _save(folder, cleaned, expressions(folder).items, _path_of_expression, table)
+
+
+def delete_expression(folder: Path, name: str) -> None:
+    """Raises UsageError ``preset.none_of_name``, FileError."""
+    _delete(folder, name, _path_of_expression)
+
+
+def toml(table: Mapping[str, Any]) -> str:
+    """A table of texts, numbers, truth values and tables of such, as TOML; None is left out."""
+    plain = {key: value for key, value in table.items() if not isinstance(value, Mapping) and value is not None}
+    lines = [f"{_key(key)} = {_value(value)}" for key, value in plain.items()]
+    for key, value in table.items():
+        if isinstance(value, Mapping):
+            lines += ["", f"[{_key(key)}]", *(f"{_key(name)} = {_value(item)}" for name, item in value.items())]
+    return "\n".join(lines) + "\n"
+
+
+def _key(key: str) -> str:
+    return key if key.isascii() and key.replace("_", "").isalnum() else _value(key)
+
+
+def _value(value: Any) -> str:
+    if isinstance(value, str):
+        # A JSON text is a basic string of TOML, where DEL too must be escaped.
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    return repr(float(value)) if isinstance(value, float) else str(int(value))
+
+
+def _read_preset(path: Path) -> Preset:
+    try:
+        with path.open("rb") as stream:
+            content = stream.read(_MOST_BYTES)
+        table = tomllib.loads(content.decode())
+    except OSError as error:
+        raise FileError("file.cannot_read", file=path.name, reason=error.strerror or str(error)) from error
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as error:
+        raise FileError("preset.invalid", file=path.name, place="-", detail=str(error)) from error
+    name = table.pop(_NAME, None)
+    if not isinstance(name, str) or not 0 < len(name) <= limits.MOST_NAME or name != clean_name(name):
+        raise FileError("preset.invalid", file=path.name, place=_NAME, detail="must be a name on one line")
+    for parameter, value in table.items():
+        if parameter not in PlayerParameters.__struct_fields__ or parameter in NOT_IN_PRESETS:
+            raise FileError("preset.invalid", file=path.name, place=parameter, detail="not a parameter of presets")
+        if not is_possible(parameter, value):
+            raise FileError(
+                "preset.invalid", file=path.name, place=parameter, detail=f"possible: {range_text(parameter)}"
+            )
+    return Preset(name, table)
+
+
+def _found(folder: Path, read: Callable[[Path], T], name_of: Callable[[T], str]) -> Found[T]:
+    items: dict[str, T] = {}
+    problems = []
+    for path in _files(folder):
+        try:
+            item = read(path)
+        except AppError as error:
+            problems.append(error.message)
+        else:
+            items[name_of(item)] = item
+    return Found(dict(sorted(items.items())), tuple(problems))
+
+
+def _files(folder: Path) -> list[Path]:
+    try:
+        return sorted(folder.glob("*.toml"))
+    except OSError:
+        return []
+
+
+def _path_of_preset(folder: Path, name: str) -> Path | None:
+    """The file that holds a preset, whatever it is called."""
+    for path in _files(folder):
+        try:
+            if _read_preset(path).name == name:
+                return path
+        except AppError:
+            continue
+    return None
+
+
+def _path_of_expression(folder: Path, name: str) -> Path | None:
+    for path in _files(folder):
+        items, _ = load_folder_expressions(folder, [path])
+        if name in items:
+            return path
+    return None
+
+
+def _save(
+    folder: Path,
+    name: str,
+    known: Mapping[str, object],
+    path_of: Callable[[Path, str], Path | None],
+    table: Mapping[str, Any],
+) -> None:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise FileError("file.cannot_write", file=str(folder), reason=error.strerror or str(error)) from error
+    path = path_of(folder, name) if name in known else None
+    if path is None:
+        stem = file_stem(name)
+        taken = {existing.stem.casefold() for existing in _files(folder)}
+        number, path = 2, folder / f"{stem}.toml"
+        while path.stem.casefold() in taken:
+            number, path = number + 1, folder / f"{stem} ({number}).toml"
+    with atomic_write(path) as stream:
+        stream.write(toml({_NAME: name, **table}).encode())
+
+
+def _delete(folder: Path, name: str, path_of: Callable[[Path, str], Path | None]) -> None:
+    path = path_of(folder, name)
+    if path is None:
+        raise UsageError("preset.none_of_name", name=name)
+    try:
+        path.unlink()
+    except OSError as error:
+        raise FileError("file.cannot_write", file=str(path), reason=error.strerror or str(error)) from error
