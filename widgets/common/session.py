@@ -72,6 +72,8 @@ class Session(QObject):
     selection_changed(), players_changed(), playhead_changed(float), playing_changed(bool), loop_changed(),
     grid_changed(), theme_changed(), time_display_changed(), follow_changed()
         The value of that name is another one.
+    preview_changed()
+        The face that is being made is another.
     noticed(object, object)
         Somebody tells the person something: a `Message` and a `Severity`.
     revealed(float)
@@ -89,6 +91,7 @@ class Session(QObject):
     theme_changed = Signal()
     time_display_changed = Signal()
     follow_changed = Signal()
+    preview_changed = Signal()
     noticed = Signal(object, object)
     revealed = Signal(float)
 
@@ -113,6 +116,9 @@ class Session(QObject):
         self._tokens = DARK
         self._time_display: TimeDisplay = "bars"
         self._follow = True
+        self._preview_morphs: dict[str, float] | None = None
+        self.variety = 0.3
+        """How far apart `randomise` makes players, 0..1."""
         self.document.observe(self._document_changed)
 
     # The project and its plans
@@ -283,6 +289,18 @@ class Session(QObject):
         if follow != self._follow:
             self._follow = follow
             self.follow_changed.emit()
+
+    @property
+    def preview_morphs(self) -> dict[str, float] | None:
+        """Morph weights that the player in front wears instead of the performance's while a face is being made; None:
+        nobody makes one."""
+        return self._preview_morphs
+
+    def set_preview_morphs(self, morphs: dict[str, float] | None) -> None:
+        """Show a face that is being made, or no more."""
+        if morphs != self._preview_morphs:
+            self._preview_morphs = morphs
+            self.preview_changed.emit()
 
     def notice(self, message: Message, severity: Severity = Severity.INFORMATION) -> None:
         """Tell the person something, in the status line."""

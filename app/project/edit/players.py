@@ -126,10 +126,23 @@ def place(project: Project, places: Mapping[str, StagePosition]) -> Project:
     )
 
 
+def reseed(project: Project, player_ids: Collection[str]) -> Project:
+    """Give each of these players another seed."""
+    for player in project.players:
+        if player.id in player_ids:
+            seed = int(chance("seed", player.parameters.seed, player.id) * 2**31)
+            project = set_parameters(project, (player.id,), seed=seed)
+    return project
+
+
+def arc_of(project: Project) -> tuple[StagePosition, ...]:
+    """The places of the automatic arc, in the order of the players."""
+    return stage_arc(len(project.players))
+
+
 def arrange(project: Project) -> Project:
     """Put everyone on an arc open to the audience, in the order of the players."""
-    arc = stage_arc(len(project.players))
-    return place(project, {player.id: spot for player, spot in zip(project.players, arc, strict=True)})
+    return place(project, {player.id: spot for player, spot in zip(project.players, arc_of(project), strict=True)})
 
 
 def add_player(
@@ -249,7 +262,7 @@ def _joined(project: Project, newcomers: tuple[Player, ...]) -> Project:
 
 def _on_arc(project: Project) -> bool:
     """Whether nobody was moved by hand."""
-    return tuple(player.stage for player in project.players) == stage_arc(len(project.players))
+    return tuple(player.stage for player in project.players) == arc_of(project)
 
 
 def _free_name(wanted: str, taken: Iterable[str]) -> str:
