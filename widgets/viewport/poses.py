@@ -44,3 +44,6 @@ class Poses(Protocol):
 
     def pose(self, player_id: str, time_s: float) -> Posed | None:
         """How a player stands at a time; None while that is not made yet. Returns at once."""
+
+    def pose_now(self, player_id: str, time_s: float) -> Posed | None:
+        """The same, made here and now where it is not there yet: for pictures that have to be right."""

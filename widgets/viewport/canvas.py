@@ -1,0 +1,131 @@
+"""The one GL canvas: a vispy canvas that Qt embeds, and pictures of any size from its context."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from PySide6.QtCore import QSize
+from PySide6.QtGui import QGuiApplication, QImage, QOffscreenSurface, QOpenGLContext
+from PySide6.QtOpenGL import QOpenGLFramebufferObject, QOpenGLFramebufferObjectFormat
+from vispy import app as vispy_app
+
+from widgets.viewport.camera import Camera
+from widgets.viewport.look import Look
+from widgets.viewport.renderer import Emphasis, Renderer
+
+SAMPLES = 4
+NO_GL_PLATFORMS = ("offscreen", "minimal", "vnc", "linuxfb")
+
+Picture = tuple[Camera, Look, Emphasis]
+
+
+def why_no_gl() -> str | None:
+    """What keeps GL from working here, in the driver's words; None where it works."""
+    platform = QGuiApplication.platformName()
+    if platform in NO_GL_PLATFORMS:
+        return f"Qt platform '{platform}'"
+    context = QOpenGLContext()
+    if not context.create():
+        return "QOpenGLContext"
+    surface = QOffscreenSurface()
+    surface.setFormat(context.format())
+    surface.create()
+    if not surface.isValid() or not context.makeCurrent(surface):
+        return "QOffscreenSurface"
+    version = context.format().version()
+    context.doneCurrent()
+    surface.destroy()
+    # PySide gives the pair as a plain tuple.
+    major, minor = int(version[0]), int(version[1])
+    return f"OpenGL {major}.{minor} < 2.0" if (major, minor) < (2, 0) else None
+
+
+class Canvas(vispy_app.Canvas):  # type: ignore[misc]
+    """Draws what `picture` says whenever Qt asks for it.
+
+    Parameters
+    ----------
+    picture : callable
+        Camera, look and emphasis of now; told the size in pixels first.
+    failed : callable
+        Told why drawing does not work, once.
+    """
+
+    def __init__(self, picture: Callable[[int, int], Picture], failed: Callable[[str], None]) -> None:
+        # Before the base class, which may draw at once.
+        self._picture = picture
+        self._failed = failed
+        self._renderer: Renderer | None = None
+        self._broken = False
+        self._prepare: Callable[[Renderer], None] | None = None
+        vispy_app.use_app("pyside6")
+        super().__init__(
+            config={"samples": SAMPLES, "depth_size": 24, "double_buffer": True},
+            keys=None,
+            autoswap=False,
+            show=False,
+            vsync=True,
+        )
+
+    def prepare(self, prepare: Callable[[Renderer], None]) -> None:
+        """Let the renderer take another stage before it draws next."""
+        self._prepare = prepare
+        self.update()
+
+    def on_draw(self, event: Any) -> None:
+        """Called by vispy when Qt paints."""
+        width, height = self.physical_size
+        self._draw(int(width), int(height))
+
+    def _draw(self, width: int, height: int) -> None:
+        if self._broken:
+            return
+        try:
+            if self._renderer is None:
+                self._renderer = Renderer()
+            if self._prepare is not None:
+                prepare, self._prepare = self._prepare, None
+                prepare(self._renderer)
+            self._renderer.draw(*_sized(self._picture(width, height), width, height))
+            self.context.flush_commands()
+        except Exception as error:  # noqa: BLE001  A driver fails in many ways; the rest of the editor works on.
+            self._broken = True
+            self._failed(f"{type(error).__name__}: {error}")
+
+    def render_image(self, width: int, height: int) -> npt.NDArray[np.uint8] | None:
+        """A picture of any size (height, width, 4); None where the context is not there."""
+        native: Any = self.native
+        if self._broken:
+            return None
+        if native.context() is None:
+            # The context comes with the first picture of a widget, also of a hidden one.
+            native.grabFramebuffer()
+        if native.context() is None or not native.isValid():
+            return None
+        native.makeCurrent()
+        self.set_current()
+        kind = QOpenGLFramebufferObjectFormat()
+        kind.setSamples(SAMPLES)
+        kind.setAttachment(QOpenGLFramebufferObject.Attachment.CombinedDepthStencil)
+        target = QOpenGLFramebufferObject(QSize(width, height), kind)
+        target.bind()
+        self._draw(width, height)
+        target.release()
+        image = target.toImage(True).convertToFormat(QImage.Format.Format_RGBA8888)
+        del target
+        native.doneCurrent()
+        return None if self._broken else pixels(image)
+
+
+def pixels(image: QImage) -> npt.NDArray[np.uint8]:
+    """An RGBA8888 picture as (height, width, 4)."""
+    rows = np.frombuffer(image.constBits(), np.uint8).reshape(image.height(), image.bytesPerLine())
+    return rows[:, : 4 * image.width()].reshape(image.height(), image.width(), 4).copy()
+
+
+def _sized(picture: Picture, width: int, height: int) -> tuple[Camera, tuple[int, int], Look, Emphasis]:
+    camera, look, emphasis = picture
+    return camera, (width, height), look, emphasis

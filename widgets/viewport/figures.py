@@ -1,0 +1,75 @@
+"""The stage of a project: loaded beside the window, put into poses, and told apart from the one before."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from app.errors import AppError, Message
+from app.project.model import Player, Project
+from widgets.common.tasks import Progress, StopWanted
+from widgets.viewport.cast import Kit, Stage, kit_of, member_of
+from widgets.viewport.renderer import Shapes, shapes_of
+
+CastKey = tuple[tuple[str, str, str, str, float, float, float], ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Loaded:
+    """Who can be drawn, from what, and who cannot be, with the reason."""
+
+    key: CastKey
+    stage: Stage
+    shapes: Shapes
+    absent: Mapping[str, Message]
+
+
+def cast_key(project: Project) -> CastKey:
+    """What the stage depends on: while it is the same, nothing has to be loaded."""
+    return tuple(
+        (
+            player.id,
+            player.character_id,
+            player.instrument_id,
+            player.parameters.posture,
+            player.stage.x_m,
+            player.stage.z_m,
+            player.stage.turn_rad,
+        )
+        for player in project.players
+    )
+
+
+def same_figures(one: CastKey, other: CastKey) -> bool:
+    """Whether two stages differ in places alone, so that nothing has to be loaded."""
+    return [row[:4] for row in one] == [row[:4] for row in other]
+
+
+def load(project: Project, before: Shapes | None, progress: Progress, stop_wanted: StopWanted) -> Loaded | None:
+    """Load everybody; None where a stop was wanted. A player of whom something is missing is left out."""
+    kits: dict[tuple[str, str], Kit] = {}
+    members, absent = [], dict[str, Message]()
+    for index, player in enumerate(project.players):
+        if stop_wanted():
+            return None
+        pair = (player.character_id, player.instrument_id)
+        try:
+            if pair not in kits:
+                kits[pair] = kit_of(player)
+            members.append(member_of(player, kits[pair]))
+        except AppError as error:
+            absent[player.id] = error.message
+        progress(0.5 * (index + 1) / len(project.players))
+    stage = Stage(members)
+    shapes = shapes_of(stage, before)
+    progress(1.0)
+    return Loaded(cast_key(project), stage, shapes, absent)
+
+
+def moved(project: Project, loaded: Loaded) -> Loaded:
+    """The same figures at the places of another value of the project, in the poses they had."""
+    players: dict[str, Player] = {player.id: player for player in project.players}
+    members = [member_of(players[member.player_id], member.kit) for member in loaded.stage.members]
+    stage = Stage(members)
+    stage.pose({member.player_id: pose for member, pose in zip(members, loaded.stage.poses, strict=True)})
+    return Loaded(cast_key(project), stage, loaded.shapes, loaded.absent)

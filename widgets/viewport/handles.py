@@ -1,0 +1,221 @@
+"""Handles on a player that are dragged to hold bell, head, elbows or trunk differently, and what a drag means."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal, cast
+
+import msgspec
+import numpy as np
+import numpy.typing as npt
+
+from app.plan.corrections import Correction, PoseCorrection
+from app.plan.model import PoseTarget
+from app.project.edit import corrections as edit
+from app.project.model import Project
+from instrument_maps.model import ROOT
+from widgets.viewport.camera import Camera
+from widgets.viewport.cast import Stage
+
+Floats = npt.NDArray[np.float64]
+Angle = Literal["up_deg", "left_deg", "roll_deg"]
+
+TARGETS: tuple[PoseTarget, ...] = ("bell", "head", "left_elbow", "right_elbow", "torso")
+MOST_DEG: dict[PoseTarget, float] = {
+    "bell": 45.0,
+    "head": 35.0,
+    "left_elbow": 50.0,
+    "right_elbow": 50.0,
+    "torso": 25.0,
+}
+"""Farther no player holds these from where they are, whatever the handle says."""
+HEAD_ARM_M, ROLL_ARM_M = 0.25, 0.25
+"""A drag as far as this is one radian where the handle itself hardly moves."""
+FINER = 0.25
+"""What a drag is worth with Shift."""
+
+
+@dataclass(frozen=True, eq=False)
+class Handle:
+    """A grip that turns something about a point.
+
+    Attributes
+    ----------
+    target : PoseTarget
+    at_m : (3,) float64
+        Where it is seen.
+    turns : tuple of (Angle, (3,) float64)
+        How the handle moves, in metres, for one radian of each angle that a drag changes.
+    leans : tuple of the same
+        What a drag with Alt changes instead.
+    """
+
+    target: PoseTarget
+    at_m: Floats
+    turns: tuple[tuple[Angle, Floats], ...]
+    leans: tuple[tuple[Angle, Floats], ...]
+
+
+def handles(stage: Stage, row: int) -> tuple[Handle, ...]:
+    """The handles of a player in the present pose."""
+    if not stage.shown[row]:
+        return ()
+    frame = stage.members[row].world_from_player
+    left, up, ahead = frame[:, 0], frame[:, 1], frame[:, 2]
+    kit = stage.members[row].kit
+    held = stage.node_matrix(row)
+    bell_m = held[:, :3] @ _bell(stage, row) + held[:, 3]
+    rim_m = held[:, :3] @ np.asarray(kit.map.mouthpiece.position_m) + held[:, 3]
+    head = stage.joints[row, kit.character.skeleton.index("head")]
+    brow_m = head[:, :3] @ np.array([0.0, 0.11, 0.11]) + head[:, 3]
+    hips_m = stage.joint_m(row, "hips")
+    chest = "upperChest" if "upperChest" in kit.character.skeleton.names else "spine"
+    breast_m = stage.joint_m(row, chest) + 0.12 * ahead
+    return (
+        Handle("bell", bell_m, _turns(bell_m - rim_m, up_deg=-left, left_deg=up), (("roll_deg", ROLL_ARM_M * left),)),
+        Handle(
+            "head",
+            brow_m,
+            (("up_deg", HEAD_ARM_M * up), ("left_deg", HEAD_ARM_M * left)),
+            (("roll_deg", HEAD_ARM_M * left),),
+        ),
+        _elbow(stage, row, "left_elbow", left, up),
+        _elbow(stage, row, "right_elbow", -left, up),
+        Handle(
+            "torso",
+            breast_m,
+            _turns(breast_m - hips_m, up_deg=-left, roll_deg=-ahead),
+            (("left_deg", HEAD_ARM_M * left),),
+        ),
+    )
+
+
+def _turns(arm_m: Floats, **axes: Floats) -> tuple[tuple[Angle, Floats], ...]:
+    """How the end of an arm moves under turns about axes through its other end."""
+    return tuple((cast(Angle, angle), np.cross(axis, arm_m)) for angle, axis in axes.items())
+
+
+def _elbow(stage: Stage, row: int, target: PoseTarget, outwards: Floats, up: Floats) -> Handle:
+    """An elbow, which swings about the line from shoulder to wrist."""
+    side = target.split("_")[0]
+    shoulder, elbow, wrist = (stage.joint_m(row, side + name) for name in ("UpperArm", "LowerArm", "Hand"))
+    line = (wrist - shoulder) / max(float(np.linalg.norm(wrist - shoulder)), 1e-6)
+    arm = elbow - shoulder - line * float((elbow - shoulder) @ line)
+    swing = np.cross(line, arm)
+    if swing @ (outwards + up) < 0.0:
+        swing = -swing
+    return Handle(target, elbow, (("up_deg", swing),), ())
+
+
+def _bell(stage: Stage, row: int) -> Floats:
+    """The far end of what does not move in the instrument, in its frame: for most, the middle of the bell."""
+    kit = stage.members[row].kit
+    root = kit.instrument.node_names.index(ROOT)
+    places = np.concatenate([mesh.positions_m[mesh.joints[:, 0] == root] for mesh in kit.instrument.meshes])
+    far = places[:, 2] > places[:, 2].max() - 0.01
+    end: Floats = places[far].astype(np.float64).mean(axis=0)
+    return end
+
+
+def dragged(
+    handle: Handle, camera: Camera, right_px: float, down_px: float, height_px: float, lean: bool
+) -> dict[Angle, float]:
+    """Degrees that a drag over the picture asks for.
+
+    The handle follows the pointer as well as its turns allow: least squares in the picture, with turns that point
+    into the picture left alone.
+    """
+    turns = handle.leans if lean and handle.leans else handle.turns
+    depth_m = float((camera.eye_m - handle.at_m) @ camera.backward)
+    scale = camera.pixels_per_metre(height_px, max(depth_m, 0.05))
+    columns = np.array([[turn @ camera.right * scale, -(turn @ camera.up) * scale] for _, turn in turns]).T
+    lengths = np.linalg.norm(columns, axis=0)
+    fullest = max((float(np.linalg.norm(turn)) for _, turn in turns), default=0.0) * scale
+    # A turn seen from its end would need huge angles for small drags.
+    seen = lengths > 0.3 * max(fullest, 1e-9)
+    result: dict[Angle, float] = {angle: 0.0 for angle, _ in turns}
+    if seen.any():
+        solved = np.linalg.lstsq(columns[:, seen], np.array([right_px, down_px]), rcond=None)[0]
+        for index, value in zip(np.flatnonzero(seen), solved, strict=True):
+            result[turns[int(index)][0]] = math.degrees(float(value))
+    return result
+
+
+@dataclass(frozen=True)
+class Span:
+    """Where a correction holds, in ticks, with its fades."""
+
+    start_tick: int
+    end_tick: int
+    fade_ticks: int
+
+
+def span_of(project: Project, chosen: tuple[int, int] | None, playhead_tick: int) -> Span:
+    """The chosen span, else the bar at the playhead; faded over a felt beat."""
+    if chosen is not None:
+        return Span(chosen[0], chosen[1], project.felt_beat_ticks)
+    score = project.score
+    bar = score.bar_of_tick(max(playhead_tick, 0))
+    return Span(score.tick_of_bar(bar), score.tick_of_bar(bar + 1), project.felt_beat_ticks)
+
+
+def correction_at(
+    project: Project, player_id: str, target: PoseTarget, chosen: tuple[int, int] | None, playhead_tick: int
+) -> PoseCorrection | None:
+    """The correction that a handle would change: the one over the chosen span, or that acts at the playhead."""
+    own = [
+        item
+        for item in project.corrections.get(player_id, ())
+        if isinstance(item, PoseCorrection) and item.target == target
+    ]
+    for item in reversed(own):
+        if chosen is not None:
+            if (item.start_tick, item.end_tick) == chosen:
+                return item
+        elif item.start_tick <= playhead_tick < item.end_tick:
+            return item
+    return None
+
+
+def fresh_correction(project: Project, player_id: str, target: PoseTarget, span: Span) -> PoseCorrection:
+    """A correction that does nothing yet, of a name that the player has not."""
+    taken = {item.name for item in project.corrections.get(player_id, ()) if isinstance(item, PoseCorrection)}
+    number = 1
+    while f"{target}_{number}" in taken:
+        number += 1
+    return PoseCorrection(
+        name=f"{target}_{number}",
+        target=target,
+        start_tick=span.start_tick,
+        end_tick=span.end_tick,
+        fade_in_ticks=span.fade_ticks,
+        fade_out_ticks=span.fade_ticks,
+    )
+
+
+def turned(correction: PoseCorrection, angles_deg: dict[Angle, float]) -> PoseCorrection:
+    """The correction with angles added, as far as a player can go; to a tenth of a degree."""
+    most = MOST_DEG[correction.target]
+    changes = {
+        angle: round(min(max(getattr(correction, angle) + value, -most), most), 1)
+        for angle, value in angles_deg.items()
+    }
+    return msgspec.structs.replace(correction, **changes)
+
+
+def with_correction(project: Project, player_id: str, before: PoseCorrection, after: PoseCorrection) -> Project:
+    """The project with a pose held so; one that does nothing is none."""
+    if _is_nothing(after):
+        return edit.take_back(project, player_id, (before,))
+    return edit.put(project, player_id, (after,))
+
+
+def without(project: Project, player_id: str, corrections: Sequence[Correction]) -> Project:
+    """The project without these."""
+    return edit.take_back(project, player_id, corrections)
+
+
+def _is_nothing(correction: PoseCorrection) -> bool:
+    return correction.up_deg == correction.left_deg == correction.roll_deg == 0.0

@@ -1,0 +1,206 @@
+"""The viewport's header: views, the pose tool, what is drawn beside the players."""
+
+from __future__ import annotations
+
+from functools import partial
+
+from PySide6.QtCore import QEvent, QSize, Qt
+from PySide6.QtGui import QAction, QActionGroup, QResizeEvent
+from PySide6.QtWidgets import QButtonGroup, QHBoxLayout, QLabel, QMenu, QSizePolicy, QToolButton, QWidget
+
+from widgets.common.icons import icon
+from widgets.common.session import Session
+from widgets.common.tokens import LEAST_TARGET_PX
+from widgets.common.viewport_state import SHOWN, VIEWS, Shown, View
+
+_SHOWN_ICONS: dict[Shown, str] = {
+    "names": "player",
+    "skeleton": "skeleton",
+    "contacts": "contacts",
+    "wireframe": "wireframe",
+}
+
+
+class Header(QWidget):
+    """Buttons over the picture; views fold into a menu where there is no room for them.
+
+    Parameters
+    ----------
+    session : Session
+    """
+
+    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setObjectName("viewport_header")
+        self._session = session
+        self._views: dict[View, QToolButton] = {}
+        self._group = QButtonGroup(self)
+        self._group.setExclusive(True)
+        self._segments = QWidget(self)
+        segments = QHBoxLayout(self._segments)
+        segments.setContentsMargins(0, 0, 0, 0)
+        segments.setSpacing(1)
+        self._view_menu = QMenu(self)
+        self._view_menu.setObjectName("viewport_view_menu")
+        self._view_rows: dict[View, QAction] = {}
+        rows = QActionGroup(self)
+        for view in VIEWS:
+            button = self._button(f"viewport_view_{view}", checkable=True)
+            button.clicked.connect(partial(session.viewport.set_view, view))
+            self._group.addButton(button)
+            segments.addWidget(button)
+            self._views[view] = button
+            row = self._view_menu.addAction("")
+            row.setCheckable(True)
+            row.triggered.connect(partial(self._choose_view, view))
+            rows.addAction(row)
+            self._view_rows[view] = row
+        self._folded = self._button("viewport_view")
+        self._folded.setMenu(self._view_menu)
+        self._folded.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
+        self._folded.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
+        self._folded.hide()
+        self._note = QLabel(self)
+        self._note.setObjectName("viewport_note")
+        self._note.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
+        self._note.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
+        self._pose = self._button("viewport_pose", checkable=True)
+        self._pose.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
+        self._pose.clicked.connect(session.viewport.set_posing)
+        self._frame = self._button("viewport_frame")
+        self._frame.clicked.connect(partial(session.viewport.frame, True))
+        self._show_menu = QMenu(self)
+        self._show_menu.setObjectName("viewport_show_menu")
+        self._show_rows: dict[Shown, QAction] = {}
+        for what in SHOWN:
+            row = self._show_menu.addAction("")
+            row.setCheckable(True)
+            row.triggered.connect(partial(session.viewport.show, what))
+            self._show_rows[what] = row
+        self._show = self._button("viewport_show")
+        self._show.setMenu(self._show_menu)
+        self._show.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
+        layout = QHBoxLayout(self)
+        layout.setContentsMargins(6, 2, 6, 2)
+        layout.setSpacing(4)
+        layout.addWidget(self._segments)
+        layout.addWidget(self._folded)
+        layout.addWidget(self._note, 1)
+        layout.addWidget(self._pose)
+        layout.addWidget(self._frame)
+        layout.addWidget(self._show)
+        session.viewport.changed.connect(self.refresh)
+        session.theme_changed.connect(self._dress)
+        self._dress()
+        self.retranslate()
+        self.refresh()
+
+    def set_note(self, text: str) -> None:
+        """Say something between the buttons, e.g. how far a pose reaches."""
+        self._note.setText(text)
+
+    def refresh(self) -> None:
+        """Check what is on."""
+        state = self._session.viewport
+        self._views[state.view].setChecked(True)
+        self._view_rows[state.view].setChecked(True)
+        self._folded.setText(self._view_rows[state.view].text())
+        self._pose.setChecked(state.posing)
+        for what, row in self._show_rows.items():
+            row.setChecked(state.shows(what))
+
+    def retranslate(self) -> None:
+        """Set all texts again."""
+        texts: dict[View, str] = {
+            "ensemble": self.tr("Ensemble"),
+            "front": self.tr("Front"),
+            "side": self.tr("Side"),
+            "top": self.tr("Top"),
+            "hands": self.tr("Hands"),
+            "mouth": self.tr("Mouth"),
+            "feet": self.tr("Feet"),
+        }
+        tips: dict[View, str] = {
+            "ensemble": self.tr("Everyone, from the audience"),
+            "front": self.tr("The selected players from their front"),
+            "side": self.tr("The selected players from their right side"),
+            "top": self.tr("The selected players from above"),
+            "hands": self.tr("Hands of the player in front; the camera follows them"),
+            "mouth": self.tr("Mouth of the player in front; the camera follows it"),
+            "feet": self.tr("Feet of the player in front; the camera follows them"),
+        }
+        for view, button in self._views.items():
+            button.setText(texts[view])
+            button.setToolTip(self._tip(tips[view], f"viewport.{view}"))
+            self._view_rows[view].setText(texts[view])
+        self._folded.setToolTip(self.tr("View"))
+        self._folded.setText(texts[self._session.viewport.view])
+        shown: dict[Shown, str] = {
+            "names": self.tr("Players' names"),
+            "skeleton": self.tr("Skeleton"),
+            "contacts": self.tr("Contact points and their distances"),
+            "wireframe": self.tr("Wireframe"),
+        }
+        for what, row in self._show_rows.items():
+            row.setText(shown[what])
+        self._pose.setText(self.tr("Pose"))
+        self._pose.setToolTip(
+            self._tip(self.tr("Hold bell, head, elbows or torso differently by dragging handles"), "viewport.pose")
+        )
+        self._frame.setToolTip(self._tip(self.tr("Frame the selected players"), "viewport.frame"))
+        self._show.setToolTip(self.tr("Show beside the players"))
+        for control in (self._pose, self._frame, self._show, self._folded):
+            control.setAccessibleName(control.toolTip())
+        self._fold()
+
+    def _tip(self, text: str, action_id: str) -> str:
+        """A tool tip with the action's shortcut, where it has one."""
+        action = self._session.actions.get(action_id)
+        shortcut = action.shortcut().toString() if action is not None else ""
+        return f"{text} ({shortcut})" if shortcut else text
+
+    def _choose_view(self, view: View) -> None:
+        self._session.viewport.set_view(view)
+
+    def _button(self, name: str, checkable: bool = False) -> QToolButton:
+        button = QToolButton(self)
+        button.setObjectName(name)
+        button.setCheckable(checkable)
+        button.setAutoRaise(True)
+        button.setMinimumSize(LEAST_TARGET_PX + 2, LEAST_TARGET_PX + 2)
+        button.setIconSize(QSize(16, 16))
+        button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        return button
+
+    def _dress(self) -> None:
+        tokens = self._session.tokens
+        self._folded.setIcon(icon("camera", tokens))
+        self._pose.setIcon(icon("pose", tokens))
+        self._frame.setIcon(icon("frame", tokens))
+        self._show.setIcon(icon("eye", tokens))
+        for what, row in self._show_rows.items():
+            row.setIcon(icon(_SHOWN_ICONS[what], tokens))
+        self._note.setStyleSheet(f"color: {tokens.text_dim};")
+
+    def _fold(self) -> None:
+        """Seven buttons where they fit, else one with a menu."""
+        others = sum(button.sizeHint().width() + 4 for button in (self._pose, self._frame, self._show))
+        fits = self.width() >= self._segments.sizeHint().width() + others + 24
+        self._segments.setVisible(fits)
+        self._folded.setVisible(not fits)
+
+    def minimumSizeHint(self) -> QSize:
+        """Narrow enough for the folded header."""
+        others = (self._folded, self._pose, self._frame, self._show)
+        return QSize(sum(button.sizeHint().width() + 4 for button in others) + 16, super().minimumSizeHint().height())
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Fold or unfold the views."""
+        super().resizeEvent(event)
+        self._fold()
+
+    def changeEvent(self, event: QEvent) -> None:
+        """Follow the language."""
+        if event.type() == QEvent.Type.LanguageChange:
+            self.retranslate()
+        super().changeEvent(event)

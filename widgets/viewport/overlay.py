@@ -1,0 +1,211 @@
+"""What is painted over the picture with Qt: names, skeletons, contact points, the handles of the pose tool."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+import numpy.typing as npt
+from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
+from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPen
+
+from app.plan.model import PoseTarget
+from widgets.common.tokens import Tokens
+from widgets.viewport.camera import Camera
+from widgets.viewport.cast import Stage
+from widgets.viewport.contacts import Touch
+from widgets.viewport.handles import Handle
+
+Floats = npt.NDArray[np.float64]
+
+HANDLE_RADIUS_PX = 9.0
+CLOSE_MM, NEAR_MM = 2.0, 4.0
+"""A touch within the first is right, within the second all but right."""
+
+
+@dataclass(frozen=True, eq=False)
+class Name:
+    """A player's name over their head."""
+
+    text: str
+    color: str
+    at_m: Floats
+    in_front: bool
+
+
+@dataclass(frozen=True, eq=False)
+class Marks:
+    """Everything that is painted over the picture."""
+
+    names: Sequence[Name] = ()
+    skeletons: Sequence[tuple[int, str]] = ()
+    """Rows of the stage with their colour."""
+    touches: Sequence[Touch] = ()
+    handles: Sequence[Handle] = ()
+    grasped: PoseTarget | None = None
+    corrected: frozenset[PoseTarget] = field(default_factory=frozenset)
+    reading: str = ""
+    """Angles, beside the handle in hand."""
+
+    def __bool__(self) -> bool:
+        return bool(self.names or self.skeletons or self.touches or self.handles)
+
+
+def paint(
+    painter: QPainter, marks: Marks, stage: Stage, camera: Camera, size: tuple[float, float], tokens: Tokens
+) -> None:
+    """Paint marks over a picture of this size (width, height)."""
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+    for row, color in marks.skeletons:
+        _paint_skeleton(painter, stage, row, color, camera, size, tokens)
+    if marks.touches:
+        _paint_touches(painter, marks.touches, camera, size, tokens)
+    if marks.handles:
+        _paint_handles(painter, marks, camera, size, tokens)
+    if marks.names:
+        _paint_names(painter, marks.names, camera, size, tokens)
+
+
+def head_top_m(stage: Stage, row: int) -> Floats:
+    """A little over a player's head."""
+    head = stage.joints[row, stage.members[row].kit.character.skeleton.index("head")]
+    top: Floats = head[:, :3] @ np.array([0.0, 0.13, 0.0]) + head[:, 3] + np.array([0.0, 0.16, 0.0])
+    return top
+
+
+def handle_at(
+    handles: Sequence[Handle], camera: Camera, x_px: float, y_px: float, size: tuple[float, float]
+) -> Handle | None:
+    """The handle under a point; where several are, the nearest to the eye."""
+    if not handles:
+        return None
+    places, depths = camera.project(np.array([handle.at_m for handle in handles]), *size)
+    off = np.hypot(places[:, 0] - x_px, places[:, 1] - y_px)
+    # As large as a finger's or pen's target, larger than it is drawn.
+    found = [index for index in range(len(handles)) if off[index] <= HANDLE_RADIUS_PX + 4.0 and depths[index] > 0.0]
+    return handles[min(found, key=lambda index: off[index])] if found else None
+
+
+def _paint_skeleton(
+    painter: QPainter, stage: Stage, row: int, color: str, camera: Camera, size: tuple[float, float], tokens: Tokens
+) -> None:
+    skeleton = stage.members[row].kit.character.skeleton
+    places, depths = camera.project(stage.joints[row, : len(skeleton.names), :, 3], *size)
+    lines, dots = [], []
+    for joint, parent in enumerate(skeleton.parents):
+        if depths[joint] <= 0.0 or parent < 0:
+            continue
+        dots.append(QPointF(*places[joint]))
+        if parent > 0 and depths[parent] > 0.0:
+            lines.append(QLineF(QPointF(*places[parent]), QPointF(*places[joint])))
+    painter.setPen(QPen(_faded(tokens.sunken, 0.7), 3.6, cap=Qt.PenCapStyle.RoundCap))
+    painter.drawLines(lines)
+    painter.setPen(QPen(QColor(color), 1.6, cap=Qt.PenCapStyle.RoundCap))
+    painter.drawLines(lines)
+    painter.setPen(QPen(QColor(tokens.text), 4.2, cap=Qt.PenCapStyle.RoundCap))
+    painter.drawPoints(dots)
+
+
+def _paint_touches(
+    painter: QPainter, touches: Sequence[Touch], camera: Camera, size: tuple[float, float], tokens: Tokens
+) -> None:
+    wanted, depths = camera.project(np.array([touch.wanted_m for touch in touches]), *size)
+    found, _ = camera.project(np.array([touch.found_m for touch in touches]), *size)
+    font = _font(painter, 9.0)
+    painter.setFont(font)
+    metrics = QFontMetricsF(font)
+    taken: list[QRectF] = []
+    for touch, goal, place, depth in zip(touches, wanted, found, depths, strict=True):
+        if depth <= 0.0:
+            continue
+        distance = touch.distance_mm
+        color = tokens.good if distance <= CLOSE_MM else tokens.warning if distance <= NEAR_MM else tokens.error
+        if not touch.firm:
+            color = tokens.text_dim
+        painter.setPen(QPen(QColor(color), 1.6))
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        painter.drawEllipse(QPointF(*goal), 4.5, 4.5)
+        painter.drawLine(QPointF(*goal), QPointF(*place))
+        painter.setBrush(QColor(color))
+        painter.drawEllipse(QPointF(*place), 2.0, 2.0)
+        if not touch.firm or camera.pixels_per_metre(size[1], float(depth)) < 500.0:
+            continue
+        text = f"{distance:.1f} mm"
+        box = QRectF(goal[0] + 9.0, goal[1] - metrics.height() / 2.0, metrics.horizontalAdvance(text) + 8.0, metrics.height())
+        for _ in range(24):
+            other = next((item for item in taken if item.intersects(box)), None)
+            if other is None:
+                break
+            box.moveTop(other.bottom() + 1.0)
+        taken.append(box)
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(_faded(tokens.sunken, 0.78))
+        painter.drawRoundedRect(box, 3.0, 3.0)
+        painter.setPen(QColor(color))
+        painter.drawText(box, Qt.AlignmentFlag.AlignCenter, text)
+
+
+def _paint_handles(
+    painter: QPainter, marks: Marks, camera: Camera, size: tuple[float, float], tokens: Tokens
+) -> None:
+    places, depths = camera.project(np.array([handle.at_m for handle in marks.handles]), *size)
+    for handle, place, depth in zip(marks.handles, places, depths, strict=True):
+        if depth <= 0.0:
+            continue
+        at = QPointF(*place)
+        grasped = handle.target == marks.grasped
+        ring = tokens.accent if grasped else tokens.by_hand if handle.target in marks.corrected else tokens.text
+        painter.setBrush(_faded(tokens.sunken, 0.55))
+        painter.setPen(QPen(_faded(tokens.sunken, 0.8), 4.0))
+        painter.drawEllipse(at, HANDLE_RADIUS_PX, HANDLE_RADIUS_PX)
+        painter.setPen(QPen(QColor(ring), 2.0))
+        painter.drawEllipse(at, HANDLE_RADIUS_PX, HANDLE_RADIUS_PX)
+        painter.setBrush(QColor(ring))
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.drawEllipse(at, 3.0, 3.0)
+        if grasped and marks.reading:
+            _pill(painter, marks.reading, at + QPointF(0.0, -HANDLE_RADIUS_PX - 14.0), tokens, tokens.accent, size)
+
+
+def _paint_names(
+    painter: QPainter, names: Sequence[Name], camera: Camera, size: tuple[float, float], tokens: Tokens
+) -> None:
+    places, depths = camera.project(np.array([name.at_m for name in names]), *size)
+    # From the farthest to the nearest, so that near names lie over far ones.
+    for index in np.argsort(-depths):
+        name, place = names[int(index)], places[int(index)]
+        if depths[index] <= 0.0 or not (-50.0 < place[0] < size[0] + 50.0 and 0.0 < place[1] < size[1]):
+            continue
+        _pill(painter, name.text, QPointF(*place), tokens, name.color if name.in_front else "", size)
+
+
+def _pill(
+    painter: QPainter, text: str, at: QPointF, tokens: Tokens, color: str, size: tuple[float, float]
+) -> None:
+    """A short text on a rounded plate, kept within the picture."""
+    font = _font(painter, 9.0, bold=bool(color))
+    painter.setFont(font)
+    metrics = QFontMetricsF(font)
+    width, height = metrics.horizontalAdvance(text) + 14.0, metrics.height() + 4.0
+    left = min(max(at.x() - width / 2.0, 4.0), max(size[0] - width - 4.0, 4.0))
+    top = min(max(at.y() - height / 2.0, 4.0), max(size[1] - height - 4.0, 4.0))
+    box = QRectF(left, top, width, height)
+    painter.setBrush(_faded(tokens.sunken, 0.72))
+    painter.setPen(QPen(QColor(color), 1.2) if color else Qt.PenStyle.NoPen)
+    painter.drawRoundedRect(box, height / 2.0, height / 2.0)
+    painter.setPen(QColor(tokens.text if color else tokens.text_dim))
+    painter.drawText(box, Qt.AlignmentFlag.AlignCenter, text)
+
+
+def _font(painter: QPainter, size_pt: float, bold: bool = False) -> QFont:
+    font = QFont(painter.font())
+    font.setPointSizeF(size_pt)
+    font.setBold(bold)
+    return font
+
+
+def _faded(color: str, opacity: float) -> QColor:
+    result = QColor(color)
+    result.setAlphaF(opacity)
+    return result

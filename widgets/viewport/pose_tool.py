@@ -1,0 +1,141 @@
+"""The pose tool: drags of handles become corrections of the player in front."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from app.errors import Message
+from app.plan.corrections import PoseCorrection
+from app.plan.model import PoseTarget
+from app.project.model import Project
+from widgets.common.session import Session
+from widgets.viewport.camera import Camera
+from widgets.viewport.handles import (
+    FINER,
+    Angle,
+    Handle,
+    correction_at,
+    dragged,
+    fresh_correction,
+    span_of,
+    turned,
+    with_correction,
+    without,
+)
+
+_NAMES: dict[PoseTarget, Message] = {
+    "bell": Message("edit.hold_bell"),
+    "head": Message("edit.hold_head"),
+    "left_elbow": Message("edit.hold_left_elbow"),
+    "right_elbow": Message("edit.hold_right_elbow"),
+    "torso": Message("edit.hold_torso"),
+}
+
+
+@dataclass(eq=False)
+class _Drag:
+    """A drag in hand: where it began, and what it has come to so far."""
+
+    handle: Handle
+    player_id: str
+    project: Project
+    before: PoseCorrection
+    token: object
+    right_px: float = 0.0
+    down_px: float = 0.0
+    after: PoseCorrection | None = None
+
+
+class PoseTool:
+    """Turns drags into edits of a session's document.
+
+    Parameters
+    ----------
+    session : Session
+    """
+
+    def __init__(self, session: Session) -> None:
+        self._session = session
+        self._drag: _Drag | None = None
+
+    @property
+    def grasped(self) -> PoseTarget | None:
+        """What is being dragged."""
+        return self._drag.handle.target if self._drag is not None else None
+
+    @property
+    def correction(self) -> PoseCorrection | None:
+        """What the drag has come to."""
+        return self._drag.after if self._drag is not None else None
+
+    def corrected(self, targets: Sequence[PoseTarget]) -> frozenset[PoseTarget]:
+        """Those of the targets that are held by hand here."""
+        player_id = self._player_id()
+        if player_id is None:
+            return frozenset()
+        return frozenset(target for target in targets if self._at(player_id, target) is not None)
+
+    def grasp(self, handle: Handle) -> bool:
+        """Begin a drag; whether there is somebody to hold."""
+        player_id = self._player_id()
+        if player_id is None:
+            return False
+        project = self._session.project
+        before = self._at(player_id, handle.target)
+        if before is None:
+            span = span_of(project, self._session.selection.span, self._tick())
+            before = fresh_correction(project, player_id, handle.target, span)
+        self._drag = _Drag(handle, player_id, project, before, object())
+        return True
+
+    def drag(self, camera: Camera, right_px: float, down_px: float, height_px: float, fine: bool, lean: bool) -> None:
+        """Drag on by so many pixels."""
+        drag = self._drag
+        if drag is None:
+            return
+        worth = FINER if fine else 1.0
+        drag.right_px += worth * right_px
+        drag.down_px += worth * down_px
+        angles: dict[Angle, float] = dragged(drag.handle, camera, drag.right_px, drag.down_px, height_px, lean)
+        after = turned(drag.before, angles)
+        drag.after = after
+        player_id, before, start = drag.player_id, drag.before, drag.project
+        name = _NAMES[drag.handle.target]
+        self._session.attempt(name, lambda project: with_correction(start, player_id, before, after), drag.token)
+
+    def release(self) -> None:
+        """End the drag: it is one step of the history."""
+        if self._drag is not None:
+            self._drag = None
+            self._session.document.end_gesture()
+
+    def cancel(self) -> bool:
+        """Give the drag up; whether there was one."""
+        drag, self._drag = self._drag, None
+        if drag is None:
+            return False
+        self._session.apply(_NAMES[drag.handle.target], drag.project, drag.token)
+        self._session.document.end_gesture()
+        return True
+
+    def reset(self, target: PoseTarget) -> None:
+        """Give a target back to the generator, here."""
+        player_id = self._player_id()
+        found = self._at(player_id, target) if player_id is not None else None
+        if player_id is not None and found is not None:
+            owner, correction = player_id, found
+            self._session.attempt(
+                Message("edit.release_pose"),
+                lambda project: without(project, owner, (correction,)),
+            )
+
+    def _player_id(self) -> str | None:
+        player = self._session.player
+        return player.id if player is not None else None
+
+    def _at(self, player_id: str, target: PoseTarget) -> PoseCorrection | None:
+        return correction_at(self._session.project, player_id, target, self._session.selection.span, self._tick())
+
+    def _tick(self) -> int:
+        return round(self._session.project.score.tempo_map.ticks(self._session.playhead_s))

@@ -1,0 +1,120 @@
+"""From where each view looks, and what it keeps in the middle."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+import numpy.typing as npt
+
+from widgets.common.viewport_state import View
+from widgets.viewport.camera import Camera, frame
+from widgets.viewport.cast import Stage
+
+Floats = npt.NDArray[np.float64]
+
+# Turn from the player's front towards their left, height of the eye, both in degrees.
+_DIRECTIONS_DEG: dict[View, tuple[float, float]] = {
+    "ensemble": (0.0, 9.0),
+    "front": (0.0, 4.0),
+    "side": (-90.0, 4.0),
+    "top": (0.0, 89.9),
+    "hands": (-48.0, 14.0),
+    "mouth": (-58.0, 4.0),
+    "feet": (-28.0, 16.0),
+}
+_HALF_M: dict[View, float] = {"hands": 0.21, "mouth": 0.115, "feet": 0.30}
+"""Half the height of a close-up's picture, at least."""
+
+
+def view_camera(view: View, stage: Stage, rows: Sequence[int], camera: Camera, aspect: float) -> Camera:
+    """The camera of a view.
+
+    Parameters
+    ----------
+    view : View
+    stage : Stage
+    rows : sequence of int
+        The selected players, the one in front first.
+    camera : Camera
+        The one before: gives the angle of view, and stays where there is nobody to look at.
+    aspect : float
+        Width over height.
+    """
+    everyone = [row for row in range(len(stage.members)) if stage.shown[row]]
+    chosen = everyone if view == "ensemble" else [row for row in rows if stage.shown[row]]
+    if not chosen:
+        return camera
+    side_deg, pitch_deg = _DIRECTIONS_DEG[view]
+    yaw = math.radians(side_deg) + (0.0 if view == "ensemble" else turn_rad(stage, chosen[0]))
+    camera = replace(camera, yaw_rad=math.remainder(yaw, 2.0 * math.pi), pitch_rad=math.radians(pitch_deg))
+    middle = tracked(view, stage, chosen[0])
+    if middle is None:
+        return frame(camera, *bounds(stage, chosen), aspect, 1.04 if view == "ensemble" else 1.08)
+    half = _half(view, stage, chosen[0])
+    return frame(camera, middle - half, middle + half, aspect, 1.0)
+
+
+def tracked(view: View, stage: Stage, row: int) -> Floats | None:
+    """What a close-up keeps in the middle (3,); None: the view does not follow anything."""
+    if not stage.shown[row]:
+        return None
+    if view == "hands":
+        return _hands(stage, row).mean(axis=0)
+    if view == "mouth":
+        held = stage.node_matrix(row)
+        kit = stage.members[row].kit
+        lips = held[:, :3] @ np.asarray(kit.map.mouthpiece.position_m) + held[:, 3]
+        # Lips and eyes both, and in a long rest, when the instrument is lowered, still the face.
+        head = stage.joints[row, kit.character.skeleton.index("head")]
+        face: Floats = head[:, :3] @ np.array([0.0, 0.02, 0.09]) + head[:, 3]
+        near = float(np.clip(1.0 - (np.linalg.norm(lips - face) - 0.1) / 0.15, 0.0, 1.0))
+        return (1.0 - 0.6 * near) * face + 0.6 * near * lips
+    if view == "feet":
+        feet = np.array([stage.joint_m(row, "leftFoot"), stage.joint_m(row, "rightFoot")])
+        return feet.mean(axis=0) + [0.0, 0.05, 0.0] + 0.08 * ahead(stage, row)
+    return None
+
+
+def bounds(stage: Stage, rows: Sequence[int]) -> tuple[Floats, Floats]:
+    """The box around players with their instruments, from the floor up."""
+    points = []
+    for row in rows:
+        kit = stage.members[row].kit
+        points.append(stage.joints[row, 1 : len(kit.character.skeleton.names), :, 3])
+        low = np.min([mesh.positions_m.min(axis=0) for mesh in kit.instrument.meshes], axis=0)
+        high = np.max([mesh.positions_m.max(axis=0) for mesh in kit.instrument.meshes], axis=0)
+        corners = np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
+        held = stage.node_matrix(row)
+        points.append(corners @ held[:, :3].T + held[:, 3])
+    whole = np.concatenate(points)
+    head_m, flesh_m = 0.16, 0.10
+    low, high = whole.min(axis=0) - flesh_m, whole.max(axis=0) + [flesh_m, head_m, flesh_m]
+    low[1] = min(float(low[1]), 0.0)
+    return low, high
+
+
+def turn_rad(stage: Stage, row: int) -> float:
+    """Which way a player faces: from +Z towards +X."""
+    forward = ahead(stage, row)
+    return math.atan2(forward[0], forward[2])
+
+
+def ahead(stage: Stage, row: int) -> Floats:
+    """The player's front, a unit vector."""
+    return stage.members[row].world_from_player[:, 2]
+
+
+def _hands(stage: Stage, row: int) -> Floats:
+    names = [f"{side}{joint}" for side in ("left", "right") for joint in ("Hand", "MiddleProximal")]
+    return np.array([stage.joint_m(row, name) for name in names])
+
+
+def _half(view: View, stage: Stage, row: int) -> Floats:
+    half = _HALF_M[view]
+    if view == "hands":
+        hands = _hands(stage, row)
+        half = max(half, 0.5 * float(np.linalg.norm(hands[1] - hands[3])) + 0.12)
+    return np.full(3, half * 0.58)
