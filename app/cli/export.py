@@ -1,4 +1,4 @@
-"""``suisou export``: a MIDI file to FBX and BVH files of its players."""
+"""``suisou export``: a MIDI file or a project to FBX and BVH files of its players."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ import signal
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
-from fractions import Fraction
 from pathlib import Path
 from types import FrameType
 from typing import TYPE_CHECKING, Final, Literal
@@ -44,9 +43,8 @@ def add_command(commands: Commands) -> None:
     command.add_argument(
         "--fps",
         type=frame_rate,
-        default=Fraction(60),
         metavar="RATE",
-        help="frames per second: 24, 25, 29.97, 30, 60 or a fraction such as 30000/1001 (default 60)",
+        help="frames per second: 24, 25, 29.97, 30, 60 or a fraction such as 30000/1001 (default: the project's, 60)",
     )
     command.add_argument(
         "--player", dest="players", action="append", default=[], metavar="NAME", help="only this player; repeatable"
@@ -123,6 +121,7 @@ def _span(performance: Performance, arguments: argparse.Namespace) -> FrameSpan:
     from app.performance.span import bars_span, whole_span
 
     bars = _bars(performance, arguments)
+    fps = arguments.fps or performance.project.fps
     if bars is None:
-        return whole_span(performance.time_frame, arguments.fps)
-    return bars_span(performance, arguments.fps, bars, performance.project.preroll_beats)
+        return whole_span(performance.time_frame, fps)
+    return bars_span(performance, fps, bars, performance.project.preroll_beats)

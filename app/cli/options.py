@@ -4,16 +4,21 @@ from __future__ import annotations
 
 import argparse
 import math
+from collections.abc import Mapping
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 from typing import TypeAlias
 
+from app.errors import UsageError
 from app.plan.generate import PREROLL_BEATS, PREROLL_LEAST_S
 from app.project.model import Project, map_choices, project_from_score, with_settings
 from app.project.parameters import parameter_names, parse_settings
+from app.project.storage import is_project_file, load
 from app.rig.character import characters
 from app.score.read import read_midi
 from instrument_maps.load import bundled_maps
+from instrument_maps.model import InstrumentMap
 
 Commands: TypeAlias = "argparse._SubParsersAction[argparse.ArgumentParser]"
 """Where a sub-command declares itself."""
@@ -96,7 +101,7 @@ def text_encoding(text: str) -> str:
 
 def add_source_options(command: argparse.ArgumentParser) -> None:
     """Declare the file and everything that decides what its players do."""
-    command.add_argument("file", type=Path, metavar="FILE", help="a Standard MIDI File")
+    command.add_argument("file", type=Path, metavar="FILE", help="a Standard MIDI File or a .suisou project")
     command.add_argument(
         "--set",
         dest="settings",
@@ -106,42 +111,64 @@ def add_source_options(command: argparse.ArgumentParser) -> None:
         help=f"set a player's parameter; PLAYER may be a pattern such as '*'; repeatable. "
         f"Parameters: {', '.join(parameter_names())}",
     )
-    command.add_argument("--seed", type=whole_number, default=0, metavar="N", help="another performance (default 0)")
+    command.add_argument(
+        "--seed", type=whole_number, metavar="N", help="another performance (default: the project's, 0)"
+    )
     command.add_argument(
         "--preroll",
         type=beats,
-        default=PREROLL_BEATS,
         metavar="BEATS",
-        help=f"beats before the first note, at least {PREROLL_LEAST_S:g} s (default {PREROLL_BEATS:g})",
+        help=f"beats before the first note, at least {PREROLL_LEAST_S:g} s (default: the project's, {PREROLL_BEATS:g})",
     )
     command.add_argument(
         "--felt-beat",
         type=felt_beat,
-        default=1.0,
         metavar="QUARTERS",
-        help="length of the beat that the players feel: 1.5 for a fast 6/8, 2 for alla breve (default 1); breaths, "
-        "cues, sway and the pre-roll count in it",
+        help="length of the beat that the players feel: 1.5 for a fast 6/8, 2 for alla breve (default: the project's, "
+        "1); breaths, cues, sway and the pre-roll count in it",
     )
     command.add_argument(
         "--encoding",
         type=text_encoding,
         metavar="NAME",
-        help="of the file's texts (default: each is UTF-8 if it can be, else CP932, else Latin-1)",
+        help="of a MIDI file's texts (default: each is UTF-8 if it can be, else CP932, else Latin-1)",
     )
 
 
 def open_project(arguments: argparse.Namespace) -> Project:
-    """Read the file and cast its players as the options say. Raises the errors of both."""
+    """The project that a file holds, or a MIDI file with its players cast; what the options say comes on top.
+
+    Raises
+    ------
+    AppError
+        Those of reading, and `UsageError` of what makes no sense, ``project.encoding`` (file) among them.
+    """
     maps = bundled_maps()
-    score = read_midi(arguments.file, encoding=arguments.encoding, maps=map_choices(maps.values()))
-    project = project_from_score(
-        score,
-        maps,
-        seed=arguments.seed,
-        preroll_beats=arguments.preroll,
-        felt_beat_quarters=arguments.felt_beat,
-    )
+    project = _saved_project(arguments) if is_project_file(arguments.file) else _cast_project(arguments, maps)
     settings = parse_settings(
         arguments.settings, [player.name for player in project.players], maps, tuple(characters())
     )
     return with_settings(project, settings)
+
+
+def _saved_project(arguments: argparse.Namespace) -> Project:
+    if arguments.encoding is not None:
+        raise UsageError("project.encoding", file=str(arguments.file))
+    project = load(arguments.file)
+    asked = {
+        "seed": arguments.seed,
+        "preroll_beats": arguments.preroll,
+        "felt_beat_quarters": arguments.felt_beat,
+    }
+    return replace(project, **{field: value for field, value in asked.items() if value is not None})
+
+
+def _cast_project(arguments: argparse.Namespace, maps: Mapping[str, InstrumentMap]) -> Project:
+    score = read_midi(arguments.file, encoding=arguments.encoding, maps=map_choices(maps.values()))
+    return project_from_score(
+        score,
+        maps,
+        seed=arguments.seed or 0,
+        preroll_beats=PREROLL_BEATS if arguments.preroll is None else arguments.preroll,
+        felt_beat_quarters=1.0 if arguments.felt_beat is None else arguments.felt_beat,
+    )

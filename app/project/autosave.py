@@ -16,10 +16,7 @@ from typing import Final
 from app.formats.atomic import atomic_write
 from app.project.model import Project
 from app.project.presence import Presence, is_open_elsewhere, remove
-from app.project.storage import SUFFIX, encode
-
-AUTOSAVE: Final = ".autosave"
-"""Put behind the project file's name."""
+from app.project.storage import AUTOSAVE, SUFFIX, encode
 
 DELAY_S: Final = 30.0
 """From the first change that is not written down yet."""

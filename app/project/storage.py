@@ -43,6 +43,9 @@ SUFFIX: Final = ".suisou"
 BACKUP: Final = ".bak"
 """Put behind the file's name: what it held before it was last saved."""
 
+AUTOSAVE: Final = ".autosave"
+"""Put behind the file's name: the work on it that is not saved yet."""
+
 MOST_BYTES: Final = 256 * 2**20
 
 _PLACE = re.compile(r"^(.*?)(?: - at `(key in )?\$?\.?(.*?)`)?$", re.DOTALL)
@@ -171,6 +174,12 @@ def decode(content: bytes, path: Path, name: str | None = None) -> Project:
     for place, detail in faults(project):
         raise FileError("project.invalid", file=file, place=place, detail=detail)
     return project
+
+
+def is_project_file(path: Path) -> bool:
+    """Whether a file is called like a project's, or like what is kept beside one."""
+    name = path.name.casefold()
+    return any(name.endswith(f"{SUFFIX}{more}") for more in ("", BACKUP, AUTOSAVE))
 
 
 def missing(project: Project) -> tuple[Message, ...]:

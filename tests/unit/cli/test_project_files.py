@@ -1,0 +1,90 @@
+"""Sub-commands take a project where they take a MIDI file."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from dataclasses import replace
+from fractions import Fraction
+from pathlib import Path
+
+import msgspec
+import pytest
+
+from app.cli import main
+from app.plan.corrections import PinFingering
+from app.project.edit.corrections import put
+from app.project.storage import save
+from tests.unit.project.pieces import small_project
+
+Run = Callable[..., tuple[int, str, str]]
+
+
+@pytest.fixture
+def run(capsys: pytest.CaptureFixture[str]) -> Run:
+    def call(*arguments: str | Path) -> tuple[int, str, str]:
+        capsys.readouterr()
+        status = main([str(argument) for argument in arguments])
+        captured = capsys.readouterr()
+        return status, captured.out, captured.err
+
+    return call
+
+
+@pytest.fixture
+def project(tmp_path: Path) -> Path:
+    project = put(small_project(), "1.1.1", [PinFingering("1:3", "3")])
+    path = tmp_path / "piece.SUISOU"
+    save(replace(project, fps=Fraction(24000, 1001)), path)
+    return path
+
+
+def test_inspect_shows_the_corrections_of_a_project(run: Run, project: Path) -> None:
+    status, out, _ = run("inspect", project, "--json")
+    assert status == 0
+    assert json.loads(out)["players"][0]["notes"][2]["fingering"] == "3"
+
+
+def test_options_come_on_top_of_a_project(run: Run, project: Path) -> None:
+    assert json.loads(run("inspect", project, "--json")[1])["first_frame_s"] == -2.0
+    settings = ("--set", "trombone.instrument=trumpet_Bb", "--felt-beat", "2", "--preroll", "8")
+    status, out, _ = run("inspect", project, "--json", *settings)
+    assert status == 0
+    table = json.loads(out)
+    assert [player["instrument"] for player in table["players"]] == ["trumpet_Bb", "trumpet_Bb"]
+    assert table["first_frame_s"] == -8.0
+
+
+def test_an_export_has_the_projects_frame_rate(run: Run, project: Path, tmp_path: Path) -> None:
+    export = ("export", project, "--format", "bvh", "--player", "trumpet", "--to")
+    assert run(*export, tmp_path / "own")[0] == 0
+    assert json.loads((tmp_path / "own" / "report.json").read_text())["fps_exact"] == "24000/1001"
+    assert run(*export, tmp_path / "other", "--fps", "12")[0] == 0
+    assert json.loads((tmp_path / "other" / "report.json").read_text())["fps_exact"] == "12"
+
+
+def test_what_only_midi_has_is_bad_use(run: Run, project: Path) -> None:
+    status, _, complaint = run("inspect", project, "--encoding", "cp932")
+    assert status == 2
+    assert str(project) in complaint
+    assert "--encoding" in complaint
+
+
+@pytest.mark.parametrize("content", [b"", b"{", b"[]", b'{"schema_version": 99}', b"MThd", b"\xff\xfe"])
+def test_a_damaged_project_is_bad_input(run: Run, tmp_path: Path, content: bytes) -> None:
+    path = tmp_path / "piece.suisou"
+    path.write_bytes(content)
+    status, out, complaint = run("inspect", path)
+    assert (status, out) == (1, "")
+    assert str(path) in complaint
+    assert "Traceback" not in complaint
+
+
+def test_an_instrument_that_is_not_installed_is_named(run: Run, tmp_path: Path) -> None:
+    project = small_project()
+    ghost = msgspec.structs.replace(project.players[0], instrument_id="ophicleide")
+    save(replace(project, players=(ghost, project.players[1])), tmp_path / "piece.suisou")
+    status, _, complaint = run("inspect", tmp_path / "piece.suisou")
+    assert status == 1
+    assert "ophicleide" in complaint
+    assert run("inspect", tmp_path / "piece.suisou", "--set", "trumpet.instrument=trumpet_Bb")[0] == 0
