@@ -334,7 +334,10 @@ class NumberSlider(QWidget):
             edge = box.left() + self._share(self._value) * box.width()
             left, right = sorted((box.left() + self._share(0.0) * box.width(), edge))
             painter.fillRect(QRectF(left, box.top(), right - left, box.height()), fill)
-            painter.fillRect(QRectF(min(edge, box.right() - 2) - 1, box.top(), 2, box.height()), QColor(tokens.accent))
+            mark = QColor(tokens.accent)
+            # The words run over it.
+            mark.setAlphaF(1.0 if hovered else 0.7)
+            painter.fillRect(QRectF(min(edge, box.right() - 2) - 1, box.top(), 2, box.height()), mark)
         if self.by_hand and self.isEnabled():
             painter.fillRect(QRectF(box.left(), box.top(), 3, box.height()), QColor(tokens.by_hand))
         painter.restore()

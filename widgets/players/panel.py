@@ -1,0 +1,343 @@
+"""The players' panel: who plays, what they are like, where they stand."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QEvent, QPoint, Qt
+from PySide6.QtGui import QContextMenuEvent
+from PySide6.QtWidgets import (
+    QHBoxLayout,
+    QLabel,
+    QMenu,
+    QPushButton,
+    QScrollArea,
+    QSplitter,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from app.errors import Message
+from app.project.document import Change
+from app.project.edit import players as edit
+from instrument_maps.load import bundled_maps
+from widgets.common.icons import icon
+from widgets.common.instrument_name import instrument_name
+from widgets.common.number_slider import NumberSlider
+from widgets.common.section import Section
+from widgets.common.session import Session
+from widgets.players.parameters import ParameterSections
+from widgets.players.player_list import PlayerList, Row
+from widgets.players.stage_section import StageSection
+
+MENU = (
+    "players.rename",
+    "players.duplicate",
+    "players.remove",
+    "",
+    "players.mute",
+    "players.solo",
+    "players.posture",
+    "players.reset",
+    "",
+    "players.select_all",
+    "players.randomise",
+    "players.arrange",
+)
+"""The context menu: actions by id, an empty one is a line."""
+_TOOLS = (("add", "add"), ("duplicate", "duplicate"), ("remove", "delete"))
+
+
+class PlayersPanel(QWidget):
+    """The list of players, and below it the parameters of those selected.
+
+    Parameters
+    ----------
+    session : Session
+    """
+
+    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setObjectName("players")
+        self._session = session
+        self._tools = {name: QToolButton() for name, _ in _TOOLS}
+        self.list = PlayerList(session)
+        self.list.setObjectName("player_list")
+        self._empty = QLabel()
+        self._empty.setWordWrap(True)
+        self._empty.setMargin(16)
+        self._parameters = ParameterSections(session)
+        self._stage = StageSection(session)
+        self._variety = Section(session, "players_variety")
+        self._spread = NumberSlider(session, 0.0, 1.0, default=session.variety, step=0.05)
+        self._spread.setObjectName("spread")
+        self._throw, self._reset = QPushButton(), QPushButton()
+        self._throw.setObjectName("randomise")
+        self._reset.setObjectName("reset_parameters")
+        self._build()
+        self._connect()
+        self._dress()
+        self.retranslate()
+
+    # Building
+
+    def _build(self) -> None:
+        bar = QHBoxLayout()
+        bar.setContentsMargins(6, 4, 4, 4)
+        bar.setSpacing(2)
+        self._count = QLabel()
+        bar.addWidget(self._count, 1)
+        for name, button in self._tools.items():
+            button.setObjectName(f"players_{name}_button")
+            bar.addWidget(button)
+        upper = QWidget()
+        upper_layout = QVBoxLayout(upper)
+        upper_layout.setContentsMargins(0, 0, 0, 0)
+        upper_layout.setSpacing(0)
+        upper_layout.addLayout(bar)
+        upper_layout.addWidget(self.list, 1)
+        upper_layout.addWidget(self._empty, 1)
+        buttons = QHBoxLayout()
+        buttons.setSpacing(4)
+        for button in (self._throw, self._reset):
+            # The panel may be narrower than its longest word.
+            button.setMinimumWidth(40)
+        buttons.addWidget(self._throw, 1)
+        buttons.addWidget(self._reset, 1)
+        self._variety.body.addWidget(self._spread)
+        self._variety.body.addLayout(buttons)
+        lower = QWidget()
+        lower_layout = QVBoxLayout(lower)
+        lower_layout.setContentsMargins(0, 0, 0, 0)
+        lower_layout.setSpacing(0)
+        for part in (self._parameters, self._variety, self._stage):
+            lower_layout.addWidget(part)
+        lower_layout.addStretch(1)
+        scroll = QScrollArea()
+        scroll.setWidgetResizable(True)
+        scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        scroll.setWidget(lower)
+        scroll.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        self._splitter = QSplitter(Qt.Orientation.Vertical)
+        self._splitter.addWidget(upper)
+        self._splitter.addWidget(scroll)
+        self._splitter.setStretchFactor(1, 1)
+        self._splitter.setChildrenCollapsible(False)
+        self._splitter.setSizes([230, 500])
+        outer = QVBoxLayout(self)
+        outer.setContentsMargins(0, 0, 0, 0)
+        outer.addWidget(self._splitter)
+
+    def _connect(self) -> None:
+        session = self._session
+        session.changed.connect(self._changed)
+        session.performance_changed.connect(self._show_list)
+        session.players_changed.connect(self._players_changed)
+        session.theme_changed.connect(self._dress)
+        self.list.chosen.connect(session.set_players)
+        self.list.mute_clicked.connect(self._mute)
+        self.list.solo_clicked.connect(self._solo)
+        self.list.moved.connect(self._move)
+        self.list.rows.renamed.connect(self._rename)
+        self._tools["add"].clicked.connect(self._offer_instruments)
+        self._tools["duplicate"].clicked.connect(self._duplicate)
+        self._tools["remove"].clicked.connect(self._remove)
+        self._parameters.dice_thrown.connect(self._reseed)
+        self._spread.changed.connect(self._set_spread)
+        self._throw.clicked.connect(self._randomise)
+        self._reset.clicked.connect(self._reset_all)
+
+    # Showing
+
+    def _changed(self, change: Change) -> None:
+        before, after = change.before, change.after
+        if before.players is not after.players or before.score.parts is not after.score.parts or change.opened:
+            self._show_all()
+
+    def _players_changed(self) -> None:
+        self.list.show_selection()
+        self._parameters.show_players()
+        self._stage.show_places()
+        self._show_buttons()
+
+    def _show_all(self) -> None:
+        self._show_list()
+        self._parameters.show_players()
+        self._stage.show_places()
+        self._show_buttons()
+
+    def _show_list(self) -> None:
+        project, performance = self._session.project, self._session.performance
+        plans = performance.plans if performance.planned else {}
+        first = min((plan.cues[0] for plan in plans.values() if plan.cues), key=lambda cue: cue.start_s, default=None)
+        leader = first.player_id if first is not None else None
+        maps = bundled_maps()
+        rows = []
+        for player in project.players:
+            plan = plans.get(player.id)
+            instrument = maps.get(player.instrument_id)
+            rows.append(
+                Row(
+                    player,
+                    self._session.colour(player),
+                    instrument_name(instrument) if instrument is not None else player.instrument_id,
+                    len(plan.problems) if plan is not None else 0,
+                    player.id == leader,
+                )
+            )
+        self.list.show_rows(tuple(rows))
+        self.list.setVisible(bool(rows))
+        self._empty.setVisible(not rows)
+
+    def _show_buttons(self) -> None:
+        chosen, everyone = self._session.players, self._session.project.players
+        self._count.setText(
+            self.tr("{chosen} of {count} selected").format(chosen=len(chosen), count=len(everyone))
+            if len(chosen) > 1
+            else self.tr("{count} players").format(count=len(everyone))
+        )
+        for name in ("duplicate", "remove"):
+            self._tools[name].setEnabled(bool(chosen))
+        self._throw.setEnabled(bool(everyone))
+        self._reset.setEnabled(bool(chosen))
+        several = len(chosen) > 1
+        self._throw.setText(self.tr("Randomise selected") if several else self.tr("Randomise all"))
+
+    # Editing
+
+    def _name(self, id: str) -> Message:
+        return Message(id, {"count": len(self._session.players)})
+
+    def _rename(self, player_id: str, name: str) -> None:
+        before = self._session.project.player(player_id).name
+        self._session.attempt(
+            Message("edit.rename_player", {"player": before}), lambda project: edit.rename(project, player_id, name)
+        )
+
+    def _toggle(self, player_id: str, field: str, ids: tuple[str, str]) -> None:
+        """Mute or solo one player, or all the selected where the player is one of them."""
+        player = self._session.project.player(player_id)
+        on = not getattr(player, field)
+        chosen = self._session.players if player_id in self._session.players else (player_id,)
+        self._session.attempt(
+            Message(ids[0] if on else ids[1], {"count": len(chosen)}),
+            lambda project: edit.change(project, chosen, **{field: on}),
+        )
+
+    def _mute(self, player_id: str) -> None:
+        self._toggle(player_id, "muted", ("edit.mute", "edit.unmute"))
+
+    def _solo(self, player_id: str) -> None:
+        self._toggle(player_id, "soloed", ("edit.solo", "edit.unsolo"))
+
+    def _move(self, player_ids: tuple[str, ...], before: int) -> None:
+        self._session.attempt(
+            Message("edit.move_players"), lambda project: edit.move_players(project, player_ids, before)
+        )
+
+    def _offer_instruments(self) -> None:
+        menu = QMenu(self)
+        menu.setObjectName("instrument_menu")
+        menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        for instrument in bundled_maps().values():
+            action = menu.addAction(instrument_name(instrument))
+            action.triggered.connect(lambda _=False, id=instrument.id: self.add(id))
+        button = self._tools["add"]
+        menu.popup(button.mapToGlobal(button.rect().bottomLeft()))
+
+    def add(self, instrument_id: str) -> None:
+        """Add a player of this instrument, in front."""
+        maps = bundled_maps()
+        instrument = maps[instrument_id]
+        name = instrument_name(instrument)
+        project, player_id = edit.add_player(self._session.project, instrument, maps, name)
+        self._session.apply(Message("edit.add_player", {"player": project.player(player_id).name}), project)
+        self._session.set_players((player_id,))
+
+    def _duplicate(self) -> None:
+        chosen = self._session.players
+        project, new_ids = edit.duplicate_players(self._session.project, chosen)
+        self._session.apply(self._name("edit.duplicate_players"), project)
+        self._session.set_players(new_ids)
+
+    def _remove(self) -> None:
+        chosen = self._session.players
+        self._session.attempt(self._name("edit.remove_players"), lambda project: edit.remove_players(project, chosen))
+
+    def _reseed(self) -> None:
+        chosen = self._session.players
+        self._session.attempt(self._name("edit.parameter_seed"), lambda project: edit.reseed(project, chosen))
+
+    def _set_spread(self, value: float, token: object) -> None:
+        self._session.variety = value
+
+    def _randomise(self) -> None:
+        chosen = self._session.players
+        if len(chosen) < 2:
+            chosen = tuple(player.id for player in self._session.project.players)
+        spread = self._session.variety
+        self._session.attempt(
+            Message("edit.randomise_players", {"count": len(chosen)}),
+            lambda project: edit.randomise(project, chosen, spread),
+        )
+
+    def _reset_all(self) -> None:
+        chosen = self._session.players
+        self._session.attempt(
+            self._name("edit.reset_parameters"), lambda project: edit.reset_parameters(project, chosen)
+        )
+
+    # Words and pictures
+
+    def _dress(self) -> None:
+        tokens = self._session.tokens
+        for name, drawing in _TOOLS:
+            self._tools[name].setIcon(icon(drawing, tokens))
+        self._throw.setIcon(icon("dice", tokens))
+        self._reset.setIcon(icon("reset", tokens))
+        self._show_list()
+
+    def retranslate(self) -> None:
+        """Set every text in the language of the editor."""
+        self._tools["add"].setToolTip(self.tr("Add a player"))
+        self._tools["duplicate"].setToolTip(self.tr("Duplicate: somebody else plays the same part"))
+        self._tools["remove"].setToolTip(self.tr("Remove the selected players"))
+        self._empty.setText(self.tr("Nobody plays yet. Add a player with ＋, or drag a MIDI file onto the window."))
+        self._variety.header.set_texts(self.tr("Variety"))
+        self._spread.set_texts(
+            self.tr("Spread"),
+            "",
+            self.tr("How far apart the players become: 0 all the same, 1 as different as is sensible"),
+        )
+        self._throw.setToolTip(
+            self.tr(
+                "Amplitude, sway, weight shift, bell height, lungs, embouchure and seed by chance, around their average"
+            )
+        )
+        self._reset.setText(self.tr("Reset"))
+        self._reset.setToolTip(self.tr("Return all parameters of the selected players to what they were cast with"))
+        self._spread.show_value(self._session.variety)
+        self._show_all()
+
+    # Qt's own names
+
+    def contextMenuEvent(self, event: QContextMenuEvent) -> None:
+        inside = self.list.rect().contains(self.list.mapFromGlobal(event.globalPos()))
+        if not inside or not self._session.actions:
+            return
+        self._popup(event.globalPos())
+
+    def _popup(self, at: QPoint) -> None:
+        menu = QMenu(self)
+        menu.setObjectName("players_menu")
+        menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        for id in MENU:
+            if id and id in self._session.actions:
+                menu.addAction(self._session.actions[id])
+            elif not id:
+                menu.addSeparator()
+        menu.popup(at)
+
+    def changeEvent(self, event: QEvent) -> None:
+        if event.type() == QEvent.Type.LanguageChange:
+            self.retranslate()
+        super().changeEvent(event)

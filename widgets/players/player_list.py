@@ -1,0 +1,444 @@
+"""The list of players: a model of the project's, and how a row is drawn and taken hold of."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from PySide6.QtCore import (
+    QAbstractListModel,
+    QEvent,
+    QItemSelection,
+    QItemSelectionModel,
+    QModelIndex,
+    QPersistentModelIndex,
+    QPoint,
+    QRect,
+    QRectF,
+    QSize,
+    Qt,
+    Signal,
+)
+from PySide6.QtGui import (
+    QColor,
+    QFont,
+    QFontMetricsF,
+    QHelpEvent,
+    QKeyEvent,
+    QMouseEvent,
+    QPainter,
+    QPaintEvent,
+    QPen,
+)
+from PySide6.QtWidgets import (
+    QAbstractItemView,
+    QApplication,
+    QLineEdit,
+    QListView,
+    QStyle,
+    QStyledItemDelegate,
+    QStyleOptionViewItem,
+    QToolTip,
+    QWidget,
+)
+
+from app.project.model import Player
+from widgets.common.icons import icon
+from widgets.common.session import Session
+
+AnyIndex = QModelIndex | QPersistentModelIndex
+
+ROW_PX = 40
+BUTTON_PX = 26
+_BAR_PX = 5
+_ROW = Qt.ItemDataRole.UserRole
+
+
+@dataclass(frozen=True)
+class Row:
+    """What a row shows.
+
+    Attributes
+    ----------
+    player : Player
+    colour : str
+    instrument : str
+        In the language of the editor.
+    problems : int
+        How many the plan has; 0 while there is no plan.
+    leads : bool
+        Whether the player gives the ensemble's entries.
+    """
+
+    player: Player
+    colour: str
+    instrument: str
+    problems: int = 0
+    leads: bool = False
+
+
+class PlayerModel(QAbstractListModel):
+    """The players as rows.
+
+    Signals
+    -------
+    renamed(str, str)
+        The person typed another name for the player of this id.
+    """
+
+    renamed = Signal(str, str)
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._rows: tuple[Row, ...] = ()
+
+    @property
+    def rows(self) -> tuple[Row, ...]:
+        """What is shown, from the top."""
+        return self._rows
+
+    def show_rows(self, rows: tuple[Row, ...]) -> None:
+        """Show these."""
+        if [row.player.id for row in rows] != [row.player.id for row in self._rows]:
+            self.beginResetModel()
+            self._rows = rows
+            self.endResetModel()
+            return
+        before, self._rows = self._rows, rows
+        for number, (old, new) in enumerate(zip(before, rows, strict=True)):
+            if old != new:
+                self.dataChanged.emit(self.index(number), self.index(number))
+
+    def number(self, player_id: str) -> int | None:
+        """The row of a player."""
+        return next((number for number, row in enumerate(self._rows) if row.player.id == player_id), None)
+
+    # Qt's own names
+
+    def rowCount(self, parent: AnyIndex = QModelIndex()) -> int:  # noqa: B008
+        return 0 if parent.isValid() else len(self._rows)
+
+    def data(self, index: AnyIndex, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
+        if not index.isValid():
+            return None
+        row = self._rows[index.row()]
+        if role in (Qt.ItemDataRole.DisplayRole, Qt.ItemDataRole.EditRole):
+            return row.player.name
+        if role == Qt.ItemDataRole.AccessibleDescriptionRole:
+            return row.instrument
+        return row if role == _ROW else None
+
+    def setData(self, index: AnyIndex, value: Any, role: int = Qt.ItemDataRole.EditRole) -> bool:
+        if role != Qt.ItemDataRole.EditRole or not isinstance(value, str):
+            return False
+        player = self._rows[index.row()].player
+        if value.strip() and value != player.name:
+            self.renamed.emit(player.id, value)
+        return True
+
+    def flags(self, index: AnyIndex) -> Qt.ItemFlag:
+        return Qt.ItemFlag.ItemIsEnabled | Qt.ItemFlag.ItemIsSelectable | Qt.ItemFlag.ItemIsEditable
+
+
+class _RowDelegate(QStyledItemDelegate):
+    """Draws a row: colour, name, instrument, crown, problems, mute and solo."""
+
+    def __init__(self, session: Session, view: PlayerList) -> None:
+        super().__init__(view)
+        self._session = session
+        self._view = view
+
+    def buttons(self, row: QRect) -> tuple[QRect, QRect]:
+        """Where mute and solo are."""
+        top = row.center().y() - BUTTON_PX // 2 + 1
+        solo = QRect(row.right() - BUTTON_PX - 3, top, BUTTON_PX, BUTTON_PX)
+        return solo.translated(-BUTTON_PX - 2, 0), solo
+
+    # Qt's own names
+
+    def sizeHint(self, option: QStyleOptionViewItem, index: AnyIndex) -> QSize:
+        lines = QFontMetricsF(self._view.font()).height() + QFontMetricsF(self._small_font()).height()
+        return QSize(120, max(ROW_PX, round(lines) + 7))
+
+    def paint(self, painter: QPainter, option: QStyleOptionViewItem, index: AnyIndex) -> None:
+        row: Row = index.data(_ROW)
+        tokens, box = self._session.tokens, option.rect
+        in_front = self._session.players[:1] == (row.player.id,)
+        painter.save()
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        if option.state & QStyle.StateFlag.State_Selected:
+            fill = QColor(tokens.accent)
+            fill.setAlphaF(0.28 if in_front else 0.14)
+            painter.fillRect(box, fill)
+        elif option.state & QStyle.StateFlag.State_MouseOver:
+            painter.fillRect(box, QColor(tokens.raised))
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(QColor(row.colour))
+        painter.drawRoundedRect(QRectF(box.left() + 4, box.top() + 5, _BAR_PX, box.height() - 10), 2, 2)
+        mute, solo = self.buttons(box)
+        self._paint_button(painter, mute, "M", row.player.muted, tokens.warning)
+        self._paint_button(painter, solo, "S", row.player.soloed, tokens.good)
+        self._paint_texts(painter, box.adjusted(16, 3, -(box.right() - mute.left()) - 4, -3), row, in_front)
+        painter.setPen(QColor(tokens.line))
+        painter.drawLine(box.bottomLeft(), box.bottomRight())
+        if in_front and self._view.hasFocus():
+            painter.setBrush(Qt.BrushStyle.NoBrush)
+            painter.setPen(QPen(QColor(tokens.accent), 1.5))
+            painter.drawRoundedRect(QRectF(box).adjusted(1, 1, -1, -1.5), 3, 3)
+        painter.restore()
+
+    def _paint_texts(self, painter: QPainter, room: QRect, row: Row, in_front: bool) -> None:
+        tokens = self._session.tokens
+        font, small = QFont(self._view.font()), self._small_font()
+        font.setBold(in_front)
+        right = room.right()
+        if row.problems:
+            text = str(row.problems)
+            width = round(QFontMetricsF(small).horizontalAdvance(text)) + 20
+            spot = QRect(right - width, room.top(), width, room.height())
+            icon("problem", tokens, tokens.warning).paint(painter, QRect(spot.left(), spot.center().y() - 7, 16, 16))
+            painter.setFont(small)
+            painter.setPen(QColor(tokens.warning))
+            painter.drawText(spot, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignRight, text)
+            right = spot.left() - 6
+        name_px = right - room.left() - (20 if row.leads else 0)
+        name = QFontMetricsF(font).elidedText(row.player.name, Qt.TextElideMode.ElideRight, name_px)
+        half = room.height() // 2
+        painter.setFont(font)
+        painter.setPen(QColor(tokens.text))
+        upper = QRect(room.left(), room.top(), name_px, half + 1)
+        painter.drawText(upper, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft, name)
+        if row.leads:
+            at = room.left() + round(QFontMetricsF(font).horizontalAdvance(name)) + 4
+            icon("crown", tokens, tokens.by_hand).paint(painter, QRect(at, upper.center().y() - 7, 16, 16))
+        painter.setFont(small)
+        painter.setPen(QColor(tokens.text_dim))
+        lower = QRect(room.left(), room.top() + half, right - room.left(), room.height() - half)
+        instrument = QFontMetricsF(small).elidedText(row.instrument, Qt.TextElideMode.ElideRight, lower.width())
+        painter.drawText(lower, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft, instrument)
+
+    def _paint_button(self, painter: QPainter, box: QRect, letter: str, on: bool, colour: str) -> None:
+        tokens = self._session.tokens
+        painter.setBrush(QColor(colour) if on else Qt.BrushStyle.NoBrush)
+        painter.setPen(QPen(QColor(colour if on else tokens.line_strong), 1.0))
+        painter.drawRoundedRect(QRectF(box).adjusted(2.5, 2.5, -2.5, -2.5), 3, 3)
+        painter.setFont(self._small_font())
+        painter.setPen(QColor(tokens.sunken if on else tokens.text_dim))
+        painter.drawText(box, Qt.AlignmentFlag.AlignCenter, letter)
+
+    def _small_font(self) -> QFont:
+        font = QFont(self._view.font())
+        font.setPointSizeF(max(font.pointSizeF() - 0.5, 9.0))
+        return font
+
+    def createEditor(self, parent: QWidget, option: QStyleOptionViewItem, index: AnyIndex) -> QWidget:
+        field = QLineEdit(parent)
+        field.setObjectName("player_name")
+        return field
+
+    def updateEditorGeometry(self, editor: QWidget, option: QStyleOptionViewItem, index: AnyIndex) -> None:
+        box = option.rect
+        editor.setGeometry(box.adjusted(13, 3, -2 * BUTTON_PX - 12, -4))
+
+    def helpEvent(
+        self, event: QHelpEvent, view: QAbstractItemView, option: QStyleOptionViewItem, index: AnyIndex
+    ) -> bool:
+        if event.type() != QEvent.Type.ToolTip or not index.isValid():
+            return False
+        row: Row = index.data(_ROW)
+        mute, solo = self.buttons(option.rect)
+        if mute.contains(event.pos()):
+            text = self.tr("Mute: not heard, but still seen and exported")
+        elif solo.contains(event.pos()):
+            text = self.tr("Solo: only these are heard")
+        else:
+            lines = [row.player.name, row.instrument]
+            if row.leads:
+                lines.append(self.tr("Gives the entries"))
+            if row.problems:
+                lines.append(self.tr("Problems: {count}").format(count=row.problems))
+            text = "\n".join(lines)
+        QToolTip.showText(event.globalPos(), text, view)
+        return True
+
+
+class PlayerList(QListView):
+    """The players: click, Ctrl and Shift select; drag or Alt with the arrows reorders; F2 or a double click renames.
+
+    Signals
+    -------
+    mute_clicked(str), solo_clicked(str)
+        The button of this player.
+    moved(object, int)
+        These ids (tuple of str) go before the row that had this number.
+    chosen(object)
+        The person selected these ids (tuple of str), the first in front.
+    """
+
+    mute_clicked = Signal(str)
+    solo_clicked = Signal(str)
+    moved = Signal(object, int)
+    chosen = Signal(object)
+
+    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._session = session
+        self.rows = PlayerModel(self)
+        self._delegate = _RowDelegate(session, self)
+        self._showing = False
+        self._press: QPoint | None = None
+        self._pressed_number = -1
+        self._drop_row: int | None = None
+        self.setModel(self.rows)
+        self.setItemDelegate(self._delegate)
+        self.setSelectionMode(QAbstractItemView.SelectionMode.ExtendedSelection)
+        self.setEditTriggers(QAbstractItemView.EditTrigger.EditKeyPressed | QAbstractItemView.EditTrigger.DoubleClicked)
+        self.setVerticalScrollMode(QAbstractItemView.ScrollMode.ScrollPerPixel)
+        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.setUniformItemSizes(True)
+        self.setMouseTracking(True)
+        self.selectionModel().selectionChanged.connect(self._selected)
+
+    def show_rows(self, rows: tuple[Row, ...]) -> None:
+        """Show these players, and which of them are selected."""
+        self._showing = True
+        self.rows.show_rows(rows)
+        self._showing = False
+        self.show_selection()
+
+    def show_selection(self) -> None:
+        """Show whom the session has selected."""
+        numbers = [self.rows.number(player_id) for player_id in self._session.players]
+        wanted = [number for number in numbers if number is not None]
+        self._showing = True
+        selection = QItemSelection()
+        for number in wanted:
+            selection.select(self.rows.index(number), self.rows.index(number))
+        model = self.selectionModel()
+        flags = QItemSelectionModel.SelectionFlag
+        if wanted and self.currentIndex().row() != wanted[0]:
+            model.setCurrentIndex(self.rows.index(wanted[0]), flags.NoUpdate)
+        model.select(selection, flags.ClearAndSelect)
+        self._showing = False
+        self.viewport().update()
+
+    def rename_current(self) -> None:
+        """Open the field for the name of the player in front."""
+        if self.currentIndex().isValid():
+            self.edit(self.currentIndex())
+
+    def _selected(self) -> None:
+        if self._showing:
+            return
+        rows = self.rows.rows
+        numbers = sorted(index.row() for index in self.selectionModel().selectedIndexes())
+        current = self.currentIndex().row()
+        if current in numbers:
+            numbers.remove(current)
+            numbers.insert(0, current)
+        self.chosen.emit(tuple(rows[number].player.id for number in numbers))
+
+    def _button_at(self, position: QPoint) -> tuple[Signal | None, str]:
+        index = self.indexAt(position)
+        if not index.isValid():
+            return None, ""
+        mute, solo = self._delegate.buttons(self.visualRect(index))
+        player_id = self.rows.rows[index.row()].player.id
+        if mute.contains(position):
+            return self.mute_clicked, player_id  # type: ignore[return-value]
+        return (self.solo_clicked, player_id) if solo.contains(position) else (None, "")  # type: ignore[return-value]
+
+    def _carried(self) -> tuple[str, ...]:
+        """Whom a drag or Alt with an arrow moves, in their order."""
+        numbers = sorted(index.row() for index in self.selectionModel().selectedIndexes())
+        return tuple(self.rows.rows[number].player.id for number in numbers)
+
+    def _drop_row_at(self, y: int) -> int:
+        for number in range(len(self.rows.rows)):
+            if y < self.visualRect(self.rows.index(number)).center().y():
+                return number
+        return len(self.rows.rows)
+
+    def _shift(self, step: int) -> None:
+        carried = self._carried()
+        numbers = [number for player_id in carried if (number := self.rows.number(player_id)) is not None]
+        if not numbers:
+            return
+        target = numbers[0] - 1 if step < 0 else numbers[-1] + 2
+        if 0 <= target <= len(self.rows.rows):
+            self.moved.emit(carried, target)
+
+    # Qt's own names
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        position = event.position().toPoint()
+        self._press, self._pressed_number = None, -1
+        if event.button() == Qt.MouseButton.LeftButton:
+            signal, player_id = self._button_at(position)
+            if signal is not None:
+                signal.emit(player_id)  # type: ignore[attr-defined]
+                return
+            index = self.indexAt(position)
+            if index.isValid():
+                self._press = position
+                plain = event.modifiers() == Qt.KeyboardModifier.NoModifier
+                if plain and self.selectionModel().isSelected(index) and len(self._carried()) > 1:
+                    # Perhaps a drag of all of them: whether it was a click is known at the release.
+                    self._pressed_number = index.row()
+                    return
+        elif event.button() == Qt.MouseButton.RightButton:
+            index = self.indexAt(position)
+            if index.isValid() and not self.selectionModel().isSelected(index):
+                self.selectionModel().setCurrentIndex(index, QItemSelectionModel.SelectionFlag.ClearAndSelect)
+            return
+        super().mousePressEvent(event)
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:
+        if self._press is None or not event.buttons() & Qt.MouseButton.LeftButton:
+            super().mouseMoveEvent(event)
+            return
+        position = event.position().toPoint()
+        far = (position - self._press).manhattanLength() >= QApplication.startDragDistance()
+        if self._drop_row is not None or (far and len(self.rows.rows) > 1):
+            self._drop_row = self._drop_row_at(position.y())
+            self.viewport().update()
+
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:
+        target, self._drop_row = self._drop_row, None
+        pressed, self._pressed_number = self._pressed_number, -1
+        was_pressed, self._press = self._press is not None, None
+        self.viewport().update()
+        if target is not None:
+            self.moved.emit(self._carried(), target)
+        elif was_pressed and pressed >= 0:
+            flags = QItemSelectionModel.SelectionFlag
+            self.selectionModel().setCurrentIndex(self.rows.index(pressed), flags.ClearAndSelect)
+        else:
+            super().mouseReleaseEvent(event)
+
+    def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
+        if self._button_at(event.position().toPoint())[0] is not None:
+            self.mousePressEvent(event)
+        else:
+            super().mouseDoubleClickEvent(event)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        if event.key() == Qt.Key.Key_Escape and self._drop_row is not None:
+            self._drop_row, self._press, self._pressed_number = None, None, -1
+            self.viewport().update()
+        elif event.modifiers() == Qt.KeyboardModifier.AltModifier and event.key() in (Qt.Key.Key_Up, Qt.Key.Key_Down):
+            self._shift(-1 if event.key() == Qt.Key.Key_Up else 1)
+        else:
+            super().keyPressEvent(event)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        super().paintEvent(event)
+        if self._drop_row is None:
+            return
+        last = self._drop_row >= len(self.rows.rows)
+        box = self.visualRect(self.rows.index(min(self._drop_row, len(self.rows.rows) - 1)))
+        painter = QPainter(self.viewport())
+        painter.fillRect(
+            QRect(0, (box.bottom() if last else box.top()) - 1, self.viewport().width(), 3),
+            QColor(self._session.tokens.accent),
+        )
