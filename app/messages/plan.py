@@ -67,5 +67,9 @@ TEMPLATES: Final[dict[str, str]] = {
     "correction.orphaned": "the correction ({kind}) for {anchor} has lost its place: it is kept, but does nothing",
     "correction.unknown_expression": "there is no expression {name!r}; there are: {known}",
     "correction.empty_span": "the correction ({kind}) for {anchor} ends before it begins: it is kept, but does nothing",
+    "pose.beyond_reach": (
+        "the {target} was to be held {asked_deg:g} degrees ({angle}), but a body or the instrument's hold goes no "
+        "further than {most_deg:g}"
+    ),
     "correction.no_such_fingering": "{label} is not a fingering of note {note} on this instrument; the search chose",
 }

@@ -62,6 +62,10 @@ def _solve_arm(
     root_m = joint_m + quaternion.rotate(clavicle_world, clavicle)
     out = np.tan(motion.elbows_rad + ELBOW_OUT * motion.protraction_rad[side])[:, None] * np.array([sign, 0.0, 0.0])
     pole = quaternion.rotate(with_chest, hand.elbow_direction + out)
+    if side in motion.elbow_held_rad:
+        line = target_m - root_m
+        line /= np.sqrt(np.einsum("fi,fi->f", line, line))[:, None]
+        pole = quaternion.rotate(quaternion.from_axis_angle(line, sign * motion.elbow_held_rad[side]), pole)
     pose = solve_limb(limb, root_m, clavicle_world, target_m, target_rotation, pole)
     return {
         shoulder: moved,

@@ -17,12 +17,12 @@ import numpy as np
 
 from app.motion.curve import Curve, FloatArray, Noise, bump, moves, rows_changed_s, through
 from app.motion.gaze import Gaze
+from app.motion.pose import Poses, hold_body
 from app.motion.seed import generator
 from app.plan.model import BreathEvent, CueEvent, GestureEvent, PlayerParameters, PlayerPlan, same_events
+from app.plan.pose import BELL_LEFT, BELL_UP, NECK_SHARES, TRUNK_SHARES
 from metadata.model import AmplitudeScale, Body, Posture, at_amplitude
 
-TRUNK_SHARES = {"spine": 0.40, "chest": 0.35, "upperChest": 0.25}
-NECK_SHARES = {"neck": 0.45, "head": 0.55}
 TRUNK = (*TRUNK_SHARES, *NECK_SHARES)
 EYES_LEVEL = 0.6
 """Share of the trunk's sideways lean that neck and head take back, so that the eyes stay level."""
@@ -64,6 +64,8 @@ class BodyMotion:
         Bell up, beside what the head does: with the melody, and to give a cue.
     bell_down_rad, bell_right_rad : array
         Bell towards a far hand; what the contacts ask for.
+    bell_held_rad : dict of str to array
+        What the animator adds to the instrument's ``pitch`` (bell up), ``yaw`` and ``roll`` (left); empty: nothing.
     shoulders_rad : array
         Both shoulders up.
     elbows_rad : array
@@ -76,6 +78,8 @@ class BodyMotion:
         0 with the instrument at the lips, 1 with it lowered.
     protraction_rad : dict of str to array
         Each shoulder forwards, by side; what the contacts ask for.
+    elbow_held_rad : dict of str to array
+        How far the animator turns each elbow out, by side; empty: not at all.
     """
 
     forward_rad: dict[str, FloatArray]
@@ -90,6 +94,7 @@ class BodyMotion:
     bell_cue_rad: FloatArray
     bell_down_rad: FloatArray
     bell_right_rad: FloatArray
+    bell_held_rad: dict[str, FloatArray]
     shoulders_rad: FloatArray
     elbows_rad: FloatArray
     eyes_yaw_rad: FloatArray
@@ -97,6 +102,7 @@ class BodyMotion:
     inhaled: FloatArray
     lowered: FloatArray
     protraction_rad: dict[str, FloatArray]
+    elbow_held_rad: dict[str, FloatArray]
 
     def __getitem__(self, frames: slice) -> BodyMotion:
         """The same motion in some of its frames."""
@@ -116,7 +122,8 @@ class BodyMotion:
         nothing = dict.fromkeys(TRUNK, zero)
         held = {joint: np.array([np.deg2rad(posture.spine_deg.get(joint, 0.0))]) for joint in TRUNK}
         rest: dict[str, Any] = {member.name: zero for member in fields(cls)}
-        return cls(**(rest | {"forward_rad": held, "left_rad": nothing, "turn_rad": nothing, "protraction_rad": {}}))
+        empty: dict[str, Any] = {name: {} for name in ("protraction_rad", "elbow_held_rad", "bell_held_rad")}
+        return cls(**(rest | {"forward_rad": held, "left_rad": nothing, "turn_rad": nothing} | empty))
 
 
 @dataclass(frozen=True)
@@ -336,6 +343,7 @@ class Layers:
         Where sway, weight and bell go, -1..1.
     bobbing : Bobbing
     lowered : Curve
+    poses : Poses
     """
 
     full: Curve
@@ -346,6 +354,7 @@ class Layers:
     height: Curve
     bobbing: Bobbing
     lowered: Curve
+    poses: Poses
 
     @classmethod
     def of(
@@ -358,7 +367,9 @@ class Layers:
                 if not same_events(plan, other, "breaths"):
                     full, leaning = lungs(plan.breaths)
                     layers = replace(layers, full=full, leaning=leaning)
-                return layers if same_events(plan, other, "cues") else replace(layers, nods=Nods.of(plan.cues))
+                if not same_events(plan, other, "cues"):
+                    layers = replace(layers, nods=Nods.of(plan.cues))
+                return layers if same_events(plan, other, "poses") else replace(layers, poses=Poses.of(plan.poses))
         full, leaning = lungs(plan.breaths)
         return cls(
             full=full,
@@ -369,6 +380,7 @@ class Layers:
             height=follow(plan.gestures, "bell_height", 0.5),
             bobbing=Bobbing.of(plan.gestures, beat_ticks),
             lowered=lowering(plan.gestures, body.bell.lower_s, body.bell.raise_s),
+            poses=Poses.of(plan.poses),
         )
 
 
@@ -431,10 +443,21 @@ def body_motion(
 
     roll = weight * sizes.rad(body.weight_shift.roll_deg)
     left.add(TRUNK_SHARES, -0.8 * roll)
+    forward_rad, left_rad, turn_rad = forward.all(), left.all(), turn.all()
+    held = layers.poses.sample(times_s)
+    hold_body(held, body, forward_rad, left_rad, turn_rad)
+    bell_held, elbows_held = {}, {}
+    if "bell" in held:
+        bell = held["bell"]
+        bell_held = {"pitch": BELL_UP["bell"] * bell.up, "yaw": BELL_LEFT["bell"] * bell.left, "roll": bell.roll}
+    if "left_elbow" in held:
+        elbows_held["left"] = held["left_elbow"].up
+    if "right_elbow" in held:
+        elbows_held["right"] = held["right_elbow"].up
     return BodyMotion(
-        forward_rad=forward.all(),
-        left_rad=left.all(),
-        turn_rad=turn.all(),
+        forward_rad=forward_rad,
+        left_rad=left_rad,
+        turn_rad=turn_rad,
         hips_side_m=weight * sizes.of(body.weight_shift.side_m)
         + sizes.wander("weight", body.weight_shift.side_m, times_s),
         hips_bob_m=down * sizes.of(sway.bob_m),
@@ -445,6 +468,7 @@ def body_motion(
         bell_cue_rad=bell_cue,
         bell_down_rad=np.zeros(frames),
         bell_right_rad=np.zeros(frames),
+        bell_held_rad=bell_held,
         shoulders_rad=deg(body.breath.shoulder_lift_deg) * inhaled,
         elbows_rad=deg(body.breath.elbow_out_deg) * inhaled - 4.0 * lowered * (1.0 - lowered) * LOWER_ELBOWS_RAD,
         eyes_yaw_rad=gaze.yaw_rad.sample(times_s) - 0.5 * head_yaw,
@@ -452,4 +476,5 @@ def body_motion(
         inhaled=inhaled,
         lowered=lowered,
         protraction_rad={},
+        elbow_held_rad=elbows_held,
     )

@@ -13,6 +13,7 @@ import numpy as np
 
 from app.motion.body import BodyMotion
 from app.motion.curve import FloatArray
+from app.motion.pose import within
 from app.motion.posture import Trunk
 from app.rig import quaternion
 from app.rig.hold import Hold
@@ -32,7 +33,7 @@ class Carried:
     rotation: FloatArray
 
 
-def attitude(pitch_down_rad: FloatArray, yaw_left_rad: FloatArray, roll_left_rad: float) -> FloatArray:
+def attitude(pitch_down_rad: FloatArray, yaw_left_rad: FloatArray, roll_left_rad: FloatArray | float) -> FloatArray:
     """Rotation (F, 4) of an instrument from its angles, in the order yaw, pitch, roll."""
     yaw = quaternion.from_axis_angle(Y_AXIS, yaw_left_rad)
     roll = quaternion.from_axis_angle(Z_AXIS, -roll_left_rad)
@@ -46,6 +47,22 @@ def bell_pitch(carriage: Carriage, bell_rad: FloatArray) -> FloatArray:
     room = np.where(down >= 0.0, max(high - usual, 1e-3), max(usual - low, 1e-3))
     pitch: FloatArray = usual + room * np.tanh(down / room)
     return pitch
+
+
+def held_angles(carriage: Carriage, motion: BodyMotion) -> tuple[FloatArray, FloatArray | float, FloatArray | float]:
+    """Pitch (down), yaw and roll (left) of the instrument as the melody and the animator have it, within the carriage's
+    ranges."""
+    pitch = bell_pitch(carriage, motion.bell_rad)
+    yaw, roll = float(np.deg2rad(carriage.yaw_left_deg[1])), float(np.deg2rad(carriage.roll_left_deg[1]))
+    held = motion.bell_held_rad
+    if not held:
+        return pitch, yaw, roll
+    low, _, high = np.deg2rad(carriage.pitch_down_deg)
+    pitch = pitch - within(held["pitch"], pitch - low, high - pitch)
+    low, usual, high = np.deg2rad(carriage.yaw_left_deg)
+    turned = usual + within(held["yaw"], high - usual, usual - low)
+    low, usual, high = np.deg2rad(carriage.roll_left_deg)
+    return pitch, turned, usual + within(held["roll"], high - usual, usual - low)
 
 
 def carry(
@@ -79,10 +96,10 @@ def carry(
     # The jaw is far enough down to have left the rim long before the mouth is fully open.
     on_upper = 1.0 - (1.0 - mouth_open) ** 4
     lips_m = contact_m + (upper_m + grip_of_lips_m - contact_m) * on_upper[:, None]
-    yaw, roll = np.deg2rad(carriage.yaw_left_deg[1]) - motion.bell_right_rad, np.deg2rad(carriage.roll_left_deg[1])
+    pitch, yaw, roll = held_angles(carriage, motion)
     with_head = quaternion.multiply(body.head, quaternion.conjugate(base.head))
-    pitch = bell_pitch(carriage, motion.bell_rad) - motion.bell_cue_rad + motion.bell_down_rad
-    rotation = quaternion.multiply(with_head, attitude(pitch, yaw, float(roll)))
+    pitch = pitch - motion.bell_cue_rad + motion.bell_down_rad
+    rotation = quaternion.multiply(with_head, attitude(pitch, yaw - motion.bell_right_rad, roll))
     position_m = body.head_m + quaternion.rotate(body.head, lips_m)
     if not np.any(lowering):
         return Carried(position_m, rotation)

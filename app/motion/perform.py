@@ -86,9 +86,7 @@ class Playing:
         times_s = frame_times(self.start_s, fps, first_frame - pad, frames + 2 * pad)
         mouth_open = self.face.mouth_open.sample(times_s)
         curves = Curves(
-            body=body_motion(
-                self.layers, self.player_id, self.parameters, self.body, self.posture, self.gaze, times_s
-            ),
+            body=body_motion(self.layers, self.player_id, self.parameters, self.body, self.posture, self.gaze, times_s),
             controls={name: curve.sample(times_s) for name, curve in self.controls.items()},
             morphs=face_morphs(self.face, self.body, self.expressions, self.gaze, mouth_open, times_s),
             mouth_open=mouth_open,

@@ -1,17 +1,24 @@
 """What all players of a project do: plans from a snapshot of the project, made once and shared by everyone who asks.
 
-Messages: ``piece.too_long`` (hours, most_hours): "the piece lasts {hours} hours; at most {most_hours} can be played".
+Messages: ``piece.too_long`` (hours, most_hours): "the piece lasts {hours} hours; at most {most_hours} can be played";
+``project.instrument_missing``, ``project.character_missing`` (player, id), as problems of the player's plan.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import cached_property
+from threading import RLock
 
-from app.errors import AppError
+import msgspec
+
+from app.errors import AppError, MapError, Message
 from app.performance.loudness import note_loudness
-from app.plan.generate import Line, Piece, make_plans, time_frame
-from app.plan.model import PlayerPlan, TimeFrame
+from app.plan.generate import EnsemblePlan, Line, Piece, frame_around, plan_ensemble
+from app.plan.memo import Memo
+from app.plan.model import PlayerPlan, Problem, TimeFrame
 from app.project.model import Player, Project
+from app.rig.character import characters
 from instrument_maps.load import find_map
 from instrument_maps.model import InstrumentMap
 from metadata.load import load_expressions
@@ -24,10 +31,16 @@ MOST_HOURS = 12
 class Performance:
     """A project, played.
 
+    A player whose instrument there is no map of, or who is a character that is not there, keeps a place: the plan has
+    a problem and, without a map, no events; the others play on.
+
     Parameters
     ----------
     project : Project
         A value: what is made from it once stays right.
+    before : Performance, optional
+        Of the same document before an edit: what has not changed is taken from there, to the object. The result is
+        the same without it.
 
     Raises
     ------
@@ -35,57 +48,145 @@ class Performance:
         ``piece.too_long``: a few wrong bytes can make a piece of months, whose bars alone would fill the memory.
     """
 
-    def __init__(self, project: Project) -> None:
+    def __init__(self, project: Project, before: Performance | None = None) -> None:
         hours = project.score.tempo_map.seconds(float(project.score.end_tick)) / 3600.0
         if hours > MOST_HOURS:
             raise AppError("piece.too_long", hours=round(hours, 1), most_hours=MOST_HOURS)
         self.project = project
+        # One that was never played knows nothing, but may know of one that was.
+        self._before: Performance | None = before if before is None or before.planned else before._before
+        self._memo: Memo = Memo(None if self._before is None else self._before._memo)
+        self._lock = RLock()
 
     @cached_property
     def piece(self) -> Piece:
         """What all players share."""
-        score = self.project.score
-        return Piece(
-            clock=score.tempo_map,
-            metres=score.metres,
-            felt_beat_ticks=self.project.felt_beat_ticks,
-            bar_ticks=tuple(score.bar_starts.tolist()),
-        )
+        with self._lock:
+            score, beat_ticks = self.project.score, self.project.felt_beat_ticks
+            return self._memo.step(
+                "piece",
+                lambda: Piece(
+                    clock=score.tempo_map,
+                    metres=score.metres,
+                    felt_beat_ticks=beat_ticks,
+                    bar_ticks=tuple(score.bar_starts.tolist()),
+                ),
+                score.tempo_map,
+                score.metres,
+                score.pickup_ticks,
+                score.end_tick,
+                beat_ticks,
+            )
 
     @cached_property
     def lines(self) -> tuple[Line, ...]:
-        """What each player plays, in the order of the project's players."""
-        return tuple(
-            Line(
-                player_id=player.id,
-                notes=self.project.part(player).notes,
-                instrument_map=self.instrument(player),
-                parameters=player.parameters,
-                corrections=self.project.corrections.get(player.id, ()),
-                loudness=note_loudness(self.project.part(player)),
-            )
-            for player in self.project.players
+        """What each player plays who has an instrument, in the order of the project's players."""
+        with self._lock:
+            lines = []
+            for player in self.project.players:
+                try:
+                    instrument = self.instrument(player)
+                except MapError:
+                    continue
+                lines.append(self._line(player, instrument))
+            return tuple(lines)
+
+    def _line(self, player: Player, instrument: InstrumentMap) -> Line:
+        part = self.project.part(player)
+        corrections = self.project.corrections.get(player.id, ())
+        loudness = self._memo.step(f"loudness:{player.id}", lambda: note_loudness(part), part.notes, part.curves)
+        return self._memo.step(
+            f"line:{player.id}",
+            lambda: Line(player.id, part.notes, instrument, player.parameters, corrections, loudness),
+            player.id,
+            part.notes,
+            instrument,
+            player.parameters,
+            corrections,
+            loudness,
         )
 
     @cached_property
     def time_frame(self) -> TimeFrame:
         """The span that every player's motion covers."""
-        return time_frame(self.lines, self.piece.clock, self.project.preroll_beats, self.piece.beat_ticks)
+        players = [self.project.player(line.player_id) for line in self.lines]
+        played = [part for part in map(self.project.part, players) if part.notes]
+        first_tick = min((part.notes[0].onset_tick for part in played), default=0)
+        last_tick = max((part.end_tick for part in played), default=0)
+        piece = self.piece
+        return frame_around(first_tick, last_tick, piece.clock, self.project.preroll_beats, piece.beat_ticks)
+
+    @cached_property
+    def _ensemble(self) -> EnsemblePlan:
+        self.prepare()
+        return self._ensemble
+
+    def prepare(
+        self,
+        stop_wanted: Callable[[], bool] = lambda: False,
+        progress: Callable[[float], None] = lambda share: None,
+    ) -> None:
+        """Make all plans, if they are not made yet.
+
+        Raises
+        ------
+        Cancelled
+            ``stop_wanted`` said so; the next one begins again.
+        """
+        with self._lock:
+            if self.planned:
+                return
+            before = None if self._before is None else self._before._ensemble
+            made = plan_ensemble(
+                self.piece,
+                self.lines,
+                self.time_frame,
+                self.project.seed,
+                self.expressions,
+                before,
+                stop_wanted,
+                progress,
+            )
+            self._plans = {player.id: self._told(player, made) for player in self.project.players}
+            self.__dict__["_ensemble"] = made
+            self._memo.close()
+            self._before = None
+
+    def _told(self, player: Player, made: EnsemblePlan) -> PlayerPlan:
+        """A player's plan with what is wrong about the player."""
+        plan, frame = made.plans.get(player.id), self.time_frame
+        problems = [] if plan is not None else [("project.instrument_missing", player.instrument_id)]
+        if player.character_id not in characters():
+            problems.append(("project.character_missing", player.character_id))
+        if plan is not None and not problems:
+            return plan
+        told = tuple(
+            Problem(Message(id, {"player": player.name, "id": what}), None, frame.first_frame_s, frame.end_s)
+            for id, what in problems
+        )
+        return self._memo.step(
+            f"told:{player.id}", lambda: _with_problems(player, plan, frame, told), plan, frame, told
+        )
 
     @cached_property
     def plans(self) -> dict[str, PlayerPlan]:
         """Every player's plan by player id."""
-        return make_plans(self.piece, self.lines, self.time_frame, self.project.seed, self.expressions)
+        self.prepare()
+        return self._plans
 
     @cached_property
     def expressions(self) -> dict[str, Expression]:
         """Every expression by name; the project's own win over the bundled ones."""
-        return load_expressions() | {expression.name: expression for expression in self.project.expressions}
+        with self._lock:
+            own = self.project.expressions
+            return self._memo.step(
+                "expressions", lambda: load_expressions() | {expression.name: expression for expression in own}, own
+            )
 
     @property
     def planned(self) -> bool:
         """Whether the plans are made already: asking for them then costs nothing."""
-        return "plans" in self.__dict__
+        return "_ensemble" in self.__dict__
 
     def plan(self, player: Player) -> PlayerPlan:
         """One player's plan."""
@@ -94,3 +195,9 @@ class Performance:
     def instrument(self, player: Player) -> InstrumentMap:
         """The map of what a player plays. Raises MapError where there is none of its id."""
         return find_map(player.instrument_id)
+
+
+def _with_problems(player: Player, plan: PlayerPlan | None, frame: TimeFrame, told: tuple[Problem, ...]) -> PlayerPlan:
+    if plan is None:
+        return PlayerPlan(player.id, frame, (), (), (), (), (), (), (), told)
+    return msgspec.structs.replace(plan, problems=told + plan.problems)

@@ -354,16 +354,14 @@ class LiveMotion:
         if track is None:
             return ()
         grid, spans = shown.grid, list[tuple[int, int]]()
-        for index in sorted(tuple(track.chunks)):
+        for index in sorted(track.chunks):
             if spans and spans[-1][1] == index:
                 spans[-1] = (spans[-1][0], index + 1)
             else:
                 spans.append((index, index + 1))
         step_s = grid.length * grid.fps.denominator / grid.fps.numerator
         end_s = grid.start_s + grid.frames * grid.fps.denominator / grid.fps.numerator
-        return tuple(
-            (grid.start_s + first * step_s, min(grid.start_s + last * step_s, end_s)) for first, last in spans
-        )
+        return tuple((grid.start_s + first * step_s, min(grid.start_s + last * step_s, end_s)) for first, last in spans)
 
     @property
     def bytes(self) -> int:

@@ -17,7 +17,7 @@ import msgspec
 import numpy as np
 
 from app.errors import Argument, Message
-from app.plan.corrections import BY_HAND, SetCue, removed_ids
+from app.plan.corrections import BY_HAND, RemoveEvent, SetBreath, SetCue, removed_ids
 from app.plan.line import Line, LineTimes, Piece
 from app.plan.model import CueEvent, TimeFrame
 
@@ -88,6 +88,19 @@ def leader_of(entry: Entry, lines: tuple[Line, ...], all_times: tuple[LineTimes,
     return best[0], "highest"
 
 
+def cue_inputs(lines: tuple[Line, ...]) -> tuple[object, ...]:
+    """What `plan_cues` looks at in the lines, beside their times: equal inputs give equal cues."""
+    return tuple(
+        (
+            line.player_id,
+            line.notes,
+            line.parameters.cue_leader,
+            tuple(item for item in line.corrections if isinstance(item, SetCue | RemoveEvent | SetBreath)),
+        )
+        for line in lines
+    )
+
+
 def plan_cues(
     lines: tuple[Line, ...], all_times: tuple[LineTimes, ...], piece: Piece, frame: TimeFrame
 ) -> tuple[tuple[CueEvent, ...], frozenset[str]]:
@@ -112,6 +125,8 @@ def plan_cues(
         for event in generated:
             if event.player_id == line.player_id and event.id in removed:
                 del events[event.id + event.player_id]
+        if not any(isinstance(item, SetCue) for item in line.corrections):
+            continue
         onsets = {note.id: note.onset_tick for note in line.notes}
         for item in line.corrections:
             if isinstance(item, SetCue):

@@ -2,32 +2,49 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import NamedTuple
 
 import msgspec
 
-from app.plan.breath import BreathPlan, plan_breaths
+from app.errors import Cancelled
+from app.plan.breath import plan_breaths
 from app.plan.corrections import (
+    AddExpression,
+    AddGesture,
+    ChangeExpression,
+    ChangeGesture,
     Correction,
     PinFingering,
+    PoseCorrection,
+    RemoveEvent,
+    SetBreath,
+    SetCue,
+    SetEmbouchure,
     correct_embouchures,
     correct_expressions,
     correct_gestures,
     orphans,
     sound_corrections,
 )
-from app.plan.cue import plan_cues
+from app.plan.cue import cue_inputs, plan_cues
 from app.plan.embouchure import plan_embouchures, plan_tongues
 from app.plan.expression import plan_expressions
 from app.plan.fingering import plan_fingerings
 from app.plan.gesture import plan_gestures
 from app.plan.line import Line, LineTimes, Piece, line_times
+from app.plan.memo import Memo
 from app.plan.model import Clock, CueEvent, PlayerPlan, Problem, TimeFrame
+from app.plan.pose import plan_poses
 from app.plan.together import one_at_a_time
 from metadata.load import load_expressions
 from metadata.model import Expression
 
-__all__ = ["Line", "Piece", "make_plans", "time_frame"]
+__all__ = ["EnsemblePlan", "Line", "Piece", "make_plans", "plan_ensemble", "time_frame"]
+
+BREATH_PARAMETERS = ("breath_min_beats", "breath_last_beat_beats", "breath_prepare_beats", "lung_s")
+"""Parameters that the breaths look at."""
 
 PREROLL_BEATS = 4.0
 PREROLL_LEAST_S = 2.0
@@ -47,10 +64,40 @@ def time_frame(
     """
     first = min((line.notes[0].onset_tick for line in lines if line.notes), default=0)
     last = max((note.onset_tick + note.duration_tick for line in lines for note in line.notes), default=0)
+    return frame_around(first, last, clock, preroll_beats, beat_ticks)
+
+
+def frame_around(
+    first_tick: int,
+    last_tick: int,
+    clock: Clock,
+    preroll_beats: float = PREROLL_BEATS,
+    beat_ticks: int | None = None,
+) -> TimeFrame:
+    """The same of a piece that sounds from one tick to another."""
     preroll = preroll_beats * (beat_ticks or clock.ticks_per_quarter)
-    first_s = clock.seconds(float(first))
-    start_s = min(clock.seconds(first - preroll), first_s - PREROLL_LEAST_S)
-    return TimeFrame(start_s, clock.seconds(float(last)) + AFTER_LAST_S)
+    first_s = clock.seconds(float(first_tick))
+    start_s = min(clock.seconds(first_tick - preroll), first_s - PREROLL_LEAST_S)
+    return TimeFrame(start_s, clock.seconds(float(last_tick)) + AFTER_LAST_S)
+
+
+@dataclass(frozen=True, eq=False)
+class EnsemblePlan:
+    """The plans of an ensemble, and how they were made.
+
+    Attributes
+    ----------
+    plans : dict of str to PlayerPlan
+        By player id.
+    shared : Memo
+        Steps that concern everybody.
+    own : dict of str to Memo
+        Steps of single players.
+    """
+
+    plans: dict[str, PlayerPlan]
+    shared: Memo
+    own: dict[str, Memo]
 
 
 def make_plans(
@@ -60,6 +107,20 @@ def make_plans(
     seed: int = 0,
     expressions: Mapping[str, Expression] | None = None,
 ) -> dict[str, PlayerPlan]:
+    """Plan every line of the ensemble, in order; see `plan_ensemble`."""
+    return plan_ensemble(piece, lines, frame, seed, expressions).plans
+
+
+def plan_ensemble(
+    piece: Piece,
+    lines: tuple[Line, ...],
+    frame: TimeFrame,
+    seed: int = 0,
+    expressions: Mapping[str, Expression] | None = None,
+    before: EnsemblePlan | None = None,
+    stop_wanted: Callable[[], bool] = lambda: False,
+    progress: Callable[[float], None] = lambda share: None,
+) -> EnsemblePlan:
     """Plan every line of the ensemble, in order.
 
     Parameters
@@ -70,88 +131,209 @@ def make_plans(
         Of the whole performance; players and score positions are added to it.
     expressions : mapping of str to Expression, optional
         What may be named; at least the bundled ones, which are the default.
+    before : EnsemblePlan, optional
+        Of the same ensemble before an edit: what has not changed is taken from there, to the object.
+    stop_wanted, progress : callable
+        Asked, and told the share that is done, between two players.
 
-    Returns
-    -------
-    dict of str to PlayerPlan
-        By player id.
+    Raises
+    ------
+    Cancelled
+        ``stop_wanted`` said so.
     """
     faces = load_expressions() if expressions is None else expressions
-    checked = [sound_corrections(line.corrections, tuple(faces), frame.first_frame_s) for line in lines]
-    singles = [
-        one_at_a_time(msgspec.structs.replace(line, corrections=sound), piece.clock)
-        for line, (sound, _) in zip(lines, checked, strict=True)
-    ]
-    lines = tuple(line for line, _ in singles)
-    all_times = tuple(line_times(line, piece.clock) for line in lines)
-    cues, cue_ids = plan_cues(lines, all_times, piece, frame)
+    shared = Memo(None if before is None else before.shared)
+    own = {line.player_id: Memo(None if before is None else before.own.get(line.player_id)) for line in lines}
+    playable: list[tuple[Line, LineTimes, tuple[Problem, ...]]] = []
+    for line in lines:
+        _go_on(stop_wanted)
+        playable.append(
+            own[line.player_id].step(
+                "playable",
+                lambda line=line: _playable(line, piece.clock, tuple(faces), frame.first_frame_s),  # type: ignore[misc]
+                line,
+                piece.clock,
+                tuple(faces),
+                frame.first_frame_s,
+            )
+        )
+    lines, all_times = tuple(line for line, _, _ in playable), tuple(times for _, times, _ in playable)
+    cues, cue_ids = shared.step(
+        "cues", lambda: plan_cues(lines, all_times, piece, frame), cue_inputs(lines), all_times, piece, frame
+    )
     first_s = min((float(times.onset_s[0]) for times in all_times if len(times.onset_s)), default=0.0)
-    taken: dict[tuple[tuple[int, int, int], ...], frozenset[tuple[int, int]]] = {}
+    taken: dict[bytes, frozenset[tuple[int, int]]] = {}
     plans = {}
-    told = [unsound + unplayable for (_, unsound), (_, unplayable) in zip(checked, singles, strict=True)]
-    for line, times, problems in zip(lines, all_times, told, strict=True):
-        # Players of one part stagger their catch breaths; the key is what they play.
-        part = tuple(zip(times.onset_tick.tolist(), times.played_end_tick.tolist(), times.pitch.tolist(), strict=True))
-        places = taken.get(part, frozenset())
-        ids = frozenset(note.id for note in line.notes if (note.onset_tick, note.pitch) in places)
+    for done, (line, times, problems) in enumerate(playable):
+        _go_on(stop_wanted)
+        # Players of one part stagger their catch breaths.
+        places = taken.get(times.part, frozenset())
         own_cues = tuple(cue for cue in cues if cue.player_id == line.player_id)
-        plan, breaths = _plan_line(piece, line, times, frame, own_cues, cue_ids, ids, seed, first_s, problems, faces)
+        memo = own[line.player_id]
+        given = _Given(piece, line, times, frame, own_cues, cue_ids, places, seed, first_s, problems, faces)
+        plan, caught = memo.step("plan", lambda given=given, memo=memo: _plan_line(given, memo), *given)  # type: ignore[misc]
         plans[line.player_id] = plan
-        caught = {(note.onset_tick, note.pitch) for note in line.notes if note.id in breaths.catch_notes}
-        taken[part] = places | caught
-    return plans
+        taken[times.part] = places | caught
+        progress((done + 1) / len(playable))
+    for steps in (shared, *own.values()):
+        steps.close()
+    return EnsemblePlan(plans, shared, own)
 
 
-def _plan_line(
-    piece: Piece,
-    line: Line,
-    times: LineTimes,
-    frame: TimeFrame,
-    cues: tuple[CueEvent, ...],
-    cue_ids: frozenset[str],
-    taken: frozenset[str],
-    seed: int,
-    swing_at_s: float,
-    unsound: tuple[Problem, ...],
-    faces: Mapping[str, Expression],
-) -> tuple[PlayerPlan, BreathPlan]:
+def _go_on(stop_wanted: Callable[[], bool]) -> None:
+    if stop_wanted():
+        raise Cancelled("work.stopped")
+
+
+def _playable(
+    line: Line, clock: Clock, faces: tuple[str, ...], at_s: float
+) -> tuple[Line, LineTimes, tuple[Problem, ...]]:
+    """A line as it can be played, with its times, and what to tell of the rest."""
+    sound, unsound = sound_corrections(line.corrections, faces, at_s)
+    line, unplayable = one_at_a_time(msgspec.structs.replace(line, corrections=sound), clock)
+    return line, line_times(line, clock), unsound + unplayable
+
+
+class _Given(NamedTuple):
+    """What one player's plan is made from. ``taken`` are places (tick, pitch) where others of the part breathe."""
+
+    piece: Piece
+    line: Line
+    times: LineTimes
+    frame: TimeFrame
+    cues: tuple[CueEvent, ...]
+    cue_ids: frozenset[str]
+    taken: frozenset[tuple[int, int]]
+    seed: int
+    swing_at_s: float
+    told: tuple[Problem, ...]
+    faces: Mapping[str, Expression]
+
+
+def _plan_line(given: _Given, memo: Memo) -> tuple[PlayerPlan, frozenset[tuple[int, int]]]:
+    """One player's plan, and the places of the catch breaths."""
+    piece, line, times, frame = given.piece, given.line, given.times, given.frame
     notes, instrument, parameters = line.notes, line.instrument_map, line.parameters
-    corrections: tuple[Correction, ...] = line.corrections
-    seeds = (seed, parameters.seed, line.player_id)
+    corrections, clock = line.corrections, piece.clock
+    seeds = (given.seed, parameters.seed, line.player_id)
+    sound = (notes, times)
+
+    def of(*kinds: type[Correction]) -> tuple[Correction, ...]:
+        return tuple(item for item in corrections if isinstance(item, kinds))
+
     pins = {item.note_id: item.label for item in corrections if isinstance(item, PinFingering)}
-    fingerings, fingering_problems = plan_fingerings(notes, times, instrument, pins)
-    breaths = plan_breaths(notes, times, piece, parameters, frame, corrections, taken, seeds)
-    embouchures = correct_embouchures(
-        plan_embouchures(notes, times, instrument, parameters, breaths.early_end_s), corrections
+    fingerings, fingering_problems = memo.step(
+        "fingerings", lambda: plan_fingerings(notes, times, instrument, pins), *sound, instrument, pins
     )
-    made_gestures = plan_gestures(notes, times, piece, frame, breaths.events, cues, seeds, swing_at_s)
-    gestures = correct_gestures(made_gestures, corrections, piece.clock)
-    made_expressions = plan_expressions(
-        notes, times, piece.clock, instrument, frame, embouchures, breaths.events, cues, gestures, faces
+    taken = frozenset(note.id for note in notes if (note.onset_tick, note.pitch) in given.taken)
+    breaths = memo.step(
+        "breaths",
+        lambda: plan_breaths(notes, times, piece, parameters, frame, corrections, taken, seeds),
+        *sound,
+        piece,
+        tuple(getattr(parameters, name) for name in BREATH_PARAMETERS),
+        frame,
+        of(SetBreath, RemoveEvent, SetCue),
+        taken,
+        seeds,
     )
-    generated = (
-        breaths.generated_ids
-        | cue_ids
-        | {event.id for event in made_gestures}
-        | {event.id for event in made_expressions}
+    events, early_end_s = breaths.events, breaths.early_end_s
+    embouchures = memo.step(
+        "embouchures",
+        lambda: correct_embouchures(plan_embouchures(notes, times, instrument, parameters, early_end_s), corrections),
+        *sound,
+        instrument,
+        parameters.embouchure_tension,
+        early_end_s,
+        of(SetEmbouchure),
     )
-    note_ids = frozenset(note.id for note in notes)
-    problems = (
-        *fingering_problems,
-        *breaths.problems,
-        *unsound,
-        *orphans(corrections, note_ids, generated, frame.first_frame_s),
+    made_gestures = memo.step(
+        "gestures",
+        lambda: plan_gestures(notes, times, piece, frame, events, given.cues, seeds, given.swing_at_s),
+        *sound,
+        piece,
+        frame,
+        events,
+        given.cues,
+        seeds,
+        given.swing_at_s,
     )
+    moved = of(ChangeGesture, AddGesture, RemoveEvent, SetBreath, SetCue)
+    gestures = memo.step(
+        "corrected gestures",
+        lambda: correct_gestures(made_gestures, corrections, clock),
+        made_gestures,
+        moved,
+        clock,
+    )
+    made_expressions = memo.step(
+        "expressions",
+        lambda: plan_expressions(
+            notes, times, clock, instrument, frame, embouchures, events, given.cues, gestures, given.faces
+        ),
+        *sound,
+        clock,
+        instrument,
+        frame,
+        embouchures,
+        events,
+        given.cues,
+        gestures,
+        given.faces,
+    )
+    faced = of(ChangeExpression, AddExpression, RemoveEvent, SetBreath, SetCue)
+    expressions = memo.step(
+        "corrected expressions",
+        lambda: correct_expressions(made_expressions, corrections, clock),
+        made_expressions,
+        faced,
+        clock,
+    )
+    tongues = memo.step(
+        "tongues", lambda: plan_tongues(notes, times, instrument, fingerings), *sound, instrument, fingerings
+    )
+    poses, pose_problems = memo.step(
+        "poses",
+        lambda: plan_poses(corrections, instrument, parameters, clock),
+        of(PoseCorrection),
+        instrument,
+        parameters.posture,
+        clock,
+    )
+    lost = memo.step(
+        "lost",
+        lambda: orphans(
+            corrections,
+            frozenset(note.id for note in notes),
+            breaths.generated_ids
+            | given.cue_ids
+            | {event.id for event in made_gestures}
+            | {event.id for event in made_expressions},
+            frame.first_frame_s,
+        ),
+        corrections,
+        notes,
+        breaths.generated_ids,
+        given.cue_ids,
+        made_gestures,
+        made_expressions,
+        frame.first_frame_s,
+    )
+    problems = (*fingering_problems, *breaths.problems, *pose_problems, *given.told, *lost)
     plan = PlayerPlan(
         player_id=line.player_id,
         time_frame=frame,
         fingerings=fingerings,
-        breaths=breaths.events,
-        tongues=plan_tongues(notes, times, instrument, fingerings),
+        breaths=events,
+        tongues=tongues,
         embouchures=embouchures,
-        cues=cues,
+        cues=given.cues,
         gestures=gestures,
-        expressions=correct_expressions(made_expressions, corrections, piece.clock),
+        expressions=expressions,
         problems=tuple(sorted(problems, key=lambda problem: problem.start_s)),
+        poses=poses,
     )
-    return plan, breaths
+    caught = frozenset(
+        (note.onset_tick, note.pitch) for note in notes if breaths.catch_notes and note.id in breaths.catch_notes
+    )
+    return plan, caught

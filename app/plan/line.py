@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import itertools
 from dataclasses import dataclass
+from functools import cached_property
 
 import msgspec
 import numpy as np
@@ -105,7 +106,7 @@ class Piece(msgspec.Struct, frozen=True):
         )
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class LineTimes:
     """The notes of a line as arrays (N,), in ticks and seconds.
 
@@ -126,6 +127,14 @@ class LineTimes:
     def duration_s(self) -> FloatArray:
         """Sounding time of each note."""
         return self.played_end_s - self.onset_s
+
+    @cached_property
+    def part(self) -> bytes:
+        """What is played and when: equal for players of one part."""
+        digest = hashlib.blake2b(digest_size=16)
+        for column in (self.onset_tick, self.played_end_tick, self.pitch):
+            digest.update(column.tobytes())
+        return digest.digest()
 
 
 BEFORE_FIRST_TICK = 1 << 40

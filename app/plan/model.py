@@ -201,14 +201,7 @@ class PoseEvent(msgspec.Struct, frozen=True):
 
 
 Event: TypeAlias = (
-    FingeringEvent
-    | BreathEvent
-    | TongueEvent
-    | EmbouchureEvent
-    | CueEvent
-    | GestureEvent
-    | ExpressionEvent
-    | PoseEvent
+    FingeringEvent | BreathEvent | TongueEvent | EmbouchureEvent | CueEvent | GestureEvent | ExpressionEvent | PoseEvent
 )
 
 

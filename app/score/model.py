@@ -69,7 +69,7 @@ class Metre(msgspec.Struct, frozen=True):
     denominator: int
 
 
-class Part(msgspec.Struct, frozen=True):
+class Part(msgspec.Struct, frozen=True, dict=True):
     """What one player plays: one voice of one track.
 
     Attributes
@@ -106,6 +106,11 @@ class Part(msgspec.Struct, frozen=True):
     map_id: str
     notes: tuple[Note, ...]
     curves: tuple[ControllerCurve, ...] = ()
+
+    @cached_property
+    def end_tick(self) -> int:
+        """Where its last note ends; 0 without notes."""
+        return max((note.end_tick for note in self.notes), default=0)
 
 
 class UnplayedPart(msgspec.Struct, frozen=True):
@@ -147,7 +152,7 @@ class Score(msgspec.Struct, frozen=True, dict=True):
     @cached_property
     def end_tick(self) -> int:
         """Where the last note of the parts ends; 0 without notes."""
-        return max((note.end_tick for part in self.parts for note in part.notes), default=0)
+        return max((part.end_tick for part in self.parts), default=0)
 
     @property
     def sounding_end_tick(self) -> int:
