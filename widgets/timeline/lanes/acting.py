@@ -1,0 +1,442 @@
+"""The lane of acting: cues, expressions, poses and gestures, each kind in rows of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen, QPolygonF, QResizeEvent
+from PySide6.QtWidgets import QMenu, QWidget
+
+from app.errors import Message
+from app.plan.model import CueEvent, ExpressionEvent, GestureEvent, PlayerPlan, PoseEvent
+from app.project.edit.events import (
+    GESTURE_KINDS,
+    OWN,
+    Edited,
+    GestureKind,
+    add_cue,
+    add_expression,
+    add_gesture,
+    set_expression,
+)
+from app.project.model import Project
+from widgets.common.selection import EventKey, Selection
+from widgets.common.session import Session
+from widgets.timeline.axis import TimeAxis
+from widgets.timeline.lane import GUTTER_PX, LaneMouse
+from widgets.timeline.lanes.drawing import draw_mark, draw_path, draw_rects, draw_text, polygon, shade, small_font
+from widgets.timeline.lanes.geometry import packed_rows
+from widgets.timeline.lanes.names import expression_name, kind_name, pose_name
+from widgets.timeline.lanes.regions import HANDLE_PX, Region, RegionLane
+
+GROUPS: tuple[tuple[str, ...], ...] = (
+    ("cue",),
+    ("expression",),
+    ("lower_instrument", "pose"),
+    ("bell_height",),
+    ("weight_shift",),
+    ("sway",),
+)
+"""Kinds that share rows, from the top."""
+STRIPS = ("bell_height", "weight_shift", "sway")
+"""Kinds of which there are so many that what is generated is drawn as one calm strip."""
+BASE = "expression:neutral"
+"""The face beneath all others, as long as the piece: a thin line at the foot of its row."""
+BASE_PX = 5.0
+NEW_BEATS = 2
+CUE_REACH_PX = 10.0
+"""A cue that is dragged this close to an entry belongs to it."""
+
+
+class _RowNames(QWidget):
+    """The names of the rows, at the right of the header."""
+
+    def __init__(self, lane: ActingLane) -> None:
+        super().__init__(lane.header)
+        self._lane = lane
+        self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
+        self.setObjectName("row_names")
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        lane = self._lane
+        painter = QPainter(self)
+        painter.setFont(small_font(self.font()))
+        painter.setPen(QColor(lane.session.tokens.text_dim))
+        for kind, first, count in lane.groups:
+            top, height = lane.row_box(first)
+            box = QRectF(60.0, top, self.width() - 66.0, height * count)
+            draw_text(painter, box, lane.group_name(kind), Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
+
+
+class ActingLane(RegionLane):
+    """What body and face do beside playing."""
+
+    id = "acting"
+    preferred_height_px = 150
+    least_height_px = 96
+
+    def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
+        self.groups: list[tuple[str, int, int]] = []
+        """Kinds with their first row and number of rows."""
+        self._strips: dict[str, tuple[np.ndarray, np.ndarray, np.ndarray]] = {}
+        super().__init__(session, axis, parent)
+        self._names = _RowNames(self)
+        self.retranslate()
+
+    def retranslate(self) -> None:
+        self.title.setText(self.tr("Acting"))
+        self.title.setToolTip(
+            self.tr("Drag to move, up and down for the strength, an edge to resize, a corner for a fade; "
+                    "double-click adds")
+        )  # fmt: skip
+        self._made_for = ()
+        self.refresh()
+
+    def kind_name(self, kind: str) -> str:
+        return kind_name(kind)
+
+    def group_name(self, kind: str) -> str:
+        """What a group of rows is called, after its first kind."""
+        return self.tr("Pose") if kind == "lower_instrument" else kind_name(kind)
+
+    # Regions
+
+    def make_regions(self, plan: PlayerPlan) -> tuple[list[Region], int]:
+        project = self.session.project
+        made = [
+            *(_cue(event, project.player(plan.player_id).name, "{name} →") for event in plan.cues),
+            *self._guests(plan),
+            *(_expression(plan.player_id, event) for event in plan.expressions),
+            *(_gesture(plan.player_id, event) for event in plan.gestures),
+            *(_pose(plan.player_id, event) for event in plan.poses),
+        ]
+        result: list[Region] = []
+        self.groups, row = [], 0
+        for kinds in GROUPS:
+            members = sorted((region for region in made if region.kind in kinds), key=lambda region: region.start_tick)
+            packed = [region for region in members if region.event_id != BASE]
+            rows = packed_rows(
+                np.array([region.start_tick for region in packed], np.float64),
+                np.array([max(region.end_tick, region.start_tick + 1) for region in packed], np.float64),
+            )
+            result += [_in_row(region, row) for region in members if region.event_id == BASE]
+            result += [_in_row(region, row + own) for region, own in zip(packed, rows.tolist(), strict=True)]
+            count = int(rows.max(initial=0)) + 1
+            self.groups.append((kinds[0], row, count))
+            row += count
+        first = {kind: start for (_, start, _), kinds in zip(self.groups, GROUPS, strict=True) for kind in kinds}
+        removed = self.removed_regions(plan, (*GESTURE_KINDS, "cue", "expression"), first.__getitem__)
+        self._strips = {kind: _strip(result, kind, first[kind]) for kind in STRIPS}
+        return result + removed, row
+
+    def _guests(self, plan: PlayerPlan) -> list[Region]:
+        """The cues that other players give."""
+        performance, project = self.session.performance, self.session.project
+        known = {player.id: player.name for player in project.players}
+        return [
+            _in_guest(_cue(event, known[other.player_id], "← {name}"))
+            for other in performance.plans.values()
+            if other.player_id != plan.player_id and other.player_id in known
+            for event in other.cues
+        ]
+
+    def regions_refreshed(self) -> None:
+        if hasattr(self, "_names"):
+            self._names.update()
+
+    def box(self, region: Region) -> QRectF:
+        box = super().box(region)
+        if region.event_id == BASE and not region.removed:
+            box.setTop(box.bottom() - BASE_PX)
+        return box
+
+    def is_calm(self, region: Region) -> bool:
+        return region.kind in STRIPS and not region.by_hand
+
+    # Drawing
+
+    def paint_rows(self, painter: QPainter, exposed: QRectF) -> None:
+        tokens, player = self.session.tokens, self.session.player
+        painter.setPen(QPen(QColor(tokens.line), 1.0))
+        for _, first, _ in self.groups[1:]:
+            y = round(self.row_box(first)[0]) + 0.5
+            painter.drawLine(QPointF(exposed.left(), y), QPointF(exposed.right(), y))
+        if player is None:
+            return
+        colour = self.session.colour(player)
+        axis = self.axis
+        for kind, first, _ in self.groups:
+            if kind not in self._strips:
+                continue
+            start_s, end_s, amount = self._strips[kind]
+            low = max(int(np.searchsorted(end_s, axis.seconds(exposed.left()))) - 1, 0)
+            high = int(np.searchsorted(start_s, axis.seconds(exposed.right()))) + 1
+            top, height = self.row_box(first)
+            middle, half = top + height / 2, height / 2 - 2.0
+            x0, x1, y = axis.x_px(start_s[low:high]), axis.x_px(end_s[low:high]), amount[low:high] * half
+            painter.setPen(QPen(shade(tokens.line_strong, 120), 1.0))
+            painter.drawLine(QPointF(exposed.left(), middle), QPointF(exposed.right(), middle))
+            if kind == "sway":
+                self._paint_sway(painter, x0, x1, middle - y, shade(colour, 170))
+            else:
+                draw_rects(painter, x0, np.minimum(middle, middle - y), np.maximum(x1 - x0 - 1.0, 1.0),
+                           np.maximum(np.abs(y), 1.0), shade(colour, 90))  # fmt: skip
+
+    def _paint_sway(self, painter: QPainter, x0: np.ndarray, x1: np.ndarray, y: np.ndarray, colour: QColor) -> None:
+        """From side to side, at rest where it turns."""
+        if not len(x0):
+            return
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
+        before = np.concatenate((y[:1], y[:-1]))
+        steps = 1 if np.median(x1 - x0) < 6.0 else 10
+        share = np.arange(1, steps + 1) / steps
+        eased = 0.5 - 0.5 * np.cos(np.pi * share) if steps > 1 else share
+        x = (x0[:, None] + (x1 - x0)[:, None] * share).ravel()
+        points = np.stack((x, (before[:, None] + (y - before)[:, None] * eased).ravel()), axis=1)
+        draw_path(painter, points, QPen(colour, 1.2))
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
+
+    def paint_region(self, painter: QPainter, region: Region, box: QRectF, selected: bool) -> None:
+        tokens, project = self.session.tokens, self.session.project
+        colour = tokens.accent if selected else self.session.colour(project.player(region.player_id))
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
+        if region.kind == "cue":
+            self._paint_cue(painter, region, box, colour)
+        elif region.kind in STRIPS:
+            self._paint_bar(painter, region, box, colour, selected)
+        else:
+            self._paint_span(painter, region, box, colour, selected)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
+        if region.by_hand:
+            draw_mark(painter, tokens, box.left() + 1.0, box.top() + 1.0)
+
+    def _paint_cue(self, painter: QPainter, region: Region, box: QRectF, colour: str) -> None:
+        tokens = self.session.tokens
+        peak = min(max(self.axis.x_px(region.peak_s), box.left()), box.right())
+        outline = [(box.left(), box.bottom()), (peak, box.top() + 2.0), (box.right(), box.bottom())]
+        painter.setPen(QPen(QColor(colour), 1.4, Qt.PenStyle.DotLine if region.guest else Qt.PenStyle.SolidLine))
+        painter.setBrush(Qt.BrushStyle.NoBrush if region.guest else QColor(shade(colour, 90)))
+        painter.drawPolygon(QPolygonF([QPointF(x, y) for x, y in outline]))
+        painter.drawLine(QPointF(box.right(), box.top()), QPointF(box.right(), box.bottom()))
+        painter.setPen(QColor(tokens.text_dim if region.guest else tokens.text))
+        draw_text(painter, QRectF(box.right() + 4.0, box.top(), 130.0, box.height()), region.label)
+
+    def _paint_bar(self, painter: QPainter, region: Region, box: QRectF, colour: str, selected: bool) -> None:
+        middle = box.center().y()
+        end = middle - region.amount * (box.height() / 2 - 1.0)
+        bar = QRectF(QPointF(box.left(), min(middle, end)), QPointF(box.right() - 1.0, max(middle, end)))
+        painter.setPen(QPen(QColor(colour), 1.0))
+        painter.setBrush(shade(colour, 60 if region.kind == "sway" else 120))
+        painter.drawRect(bar)
+        if selected:
+            painter.setPen(QPen(QColor(colour), 1.0, Qt.PenStyle.DotLine))
+            painter.setBrush(shade(colour, 26))
+            painter.drawRect(box.adjusted(0.5, 0.5, -0.5, -0.5))
+        if box.width() > 46.0:
+            painter.setPen(QColor(self.session.tokens.text))
+            draw_text(painter, box.adjusted(10.0, 0.0, -2.0, 0.0), f"{region.amount:+.2f}")
+
+    def _paint_span(self, painter: QPainter, region: Region, box: QRectF, colour: str, selected: bool) -> None:
+        """A trapezoid as high as it is strong, with its fades as slopes."""
+        tokens, scale = self.session.tokens, self.axis.px_per_s
+        if region.event_id == BASE:
+            painter.fillRect(box.adjusted(0.0, 1.0, 0.0, 0.0), shade(colour, 190 if selected else 60))
+            return
+        fade_in = min(region.fade_in_s * scale, box.width())
+        fade_out = min(region.fade_out_s * scale, box.width() - fade_in)
+        top = box.bottom() - max(box.height() * region.amount, 3.0)
+        corners = np.array(
+            [(box.left(), box.bottom()), (box.left() + fade_in, top), (box.right() - fade_out, top),
+             (box.right(), box.bottom())]
+        )  # fmt: skip
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(shade(colour, 34))
+        painter.drawRoundedRect(box, 3.0, 3.0)
+        painter.setPen(QPen(QColor(colour), 1.6 if selected else 1.0))
+        painter.setBrush(shade(colour, 130 if selected or region.by_hand else 85))
+        painter.drawPolygon(polygon(corners))
+        if selected and region.fades:
+            painter.setBrush(QColor(tokens.surface))
+            for _, handle in self.fade_handles(region, box):
+                painter.drawEllipse(handle, HANDLE_PX - 1.0, HANDLE_PX - 1.0)
+        painter.setPen(QColor(tokens.text))
+        number = "" if region.steady or region.amount >= 1.0 else f" {region.amount:.2f}"
+        left = 10.0 if region.by_hand else 5.0
+        draw_text(painter, box.adjusted(left, 0.0, -4.0, 0.0), region.label + number)
+
+    # Hands on it
+
+    def snapped_move(self, region: Region, ticks: float, mouse: LaneMouse) -> int:
+        if region.kind != "cue":
+            return super().snapped_move(region, ticks, mouse)
+        score, wanted = self.session.project.score, region.end_tick + ticks
+        player = self.session.project.player(region.player_id)
+        onsets = np.array([note.onset_tick for note in self.session.project.part(player).notes])
+        if len(onsets) and not mouse.alt:
+            nearest = int(onsets[np.argmin(np.abs(onsets - wanted))])
+            away_s = score.tempo_map.seconds(float(nearest)) - score.tempo_map.seconds(wanted)
+            if abs(away_s) * self.axis.px_per_s <= CUE_REACH_PX:
+                return nearest - region.end_tick
+        return self._snap(wanted, mouse) - region.end_tick
+
+    def group_at(self, y_px: float) -> str:
+        """The kind whose rows are at a height."""
+        for kind, first, count in self.groups:
+            top, height = self.row_box(first)
+            if y_px < top + height * count:
+                return kind
+        return self.groups[-1][0] if self.groups else "expression"
+
+    def add_at(self, mouse: LaneMouse) -> None:
+        kind = self.group_at(mouse.y_px)
+        if kind == "cue":
+            self._add_cue(mouse)
+        elif kind == "expression":
+            menu = QMenu(self)
+            menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+            self._expression_entries(menu, lambda name: self._add_expression(name, mouse))
+            menu.popup(mouse.screen)
+        else:
+            for gesture in GESTURE_KINDS:
+                if gesture == kind:
+                    self._add_gesture(gesture, mouse)
+
+    def menu_entries(self, menu: QMenu, region: Region | None, mouse: LaneMouse) -> None:
+        if region is not None and region.kind == "expression" and not region.removed:
+            other = menu.addMenu(self.tr("Another expression"))
+            self._expression_entries(other, self._choose_expression, region)
+        adding = menu.addMenu(self.tr("Add an expression here"))
+        self._expression_entries(adding, lambda name: self._add_expression(name, mouse))
+        gestures = menu.addMenu(self.tr("Add a gesture here"))
+        for kind in GESTURE_KINDS:
+            entry = gestures.addAction(kind_name(kind))
+            entry.triggered.connect(lambda _=False, kind=kind: self._add_gesture(kind, mouse))
+        menu.addAction(self.tr("Add a cue here")).triggered.connect(lambda _=False: self._add_cue(mouse))
+
+    def _expression_entries(self, menu: QMenu, chosen: Callable[[str], None], now: Region | None = None) -> None:
+        own = {expression.name for expression in self.session.project.expressions}
+        names = sorted(self.session.performance.expressions, key=lambda name: (name in own, name))
+        for name in names:
+            if name in own and not menu.isEmpty() and name == next(item for item in names if item in own):
+                menu.addSeparator()
+            entry = menu.addAction(expression_name(name))
+            entry.triggered.connect(lambda _=False, name=name: chosen(name))
+            entry.setCheckable(now is not None)
+            entry.setChecked(now is not None and now.label == expression_name(name))
+
+    def _choose_expression(self, name: str) -> None:
+        performance, selected = self.session.performance, self.session.selection.events
+
+        def edit(project: Project) -> Project:
+            for player_id in sorted({key.player_id for key in selected}):
+                ids = [key.event_id for key in selected if key.player_id == player_id]
+                project = set_expression(project, performance.plans[player_id], ids, name)
+            return project
+
+        self.session.attempt(Message("edit.set_expression"), edit)
+
+    def _span(self, mouse: LaneMouse) -> tuple[int, int]:
+        start = self._snap(mouse.tick, mouse)
+        return start, start + NEW_BEATS * self.session.project.felt_beat_ticks
+
+    def _add_cue(self, mouse: LaneMouse) -> None:
+        self._add(Message("edit.add_cue"), lambda project, plan: add_cue(project, plan, round(mouse.tick)))
+
+    def _add_expression(self, name: str, mouse: LaneMouse) -> None:
+        face = self.session.performance.expressions[name]
+        self._add(
+            Message("edit.add_expression"),
+            lambda project, plan: add_expression(
+                project, plan.player_id, name, *self._span(mouse), 1.0, face.fade_in_s, face.fade_out_s
+            ),
+        )
+
+    def _add_gesture(self, kind: GestureKind, mouse: LaneMouse) -> None:
+        amount = 1.0 if kind == "lower_instrument" else 0.5
+        self._add(
+            Message("edit.add_gesture"),
+            lambda project, plan: add_gesture(project, plan.player_id, kind, *self._span(mouse), amount),
+        )
+
+    def _add(self, name: Message, edit: Callable[[Project, PlayerPlan], Edited]) -> None:
+        """Add an event for the player in front, and select it."""
+        player = self.session.player
+        plan = self.plan_of(player) if player is not None else None
+        if plan is None:
+            return
+        ids: Sequence[str] = ()
+
+        def whole(project: Project) -> Project:
+            nonlocal ids
+            project, ids = edit(project, plan)
+            return project
+
+        if self.session.attempt(name, whole):
+            self.session.select(Selection(events=frozenset(EventKey(plan.player_id, event_id) for event_id in ids)))
+
+    # Qt overrides
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        if hasattr(self, "_names"):
+            self._names.setGeometry(0, 0, GUTTER_PX, self.height())
+
+
+def _in_row(region: Region, row: int) -> Region:
+    # Copying thousands of regions field by field would be felt: a region that was just made may be filled in.
+    object.__setattr__(region, "row", row)
+    return region
+
+
+def _in_guest(region: Region) -> Region:
+    object.__setattr__(region, "guest", True)
+    return region
+
+
+def _cue(event: CueEvent, name: str, pattern: str) -> Region:
+    return Region(
+        event.player_id, event.id, "cue", event.start_tick, event.end_tick, event.start_s, event.end_s,
+        label=pattern.format(name=name), reason=event.reason, by_hand=event.corrected, steady=True,
+        peak_s=event.peak_s,
+    )  # fmt: skip
+
+
+def _expression(player_id: str, event: ExpressionEvent) -> Region:
+    return Region(
+        player_id, event.id, "expression", event.start_tick, event.end_tick, event.start_s, event.end_s,
+        amount=event.strength, label=expression_name(event.expression), reason=event.reason,
+        by_hand=event.corrected, fade_in_s=event.fade_in_s, fade_out_s=event.fade_out_s,
+        fades=event.id != BASE,
+    )  # fmt: skip
+
+
+def _gesture(player_id: str, event: GestureEvent) -> Region:
+    lowered = event.kind == "lower_instrument"
+    return Region(
+        player_id, event.id, event.kind, event.start_tick, event.end_tick, event.start_s, event.end_s,
+        amount=event.amount, label=kind_name(event.kind), reason=event.reason, by_hand=event.corrected,
+        signed=not lowered,
+    )  # fmt: skip
+
+
+def _pose(player_id: str, event: PoseEvent) -> Region:
+    return Region(
+        player_id, event.id, "pose", event.start_tick, event.end_tick, event.start_s, event.end_s,
+        label=pose_name(event.target), reason=event.reason, by_hand=event.corrected, steady=True,
+    )  # fmt: skip
+
+
+def _strip(regions: Sequence[Region], kind: str, row: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Starts, ends and amounts of what is drawn as a strip; the sway's curve takes changed swings in, not added ones."""
+    chosen = [
+        region
+        for region in regions
+        if region.kind == kind and (not region.by_hand or kind == "sway" and f":{OWN}" not in region.event_id)
+    ]
+    return (
+        np.array([region.start_s for region in chosen], np.float64),
+        np.array([region.end_s for region in chosen], np.float64),
+        np.array([region.amount for region in chosen], np.float64),
+    )

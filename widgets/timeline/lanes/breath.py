@@ -1,0 +1,125 @@
+"""The lane of breaths: how deep, how long, and what prepares them."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
+from PySide6.QtWidgets import QMenu, QWidget
+
+from app.errors import Message
+from app.plan.model import PlayerPlan
+from app.project.edit.events import add_breath, toggle_preparation
+from app.project.model import Project
+from widgets.common.selection import EventKey, Selection
+from widgets.common.session import Session
+from widgets.timeline.axis import TimeAxis
+from widgets.timeline.lane import LaneMouse
+from widgets.timeline.lanes.drawing import draw_mark, draw_text, shade
+from widgets.timeline.lanes.names import kind_name
+from widgets.timeline.lanes.regions import Region, RegionLane
+
+PREPARATION_SHARE = 0.45
+"""Height of a preparation, of the lane."""
+
+
+class BreathLane(RegionLane):
+    """Breaths as hills as high as they are deep, rising to the onset they serve; preparations as low slopes."""
+
+    id = "breath"
+    preferred_height_px = 52
+    least_height_px = 30
+
+    def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
+        super().__init__(session, axis, parent)
+        self.retranslate()
+
+    def retranslate(self) -> None:
+        self.title.setText(self.tr("Breath"))
+        self.title.setToolTip(
+            self.tr("Drag to move, up and down for the depth, an edge to resize; double-click adds one")
+        )
+
+    def kind_name(self, kind: str) -> str:
+        return kind_name(kind)
+
+    def make_regions(self, plan: PlayerPlan) -> tuple[list[Region], int]:
+        regions = [
+            Region(
+                plan.player_id, event.id, event.kind, event.start_tick, event.end_tick, event.start_s, event.end_s,
+                amount=event.depth, reason=event.reason, by_hand=event.corrected,
+            )
+            for event in plan.breaths
+        ]  # fmt: skip
+        return regions + self.removed_regions(plan, ("breath", "preparation"), lambda kind: 0), 1
+
+    def paint_region(self, painter: QPainter, region: Region, box: QRectF, selected: bool) -> None:
+        tokens, player = self.session.tokens, self.session.player
+        if player is None:
+            return
+        colour = tokens.accent if selected else self.session.colour(player)
+        breath = region.kind == "breath"
+        height = box.height() * (region.amount if breath else PREPARATION_SHARE * region.amount)
+        top, left, right, bottom = box.bottom() - height, box.left(), box.right(), box.bottom()
+        if breath:
+            # Air streams in slowly, then fully, and stops a moment before the lips close.
+            rise = min(box.width() * 0.55, 40.0)
+            points = [(left, bottom), (left + rise * 0.4, bottom - height * 0.25), (left + rise, top),
+                      (right - min(box.width() * 0.1, 6.0), top), (right, bottom)]  # fmt: skip
+        else:
+            points = [(left, bottom), (right, top), (right, bottom)]
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
+        painter.setPen(QPen(QColor(colour), 1.6 if selected else 1.0))
+        painter.setBrush(shade(colour, 120 if selected or region.by_hand else 70))
+        painter.drawPolygon(QPolygonF([QPointF(x, y) for x, y in points]))
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
+        if selected:
+            painter.setPen(QPen(shade(tokens.accent, 120), 1.0, Qt.PenStyle.DotLine))
+            painter.setBrush(Qt.BrushStyle.NoBrush)
+            painter.drawRect(box)
+        if breath and box.width() > 44.0 and (selected or region.by_hand):
+            painter.setPen(QColor(tokens.text))
+            draw_text(painter, box.adjusted(10.0, 1.0, -4.0, -1.0), f"{region.amount:.2f}")
+        if region.by_hand:
+            draw_mark(painter, tokens, left + 1.0, box.top() + 1.0)
+
+    def tip(self, region: Region) -> str:
+        lines = [super().tip(region)]
+        if not region.removed:
+            seconds = region.end_s - region.start_s
+            lines.insert(1, self.tr("depth {depth:.2f}, {seconds:.2f} s").format(depth=region.amount, seconds=seconds))
+        return "\n".join(lines)
+
+    def add_at(self, mouse: LaneMouse) -> None:
+        player = self.session.player
+        plan = self.plan_of(player) if player is not None else None
+        if plan is None:
+            return
+        ids: list[str] = []
+
+        def edit(project: Project) -> Project:
+            made = add_breath(project, plan, round(mouse.tick))
+            ids.extend(made.event_ids)
+            return made.project
+
+        if self.session.attempt(Message("edit.add_breath"), edit):
+            self.session.select(Selection(events=frozenset(EventKey(plan.player_id, event_id) for event_id in ids)))
+
+    def menu_entries(self, menu: QMenu, region: Region | None, mouse: LaneMouse) -> None:
+        menu.addAction(self.tr("Add a breath here")).triggered.connect(lambda _=False: self.add_at(mouse))
+        if region is None or region.removed and region.kind == "breath":
+            return
+        note_id = region.event_id.split(":", 1)[1]
+        player = self.session.project.player(region.player_id)
+        plan = self.plan_of(player)
+        if plan is None:
+            return
+        has = any(event.id == f"preparation:{note_id}" for event in plan.breaths)
+        entry = menu.addAction(self.tr("Prepared"))
+        entry.setCheckable(True)
+        entry.setChecked(has)
+        entry.triggered.connect(lambda _=False: self._toggle(plan, note_id))
+
+    def _toggle(self, plan: PlayerPlan, note_id: str) -> None:
+        self.session.attempt(
+            Message("edit.toggle_preparation"), lambda project: toggle_preparation(project, plan, note_id).project
+        )

@@ -1,0 +1,587 @@
+"""Lanes of regions: events with a place and an amount, to be selected, moved, resized, raised and lowered by hand."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
+
+import msgspec
+import numpy as np
+from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtGui import QAction, QColor, QPainter, QPen
+from PySide6.QtWidgets import QMenu, QWidget
+
+from app.errors import Message
+from app.plan.corrections import RemoveEvent
+from app.plan.model import PlayerPlan
+from app.project.document import Change
+from app.project.edit.events import Edited, move, resize, set_amounts, set_fades
+from app.project.model import Project
+from widgets.common.selection import EventKey, Selection
+from widgets.common.session import Session
+from widgets.common.text import message_text
+from widgets.timeline.axis import TimeAxis
+from widgets.timeline.lane import Lane, LaneItem, LaneMouse
+from widgets.timeline.lanes.drawing import MARK_PX, draw_mark, shade, small_font
+from widgets.timeline.lanes.geometry import Spans
+
+EDGE_PX = 6.0
+HANDLE_PX = 5.0
+LEAST_REGION_PX = 3.0
+DRAG_PX = 3.0
+"""The mouse moves this far before a press becomes a drag."""
+GLYPH_PX = 12.0
+"""Width of the mark of a removed event, which has no length."""
+
+
+@dataclass(frozen=True)
+class Region:
+    """An event as a lane shows it.
+
+    Attributes
+    ----------
+    kind : str
+        The first part of the event's id.
+    row : int
+        Counted from the top.
+    amount : float
+        0..1, or -1..1 where it is ``signed``.
+    reason : Message or None
+    steady : bool
+        It has no amount that could be dragged.
+    guest : bool
+        It is another player's, shown because it matters here.
+    removed : bool
+        A person took it out: only its place is shown.
+    """
+
+    player_id: str
+    event_id: str
+    kind: str
+    start_tick: int
+    end_tick: int
+    start_s: float
+    end_s: float
+    row: int = 0
+    amount: float = 1.0
+    label: str = ""
+    reason: Message | None = None
+    by_hand: bool = False
+    signed: bool = False
+    steady: bool = False
+    fade_in_s: float = 0.0
+    fade_out_s: float = 0.0
+    fades: bool = False
+    peak_s: float = 0.0
+    guest: bool = False
+    removed: bool = False
+
+    @property
+    def key(self) -> EventKey:
+        """As the selection names it."""
+        return EventKey(self.player_id, self.event_id)
+
+
+@dataclass
+class _Drag:
+    """A press in the lane that may become a drag. ``mode`` is set once it moves far enough."""
+
+    region: Region | None
+    zone: str
+    at: LaneMouse
+    project: Project
+    plans: dict[str, PlayerPlan]
+    keys: tuple[EventKey, ...]
+    selection: Selection
+    shown: dict[EventKey, Region]
+    token: object
+    mode: str = ""
+    lasso: QRectF | None = None
+
+
+class _Regions(LaneItem):
+    """Draws the visible regions of a lane."""
+
+    def __init__(self, lane: RegionLane) -> None:
+        super().__init__(lane)
+        self._regions = lane
+
+    def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
+        lane = self._regions
+        painter.setFont(small_font(lane.font()))
+        lane.paint_rows(painter, exposed)
+        selected = lane.session.selection.events
+        for region in lane.visible(exposed.left(), exposed.right()):
+            box = lane.box(region)
+            if region.removed:
+                chosen = region.key in selected
+                if chosen:
+                    painter.setPen(QPen(QColor(lane.session.tokens.accent), 1.0))
+                    painter.setBrush(Qt.BrushStyle.NoBrush)
+                    painter.drawRect(QRectF(box.left(), box.center().y() - 8, GLYPH_PX, 15))
+                draw_mark(painter, lane.session.tokens, box.left() + 3.0, box.center().y() - MARK_PX / 2, removed=True)
+            else:
+                lane.paint_region(painter, region, box, region.key in selected or lane.is_preview(region))
+        if lane.lasso is not None:
+            painter.setPen(QPen(QColor(lane.session.tokens.accent), 1.0, Qt.PenStyle.DashLine))
+            painter.setBrush(shade(lane.session.tokens.accent, 30))
+            painter.drawRect(lane.lasso)
+
+
+class RegionLane(Lane):
+    """A lane of regions. What a kind of event looks like, and where it is added, its sub-classes say."""
+
+    def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
+        super().__init__(session, axis, parent)
+        self._shown: list[Region] = []
+        self._spans = Spans(np.empty(0), np.empty(0))
+        self._row_count = 1
+        self._made_for: tuple[object, ...] = ()
+        self._preview: dict[EventKey, Region] = {}
+        self._hidden: frozenset[EventKey] = frozenset()
+        self._drag: _Drag | None = None
+        self._hovered: Region | None = None
+        self.regions_item = _Regions(self)
+        self.refresh()
+
+    # What sub-classes say
+
+    def make_regions(self, plan: PlayerPlan) -> tuple[list[Region], int]:
+        """The regions of the player in front, in any order, and how many rows there are."""
+        raise NotImplementedError
+
+    def paint_region(self, painter: QPainter, region: Region, box: QRectF, selected: bool) -> None:
+        """Draw one region in its box."""
+        raise NotImplementedError
+
+    def paint_rows(self, painter: QPainter, exposed: QRectF) -> None:
+        """Draw what lies behind the regions."""
+
+    def is_calm(self, region: Region) -> bool:
+        """Whether `paint_rows` has drawn it already."""
+        return False
+
+    def add_at(self, mouse: LaneMouse) -> None:
+        """A double click on an empty place."""
+
+    def menu_entries(self, menu: QMenu, region: Region | None, mouse: LaneMouse) -> None:
+        """Entries of the lane's own for the context menu."""
+
+    def snapped_move(self, region: Region, ticks: float, mouse: LaneMouse) -> int:
+        """How far a region dragged by some ticks goes: its start falls on the grid."""
+        return self._snap(region.start_tick + ticks, mouse) - region.start_tick
+
+    # The regions
+
+    @property
+    def regions(self) -> list[Region]:
+        """What is shown, by start."""
+        return self._shown
+
+    @property
+    def rows(self) -> int:
+        """How many rows there are."""
+        return self._row_count
+
+    @property
+    def lasso(self) -> QRectF | None:
+        """The rectangle being drawn to select."""
+        return self._drag.lasso if self._drag is not None else None
+
+    def row_box(self, row: int) -> tuple[float, float]:
+        """Top and height of a row, pixels."""
+        height = self.plot_rect.height() / max(self._row_count, 1)
+        return row * height, height
+
+    def box(self, region: Region) -> QRectF:
+        """Where a region lies, pixels."""
+        top, height = self.row_box(region.row)
+        left = self.axis.x_px(region.start_s)
+        width = GLYPH_PX if region.removed else max(self.axis.x_px(region.end_s) - left, LEAST_REGION_PX)
+        left = left - GLYPH_PX / 2 if region.removed else left
+        return QRectF(left, top + 1.0, width, max(height - 2.0, 1.0))
+
+    def visible(self, left_px: float, right_px: float) -> Iterable[Region]:
+        """The regions to draw one by one, the selected last."""
+        axis, selected = self.axis, self.session.selection.events
+        margin_s = GLYPH_PX / axis.px_per_s
+        found = self._spans.between(axis.seconds(left_px) - margin_s, axis.seconds(right_px) + margin_s)
+        later = []
+        for index in found.tolist():
+            region = self._shown[index]
+            if region.key in self._preview or region.key in self._hidden:
+                continue
+            if region.key in selected:
+                later.append(region)
+            elif not self.is_calm(region):
+                yield region
+        yield from later
+        yield from self._preview.values()
+
+    def region_at(self, mouse: LaneMouse) -> tuple[Region | None, str]:
+        """The region at a place, and its zone: ``start``, ``end``, ``fade_in``, ``fade_out`` or ``body``."""
+        place = QPointF(mouse.x_px, mouse.y_px)
+        reach_s = (EDGE_PX + GLYPH_PX) / self.axis.px_per_s
+        best: tuple[tuple[bool, float], Region, str] | None = None
+        selected = self.session.selection.events
+        for index in self._spans.between(mouse.time_s - reach_s, mouse.time_s + reach_s).tolist():
+            region = self._shown[index]
+            box = self.box(region)
+            # Thin regions are caught from a little outside, wide ones at their edges only from inside.
+            slack = max(EDGE_PX - box.width() / 2, 0.0)
+            if not box.adjusted(-slack, 0.0, slack, 0.0).contains(place):
+                continue
+            # The selected one wins, then the shortest: what lies on top can always be reached.
+            rank = (region.key not in selected, box.width())
+            if best is None or rank < best[0]:
+                best = (rank, region, self._zone(region, box, place))
+        return (best[1], best[2]) if best is not None else (None, "")
+
+    def _zone(self, region: Region, box: QRectF, place: QPointF) -> str:
+        if region.removed:
+            return "body"
+        if region.fades and region.key in self.session.selection.events:
+            for zone, handle in self.fade_handles(region, box):
+                if abs(place.x() - handle.x()) <= EDGE_PX and abs(place.y() - handle.y()) <= EDGE_PX:
+                    return zone
+        if box.width() >= 3 * EDGE_PX:
+            if place.x() <= box.left() + EDGE_PX:
+                return "start"
+            if place.x() >= box.right() - EDGE_PX:
+                return "end"
+        return "body"
+
+    def fade_handles(self, region: Region, box: QRectF) -> tuple[tuple[str, QPointF], tuple[str, QPointF]]:
+        """Where the fades are taken hold of."""
+        scale = self.axis.px_per_s
+        y = box.top() + HANDLE_PX
+        return (
+            ("fade_in", QPointF(min(box.left() + region.fade_in_s * scale, box.right()), y)),
+            ("fade_out", QPointF(max(box.right() - region.fade_out_s * scale, box.left()), y)),
+        )
+
+    def refresh(self) -> None:
+        """Make the regions anew if anything they show is another value."""
+        player = self.session.player
+        plan = self.plan_of(player) if player is not None else None
+        project = self.session.project
+        corrections = project.corrections.get(player.id) if player is not None else None
+        made_for = (plan, player.id if player else None, self.session.performance, corrections)
+        if len(made_for) == len(self._made_for) and all(a is b for a, b in zip(made_for, self._made_for, strict=True)):
+            return
+        self._made_for = made_for
+        if self._drag is None or self.session.performance.project is project:
+            self._end_preview()
+        regions, self._row_count = self.make_regions(plan) if plan is not None else ([], 1)
+        regions.sort(key=lambda region: (region.start_s, region.end_s, region.event_id))
+        self._shown = regions
+        self._spans = Spans(
+            np.array([region.start_s for region in regions], np.float64),
+            np.array([region.end_s for region in regions], np.float64),
+        )
+        self._hovered = None
+        self.regions_refreshed()
+        self.update_items()
+
+    def regions_refreshed(self) -> None:
+        """The regions are others."""
+
+    def removed_regions(self, plan: PlayerPlan, kinds: Iterable[str], row: Callable[[str], int]) -> list[Region]:
+        """Marks of what a person took out of the generator's."""
+        project, among = self.session.project, frozenset(kinds)
+        onsets: dict[str, int] = {}
+        result = []
+        for item in project.corrections.get(plan.player_id, ()):
+            kind = item.event_id.split(":")[0] if isinstance(item, RemoveEvent) else ""
+            if not isinstance(item, RemoveEvent) or kind not in among:
+                continue
+            if not onsets:
+                onsets = {note.id: note.onset_tick for note in project.part(project.player(plan.player_id)).notes}
+            tick = _place_of(item.event_id, onsets)
+            at_s = plan.time_frame.first_frame_s if tick is None else project.score.tempo_map.seconds(float(tick))
+            tick = round(project.score.tempo_map.ticks(at_s))
+            result.append(
+                Region(
+                    plan.player_id, item.event_id, kind, tick, tick, at_s, at_s, row(kind),
+                    reason=Message("correction.by_hand"), by_hand=True, steady=True, removed=True,
+                )
+            )  # fmt: skip
+        return result
+
+    # What happens around
+
+    def performance_changed(self) -> None:
+        self.refresh()
+
+    def players_changed(self) -> None:
+        self.refresh()
+
+    def project_changed(self, change: Change) -> None:
+        if change.origin is not self:
+            self._end_preview()
+        self.refresh()
+
+    def selection_changed(self) -> None:
+        self.update_items()
+
+    # The mouse
+
+    def press(self, mouse: LaneMouse) -> None:
+        region, zone = self.region_at(mouse)
+        selection = self.session.selection
+        if region is not None:
+            key = region.key
+            if mouse.ctrl or mouse.shift:
+                events = selection.events ^ {key} if mouse.ctrl else selection.events | {key}
+                self.session.select(msgspec.structs.replace(selection, events=frozenset(events), span=None))
+            elif key not in selection.events:
+                self.session.select(Selection(events=frozenset({key})))
+        selected = self.session.selection.events
+        keys = tuple(sorted(selected)) if region is not None and region.key in selected else ()
+        performance = self.session.performance
+        plans = performance.plans if performance.planned else {}
+        shown = {region.key: region for region in self._shown if region.key in selected and not region.removed}
+        self._drag = _Drag(region, zone, mouse, self.session.project, plans, keys, selection, shown, object())
+
+    def drag(self, mouse: LaneMouse) -> None:
+        drag = self._drag
+        if drag is None:
+            return
+        if not drag.mode:
+            across, along = abs(mouse.y_px - drag.at.y_px), abs(mouse.x_px - drag.at.x_px)
+            if max(across, along) < DRAG_PX:
+                return
+            drag.mode = self._mode(drag, across > along)
+        if drag.mode == "lasso":
+            drag.lasso = QRectF(QPointF(drag.at.x_px, drag.at.y_px), QPointF(mouse.x_px, mouse.y_px)).normalized()
+            self._lasso_select(drag)
+            self.update_items()
+        elif drag.mode and drag.region is not None and drag.keys:
+            self._edit(drag, drag.region, mouse)
+
+    def _mode(self, drag: _Drag, across: bool) -> str:
+        region = drag.region
+        if region is None:
+            return "lasso"
+        if region.removed or not drag.plans:
+            return "none"
+        if drag.zone != "body":
+            return drag.zone
+        if across:
+            return "none" if region.steady else "amount"
+        return "move"
+
+    def _edit(self, drag: _Drag, region: Region, mouse: LaneMouse) -> None:
+        by_player: dict[str, list[str]] = defaultdict(list)
+        for key in drag.keys:
+            by_player[key.player_id].append(key.event_id)
+        count = len(drag.keys)
+        drag_s = mouse.time_s - drag.at.time_s
+        if drag.mode in ("move", "start", "end"):
+            ticks = mouse.tick - drag.at.tick
+            if drag.mode == "move":
+                moved = self.snapped_move(region, ticks, mouse)
+            elif drag.mode == "start":
+                moved = self._snap(region.start_tick + ticks, mouse) - region.start_tick
+                moved = min(moved, region.end_tick - region.start_tick - 1)
+            else:
+                moved = self._snap(region.end_tick + ticks, mouse) - region.end_tick
+                moved = max(moved, region.start_tick - region.end_tick + 1)
+            start, end = (0 if drag.mode == "end" else moved), (0 if drag.mode == "start" else moved)
+
+            def place(project: Project, plan: PlayerPlan, ids: Sequence[str]) -> Edited:
+                if start == end:
+                    return move(project, plan, ids, start)
+                return Edited(resize(project, plan, ids, start, end), tuple(ids))
+
+            name = Message("edit.move_events" if drag.mode == "move" else "edit.resize_events", {"count": count})
+            self._preview_shift(drag, start, end)
+            self._apply(drag, name, by_player, place)
+        elif drag.mode == "amount":
+            _, height = self.row_box(region.row)
+            change = (drag.at.y_px - mouse.y_px) / max(height - 2.0, 1.0) * (2.0 if region.signed else 1.0)
+            if mouse.shift:
+                change /= 5.0
+            amounts = self._amounts(drag, change)
+
+            def raise_(project: Project, plan: PlayerPlan, ids: Sequence[str]) -> Edited:
+                chosen = {
+                    event_id: amounts[EventKey(plan.player_id, event_id)]
+                    for event_id in ids
+                    if EventKey(plan.player_id, event_id) in amounts
+                }
+                return Edited(set_amounts(project, plan, chosen), tuple(ids))
+
+            self._apply(drag, Message("edit.set_event_amount", {"count": count}), by_player, raise_)
+        elif drag.mode in ("fade_in", "fade_out"):
+            length_s = region.end_s - region.start_s
+            if drag.mode == "fade_in":
+                fades = {"fade_in_s": min(max(region.fade_in_s + drag_s, 0.0), length_s)}
+            else:
+                fades = {"fade_out_s": min(max(region.fade_out_s - drag_s, 0.0), length_s)}
+            self._preview = {region.key: replace(region, by_hand=True, **fades)}
+
+            def fade(project: Project, plan: PlayerPlan, ids: Sequence[str]) -> Edited:
+                return Edited(set_fades(project, plan, ids, **fades), tuple(ids))
+
+            self._apply(drag, Message("edit.set_fades"), by_player, fade)
+
+    def _amounts(self, drag: _Drag, change: float) -> dict[EventKey, float]:
+        """All selected events change by the same; the preview shows it before the plan does."""
+        result = {}
+        for region in drag.shown.values():
+            if not region.steady:
+                least = -1.0 if region.signed else 0.0
+                result[region.key] = round(min(max(region.amount + change, least), 1.0), 3)
+        self._preview = {key: replace(drag.shown[key], amount=amount, by_hand=True) for key, amount in result.items()}
+        return result
+
+    def _preview_shift(self, drag: _Drag, start: int, end: int) -> None:
+        seconds = self.session.project.score.tempo_map.seconds
+        preview = {}
+        for region in drag.shown.values():
+            first, last = region.start_tick + start, region.end_tick + end
+            last = max(last, first + 1)
+            start_s = seconds(float(first))
+            preview[region.key] = replace(
+                region,
+                start_tick=first,
+                end_tick=last,
+                start_s=start_s,
+                end_s=seconds(float(last)),
+                peak_s=region.peak_s + start_s - region.start_s,
+                by_hand=True,
+            )
+        self._preview = preview
+
+    def _apply(
+        self,
+        drag: _Drag,
+        name: Message,
+        by_player: dict[str, list[str]],
+        edit: Callable[[Project, PlayerPlan, Sequence[str]], Edited],
+    ) -> None:
+        """Edit from where the drag began, so that a drag back leaves nothing; the selection goes with new ids."""
+        keys: set[EventKey] = set()
+
+        def whole(_: Project) -> Project:
+            project = drag.project
+            for player_id, ids in by_player.items():
+                project, new_ids = edit(project, drag.plans[player_id], ids)
+                keys.update(EventKey(player_id, event_id) for event_id in new_ids)
+            return project
+
+        if self.session.attempt(name, whole, drag.token, self):
+            # An event that has come to another note has another id; it must not be drawn twice.
+            self._hidden = frozenset(keys)
+            self.session.select(Selection(events=frozenset(keys)))
+        self.update_items()
+
+    def is_preview(self, region: Region) -> bool:
+        """Whether it is a region in mid-drag, drawn before the plan shows it."""
+        return self._preview.get(region.key) is region
+
+    def _end_preview(self) -> None:
+        self._preview = {}
+        self._hidden = frozenset()
+
+    def release(self, mouse: LaneMouse) -> None:
+        drag, self._drag = self._drag, None
+        if drag is None:
+            return
+        if not drag.mode:
+            self._clicked(drag, mouse)
+        elif drag.mode not in ("lasso", "none"):
+            self.session.document.end_gesture()
+        if self.session.performance.project is self.session.project:
+            self._end_preview()
+        self.update_items()
+
+    def _clicked(self, drag: _Drag, mouse: LaneMouse) -> None:
+        """A press without a drag: on one of several selected it selects that one, on nothing it selects nothing."""
+        if mouse.ctrl or mouse.shift:
+            return
+        if drag.region is not None:
+            self.session.select(Selection(events=frozenset({drag.region.key})))
+        else:
+            self.session.select(Selection())
+
+    def cancel(self) -> None:
+        drag, self._drag = self._drag, None
+        self._end_preview()
+        if drag is not None and drag.mode == "lasso":
+            self.session.select(drag.selection)
+        elif drag is not None and drag.mode:
+            # Back to where it began is no step.
+            self.session.apply(Message("edit.move_events", {"count": 0}), drag.project, drag.token, self)
+            self.session.document.end_gesture()
+            self.session.select(Selection(events=frozenset(drag.keys)))
+        self.update_items()
+
+    def _lasso_select(self, drag: _Drag) -> None:
+        assert drag.lasso is not None
+        inside = {region.key for region in self._shown if not region.guest and self.box(region).intersects(drag.lasso)}
+        if drag.at.ctrl or drag.at.shift:
+            inside |= drag.selection.events
+        self.session.select(msgspec.structs.replace(drag.selection, notes=frozenset(), events=frozenset(inside)))
+
+    def double_click(self, mouse: LaneMouse) -> None:
+        region, _ = self.region_at(mouse)
+        self._drag = None
+        if region is None:
+            self.add_at(mouse)
+
+    def hover(self, mouse: LaneMouse | None) -> None:
+        region, zone = self.region_at(mouse) if mouse is not None else (None, "")
+        shapes = {"start": Qt.CursorShape.SizeHorCursor, "end": Qt.CursorShape.SizeHorCursor,
+                  "fade_in": Qt.CursorShape.CrossCursor, "fade_out": Qt.CursorShape.CrossCursor}  # fmt: skip
+        if zone in shapes:
+            self.plot.setCursor(shapes[zone])
+        else:
+            self.plot.unsetCursor()
+        if region is not self._hovered:
+            self._hovered = region
+            self.plot.setToolTip(self.tip(region) if region is not None else "")
+
+    def tip(self, region: Region) -> str:
+        """What is told of a region under the mouse."""
+        lines = [region.label or self.kind_name(region.kind)]
+        if region.removed:
+            lines = [self.kind_name(region.kind), self.tr("deleted by hand")]
+        elif region.reason is not None:
+            lines.append(message_text(region.reason))
+        return "\n".join(lines)
+
+    def kind_name(self, kind: str) -> str:
+        """What a kind of event is called."""
+        return kind
+
+    def context_menu(self, mouse: LaneMouse) -> QMenu | None:
+        region, _ = self.region_at(mouse)
+        if region is not None and region.key not in self.session.selection.events:
+            self.session.select(Selection(events=frozenset({region.key})))
+        menu = QMenu(self)
+        self.menu_entries(menu, region, mouse)
+        if region is not None:
+            menu.addSeparator()
+            for action_id in ("events.give_back", "edit.delete"):
+                action: QAction | None = self.session.actions.get(action_id)
+                if action is not None:
+                    menu.addAction(action)
+        return menu
+
+    def _snap(self, tick: float, mouse: LaneMouse) -> int:
+        return round(tick) if mouse.alt else self.session.grid.snap(self.session.project.score, tick)
+
+
+def _place_of(event_id: str, onsets: dict[str, int]) -> int | None:
+    """The tick that an event's id tells: of its note, or after an @."""
+    parts = event_id.split(":")
+    for first in range(1, len(parts)):
+        rest = ":".join(parts[first:])
+        if rest in onsets:
+            return onsets[rest]
+        if rest.startswith("@") and rest[1:].lstrip("-").isdecimal():
+            return int(rest[1:])
+    return None
