@@ -21,15 +21,32 @@ def note_loudness(part: Part) -> tuple[float, ...]:
 
     A controller that is set once is a mixer's level and says nothing about playing; empty if no controller speaks.
     """
-    onsets = np.array([note.onset_tick for note in part.notes], np.float64)
-    ends = np.array([note.end_tick for note in part.notes], np.float64)
+    curve = speaking_curve(part)
+    if curve is None:
+        return ()
+    onsets, ends = _spans(part)
+    return tuple(np.clip(_means(curve, onsets, ends), 0.0, 1.0).tolist())
+
+
+def speaking_curve(part: Part) -> ControllerCurve | None:
+    """The controller that carries a part's dynamics; None if none does."""
+    onsets, ends = _spans(part)
     for kind in _SPEAKING:
         for curve in part.curves:
-            if curve.kind == kind and len(onsets):
-                means = _means(curve, onsets, ends)
-                if _moves(curve, onsets[0], ends[-1]) and means.max() > 0.0:
-                    return tuple(np.clip(means, 0.0, 1.0).tolist())
-    return ()
+            if (
+                curve.kind == kind
+                and len(onsets)
+                and _moves(curve, onsets[0], ends[-1])
+                and _means(curve, onsets, ends).max() > 0.0
+            ):
+                return curve
+    return None
+
+
+def _spans(part: Part) -> tuple[Floats, Floats]:
+    """Onsets and ends of the notes, ticks."""
+    onsets = np.array([note.onset_tick for note in part.notes], np.float64)
+    return onsets, np.array([note.end_tick for note in part.notes], np.float64)
 
 
 def _moves(curve: ControllerCurve, first: float, last: float) -> bool:

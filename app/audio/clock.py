@@ -1,0 +1,55 @@
+"""The device's clock, made smooth: the picture moves evenly though the device counts in steps.
+
+A device says how much it has played in steps of some milliseconds, late by a varying amount. The clock of the machine
+is even, but runs at another rate. So the time is the machine's, moved by a slow average of the difference.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Final
+
+_AVERAGED: Final = 150
+"""Observations in the average: long against the jitter, short against the drift of two crystals."""
+_JUMP_S: Final = 0.04
+"""A difference that has moved by more is no jitter: the device stood still, or was suspended."""
+_AHEAD_S: Final = 0.03
+"""The time is never further ahead of what the device has said."""
+
+
+class DeviceClock:
+    """Seconds of sound that were heard since the device was started.
+
+    Parameters
+    ----------
+    now : callable
+        A monotonic clock in seconds, `time.perf_counter`.
+    """
+
+    def __init__(self, now: Callable[[], float]) -> None:
+        self._now = now
+        self._processed_s = 0.0
+        self._offset_s: float | None = None
+        self._count = 0
+        self._time_s = 0.0
+
+    def observe(self, processed_s: float) -> None:
+        """The device says that it has played so much."""
+        if processed_s == self._processed_s:
+            return
+        moved_first = self._processed_s == 0.0
+        self._processed_s = processed_s
+        offset_s = processed_s - self._now()
+        if self._offset_s is None or moved_first or abs(offset_s - self._offset_s) > _JUMP_S:
+            self._offset_s, self._count = offset_s, 1
+            return
+        self._count = min(self._count + 1, _AVERAGED)
+        self._offset_s += (offset_s - self._offset_s) / self._count
+
+    def time_s(self) -> float:
+        """What is heard now; never goes back, and stands until the device begins to play."""
+        if self._offset_s is None:
+            return 0.0
+        time_s = min(self._now() + self._offset_s, self._processed_s + _AHEAD_S)
+        self._time_s = max(self._time_s, time_s, 0.0)
+        return self._time_s

@@ -1,0 +1,140 @@
+"""Recordings: WAV, FLAC, OGG and MP3 files as samples at the rate everything is mixed at.
+
+Messages
+--------
+audio.not_readable : file, detail
+audio.empty : file
+audio.too_long : file, most_hours
+audio.unusable : file, rate_hz, channels
+audio.breaks_off : file, seconds
+    A warning: what came before was read.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+import soundfile
+import soxr
+
+from app.audio.mix import RATE_HZ, Block, Samples
+from app.errors import Cancelled, FileError, Message
+
+MOST_HOURS: Final = 4
+"""Longer recordings would fill the memory: an hour takes 0.7 GB."""
+MOST_CHANNELS: Final = 64
+LEAST_RATE_HZ, MOST_RATE_HZ = 1000, 768_000
+_BLOCK: Final = 1 << 16
+
+
+@dataclass(frozen=True, eq=False)
+class Recording:
+    """A recording in memory.
+
+    Attributes
+    ----------
+    path : str
+    samples : int16 array, shape (n, 2)
+        At `RATE_HZ`.
+    warnings : tuple of Message
+    """
+
+    path: str
+    samples: Samples
+    warnings: tuple[Message, ...] = ()
+
+    @property
+    def duration_s(self) -> float:
+        """Its length."""
+        return len(self.samples) / RATE_HZ
+
+
+def decode(
+    path: str,
+    progress: Callable[[float], None] = lambda share: None,
+    stop_wanted: Callable[[], bool] = lambda: False,
+) -> Recording:
+    """Read a recording.
+
+    Parameters
+    ----------
+    path : str
+    progress : callable
+        Told the share 0..1 that is read.
+    stop_wanted : callable
+        Asked now and then; true ends the work.
+
+    Raises
+    ------
+    FileError
+        The file cannot be read, is no sound file, or is longer than `MOST_HOURS`.
+    Cancelled
+    """
+    try:
+        Path(path).open("rb").close()
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+        raise FileError("file.cannot_read", file=path, reason=reason) from error
+    try:
+        with soundfile.SoundFile(path) as file:
+            return _read(path, file, progress, stop_wanted)
+    except (soundfile.SoundFileError, RuntimeError, TypeError) as error:
+        raise FileError("audio.not_readable", file=path, detail=_detail(error)) from error
+
+
+def _read(
+    path: str, file: soundfile.SoundFile, progress: Callable[[float], None], stop_wanted: Callable[[], bool]
+) -> Recording:
+    rate_hz, channels = file.samplerate, file.channels
+    if not (LEAST_RATE_HZ <= rate_hz <= MOST_RATE_HZ and 1 <= channels <= MOST_CHANNELS):
+        raise FileError("audio.unusable", file=path, rate_hz=rate_hz, channels=channels)
+    resampler = soxr.ResampleStream(rate_hz, RATE_HZ, 2, dtype="float32") if rate_hz != RATE_HZ else None
+    blocks: list[Samples] = []
+    warnings: tuple[Message, ...] = ()
+    frames, most = 0, MOST_HOURS * 3600 * rate_hz
+    # The length in the header is a claim: it is used for the progress only.
+    expected = max(file.frames, 1)
+    while True:
+        if stop_wanted():
+            raise Cancelled("work.stopped")
+        try:
+            raw = file.read(_BLOCK, dtype="float32", always_2d=True)
+        except (soundfile.SoundFileError, RuntimeError):
+            if not frames:
+                raise
+            raw = np.zeros((0, channels), np.float32)
+            warnings = (Message("audio.breaks_off", {"file": path, "seconds": round(frames / rate_hz, 1)}),)
+        frames += len(raw)
+        if frames > most:
+            raise FileError("audio.too_long", file=path, most_hours=MOST_HOURS)
+        block = _stereo(np.nan_to_num(raw, nan=0.0, posinf=1.0, neginf=-1.0))
+        if resampler is not None:
+            block = resampler.resample_chunk(block, last=not len(raw))
+        blocks.append(np.round(np.clip(block, -1.0, 1.0) * 32767.0).astype(np.int16))
+        progress(min(frames / expected, 1.0))
+        if not len(raw):
+            break
+    if not frames:
+        raise FileError("audio.empty", file=path)
+    if frames < expected and not warnings and file.seekable() and expected < most:
+        warnings = (Message("audio.breaks_off", {"file": path, "seconds": round(frames / rate_hz, 1)}),)
+    return Recording(path, np.concatenate(blocks), warnings)
+
+
+def _stereo(block: Block) -> Block:
+    """Two channels: one is heard on both sides; what comes beside left and right is added to both."""
+    if block.shape[1] == 1:
+        return np.ascontiguousarray(np.repeat(block, 2, axis=1))
+    if block.shape[1] == 2:
+        return block
+    others = block[:, 2:].mean(axis=1, keepdims=True)
+    return np.ascontiguousarray((block[:, :2] + others) / np.float32(1.5))
+
+
+def _detail(error: Exception) -> str:
+    """What the library says, without the path that the message names already."""
+    return str(error).rsplit(": ", 1)[-1].rstrip(".")

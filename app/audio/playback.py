@@ -1,0 +1,365 @@
+"""Plays a mix through the machine's sound device; the picture asks it where the sound is."""
+
+from __future__ import annotations
+
+import time
+from collections import deque
+from collections.abc import Callable
+from typing import Final, Protocol
+
+import numpy as np
+import soxr
+from PySide6.QtCore import QByteArray, QIODevice, QObject, Qt, QTimer, Signal, SignalInstance
+from PySide6.QtMultimedia import QAudioDevice, QAudioFormat, QAudioSink, QMediaDevices, QtAudio
+
+from app.audio.clock import DeviceClock
+from app.audio.mix import RATE_HZ, Block, Mix
+from app.audio.reader import Mark, Reader
+from app.audio.sink import BUFFER_S, SilentSink, Sink
+
+_FEED_MS: Final = 10
+_GRAIN_S: Final = 0.09
+"""What is heard of a moment when the playhead is moved by hand."""
+_GRAINS_REST_MS: Final = 700
+_LEAST_S: Final = 1e-3
+_HOPELESS_S: Final = 1.0
+
+
+class Devices(Protocol):
+    """Where sinks come from."""
+
+    changed: SignalInstance
+
+    def open(self) -> Sink | None:
+        """The device that the system plays on, ready to be written to; None where there is none."""
+        ...
+
+
+class Playback(QObject):
+    """Plays from any moment, at another speed, in a loop, or a moment at a time.
+
+    Without a device it plays silently in time. All times are seconds of the performance.
+
+    Parameters
+    ----------
+    devices : Devices, optional
+        The system's, if None.
+    now : callable
+        A monotonic clock in seconds.
+
+    Signals
+    -------
+    playing_changed(bool)
+    silent_changed(bool)
+        Whether a device was missing when sound was last wanted.
+    """
+
+    playing_changed = Signal(bool)
+    silent_changed = Signal(bool)
+
+    def __init__(
+        self,
+        devices: Devices | None = None,
+        now: Callable[[], float] = time.perf_counter,
+        parent: QObject | None = None,
+    ) -> None:
+        super().__init__(parent)
+        self._devices = devices if devices is not None else SystemDevices(self)
+        self._now = now
+        self._mix = Mix()
+        self._position_s = 0.0
+        self._span_s = (0.0, float("inf"))
+        self._loop_s: tuple[float, float] | None = None
+        self._speed = 1.0
+        self._gain = 1.0
+        self._silent = False
+        self._sink: Sink | None = None
+        self._clock = DeviceClock(now)
+        self._reader = Reader(self._mix)
+        self._marks: deque[Mark] = deque()
+        self._sought: tuple[int, float] | None = None
+        self._written = 0
+        self._begun_s = 0.0
+        self._grains: Sink | None = None
+        self._feed_timer = QTimer(self)
+        self._feed_timer.setTimerType(Qt.TimerType.PreciseTimer)
+        self._feed_timer.setInterval(_FEED_MS)
+        self._feed_timer.timeout.connect(self.feed)
+        self._rest_timer = QTimer(self)
+        self._rest_timer.setSingleShot(True)
+        self._rest_timer.setInterval(_GRAINS_REST_MS)
+        self._rest_timer.timeout.connect(self._end_grains)
+        self._devices.changed.connect(self._device_changed)
+
+    # What is played
+
+    def set_mix(self, mix: Mix) -> None:
+        """Play this, from the next sample on."""
+        self._mix = self._reader.mix = mix
+
+    def set_span(self, start_s: float, end_s: float) -> None:
+        """Where the performance begins and ends; playing stops at the end."""
+        self._span_s = (start_s, end_s)
+
+    def set_loop(self, loop_s: tuple[float, float] | None) -> None:
+        """Play a range over and over; None: on to the end."""
+        self._loop_s = loop_s
+        self._reader.set_loop(loop_s)
+
+    def set_speed(self, speed: float) -> None:
+        """0.25..2; the pitch stays."""
+        self._speed = speed
+        self._reader.set_speed(speed)
+
+    def set_volume(self, volume: float) -> None:
+        """0..1 as the ear judges it."""
+        self._gain = volume**2
+        for sink in (self._sink, self._grains):
+            if sink is not None:
+                sink.set_volume(self._gain)
+
+    # Playing
+
+    @property
+    def is_playing(self) -> bool:
+        """Whether it plays."""
+        return self._sink is not None
+
+    @property
+    def is_silent(self) -> bool:
+        """Whether a device was missing when sound was last wanted."""
+        return self._silent
+
+    def play(self, from_s: float | None = None) -> None:
+        """Play from a moment, else from where it stands; from the beginning where that is the end."""
+        start_s = self.position_s() if from_s is None else from_s
+        if self._loop_s is not None and start_s >= self._loop_s[1] - _LEAST_S:
+            start_s = self._loop_s[0]
+        elif start_s >= self._span_s[1] - _LEAST_S:
+            start_s = self._span_s[0]
+        was_playing = self.is_playing
+        self._end_grains()
+        self._begin(start_s)
+        if not was_playing:
+            self._feed_timer.start()
+            self.playing_changed.emit(True)
+
+    def stop(self) -> None:
+        """Stand where the sound is now."""
+        if self._sink is None:
+            return
+        self._position_s = self.position_s()
+        self._feed_timer.stop()
+        self._sink.stop()
+        self._sink = None
+        self.playing_changed.emit(False)
+
+    def seek(self, position_s: float) -> None:
+        """Go to a moment; goes on playing there if it plays."""
+        if self._sink is None:
+            self._position_s = position_s
+            return
+        self._reader.seek(position_s)
+        self._sought = (self._written, position_s)
+        self.feed()
+
+    def scrub(self, position_s: float) -> None:
+        """Go to a moment and let a grain of it be heard, if it does not play."""
+        self.seek(position_s)
+        if self._sink is not None:
+            return
+        if self._grains is None:
+            self._grains = self._open()
+        self._rest_timer.start()
+        count = round(_GRAIN_S * RATE_HZ)
+        # One grain at a time: what waits in the device would be heard after the hand has gone on.
+        if self._grains.free() >= round(BUFFER_S * RATE_HZ) - count // 2:
+            window = np.hanning(count).astype(np.float32)[:, None]
+            self._grains.write(self._mix.read(round(position_s * RATE_HZ) - count // 2, count) * window)
+
+    def position_s(self) -> float:
+        """The moment that is heard now; it never waits."""
+        if self._sink is None:
+            return self._position_s
+        self._clock.observe(self._sink.processed_s())
+        sample = self._clock.time_s() * RATE_HZ
+        if self._sought is not None:
+            if sample < self._sought[0]:
+                return self._sought[1]
+            self._sought = None
+        while len(self._marks) > 1 and self._marks[1][0] <= sample:
+            self._marks.popleft()
+        if not self._marks:
+            return self._position_s
+        at, position_s, speed = self._marks[0]
+        position_s += max(sample - at, 0.0) / RATE_HZ * speed
+        # Between marks: a loop's end is not overshot.
+        return min(position_s, self._loop_s[1]) if self._in_loop(position_s) and self._loop_s else position_s
+
+    def feed(self) -> None:
+        """Give the device what it has room for; called often while playing."""
+        sink = self._sink
+        if sink is None:
+            return
+        if sink.failed():
+            # A device that fails as soon as it is opened is not tried again and again.
+            self._begin(self.position_s(), may_sound=self._now() - self._begun_s > _HOPELESS_S)
+            return
+        free = sink.free()
+        if free > 0:
+            block, marks = self._reader.read(free)
+            self._marks.extend(marks)
+            self._written += len(block)
+            sink.write(block)
+        position_s = self.position_s()
+        if position_s >= self._span_s[1] and not self._in_loop(position_s):
+            self.stop()
+            self._position_s = self._span_s[1]
+
+    def _begin(self, start_s: float, may_sound: bool = True) -> None:
+        """Start a device and fill it."""
+        if self._sink is not None:
+            self._sink.stop()
+        self._begun_s = self._now()
+        self._sink = self._open(may_sound)
+        self._clock = DeviceClock(self._now)
+        self._reader = Reader(self._mix, start_s, self._speed, self._loop_s, silent=self._silent)
+        self._marks.clear()
+        self._sought = None
+        self._written = 0
+        self._position_s = start_s
+        self.feed()
+
+    def _open(self, may_sound: bool = True) -> Sink:
+        """The device; the silent one where there is none."""
+        sink = self._devices.open() if may_sound else None
+        silent = sink is None
+        if sink is None:
+            sink = SilentSink(self._now)
+        sink.set_volume(self._gain)
+        if silent != self._silent:
+            self._silent = silent
+            self.silent_changed.emit(silent)
+        return sink
+
+    def _in_loop(self, position_s: float) -> bool:
+        return self._loop_s is not None and position_s <= self._loop_s[1] + BUFFER_S
+
+    def _end_grains(self) -> None:
+        self._rest_timer.stop()
+        if self._grains is not None:
+            self._grains.stop()
+            self._grains = None
+
+    def _device_changed(self) -> None:
+        """Another device is the system's now, or the one that played was taken away."""
+        self._end_grains()
+        if self._sink is not None:
+            self._begin(self.position_s())
+
+
+class SystemDevices(QObject):
+    """The system's default output, whichever it is at the moment."""
+
+    changed = Signal()
+
+    def __init__(self, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._media = QMediaDevices(self)
+        self._last = QMediaDevices.defaultAudioOutput().id()
+        self._media.audioOutputsChanged.connect(self._outputs_changed)
+
+    def open(self) -> Sink | None:
+        """The device that the system plays on."""
+        device = QMediaDevices.defaultAudioOutput()
+        if device.isNull():
+            return None
+        sink = DeviceSink(device)
+        return None if sink.failed() else sink
+
+    def _outputs_changed(self) -> None:
+        now: QByteArray = QMediaDevices.defaultAudioOutput().id()
+        if now != self._last:
+            self._last = now
+            self.changed.emit()
+
+
+class DeviceSink:
+    """A device of the system."""
+
+    def __init__(self, device: QAudioDevice) -> None:
+        audio_format = _format(device)
+        self._sample_format = audio_format.sampleFormat()
+        self._rate_hz = audio_format.sampleRate()
+        self._resampler = (
+            None if self._rate_hz == RATE_HZ else soxr.ResampleStream(RATE_HZ, self._rate_hz, 2, dtype="float32")
+        )
+        self._frame_bytes = audio_format.bytesPerFrame()
+        self._waiting = b""
+        self._sink = QAudioSink(device, audio_format)
+        self._sink.setBufferSize(round(BUFFER_S * self._rate_hz) * self._frame_bytes)
+        self._device: QIODevice | None = self._sink.start()
+
+    def free(self) -> int:
+        """Samples that may be written now, at `RATE_HZ`."""
+        free = self._sink.bytesFree() - len(self._waiting)
+        # Devices may take a longer buffer than they were asked for; what is heard must follow the hand.
+        most = round(BUFFER_S * self._rate_hz) * self._frame_bytes
+        free = min(free, most - (self._sink.bufferSize() - self._sink.bytesFree()) - len(self._waiting))
+        return max(free // self._frame_bytes * RATE_HZ // self._rate_hz, 0)
+
+    def write(self, block: Block) -> None:
+        """Play this next."""
+        if self._resampler is not None:
+            block = self._resampler.resample_chunk(np.ascontiguousarray(block))
+        self._waiting += _bytes(block, self._sample_format)
+        if self._device is not None:
+            written = self._device.write(self._waiting)
+            self._waiting = self._waiting[max(written, 0) :]
+
+    def processed_s(self) -> float:
+        """Seconds that were played since the start."""
+        return self._sink.processedUSecs() / 1e6
+
+    def set_volume(self, gain: float) -> None:
+        """0..1, linear."""
+        self._sink.setVolume(gain)
+
+    def failed(self) -> bool:
+        """Whether the device refused or went away; having nothing to play is no failure."""
+        stopped = self._sink.state() == QtAudio.State.StoppedState
+        harmless = self._sink.error() in (QtAudio.Error.NoError, QtAudio.Error.UnderrunError)
+        return self._device is None or (stopped and not harmless)
+
+    def stop(self) -> None:
+        """Be silent at once."""
+        self._device = None
+        self._sink.reset()
+        self._sink.stop()
+        self._sink.deleteLater()
+
+
+_WANTED = (QAudioFormat.SampleFormat.Int16, QAudioFormat.SampleFormat.Float, QAudioFormat.SampleFormat.Int32)
+
+
+def _format(device: QAudioDevice) -> QAudioFormat:
+    """Stereo at our rate if the device can, else at its own."""
+    wanted = QAudioFormat()
+    wanted.setChannelCount(2)
+    for rate_hz in (RATE_HZ, device.preferredFormat().sampleRate()):
+        wanted.setSampleRate(rate_hz)
+        for sample_format in _WANTED:
+            wanted.setSampleFormat(sample_format)
+            if device.isFormatSupported(wanted):
+                return wanted
+    wanted.setSampleRate(RATE_HZ)
+    wanted.setSampleFormat(QAudioFormat.SampleFormat.Int16)
+    return wanted
+
+
+def _bytes(block: Block, sample_format: QAudioFormat.SampleFormat) -> bytes:
+    if sample_format == QAudioFormat.SampleFormat.Float:
+        return np.ascontiguousarray(block, np.float32).tobytes()
+    if sample_format == QAudioFormat.SampleFormat.Int32:
+        return (block.astype(np.float64) * (2**31 - 1)).astype(np.int32).tobytes()
+    return np.round(block * 32767.0).astype(np.int16).tobytes()

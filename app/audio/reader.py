@@ -1,0 +1,162 @@
+"""Reads a mix in order, at another speed if wanted, over and over in a loop; says which moment each sample is of."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from app.audio.mix import RATE_HZ, Block, Mix
+from app.audio.stretch import HOP, Stretch
+
+Mark = tuple[int, float, float]
+"""(sample of the output, second of the performance that it is of, seconds of the performance per second heard)."""
+
+_FADE: Final = 96
+"""Samples over which a jump is faded, so that it does not crack."""
+_LEAST_LOOP: Final = RATE_HZ // 50
+"""Shorter is a tone, not a loop."""
+
+
+class Reader:
+    """What is heard next.
+
+    Parameters
+    ----------
+    mix : Mix
+        May be replaced at any time; what is read afterwards is of the new one.
+    position_s : float
+        Where to begin, seconds of the performance.
+    speed : float
+        0.25..2; the pitch stays.
+    loop_s : (float, float), optional
+    silent : bool
+        Only the time is wanted.
+    """
+
+    def __init__(
+        self,
+        mix: Mix,
+        position_s: float = 0.0,
+        speed: float = 1.0,
+        loop_s: tuple[float, float] | None = None,
+        silent: bool = False,
+    ) -> None:
+        self.mix = mix
+        self.silent = silent
+        self._speed = speed
+        self._loop: tuple[int, int] | None = None
+        self._made = 0
+        self._waiting = np.zeros((0, 2), np.float32)
+        self._marks: list[Mark] = []
+        self.set_loop(loop_s)
+        self.seek(position_s)
+
+    def seek(self, position_s: float) -> None:
+        """Go on elsewhere."""
+        self._begin(round(position_s * RATE_HZ))
+
+    def set_speed(self, speed: float) -> None:
+        """Go on at another speed."""
+        if speed != self._speed:
+            at = self._position()
+            self._speed = speed
+            self._begin(at)
+
+    def set_loop(self, loop_s: tuple[float, float] | None) -> None:
+        """Go over this range again and again, from when its end is reached."""
+        loop = None if loop_s is None else (round(loop_s[0] * RATE_HZ), round(loop_s[1] * RATE_HZ))
+        self._loop = loop if loop is not None and loop[1] - loop[0] >= _LEAST_LOOP else None
+
+    def read(self, count: int) -> tuple[Block, list[Mark]]:
+        """The next samples.
+
+        Returns
+        -------
+        block : float32 array, shape (count, 2)
+        marks : list of Mark
+            Where the moment does not follow from the mark before; samples are counted from the first one ever read.
+        """
+        parts, missing = [], count
+        while missing:
+            if not len(self._waiting):
+                self._waiting = self._next(missing)
+            part, self._waiting = self._waiting[:missing], self._waiting[missing:]
+            parts.append(part)
+            missing -= len(part)
+        marks, self._marks = self._marks, []
+        return (np.concatenate(parts) if parts else self._waiting[:0]), marks
+
+    def _begin(self, at: int) -> None:
+        """Read from a sample on; what was made ahead and is not read yet is not heard."""
+        self._made -= len(self._waiting)
+        self._waiting = self._waiting[:0]
+        # A frame of the stretch is heard around its middle: what the first one begins with lies as much earlier.
+        self._lead = 0 if self._speed == 1.0 or self.silent else round(HOP * (1.0 - self._speed))
+        self._at = at - self._lead
+        self._fade_in = True
+        self._stream = 0
+        self._segments = [(0, self._at)]
+        self._stretch = Stretch(self._input_all)
+        self._marks = [mark for mark in self._marks if mark[0] < self._made]
+        self._marks.append((self._made, at / RATE_HZ, self._speed))
+
+    def _next(self, wanted: int) -> Block:
+        """Some output."""
+        if self._speed == 1.0:
+            segments = len(self._segments)
+            block = self._input(wanted)
+            self._made += len(block)
+            if len(self._segments) > segments:
+                self._marks.append((self._made, self._at / RATE_HZ, 1.0))
+                del self._segments[:-1]
+            return block
+        self._marks.append((self._made, self._position() / RATE_HZ, self._speed))
+        self._made += HOP
+        if self.silent:
+            # The same walk through loops without the sound.
+            self._input_all(round(HOP * self._speed))
+            return np.zeros((HOP, 2), np.float32)
+        return self._stretch.step(self._speed)
+
+    def _position(self) -> int:
+        """The sample of the performance that is made next."""
+        if self._speed == 1.0 or self.silent:
+            return self._at - len(self._waiting) if self._speed == 1.0 else self._at
+        stream = round(self._stretch.position) + self._lead
+        while len(self._segments) > 1 and self._segments[1][0] <= stream:
+            del self._segments[0]
+        start, at = self._segments[0]
+        return at + stream - start
+
+    def _input_all(self, count: int) -> Block:
+        """That many samples of the mix, over the end of a loop if need be."""
+        parts = []
+        while count:
+            part = self._input(count)
+            parts.append(part)
+            count -= len(part)
+        return np.concatenate(parts) if parts else np.zeros((0, 2), np.float32)
+
+    def _input(self, count: int) -> Block:
+        """The mix from here on; at most to the end of the loop."""
+        ends = self._loop is not None and self._at < self._loop[1] <= self._at + count
+        if self._loop is not None and ends:
+            count = self._loop[1] - self._at
+        block = np.zeros((count, 2), np.float32) if self.silent else self.mix.read(self._at, count)
+        if self._fade_in:
+            _fade(block[:_FADE], rising=True)
+            self._fade_in = False
+        self._at += count
+        self._stream += count
+        if self._loop is not None and ends:
+            _fade(block[-_FADE:], rising=False)
+            self._at = self._loop[0]
+            self._fade_in = True
+            self._segments.append((self._stream, self._at))
+        return block
+
+
+def _fade(block: Block, rising: bool) -> None:
+    ramp = np.linspace(0.0, 1.0, len(block), dtype=np.float32)[:, None]
+    block *= ramp if rising else ramp[::-1]
