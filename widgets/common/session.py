@@ -20,6 +20,7 @@ from app.project.model import Player, Project
 from widgets.common.listening import Listening
 from widgets.common.selection import Selection
 from widgets.common.tasks import Tasks
+from widgets.common.timeline_view import TimelineView
 from widgets.common.tokens import DARK, Tokens
 from widgets.common.viewport_state import ViewportState
 
@@ -106,6 +107,8 @@ class Session(QObject):
         """Plays the performance; None where nothing is heard, as in a picture made without a window."""
         self.actions: Mapping[str, QAction] = {}
         """Every action of the table by id; filled by the shell before any panel shows a menu."""
+        self.timeline_view: TimelineView | None = None
+        """The timeline, for commands that mean it; the panel sets it."""
         self._performance = Performance(project)
         self._selection = Selection()
         self._players: tuple[str, ...] = tuple(player.id for player in project.players[:1])
