@@ -112,16 +112,16 @@ class Camera:
         points = np.atleast_2d(np.asarray(points_m, np.float64))
         eye = points @ self.view()[:3, :3].T + self.view()[:3, 3]
         depth = -eye[:, 2]
-        scale = 0.5 * height_px / math.tan(math.radians(self.fov_deg) / 2.0) / np.where(np.abs(depth) < 1e-9, 1e-9, depth)
+        scale = (
+            0.5 * height_px / math.tan(math.radians(self.fov_deg) / 2.0) / np.where(np.abs(depth) < 1e-9, 1e-9, depth)
+        )
         pixels = np.stack([0.5 * width_px + eye[:, 0] * scale, 0.5 * height_px - eye[:, 1] * scale], axis=-1)
         return pixels, depth
 
     def ray(self, x_px: float, y_px: float, width_px: float, height_px: float) -> tuple[Floats, Floats]:
         """Origin and unit direction of the line of sight through a pixel."""
         scale = math.tan(math.radians(self.fov_deg) / 2.0) / (0.5 * height_px)
-        direction = -self.backward + scale * (
-            (x_px - 0.5 * width_px) * self.right + (0.5 * height_px - y_px) * self.up
-        )
+        direction = -self.backward + scale * ((x_px - 0.5 * width_px) * self.right + (0.5 * height_px - y_px) * self.up)
         return self.eye_m, direction / np.linalg.norm(direction)
 
 

@@ -107,6 +107,8 @@ class Canvas(vispy_app.Canvas):  # type: ignore[misc]
             return None
         native.makeCurrent()
         self.set_current()
+        # vispy binds the widget's own framebuffer with its next commands: let it do so before ours is bound.
+        self.context.flush_commands()
         kind = QOpenGLFramebufferObjectFormat()
         kind.setSamples(SAMPLES)
         kind.setAttachment(QOpenGLFramebufferObject.Attachment.CombinedDepthStencil)

@@ -160,9 +160,7 @@ class Stage:
         self.joints = np.zeros((len(members), self.first_node, 3, 4))
         self.poses: list[Posed | None] = [None] * len(members)
         self.shown = np.zeros(len(members), dtype=bool)
-        self._troupes = [
-            Troupe(members, rows) for rows in _grouped([id(member.kit.character) for member in members])
-        ]
+        self._troupes = [Troupe(members, rows) for rows in _grouped([id(member.kit.character) for member in members])]
         self._bands = _grouped([id(member.kit.map) for member in members])
         for row, member in enumerate(members):
             if member.seat_m is not None:

@@ -94,11 +94,23 @@ def stool(bone: int, height_m: float) -> Geometry:
     radius, thick = 0.17, 0.045
     seat, metal = (0.05, 0.052, 0.058), (0.30, 0.31, 0.33)
     profiles = (
-        ([(0.0, 0.0), (radius - 0.02, 0.0), (radius, -0.018), (radius - 0.008, -thick), (0.0, -thick)], seat, 0.75, 0.0),
+        (
+            [(0.0, 0.0), (radius - 0.02, 0.0), (radius, -0.018), (radius - 0.008, -thick), (0.0, -thick)],
+            seat,
+            0.75,
+            0.0,
+        ),
         ([(0.024, -thick), (0.022, -height_m + 0.03)], metal, 0.4, 1.0),
-        ([(0.0, -height_m + 0.032), (0.13, -height_m + 0.02), (0.16, -height_m + 0.004), (0.16, -height_m)], metal, 0.4, 1.0),
+        (
+            [(0.0, -height_m + 0.032), (0.13, -height_m + 0.02), (0.16, -height_m + 0.004), (0.16, -height_m)],
+            metal,
+            0.4,
+            1.0,
+        ),
     )
-    parts = [_turned(np.array(points), color, roughness, metallic, bone) for points, color, roughness, metallic in profiles]
+    parts = [
+        _turned(np.array(points), color, roughness, metallic, bone) for points, color, roughness, metallic in profiles
+    ]
     return joined(parts)
 
 
@@ -188,7 +200,9 @@ class _Whole:
             bones, weights = _strongest(mesh.joints[split.vertices], mesh.weights[split.vertices])
             self._surface["a_bones"][own, : bones.shape[1]] = bones + first_bone
             self._surface["a_weights"][own, : bones.shape[1]] = weights
-            colors = np.array([(*material.base_color[:3], material.roughness) for material in mesh.materials], np.float32)
+            colors = np.array(
+                [(*material.base_color[:3], material.roughness) for material in mesh.materials], np.float32
+            )
             metallic = np.array([material.metallic for material in mesh.materials], np.float32)
             self._surface["a_color"][own] = colors[split.materials]
             self._surface["a_metallic"][own] = metallic[split.materials]

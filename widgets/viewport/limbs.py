@@ -14,22 +14,28 @@ from widgets.viewport.cast import Stage
 Floats = npt.NDArray[np.float64]
 Ints = npt.NDArray[np.intp]
 
-SOLE_RADIUS_M = 0.038
+SOLE_RADIUS_M = 0.046
 FAR_AWAY_M = (0.0, -50.0, 0.0)
 
 _BONES = (
     ("hips", "upperChest", 0.13),
     ("head", "head", 0.10),
-    *((side + upper, side + lower, radius) for side in ("left", "right") for upper, lower, radius in (
-        ("UpperArm", "LowerArm", 0.048),
-        ("LowerArm", "Hand", 0.04),
-        ("UpperLeg", "LowerLeg", 0.078),
-        ("LowerLeg", "Foot", 0.052),
-    )),
+    *(
+        (side + upper, side + lower, radius)
+        for side in ("left", "right")
+        for upper, lower, radius in (
+            ("UpperArm", "LowerArm", 0.048),
+            ("LowerArm", "Hand", 0.04),
+            ("UpperLeg", "LowerLeg", 0.078),
+            ("LowerLeg", "Foot", 0.052),
+        )
+    ),
 )
 _HEAD_UP_M = (0.0, 0.09, 0.02)
 LIMBS = len(_BONES) + 4
 """Bones, two feet, the instrument, the seat."""
+SHADING, HELD = len(_BONES), len(_BONES) + 2
+"""The first limbs shade the player as well as the floor; the place of the instrument."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,9 +59,11 @@ def _anatomy(skeleton: Skeleton) -> _Anatomy:
     for side in ("left", "right"):
         ankle = names.index(side + "Foot")
         toes = names.index(side + "Toes") if side + "Toes" in names else ankle
-        heel = (0.0, SOLE_RADIUS_M - rest[ankle][1], -0.025)
+        # A shoe is lower than a capsule as wide: the capsule sinks into the floor.
+        low_m = 0.6 * SOLE_RADIUS_M
+        heel = (0.0, low_m - rest[ankle][1], -0.02)
         # Without joints for the toes the foot is as long as feet are.
-        tip = (0.0, SOLE_RADIUS_M - rest[toes][1], 0.03 if toes != ankle else 0.15)
+        tip = (0.0, low_m - rest[toes][1], 0.03 if toes != ankle else 0.15)
         joints.append((ankle, toes))
         offsets.append((heel, tip))
         radii.append(SOLE_RADIUS_M)

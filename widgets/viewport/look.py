@@ -23,6 +23,8 @@ class Look:
     sky: Color
     ground: Color
     rim: Color
+    key_light: Color
+    fill_light: Color
     shadow: float
     key: Color
     wire: Color
@@ -68,10 +70,12 @@ def look_of(tokens: Tokens) -> Look:
             floor=mixed(raised, text, 0.13),
             lines=mixed(raised, text, 0.42),
             glow=accent,
-            sky=(0.42, 0.44, 0.48),
-            ground=(0.15, 0.145, 0.14),
-            rim=(2.3, 2.5, 2.9),
-            shadow=0.78,
+            sky=(0.30, 0.315, 0.345),
+            ground=(0.11, 0.105, 0.10),
+            rim=(2.0, 2.2, 2.6),
+            key_light=(1.22, 1.16, 1.07),
+            fill_light=(0.17, 0.19, 0.22),
+            shadow=0.85,
             key=KEY,
             wire=mixed(accent, text, 0.3),
         )

@@ -67,10 +67,10 @@ def paint(
         _paint_names(painter, marks.names, camera, size, tokens)
 
 
-def head_top_m(stage: Stage, row: int) -> Floats:
-    """A little over a player's head."""
+def over_head_m(stage: Stage, row: int, upwards: Floats) -> Floats:
+    """A little over a player's head, over meaning upwards in the picture."""
     head = stage.joints[row, stage.members[row].kit.character.skeleton.index("head")]
-    top: Floats = head[:, :3] @ np.array([0.0, 0.13, 0.0]) + head[:, 3] + np.array([0.0, 0.16, 0.0])
+    top: Floats = head[:, :3] @ np.array([0.0, 0.12, 0.0]) + head[:, 3] + 0.19 * upwards
     return top
 
 
@@ -132,7 +132,9 @@ def _paint_touches(
         if not touch.firm or camera.pixels_per_metre(size[1], float(depth)) < 500.0:
             continue
         text = f"{distance:.1f} mm"
-        box = QRectF(goal[0] + 9.0, goal[1] - metrics.height() / 2.0, metrics.horizontalAdvance(text) + 8.0, metrics.height())
+        box = QRectF(
+            goal[0] + 9.0, goal[1] - metrics.height() / 2.0, metrics.horizontalAdvance(text) + 8.0, metrics.height()
+        )
         for _ in range(24):
             other = next((item for item in taken if item.intersects(box)), None)
             if other is None:
@@ -146,9 +148,7 @@ def _paint_touches(
         painter.drawText(box, Qt.AlignmentFlag.AlignCenter, text)
 
 
-def _paint_handles(
-    painter: QPainter, marks: Marks, camera: Camera, size: tuple[float, float], tokens: Tokens
-) -> None:
+def _paint_handles(painter: QPainter, marks: Marks, camera: Camera, size: tuple[float, float], tokens: Tokens) -> None:
     places, depths = camera.project(np.array([handle.at_m for handle in marks.handles]), *size)
     for handle, place, depth in zip(marks.handles, places, depths, strict=True):
         if depth <= 0.0:
@@ -180,9 +180,7 @@ def _paint_names(
         _pill(painter, name.text, QPointF(*place), tokens, name.color if name.in_front else "", size)
 
 
-def _pill(
-    painter: QPainter, text: str, at: QPointF, tokens: Tokens, color: str, size: tuple[float, float]
-) -> None:
+def _pill(painter: QPainter, text: str, at: QPointF, tokens: Tokens, color: str, size: tuple[float, float]) -> None:
     """A short text on a rounded plate, kept within the picture."""
     font = _font(painter, 9.0, bold=bool(color))
     painter.setFont(font)

@@ -26,7 +26,7 @@ from widgets.viewport.handles import TARGETS, Handle, handles
 from widgets.viewport.header import Header
 from widgets.viewport.limbs import Limbs, hit
 from widgets.viewport.look import look_of, rgb
-from widgets.viewport.overlay import Marks, Name, handle_at, head_top_m, paint
+from widgets.viewport.overlay import Marks, Name, handle_at, over_head_m, paint
 from widgets.viewport.pose_tool import PoseTool
 from widgets.viewport.poses import Posed, Poses
 from widgets.viewport.renderer import Emphasis, Renderer
@@ -192,7 +192,9 @@ class ViewportPanel(QWidget):
         self._take(loaded.stage, {m.player_id: self._poses.pose_now(m.player_id, time_s) for m in loaded.stage.members})
         camera = self._camera
         if view is not None:
-            camera = view_camera(view, loaded.stage, self._rows(), replace(camera, fov_deg=Camera().fov_deg), width / height)
+            camera = view_camera(
+                view, loaded.stage, self._rows(), replace(camera, fov_deg=Camera().fov_deg), width / height
+            )
         elif (middle := self._tracked(loaded.stage)) is not None:
             camera = replace(camera, target_m=_triple(middle + self._shift_m))
         self._override = (camera, float(width), float(height))
@@ -449,7 +451,7 @@ class ViewportPanel(QWidget):
             for row, member in enumerate(stage.members):
                 player = players.get(member.player_id)
                 if player is not None and stage.shown[row]:
-                    names.append(Name(player.name, session.colour(player), head_top_m(stage, row), row in rows))
+                    names.append(Name(player.name, session.colour(player), over_head_m(stage, row, camera.up), row in rows))
         skeletons = []
         if state.shows("skeleton"):
             for row, member in enumerate(stage.members):

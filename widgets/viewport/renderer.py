@@ -19,7 +19,7 @@ from widgets.viewport import shaders
 from widgets.viewport.camera import Camera
 from widgets.viewport.cast import Stage
 from widgets.viewport.geometry import LEVELS, SHAPE, Geometry, character_levels, instrument_levels, joined, stool
-from widgets.viewport.limbs import LIMBS, Limbs
+from widgets.viewport.limbs import HELD, LIMBS, SHADING, Limbs
 from widgets.viewport.look import Color, Look
 
 Floats = npt.NDArray[np.float64]
@@ -101,8 +101,9 @@ class Renderer:
     """Draws stages into the current GL context."""
 
     def __init__(self) -> None:
-        self._figures = gloo.Program(shaders.FIGURE_VERTEX, shaders.FIGURE_FRAGMENT)
-        self._batch = gloo.Program(shaders.FIGURE_VERTEX, shaders.FIGURE_FRAGMENT)
+        vertex = shaders.FIGURE_VERTEX.replace("SHADERS", str(SHADING + 1)).replace("HELD", f"{HELD}.0")
+        self._figures = gloo.Program(vertex, shaders.FIGURE_FRAGMENT)
+        self._batch = gloo.Program(vertex, shaders.FIGURE_FRAGMENT)
         self._backdrop = gloo.Program(shaders.BACKDROP_VERTEX, shaders.BACKDROP_FRAGMENT)
         fragment = shaders.SHADOW_FRAGMENT.replace("LIMBS", str(LIMBS))
         self._shadows = gloo.Program(shaders.SHADOW_VERTEX, fragment)
@@ -140,6 +141,9 @@ class Renderer:
             program["u_row"] = 0.0
             program["u_lift"] = 0.0
             program["u_line"] = (0.0, 0.0, 0.0, 0.0)
+            program["u_limbs"] = self._limb_texture
+            program["u_limbs_size"] = (float(self._limb_rows.shape[1]), float(count))
+            program["u_shaded"] = 0.0
         self._figures["a_row"] = 0.0
         self._shadows["u_limbs"] = self._limb_texture
         self._shadows["u_limbs_size"] = (float(self._limb_rows.shape[1]), float(count))
@@ -263,17 +267,21 @@ class Renderer:
         fill = camera.backward + 0.7 * camera.right + 0.15 * camera.up
         program["u_fill"] = fill / np.linalg.norm(fill)
         program["u_rim"], program["u_sky"], program["u_ground"] = look.rim, look.sky, look.ground
+        program["u_key_light"], program["u_fill_light"] = look.key_light, look.fill_light
         program["u_glow"] = look.glow
 
     def _draw_near(self, stage: Stage, shapes: Shapes, level: npt.NDArray[np.intp], mode: str) -> None:
         """Everyone who is drawn alone; things of one kind in a row, so that buffers are bound once."""
         near = [int(row) for row in np.flatnonzero((level >= 0) & (level < LEVELS - 1))]
         program = self._figures
+        program["u_shaded"] = 1.0
         for row in sorted(near, key=lambda row: (stage.members[row].kit.character.id, level[row])):
             solid = self._solid(shapes.characters[stage.members[row].kit.character.id][level[row]])
             program.bind(self._shape(stage, row, int(level[row]), solid))
             program.bind(solid.surface)
             self._draw_solid(solid, row, mode)
+        # A capsule is too coarse a likeness of an instrument to shade the instrument itself.
+        program["u_shaded"] = 0.0
         bound: _Solid | None = None
         for row in sorted(near, key=lambda row: (stage.members[row].kit.map.id, level[row])):
             solid = self._solid(shapes.instruments[stage.members[row].kit.map.id][level[row]])

@@ -11,6 +11,10 @@ uniform vec3 u_eye;
 uniform float u_row;
 uniform float u_batched;
 uniform float u_lift;
+uniform sampler2D u_limbs;
+uniform vec2 u_limbs_size;
+uniform vec3 u_key;
+uniform float u_shaded;
 attribute vec3 a_position;
 attribute vec3 a_normal;
 attribute vec4 a_bones;
@@ -23,9 +27,44 @@ varying vec3 v_normal;
 varying vec4 v_color;
 varying float v_metallic;
 varying float v_glow;
+varying vec2 v_open;
 
 vec4 texel(float column, float row) {
     return texture2DLod(u_bones, (vec2(column, row) + 0.5) / u_bones_size, 0.0);
+}
+
+vec4 limb(float column, float row) {
+    return texture2DLod(u_limbs, (vec2(column, row) + 0.5) / u_limbs_size, 0.0);
+}
+
+// What the player's own limbs and instrument leave of the sky (x) and of the key light (y) at a point of the skin.
+vec2 shaded(vec3 p, vec3 n, float row) {
+    vec2 open = vec2(1.0);
+    for (int i = 0; i < SHADERS; i++) {
+        float column = 2.0 * (i == SHADERS - 1 ? HELD : float(i));
+        vec4 a = limb(column, row);
+        vec4 b = limb(column + 1.0, row);
+        vec3 ab = b.xyz - a.xyz;
+        vec3 ap = p - a.xyz;
+        float length2 = max(dot(ab, ab), 1e-6);
+        vec3 off = clamp(dot(ap, ab) / length2, 0.0, 1.0) * ab - ap;
+        float d2 = max(dot(off, off), 1e-6);
+        float d = sqrt(d2);
+        float r = a.w;
+        // Skin lies on its own limb: what is inside a capsule is not shaded by it.
+        float outside = smoothstep(1.0, 1.3, d / r);
+        open.x *= 1.0 - 0.9 * outside * min(r * r / d2, 1.0) * max(dot(n, off) / d, 0.0);
+        float along = dot(ab, u_key);
+        float det = max(length2 - along * along, 1e-6);
+        float s = clamp((dot(ap, ab) - dot(ap, u_key) * along) / det, 0.0, 1.0);
+        vec3 on = a.xyz + s * ab - p;
+        float far = dot(on, u_key);
+        float miss = sqrt(max(dot(on, on) - far * far, 0.0));
+        float soft = 0.012 + 0.16 * max(far, 0.0);
+        float cover = (1.0 - smoothstep(r - soft, r + soft, miss)) * min(1.0, r / soft);
+        open.y *= 1.0 - outside * cover * smoothstep(0.0, 0.03, far);
+    }
+    return open;
 }
 
 void main() {
@@ -51,6 +90,7 @@ void main() {
     v_color = a_color;
     v_metallic = a_metallic;
     v_glow = state.y;
+    v_open = u_shaded > 0.5 ? shaded(v_position, normalize(v_normal), row) : vec2(1.0);
     vec3 shown = v_position + u_lift * normalize(u_eye - v_position);
     gl_Position = u_clip_from_world * vec4(shown, 1.0);
 }
@@ -64,6 +104,8 @@ uniform vec3 u_fill;
 uniform vec3 u_rim;
 uniform vec3 u_sky;
 uniform vec3 u_ground;
+uniform vec3 u_key_light;
+uniform vec3 u_fill_light;
 uniform vec3 u_glow;
 uniform vec4 u_line;
 varying vec3 v_position;
@@ -71,6 +113,7 @@ varying vec3 v_normal;
 varying vec4 v_color;
 varying float v_metallic;
 varying float v_glow;
+varying vec2 v_open;
 
 // A room to mirror: dark floor, bright ceiling, a large soft window before and one behind.
 vec3 room(vec3 d, float blur) {
@@ -96,11 +139,11 @@ void main() {
     // Light from all around; the floor takes it from what is low and looks down.
     float low = smoothstep(0.0, 0.55, v_position.y);
     float open = mix(mix(0.35, 0.85, low), 1.0, n.y * 0.5 + 0.5);
-    vec3 light = mix(u_ground, u_sky, n.y * 0.5 + 0.5) * open;
+    vec3 light = mix(u_ground, u_sky, n.y * 0.5 + 0.5) * open * v_open.x;
     // Skin and cloth scatter: the key reaches around their edge.
     float key = clamp((dot(n, u_key) + 0.22) / 1.22, 0.0, 1.0);
     float fill = clamp((dot(n, u_fill) + 0.5) / 1.5, 0.0, 1.0);
-    light += vec3(1.62, 1.56, 1.46) * key * key * mix(0.6, 1.0, low) + vec3(0.30, 0.33, 0.38) * fill;
+    light += u_key_light * key * key * v_open.y * mix(0.6, 1.0, low) + u_fill_light * fill * v_open.x;
 
     vec3 f0 = mix(vec3(0.04), albedo, v_metallic);
     float away = 1.0 - facing;
@@ -113,7 +156,7 @@ void main() {
     vec3 h = normalize(u_key + to_eye);
     float shine = (power + 2.0) * 0.06 * pow(max(dot(n, h), 0.0), power);
     vec3 result = albedo * light * (1.0 - v_metallic);
-    result += (1.0 - v_metallic) * fresnel * min(shine, 14.0) * max(dot(n, u_key), 0.0) * 1.3;
+    result += (1.0 - v_metallic) * fresnel * min(shine, 14.0) * max(dot(n, u_key), 0.0) * v_open.y;
     vec3 mirrored = room(reflect(-to_eye, n), rough * 0.55);
     result += mix((1.0 - rough) * 0.55, 1.0, v_metallic) * fresnel * mirrored * mix(0.5, 1.0, low);
 
@@ -229,7 +272,7 @@ void main() {
         float r = mix(a.w, b.w, t);
         float d2 = max(dot(off, off), r * r);
         float d = sqrt(d2);
-        sky *= 1.0 - 0.85 * clamp(r * r / d2, 0.0, 1.0) * clamp(off.y / d, 0.0, 1.0);
+        sky *= 1.0 - 0.92 * clamp(r * r / d2, 0.0, 1.0) * (0.25 + 0.75 * clamp(off.y / d, 0.0, 1.0));
         // The point of the limb nearest to the ray to the light.
         float along = dot(ab, u_key);
         float det = max(length2 - along * along, 1e-6);
@@ -243,7 +286,7 @@ void main() {
         sun *= 1.0 - cover * step(0.0, far);
     }
     float fade = 1.0 - smoothstep(0.7, 1.0, length(v_corner));
-    float dark = 1.0 - mix(1.0, sky * mix(0.62, 1.0, sun), u_strength);
+    float dark = 1.0 - mix(1.0, sky * mix(0.5, 1.0, sun), u_strength);
     gl_FragColor = vec4(0.0, 0.0, 0.0, dark * fade);
 }
 """
