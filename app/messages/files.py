@@ -8,7 +8,7 @@ TEMPLATES: Final[dict[str, str]] = {
     "file.cannot_read": "{file} cannot be read: {reason}",
     "file.cannot_write": "{file} cannot be written: {reason}",
     "file.unreadable": "{file} cannot be read: {detail}",
-    "export.done": "{count} files written to {folder}",
+    "export.done": "files written to {folder}: {count}",
     "video.done": "the film is written: {file}",
     "video.failed": "{file} cannot be written as a film: {detail}",
 }

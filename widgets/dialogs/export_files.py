@@ -80,6 +80,7 @@ class ExportDialog(QDialog):
             self._players.addItem(item)
         self._everybody = QPushButton()
         self._everybody.setObjectName("export_everybody")
+        self._everybody.setAutoDefault(False)
         self._everybody.clicked.connect(self._toggle_everybody)
         self._formats: dict[Format, QCheckBox] = {"fbx": QCheckBox(), "bvh": QCheckBox()}
         for name, box in self._formats.items():
@@ -110,6 +111,7 @@ class ExportDialog(QDialog):
         self._folder = QLineEdit(str(folder))
         self._folder.setObjectName("export_folder")
         self._choose = QPushButton()
+        self._choose.setAutoDefault(False)
         self._choose.clicked.connect(self._choose_folder)
         self._files = QLabel()
         self._files.setObjectName("export_outcome")
@@ -262,7 +264,7 @@ class ExportDialog(QDialog):
         self._finish()
         count = sum(len(player.files) for player in report.players) + 1
         self._files.setText(
-            self.tr("%n file(s) written to {folder}", "", count).format(folder=self._folder.text())
+            self.tr("Files written to {folder}: {count}").format(folder=self._folder.text(), count=count)
             + "".join(f"\n⚠ {warning}" for warning in report.warnings[:6])
         )
         self._show.show()
@@ -328,10 +330,12 @@ class ExportDialog(QDialog):
         names = file_names(Performance(self._project), self.formats)
         wanted = [name for player_id in self.player_ids for name in names[player_id].values()] + [REPORT]
         replaced = [name for name in wanted if (Path(folder) / name).exists()]
-        text = self.tr("%n file(s) will be written.", "", len(wanted))
+        text = self.tr("Files that will be written: {count}").format(count=len(wanted))
         if replaced:
             shown = ", ".join(replaced[:6]) + (" …" if len(replaced) > 6 else "")
-            text += "\n" + self.tr("%n of them will be replaced: {names}", "", len(replaced)).format(names=shown)
+            text += "\n" + self.tr("Of these, {count} will be replaced: {names}").format(
+                count=len(replaced), names=shown
+            )
         self._files.setText(text)
 
     def retranslate(self) -> None:

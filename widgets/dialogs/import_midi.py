@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 import msgspec
 from PySide6.QtCore import QEvent, QRectF, QSize, Qt
-from PySide6.QtGui import QColor, QPainter, QPaintEvent
+from PySide6.QtGui import QColor, QIcon, QPainter, QPaintEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QCheckBox,
@@ -83,9 +83,11 @@ class ImportDialog(QDialog):
         header.setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
         self._merge = QPushButton()
         self._merge.setObjectName("merge")
+        self._merge.setAutoDefault(False)
         self._merge.clicked.connect(self.merge_selected)
         self._separate = QPushButton()
         self._separate.setObjectName("separate")
+        self._separate.setAutoDefault(False)
         self._separate.clicked.connect(self.separate_selected)
         self._summary = QLabel()
         self._summary.setObjectName("import_summary")
@@ -98,6 +100,8 @@ class ImportDialog(QDialog):
         self._buttons = QDialogButtonBox(
             QDialogButtonBox.StandardButton.Ok | QDialogButtonBox.StandardButton.Cancel, Qt.Orientation.Horizontal
         )
+        for button in self._buttons.buttons():
+            button.setIcon(QIcon())
         self._buttons.accepted.connect(self.accept)
         self._buttons.rejected.connect(self.reject)
 
@@ -219,7 +223,7 @@ class ImportDialog(QDialog):
 
         instrument = QComboBox()
         instrument.setObjectName(f"instrument_{place}")
-        instrument.addItem(self.tr("Automatic"), None)
+        instrument.addItem(self.tr("Automatic: {name}").format(name=self._automatic(row)), None)
         for id_, table in self._maps.items():
             instrument.addItem(instrument_name(table), id_)
         instrument.setCurrentIndex(max(instrument.findData(row.wish.map_id), 0))
@@ -235,6 +239,12 @@ class ImportDialog(QDialog):
         character.currentIndexChanged.connect(lambda _, box=character: self._set(place, character_id=box.currentData()))
         self._table.setCellWidget(place, _CHARACTER, character)
         self._enable(place)
+
+    def _automatic(self, row: ImportRow) -> str:
+        """The instruments that the file's names, programs and ranges choose."""
+        wish = msgspec.structs.replace(row.wish, map_id=None)
+        parts = score_of_rows(self._contents, [msgspec.structs.replace(row, wish=wish, wanted=True)], self._maps).parts
+        return " + ".join(dict.fromkeys(instrument_name(self._maps[part.map_id]) for part in parts))
 
     def _name(self, row: ImportRow) -> str:
         return " + ".join(stream_name(self._contents.streams[stream]) for stream in row.wish.streams)
@@ -263,16 +273,20 @@ class ImportDialog(QDialog):
         """Say what will come of it: the reader's warnings where nothing was changed, the players in any case."""
         score = score_of_rows(self._contents, self._rows, self._maps)
         self._summary.setText(
-            self.tr("%n player(s)", "", len(score.parts))
+            self.tr("Players: {count}").format(count=len(score.parts))
             if score.parts
             else self.tr("Nobody plays: tick a track, or import an empty stage")
         )
         self._warnings.clear()
         for message in score.warnings:
             self._warnings.addItem(message_text(message))
+        for part in score.unplayed:
+            self._warnings.addItem(
+                self.tr("{name} is not played: {reason}").format(name=part.name, reason=message_text(part.reason))
+            )
         self._warning_title.setText(self.tr("What the reader noticed"))
-        self._warning_title.setVisible(bool(score.warnings))
-        self._warnings.setVisible(bool(score.warnings))
+        self._warning_title.setVisible(self._warnings.count() > 0)
+        self._warnings.setVisible(self._warnings.count() > 0)
 
     def sizeHint(self) -> QSize:
         return QSize(1080, 560)

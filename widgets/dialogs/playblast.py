@@ -99,6 +99,7 @@ class PlayblastDialog(QDialog):
         self._file = QLineEdit(str(path))
         self._file.setObjectName("playblast_file")
         self._choose = QPushButton()
+        self._choose.setAutoDefault(False)
         self._choose.clicked.connect(self._choose_file)
         self._state = QLabel()
         self._state.setObjectName("playblast_state")
