@@ -80,6 +80,9 @@ class ImportDialog(QDialog):
         header = self._table.horizontalHeader()
         header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
         header.setSectionResizeMode(_PREVIEW, QHeaderView.ResizeMode.Stretch)
+        header.setMinimumSectionSize(40)
+        header.setSectionResizeMode(_INSTRUMENT, QHeaderView.ResizeMode.Interactive)
+        header.resizeSection(_INSTRUMENT, 230)
         header.setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
         self._merge = QPushButton()
         self._merge.setObjectName("merge")
@@ -303,7 +306,7 @@ class NotesPreview(QWidget):
     def __init__(self, notes: list[Note], end_tick: int, tokens: Tokens) -> None:
         super().__init__()
         self._notes, self._end_tick, self._tokens = notes, max(end_tick, 1), tokens
-        self.setMinimumSize(160, _ROW_PX - 8)
+        self.setMinimumHeight(_ROW_PX - 8)
 
     def paintEvent(self, event: QPaintEvent) -> None:
         painter = QPainter(self)
