@@ -63,5 +63,6 @@ TEMPLATES: Final[dict[str, str]] = {
     "edit.place_players": "place {count} players",
     "edit.arrange_players": "automatic arc",
     "edit.apply_preset": "preset {preset} for {count} players",
+    "player.too_many": "a project can have {most} players",
     "player.no_name": "a name must have at least one sign that can be seen",
 }

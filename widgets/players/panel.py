@@ -25,6 +25,7 @@ from widgets.common.instrument_name import instrument_name
 from widgets.common.number_slider import NumberSlider
 from widgets.common.section import Section
 from widgets.common.session import Session
+from widgets.players.newcomers import add_player, duplicate_players
 from widgets.players.parameters import ParameterSections
 from widgets.players.player_list import PlayerList, Row
 from widgets.players.stage_section import StageSection
@@ -98,9 +99,9 @@ class PlayersPanel(QWidget):
         upper_layout.addWidget(self._empty, 1)
         buttons = QHBoxLayout()
         buttons.setSpacing(4)
-        for button in (self._throw, self._reset):
+        for wide in (self._throw, self._reset):
             # The panel may be narrower than its longest word.
-            button.setMinimumWidth(40)
+            wide.setMinimumWidth(40)
         buttons.addWidget(self._throw, 1)
         buttons.addWidget(self._reset, 1)
         self._variety.body.addWidget(self._spread)
@@ -246,18 +247,10 @@ class PlayersPanel(QWidget):
 
     def add(self, instrument_id: str) -> None:
         """Add a player of this instrument, in front."""
-        maps = bundled_maps()
-        instrument = maps[instrument_id]
-        name = instrument_name(instrument)
-        project, player_id = edit.add_player(self._session.project, instrument, maps, name)
-        self._session.apply(Message("edit.add_player", {"player": project.player(player_id).name}), project)
-        self._session.set_players((player_id,))
+        add_player(self._session, instrument_id)
 
     def _duplicate(self) -> None:
-        chosen = self._session.players
-        project, new_ids = edit.duplicate_players(self._session.project, chosen)
-        self._session.apply(self._name("edit.duplicate_players"), project)
-        self._session.set_players(new_ids)
+        duplicate_players(self._session)
 
     def _remove(self) -> None:
         chosen = self._session.players

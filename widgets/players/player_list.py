@@ -417,10 +417,12 @@ class PlayerList(QListView):
             super().mouseReleaseEvent(event)
 
     def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
-        if self._button_at(event.position().toPoint())[0] is not None:
+        position = event.position().toPoint()
+        if self._button_at(position)[0] is not None:
             self.mousePressEvent(event)
-        else:
-            super().mouseDoubleClickEvent(event)
+        elif event.button() == Qt.MouseButton.LeftButton and self.indexAt(position).isValid():
+            # Qt forgets that the row was pressed where the press changed the selection.
+            self.edit(self.indexAt(position))
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         if event.key() == Qt.Key.Key_Escape and self._drop_row is not None:

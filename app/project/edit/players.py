@@ -3,6 +3,7 @@
 Messages
 --------
 player.no_name(): a name must have at least one sign that can be seen.
+player.too_many(most): a project has no room for more players.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ import msgspec
 
 from app.errors import AppError
 from app.plan.model import PlayerParameters
+from app.project import limits
 from app.project.casting import SPACING_M, StagePosition, amplitude, chance, player_seed, stage_arc
 from app.project.ids import fresh_part_ids, fresh_player_ids
 from app.project.model import Player, Project, characters_for
@@ -52,7 +54,7 @@ def change(project: Project, player_ids: Collection[str], **fields: object) -> P
 
 def rename(project: Project, player_id: str, name: str) -> Project:
     """Call a player something else; a name that another carries gets a number. Raises AppError ``player.no_name``."""
-    wanted = clean_name(name)
+    wanted = clean_name(name)[: limits.MOST_NAME]
     if not wanted:
         raise AppError("player.no_name")
     taken = [player.name for player in project.players if player.id != player_id]
@@ -249,6 +251,8 @@ def _with_players(project: Project, players: Iterable[Player]) -> Project:
 
 def _joined(project: Project, newcomers: tuple[Player, ...]) -> Project:
     """The project with more players: on the arc if the others are, else each to the right of them."""
+    if len(project.players) + len(newcomers) > limits.MOST_PLAYERS:
+        raise AppError("player.too_many", most=limits.MOST_PLAYERS)
     on_arc = _on_arc(project)
     right_m = max((player.stage.x_m for player in project.players), default=-SPACING_M)
     middle_m = sum(player.stage.z_m for player in project.players) / max(len(project.players), 1)

@@ -1,0 +1,252 @@
+"""Players: who is there, who is heard, who is in front."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QT_TRANSLATE_NOOP
+
+from app.errors import Message
+from app.project.edit import players as edit
+from app.project.model import Player
+from app.shell.action import Action
+from instrument_maps.load import bundled_maps
+from widgets.common.session import Session
+from widgets.players import newcomers
+
+
+def _chosen(session: Session) -> list[Player]:
+    return [session.project.player(player_id) for player_id in session.players]
+
+
+def _count(id: str, players: int) -> Message:
+    return Message(id, {"count": players})
+
+
+def add(session: Session) -> None:
+    """Add somebody who plays what the player in front plays; the first instrument there is in an empty project."""
+    front = session.player
+    known = bundled_maps()
+    instrument_id = front.instrument_id if front is not None and front.instrument_id in known else next(iter(known))
+    newcomers.add_player(session, instrument_id)
+
+
+def duplicate(session: Session) -> None:
+    """Double the selected players."""
+    newcomers.duplicate_players(session)
+
+
+def remove(session: Session) -> None:
+    """Send the selected players away."""
+    chosen = session.players
+    session.attempt(_count("edit.remove_players", len(chosen)), lambda project: edit.remove_players(project, chosen))
+
+
+def mute(session: Session, on: bool) -> None:
+    """Let the selected players be silent, or heard again."""
+    _change(session, "muted", on, "edit.mute" if on else "edit.unmute")
+
+
+def solo(session: Session, on: bool) -> None:
+    """Let only these be heard."""
+    _change(session, "soloed", on, "edit.solo" if on else "edit.unsolo")
+
+
+def _change(session: Session, field: str, on: bool, name: str) -> None:
+    chosen = session.players
+    session.attempt(_count(name, len(chosen)), lambda project: edit.change(project, chosen, **{field: on}))
+
+
+def hear_everyone(session: Session) -> None:
+    """End every mute and solo."""
+    everyone = [player.id for player in session.project.players]
+    session.attempt(
+        _count("edit.unmute", len(everyone)),
+        lambda project: edit.change(project, everyone, muted=False, soloed=False),
+    )
+
+
+def next_player(session: Session) -> None:
+    """Put the next player in front."""
+    _step(session, 1)
+
+
+def previous_player(session: Session) -> None:
+    """Put the player before in front."""
+    _step(session, -1)
+
+
+def _step(session: Session, by: int) -> None:
+    players = session.project.players
+    if session.player is None:
+        return
+    number = (players.index(session.player) + by) % len(players)
+    session.set_players((players[number].id,))
+
+
+def toggle_posture(session: Session) -> None:
+    """Let the selected players sit down; stand up where all sit."""
+    chosen = session.players
+    seated = all(player.parameters.posture == "seated" for player in _chosen(session))
+    session.attempt(
+        _count("edit.parameter_posture", len(chosen)),
+        lambda project: edit.set_parameters(project, chosen, posture="standing" if seated else "seated"),
+    )
+
+
+def randomise(session: Session) -> None:
+    """Make the selected players differ, or everyone where fewer than two are selected."""
+    several = len(session.players) > 1
+    chosen = session.players if several else tuple(player.id for player in session.project.players)
+    spread = session.variety
+    session.attempt(
+        _count("edit.randomise_players", len(chosen)), lambda project: edit.randomise(project, chosen, spread)
+    )
+
+
+def arrange(session: Session) -> None:
+    """Put everyone on the automatic arc."""
+    session.attempt(Message("edit.arrange_players"), edit.arrange)
+
+
+def select_all(session: Session) -> None:
+    """Select every player; who is in front stays there."""
+    others = tuple(player.id for player in session.project.players if player.id not in session.players[:1])
+    session.set_players((*session.players[:1], *others))
+
+
+def reset(session: Session) -> None:
+    """Return the parameters of the selected players to what they were cast with."""
+    chosen = session.players
+    session.attempt(
+        _count("edit.reset_parameters", len(chosen)), lambda project: edit.reset_parameters(project, chosen)
+    )
+
+
+def _has_players(session: Session) -> bool:
+    return bool(session.players)
+
+
+def _has_several(session: Session) -> bool:
+    return len(session.project.players) > 1
+
+
+def _is_muted(session: Session) -> bool:
+    return session.player is not None and session.player.muted
+
+
+def _is_soloed(session: Session) -> bool:
+    return session.player is not None and session.player.soloed
+
+
+def _is_quiet(session: Session) -> bool:
+    return any(player.muted or player.soloed for player in session.project.players)
+
+
+ACTIONS: tuple[Action, ...] = (
+    Action("players.add", QT_TRANSLATE_NOOP("Action", "Add player"), add, "Edit/Players", icon="add"),
+    Action(
+        "players.duplicate",
+        QT_TRANSLATE_NOOP("Action", "Duplicate players"),
+        duplicate,
+        "Edit/Players",
+        "Ctrl+D",
+        "players",
+        enabled=_has_players,
+        icon="duplicate",
+    ),
+    Action(
+        "players.remove",
+        QT_TRANSLATE_NOOP("Action", "Remove players"),
+        remove,
+        "Edit/Players",
+        "Del",
+        "players",
+        enabled=_has_players,
+        icon="delete",
+    ),
+    Action(
+        "players.mute",
+        QT_TRANSLATE_NOOP("Action", "Mute players"),
+        mute,
+        "Edit/Players",
+        "M",
+        "players",
+        enabled=_has_players,
+        checked=_is_muted,
+        icon="mute",
+    ),
+    Action(
+        "players.solo",
+        QT_TRANSLATE_NOOP("Action", "Solo players"),
+        solo,
+        "Edit/Players",
+        "S",
+        "players",
+        enabled=_has_players,
+        checked=_is_soloed,
+        icon="solo",
+    ),
+    Action(
+        "players.hear_everyone",
+        QT_TRANSLATE_NOOP("Action", "Hear everyone"),
+        hear_everyone,
+        "Edit/Players",
+        enabled=_is_quiet,
+        icon="sound",
+    ),
+    Action(
+        "players.next",
+        QT_TRANSLATE_NOOP("Action", "Next player in front"),
+        next_player,
+        "Edit/Players",
+        "Ctrl+PgDown",
+        enabled=_has_several,
+    ),
+    Action(
+        "players.previous",
+        QT_TRANSLATE_NOOP("Action", "Previous player in front"),
+        previous_player,
+        "Edit/Players",
+        "Ctrl+PgUp",
+        enabled=_has_several,
+    ),
+    Action(
+        "players.posture",
+        QT_TRANSLATE_NOOP("Action", "Sit down or stand up"),
+        toggle_posture,
+        "Edit/Players",
+        enabled=_has_players,
+        icon="seated",
+    ),
+    Action(
+        "players.randomise",
+        QT_TRANSLATE_NOOP("Action", "Randomise the ensemble"),
+        randomise,
+        "Edit/Players",
+        enabled=_has_players,
+        icon="dice",
+    ),
+    Action(
+        "players.arrange",
+        QT_TRANSLATE_NOOP("Action", "Automatic arc"),
+        arrange,
+        "Edit/Players",
+        enabled=_has_players,
+        icon="stage",
+    ),
+    Action(
+        "players.select_all",
+        QT_TRANSLATE_NOOP("Action", "Select all players"),
+        select_all,
+        "Edit/Players",
+        "Ctrl+Shift+A",
+        enabled=_has_several,
+    ),
+    Action(
+        "players.reset",
+        QT_TRANSLATE_NOOP("Action", "Reset the players' parameters"),
+        reset,
+        "Edit/Players",
+        enabled=_has_players,
+        icon="reset",
+    ),
+)
