@@ -272,7 +272,9 @@ void main() {
         float r = mix(a.w, b.w, t);
         float d2 = max(dot(off, off), r * r);
         float d = sqrt(d2);
-        sky *= 1.0 - 0.92 * clamp(r * r / d2, 0.0, 1.0) * (0.25 + 0.75 * clamp(off.y / d, 0.0, 1.0));
+        // Between a ball, which hides as the square of r / d, and an endless tube.
+        float near = clamp(r / d, 0.0, 1.0);
+        sky *= 1.0 - 0.92 * near * sqrt(near) * (0.25 + 0.75 * clamp(off.y / d, 0.0, 1.0));
         // The point of the limb nearest to the ray to the light.
         float along = dot(ab, u_key);
         float det = max(length2 - along * along, 1e-6);
@@ -281,12 +283,12 @@ void main() {
         float far = dot(on, u_key);
         float miss = sqrt(max(dot(on, on) - far * far, 0.0));
         float rs = mix(a.w, b.w, s);
-        float soft = 0.02 + 0.16 * max(far, 0.0);
+        float soft = 0.015 + 0.11 * max(far, 0.0);
         float cover = (1.0 - smoothstep(rs - soft, rs + soft, miss)) * min(1.0, rs / soft * 0.85);
         sun *= 1.0 - cover * step(0.0, far);
     }
     float fade = 1.0 - smoothstep(0.7, 1.0, length(v_corner));
-    float dark = 1.0 - mix(1.0, sky * mix(0.5, 1.0, sun), u_strength);
+    float dark = 1.0 - mix(1.0, sky * mix(0.38, 1.0, sun), u_strength);
     gl_FragColor = vec4(0.0, 0.0, 0.0, dark * fade);
 }
 """
@@ -312,8 +314,9 @@ varying vec2 v_at;
 void main() {
     float off = abs(length(v_at) - u_radius);
     float wide = max(fwidth(length(v_at)), 1e-5);
-    float line = 1.0 - smoothstep(0.006 + 0.5 * wide, 0.006 + 1.5 * wide, off);
-    float glow = 0.22 * exp(-off * off / 0.0018);
+    float half_width = min(0.006, 1.2 * wide);
+    float line = 1.0 - smoothstep(half_width, half_width + wide, off);
+    float glow = 0.16 * exp(-off * off / 0.0012);
     gl_FragColor = vec4(u_color.rgb, u_color.a * max(line, glow));
 }
 """
