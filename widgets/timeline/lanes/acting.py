@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
-from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen, QPolygonF, QResizeEvent
+from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
 from PySide6.QtWidgets import QMenu, QWidget
 
 from app.errors import Message
@@ -25,11 +25,12 @@ from app.project.model import Project
 from widgets.common.selection import EventKey, Selection
 from widgets.common.session import Session
 from widgets.timeline.axis import TimeAxis
-from widgets.timeline.lane import GUTTER_PX, LaneMouse
-from widgets.timeline.lanes.drawing import draw_mark, draw_path, draw_rects, draw_text, polygon, shade, small_font
-from widgets.timeline.lanes.geometry import packed_rows
+from widgets.timeline.lane import LaneMouse
+from widgets.timeline.lanes.drawing import draw_mark, draw_path, draw_rects, draw_text, polygon, shade
+from widgets.timeline.lanes.geometry import Floats, packed_rows
 from widgets.timeline.lanes.names import expression_name, kind_name, pose_name
 from widgets.timeline.lanes.regions import HANDLE_PX, Region, RegionLane
+from widgets.timeline.lanes.row_names import RowNames
 
 GROUPS: tuple[tuple[str, ...], ...] = (
     ("cue",),
@@ -50,26 +51,6 @@ CUE_REACH_PX = 10.0
 """A cue that is dragged this close to an entry belongs to it."""
 
 
-class _RowNames(QWidget):
-    """The names of the rows, at the right of the header."""
-
-    def __init__(self, lane: ActingLane) -> None:
-        super().__init__(lane.header)
-        self._lane = lane
-        self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
-        self.setObjectName("row_names")
-
-    def paintEvent(self, event: QPaintEvent) -> None:
-        lane = self._lane
-        painter = QPainter(self)
-        painter.setFont(small_font(self.font()))
-        painter.setPen(QColor(lane.session.tokens.text_dim))
-        for kind, first, count in lane.groups:
-            top, height = lane.row_box(first)
-            box = QRectF(60.0, top, self.width() - 66.0, height * count)
-            draw_text(painter, box, lane.group_name(kind), Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
-
-
 class ActingLane(RegionLane):
     """What body and face do beside playing."""
 
@@ -80,9 +61,9 @@ class ActingLane(RegionLane):
     def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
         self.groups: list[tuple[str, int, int]] = []
         """Kinds with their first row and number of rows."""
-        self._strips: dict[str, tuple[np.ndarray, np.ndarray, np.ndarray]] = {}
+        self._strips: dict[str, tuple[Floats, Floats, Floats]] = {}
         super().__init__(session, axis, parent)
-        self._names = _RowNames(self)
+        self._names = RowNames(self, self.row_names)
         self.retranslate()
 
     def retranslate(self) -> None:
@@ -146,6 +127,14 @@ class ActingLane(RegionLane):
         if hasattr(self, "_names"):
             self._names.update()
 
+    def row_names(self) -> list[tuple[str, float]]:
+        """The groups' names and where they stand."""
+        names = []
+        for kind, first, count in self.groups:
+            top, height = self.row_box(first)
+            names.append((self.group_name(kind), top + height * count / 2))
+        return names
+
     def box(self, region: Region) -> QRectF:
         box = super().box(region)
         if region.event_id == BASE and not region.removed:
@@ -175,7 +164,8 @@ class ActingLane(RegionLane):
             high = int(np.searchsorted(start_s, axis.seconds(exposed.right()))) + 1
             top, height = self.row_box(first)
             middle, half = top + height / 2, height / 2 - 2.0
-            x0, x1, y = axis.x_px(start_s[low:high]), axis.x_px(end_s[low:high]), amount[low:high] * half
+            x0, x1 = axis.x_px(start_s[low:high]), axis.x_px(end_s[low:high])
+            y = amount[low:high] * half
             painter.setPen(QPen(shade(tokens.line_strong, 120), 1.0))
             painter.drawLine(QPointF(exposed.left(), middle), QPointF(exposed.right(), middle))
             if kind == "sway":
@@ -184,7 +174,7 @@ class ActingLane(RegionLane):
                 draw_rects(painter, x0, np.minimum(middle, middle - y), np.maximum(x1 - x0 - 1.0, 1.0),
                            np.maximum(np.abs(y), 1.0), shade(colour, 90))  # fmt: skip
 
-    def _paint_sway(self, painter: QPainter, x0: np.ndarray, x1: np.ndarray, y: np.ndarray, colour: QColor) -> None:
+    def _paint_sway(self, painter: QPainter, x0: Floats, x1: Floats, y: Floats, colour: QColor) -> None:
         """From side to side, at rest where it turns."""
         if not len(x0):
             return
@@ -376,13 +366,6 @@ class ActingLane(RegionLane):
         if self.session.attempt(name, whole):
             self.session.select(Selection(events=frozenset(EventKey(plan.player_id, event_id) for event_id in ids)))
 
-    # Qt overrides
-
-    def resizeEvent(self, event: QResizeEvent) -> None:
-        super().resizeEvent(event)
-        if hasattr(self, "_names"):
-            self._names.setGeometry(0, 0, GUTTER_PX, self.height())
-
 
 def _in_row(region: Region, row: int) -> Region:
     # Copying thousands of regions field by field would be felt: a region that was just made may be filled in.
@@ -428,12 +411,12 @@ def _pose(player_id: str, event: PoseEvent) -> Region:
     )  # fmt: skip
 
 
-def _strip(regions: Sequence[Region], kind: str, row: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Starts, ends and amounts of what is drawn as a strip; the sway's curve takes changed swings in, not added ones."""
+def _strip(regions: Sequence[Region], kind: str, row: int) -> tuple[Floats, Floats, Floats]:
+    """Starts, ends and amounts of what is drawn as a strip; the sway's curve takes in changed swings, not added ones."""
     chosen = [
         region
         for region in regions
-        if region.kind == kind and (not region.by_hand or kind == "sway" and f":{OWN}" not in region.event_id)
+        if region.kind == kind and (not region.by_hand or (kind == "sway" and f":{OWN}" not in region.event_id))
     ]
     return (
         np.array([region.start_s for region in chosen], np.float64),

@@ -106,7 +106,7 @@ class BreathLane(RegionLane):
 
     def menu_entries(self, menu: QMenu, region: Region | None, mouse: LaneMouse) -> None:
         menu.addAction(self.tr("Add a breath here")).triggered.connect(lambda _=False: self.add_at(mouse))
-        if region is None or region.removed and region.kind == "breath":
+        if region is None or (region.removed and region.kind == "breath"):
             return
         note_id = region.event_id.split(":", 1)[1]
         player = self.session.project.player(region.player_id)

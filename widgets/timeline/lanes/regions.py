@@ -416,14 +416,18 @@ class RegionLane(Lane):
             self._apply(drag, Message("edit.set_event_amount", {"count": count}), by_player, raise_)
         elif drag.mode in ("fade_in", "fade_out"):
             length_s = region.end_s - region.start_s
-            if drag.mode == "fade_in":
-                fades = {"fade_in_s": min(max(region.fade_in_s + drag_s, 0.0), length_s)}
-            else:
-                fades = {"fade_out_s": min(max(region.fade_out_s - drag_s, 0.0), length_s)}
-            self._preview = {region.key: replace(region, by_hand=True, **fades)}
+            into = min(max(region.fade_in_s + drag_s, 0.0), length_s) if drag.mode == "fade_in" else None
+            out = min(max(region.fade_out_s - drag_s, 0.0), length_s) if drag.mode == "fade_out" else None
+            shown = replace(
+                region,
+                by_hand=True,
+                fade_in_s=region.fade_in_s if into is None else into,
+                fade_out_s=region.fade_out_s if out is None else out,
+            )
+            self._preview = {region.key: shown}
 
             def fade(project: Project, plan: PlayerPlan, ids: Sequence[str]) -> Edited:
-                return Edited(set_fades(project, plan, ids, **fades), tuple(ids))
+                return Edited(set_fades(project, plan, ids, into, out), tuple(ids))
 
             self._apply(drag, Message("edit.set_fades"), by_player, fade)
 

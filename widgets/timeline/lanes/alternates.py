@@ -1,0 +1,149 @@
+"""All the ways to play a note, as a row of chips beside it."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QEvent, QObject, QPoint, QSize, Qt
+from PySide6.QtGui import QKeyEvent, QMouseEvent
+from PySide6.QtWidgets import QApplication, QFrame, QHBoxLayout, QMenu, QPushButton, QWidget
+
+from app.errors import Message
+from app.plan.model import FingeringEvent
+from app.project.edit.events import corrections_of, give_back, pin_fingerings
+from instrument_maps.model import Fingering
+from widgets.common.chip import Chip
+from widgets.common.icons import icon
+from widgets.common.session import Session
+from widgets.common.tokens import LEAST_TARGET_PX
+
+
+class Alternates(QFrame):
+    """A row of chips in the window, without modality: it goes with the next press elsewhere, or Escape."""
+
+    def __init__(self, session: Session, lane: QWidget) -> None:
+        super().__init__(lane)
+        self.setObjectName("alternates")
+        self.setFrameShape(QFrame.Shape.StyledPanel)
+        self.setAutoFillBackground(True)
+        self._session = session
+        self._lane = lane
+        self.event_shown: FingeringEvent | None = None
+        self.player_id = ""
+        self._row = QHBoxLayout(self)
+        self._row.setContentsMargins(4, 4, 4, 4)
+        self._row.setSpacing(3)
+        self.hide()
+
+    def choices(self, player_id: str, event: FingeringEvent) -> tuple[Fingering, ...]:
+        """Every fingering of a note's pitch in the instrument's map, first choice first."""
+        project = self._session.project
+        player = project.player(player_id)
+        note = next((note for note in project.part(player).notes if note.id == event.note_id), None)
+        return () if note is None else self._session.performance.instrument(player).fingerings_for(note.pitch)
+
+    def note_text(self, fingering: Fingering) -> str:
+        """What is told of a fingering beside its label: how far out of tune, and why one would take it."""
+        words = {
+            "trill": self.tr("trill"),
+            "fast": self.tr("fast"),
+            "raised": self.tr("raised"),
+            "alternate": self.tr("alternate"),
+        }
+        parts = [f"{fingering.cents:+.0f} ¢"] if round(fingering.cents) else []
+        parts += [words.get(tag, tag) for tag in fingering.tags]
+        return " · ".join(parts)
+
+    def is_pinned(self, player_id: str, event: FingeringEvent) -> bool:
+        """Whether a person chose the fingering."""
+        return bool(corrections_of(self._session.project, player_id, (event.id,)))
+
+    def show_for(self, player_id: str, event: FingeringEvent, place: QPoint) -> None:
+        """Show the chips of a note above a place of the window."""
+        while (item := self._row.takeAt(0)) is not None:
+            if (widget := item.widget()) is not None:
+                widget.hide()
+                widget.deleteLater()
+        self.event_shown, self.player_id = event, player_id
+        pinned = self.is_pinned(player_id, event)
+        for fingering in self.choices(player_id, event):
+            now = fingering.label == event.label
+            chip = Chip(
+                self._session, fingering.label, self.note_text(fingering), by_hand=now and pinned,
+                outlined=now and not pinned, parent=self,
+            )  # fmt: skip
+            chip.setObjectName(f"chip_{fingering.label}")
+            chip.setChecked(now)
+            chip.setToolTip(self.tr("Choice {rank}").format(rank=fingering.rank))
+            chip.clicked.connect(lambda _=False, label=fingering.label: self.choose(label))
+            self._row.addWidget(chip)
+        if pinned:
+            back = QPushButton(icon("reset", self._session.tokens), self.tr("Generated"), self)
+            back.setObjectName("give_back")
+            back.setFlat(True)
+            back.setMinimumHeight(LEAST_TARGET_PX)
+            back.setIconSize(QSize(16, 16))
+            back.setToolTip(self.tr("Back to the generator's choice"))
+            back.clicked.connect(lambda _=False: self.give_back())
+            self._row.addWidget(back)
+        window = self._lane.window()
+        self.setParent(window)
+        self.adjustSize()
+        self.resize(self.sizeHint())
+        x = min(max(place.x(), 2), max(window.width() - self.width() - 2, 2))
+        y = place.y() - self.height() - 2
+        self.move(x, y if y >= 0 else min(place.y() + self._lane.height() + 2, window.height() - self.height()))
+        self.show()
+        self.raise_()
+        application = QApplication.instance()
+        if application is not None:
+            application.installEventFilter(self)
+
+    def choose(self, label: str) -> None:
+        """Pin a fingering for every selected note that has one of this label, at least for the note shown."""
+        if self.event_shown is None:
+            return
+        note_id, player_id = self.event_shown.note_id, self.player_id
+        self.hide()
+        self._session.attempt(
+            Message("edit.pin_fingerings", {"count": 1}),
+            lambda project: pin_fingerings(project, player_id, {note_id: label}),
+        )
+
+    def give_back(self) -> None:
+        """Let the search choose again."""
+        if self.event_shown is None:
+            return
+        event_id, player_id = self.event_shown.id, self.player_id
+        self.hide()
+        self._session.attempt(Message("edit.give_back"), lambda project: give_back(project, player_id, (event_id,)))
+
+    def fill_menu(self, menu: QMenu, player_id: str, event: FingeringEvent) -> None:
+        """The same choices as entries of a menu."""
+        for fingering in self.choices(player_id, event):
+            note = self.note_text(fingering)
+            entry = menu.addAction(f"{fingering.label}   {note}" if note else fingering.label)
+            entry.setCheckable(True)
+            entry.setChecked(fingering.label == event.label)
+            entry.triggered.connect(
+                lambda _=False, label=fingering.label: self._choose_from_menu(player_id, event, label)
+            )
+
+    def _choose_from_menu(self, player_id: str, event: FingeringEvent, label: str) -> None:
+        self.player_id, self.event_shown = player_id, event
+        self.choose(label)
+
+    # Qt overrides
+
+    def hideEvent(self, event: QEvent) -> None:
+        application = QApplication.instance()
+        if application is not None:
+            application.removeEventFilter(self)
+        super().hideEvent(event)  # type: ignore[arg-type]
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        if isinstance(event, QMouseEvent) and event.type() == QEvent.Type.MouseButtonPress:
+            if not self.rect().contains(self.mapFromGlobal(event.globalPosition().toPoint())):
+                self.hide()
+        elif isinstance(event, QKeyEvent) and event.type() == QEvent.Type.KeyPress and event.key() == Qt.Key.Key_Escape:
+            self.hide()
+            return True
+        return super().eventFilter(watched, event)

@@ -1,0 +1,343 @@
+"""The lane of curves: the lips note by note, and the part's controllers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from PySide6.QtCore import QRectF, Qt
+from PySide6.QtGui import QColor, QPainter, QPen
+from PySide6.QtWidgets import QComboBox, QMenu, QWidget
+
+from app.errors import Message
+from app.plan.model import EmbouchureEvent, PlayerPlan
+from app.project.document import Change
+from app.project.edit.events import set_embouchure
+from app.project.model import Project
+from app.score.model import Part
+from widgets.common.selection import EventKey, Selection
+from widgets.common.session import Session
+from widgets.common.text import message_text
+from widgets.timeline.axis import TimeAxis
+from widgets.timeline.lane import Lane, LaneItem, LaneMouse
+from widgets.timeline.lanes.drawing import draw_lines, draw_mark, draw_path, draw_rects, draw_text, shade, small_font
+from widgets.timeline.lanes.geometry import Floats, Spans, Steps, step_path
+
+LIPS = ("tension", "effort", "air")
+CONTROLLERS = ("breath", "expression", "volume", "aftertouch", "pitch_bend")
+MARGIN_PX = 4.0
+DRAG_PX = 3.0
+REACH_PX = 8.0
+
+
+@dataclass(frozen=True)
+class Lips:
+    """A plan's embouchures as arrays (N,)."""
+
+    events: tuple[EmbouchureEvent, ...]
+    spans: Spans
+    steps: Mapping[str, Steps]
+
+
+def lips(plan: PlayerPlan) -> Lips:
+    """Embouchures for drawing: between notes the lips rest, which a curve shows as a gap."""
+    events = plan.embouchures
+    start_s = np.array([event.start_s for event in events], np.float64)
+    end_s = np.array([event.end_s for event in events], np.float64)
+    values = {name: np.array([getattr(event, name) for event in events], np.float64) for name in LIPS}
+    return Lips(events, Spans(start_s, end_s), {name: Steps(start_s, value) for name, value in values.items()})
+
+
+def controller_steps(part: Part, project: Project) -> dict[str, Steps]:
+    """The part's controllers over time, by kind; values are 0..1 (pitch bend: its middle is 0.5)."""
+    clock = project.score.tempo_map
+    result: dict[str, Steps] = {}
+    for curve in part.curves:
+        values = np.array(curve.values, np.float64)
+        if curve.kind == "pitch_bend":
+            values = (values + 1.0) / 2.0
+        result[curve.kind] = Steps(clock.seconds(np.array(curve.ticks, np.float64)), values)
+    return result
+
+
+@dataclass
+class _Drag:
+    at: LaneMouse
+    project: Project
+    starts: dict[str, float]
+    selection: Selection
+    token: object
+    moved: bool = False
+
+
+class _Curves(LaneItem):
+    """The chosen curve strong and editable, the others calm behind it."""
+
+    def __init__(self, lane: CurvesLane) -> None:
+        super().__init__(lane)
+        self._lane = lane
+
+    def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
+        lane, player = self._lane, self._lane.session.player
+        if player is None or lane.lips is None:
+            return
+        tokens, colour = lane.session.tokens, lane.session.colour(player)
+        painter.setFont(small_font(lane.font()))
+        shade_of = {"breath": tokens.good, "expression": tokens.warning}
+        for kind, steps in lane.controllers.items():
+            if kind != lane.curve:
+                self._paint_steps(painter, exposed, steps, shade(shade_of.get(kind, tokens.text_dim), 90), 1.0)
+        if lane.curve in lane.controllers:
+            self._paint_steps(painter, exposed, lane.controllers[lane.curve], QColor(colour), 1.4)
+            return
+        for name in LIPS:
+            if name != lane.curve:
+                self._paint_notes(painter, exposed, name, shade(tokens.text_dim, 90), None)
+        self._paint_notes(painter, exposed, lane.curve, QColor(colour), shade(colour, 50))
+
+    def _paint_steps(self, painter: QPainter, exposed: QRectF, steps: Steps, colour: QColor, width: float) -> None:
+        axis = self._lane.axis
+        left, right = int(exposed.left()), int(np.ceil(exposed.right()))
+        low, high = steps.columns(axis.seconds(left), axis.seconds(right), right - left)
+        points = step_path(low, high)
+        points[:, 0] += left
+        points[:, 1] = self._y(points[:, 1])
+        draw_path(painter, points, QPen(colour, width))
+
+    def _paint_notes(self, painter: QPainter, exposed: QRectF, name: str, colour: QColor, fill: QColor | None) -> None:
+        lane = self._lane
+        data, axis = lane.lips, lane.axis
+        assert data is not None
+        shown = data.spans.between(axis.seconds(exposed.left()), axis.seconds(exposed.right()))
+        if len(shown) > 2 * exposed.width():
+            self._paint_steps(painter, exposed, data.steps[name], colour, 1.0)
+            return
+        left, right = axis.x_px(data.spans.start_s[shown]), axis.x_px(data.spans.end_s[shown])
+        y = self._y(data.steps[name].value[shown])
+        if fill is None:
+            draw_lines(painter, left, y, right, y, QPen(colour, 1.0))
+            return
+        tokens = lane.session.tokens
+        bottom, width = lane.plot_rect.height(), np.maximum(right - left - 1.0, 1.0)
+        selected = lane.session.selection
+        events = [data.events[index] for index in shown.tolist()]
+        chosen = np.array(
+            [event.note_id in selected.notes or lane.key_of(event) in selected.events for event in events], bool
+        )
+        for picked, bar, line in ((~chosen, fill, colour), (chosen, shade(tokens.accent, 90), QColor(tokens.accent))):
+            draw_rects(painter, left[picked], y[picked], width[picked], bottom - y[picked], bar)
+            ends = left[picked] + width[picked]
+            draw_lines(painter, left[picked], y[picked], ends, y[picked], QPen(line, 2.0))
+        painter.setPen(QColor(tokens.text))
+        for event, x, wide, top, is_chosen in zip(
+            events, left.tolist(), width.tolist(), y.tolist(), chosen.tolist(), strict=True
+        ):
+            if event.corrected:
+                draw_mark(painter, tokens, x + 1.0, bottom - 8.0)
+            if is_chosen and wide > 22.0:
+                value = f"{lane.value_of(event):.2f}"
+                over = top - 14.0 if top > 16.0 else top + 2.0
+                draw_text(painter, QRectF(x + 2.0, over, max(wide, 26.0), 13.0), value)
+
+    def _y(self, value: Floats) -> Floats:
+        height = self._lane.plot_rect.height() - 2 * MARGIN_PX
+        result: Floats = MARGIN_PX + (1.0 - value) * height
+        return result
+
+
+class CurvesLane(Lane):
+    """Lips and dynamics. The chosen curve of the lips is dragged up and down, for all selected notes together."""
+
+    id = "curves"
+    preferred_height_px = 72
+    least_height_px = 44
+
+    def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
+        super().__init__(session, axis, parent)
+        self.lips: Lips | None = None
+        self.controllers: dict[str, Steps] = {}
+        self.curve = "tension"
+        self._plan: PlayerPlan | None = None
+        self._part: Part | None = None
+        self._drag: _Drag | None = None
+        self._preview: dict[str, float] = {}
+        self.choice = QComboBox(self.header)
+        self.choice.setObjectName("curve_choice")
+        self.choice.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+        self.choice.activated.connect(self._chosen)
+        self.controls.addWidget(self.choice)
+        self.item = _Curves(self)
+        self.refresh()
+        self.retranslate()
+
+    def retranslate(self) -> None:
+        self.title.setText(self.tr("Curves"))
+        self.title.setToolTip(self.tr("Drag a note's value up or down; Shift for fine steps"))
+        self.choice.setToolTip(self.tr("The curve that is edited or shown in front"))
+        self.choice.setAccessibleName(self.tr("Curve"))
+        self._fill_choice()
+
+    def curve_name(self, curve: str) -> str:
+        """What a curve is called."""
+        names = {
+            "tension": self.tr("Lip tension"),
+            "effort": self.tr("Effort"),
+            "air": self.tr("Air"),
+            "breath": self.tr("Breath controller"),
+            "volume": self.tr("Volume"),
+            "expression": self.tr("Expression"),
+            "aftertouch": self.tr("Aftertouch"),
+            "pitch_bend": self.tr("Pitch bend"),
+        }
+        return names[curve]
+
+    def set_curve(self, curve: str) -> None:
+        """Bring a curve to the front."""
+        self.curve = curve
+        self.choice.setCurrentIndex(self.choice.findData(curve))
+        self.update_items()
+
+    def _fill_choice(self) -> None:
+        curves = [*LIPS, *(kind for kind in CONTROLLERS if kind in self.controllers)]
+        self.choice.clear()
+        for curve in curves:
+            self.choice.addItem(self.curve_name(curve), curve)
+        self.set_curve(self.curve if self.curve in curves else "tension")
+
+    def _chosen(self, index: int) -> None:
+        self.set_curve(str(self.choice.itemData(index)))
+
+    # What is shown
+
+    def refresh(self) -> None:
+        """Show the plan and the part of the player in front, where they are others."""
+        player, project = self.session.player, self.session.project
+        plan = self.plan_of(player) if player is not None else None
+        part = project.part(player) if player is not None else None
+        if part is not self._part:
+            self._part = part
+            before = tuple(self.controllers)
+            self.controllers = controller_steps(part, project) if part is not None else {}
+            if tuple(self.controllers) != before:
+                self._fill_choice()
+        if plan is not self._plan or plan is None:
+            self._plan = plan
+            self.lips = lips(plan) if plan is not None else None
+            if self._drag is None:
+                self._preview = {}
+            self.plot.setToolTip("")
+        self.update_items()
+
+    def key_of(self, event: EmbouchureEvent) -> EventKey:
+        """As the selection names it."""
+        return EventKey(self._plan.player_id if self._plan is not None else "", event.id)
+
+    def value_of(self, event: EmbouchureEvent) -> float:
+        """The chosen curve's value of a note."""
+        value: float = getattr(event, self.curve) if self.curve in LIPS else 0.0
+        return value
+
+    def event_at(self, time_s: float) -> EmbouchureEvent | None:
+        """The embouchure at a time."""
+        if self.lips is None:
+            return None
+        found = self.lips.spans.between(time_s, time_s)
+        return self.lips.events[int(found[-1])] if len(found) else None
+
+    def performance_changed(self) -> None:
+        self.refresh()
+
+    def players_changed(self) -> None:
+        self.refresh()
+
+    def project_changed(self, change: Change) -> None:
+        if change.before.score is not change.after.score:
+            self.refresh()
+
+    def selection_changed(self) -> None:
+        self.update_items()
+
+    # The mouse
+
+    def press(self, mouse: LaneMouse) -> None:
+        before, event = self.session.selection, self.event_at(mouse.time_s)
+        notes = before.notes
+        self._drag = None
+        if event is None:
+            if not (mouse.ctrl or mouse.shift):
+                self.session.select(Selection())
+            return
+        if mouse.ctrl:
+            self.session.select(Selection(notes=notes ^ {event.note_id}))
+        elif event.note_id not in notes:
+            self.session.select(Selection(notes=frozenset({event.note_id})))
+        if self.curve not in LIPS or self.lips is None:
+            return
+        chosen = self.session.selection.notes
+        starts = {item.note_id: self.value_of(item) for item in self.lips.events if item.note_id in chosen}
+        self._drag = _Drag(mouse, self.session.project, starts, before, object())
+
+    def drag(self, mouse: LaneMouse) -> None:
+        drag, plan = self._drag, self._plan
+        if drag is None or plan is None or (not drag.moved and abs(mouse.y_px - drag.at.y_px) < DRAG_PX):
+            return
+        drag.moved = True
+        change = (drag.at.y_px - mouse.y_px) / max(self.plot_rect.height() - 2 * MARGIN_PX, 1.0)
+        if mouse.shift:
+            change /= 5.0
+        player_id, curve = plan.player_id, self.curve
+
+        def edit(_: Project) -> Project:
+            project = drag.project
+            for note_id, start in drag.starts.items():
+                value = round(min(max(start + change, 0.0), 1.0), 3)
+                if value != round(start, 3):
+                    project = set_embouchure(project, player_id, (note_id,), **{curve: value})
+            return project
+
+        count = len(drag.starts)
+        self.session.attempt(Message("edit.set_embouchure", {"count": count}), edit, drag.token, self)
+
+    def release(self, mouse: LaneMouse) -> None:
+        drag, self._drag = self._drag, None
+        if drag is not None and drag.moved:
+            self.session.document.end_gesture()
+
+    def cancel(self) -> None:
+        drag, self._drag = self._drag, None
+        if drag is not None and drag.moved:
+            self.session.apply(Message("edit.set_embouchure", {"count": 0}), drag.project, drag.token, self)
+            self.session.document.end_gesture()
+
+    def hover(self, mouse: LaneMouse | None) -> None:
+        event = self.event_at(mouse.time_s) if mouse is not None else None
+        if mouse is None or event is None:
+            self.plot.setToolTip("")
+            self.plot.unsetCursor()
+            return
+        if self.curve in LIPS:
+            self.plot.setCursor(Qt.CursorShape.SizeVerCursor)
+        else:
+            self.plot.unsetCursor()
+        lines = [f"{self.curve_name(name)} {getattr(event, name):.2f}" for name in LIPS]
+        for kind, steps in self.controllers.items():
+            if (value := steps.at(mouse.time_s)) is not None:
+                lines.append(f"{self.curve_name(kind)} {value:.2f}")
+        self.plot.setToolTip("\n".join((*lines, message_text(event.reason))))
+
+    def context_menu(self, mouse: LaneMouse) -> QMenu | None:
+        event = self.event_at(mouse.time_s)
+        if event is not None and event.note_id not in self.session.selection.notes:
+            self.session.select(Selection(notes=frozenset({event.note_id})))
+        menu = QMenu(self)
+        for curve in [str(self.choice.itemData(index)) for index in range(self.choice.count())]:
+            entry = menu.addAction(self.curve_name(curve))
+            entry.setCheckable(True)
+            entry.setChecked(curve == self.curve)
+            entry.triggered.connect(lambda _=False, curve=curve: self.set_curve(curve))
+        action = self.session.actions.get("events.give_back")
+        if event is not None and action is not None:
+            menu.addSeparator()
+            menu.addAction(action)
+        return menu

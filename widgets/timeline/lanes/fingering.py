@@ -1,0 +1,335 @@
+"""The lane of fingerings: what the hands press, pull and slide for every note, and what else would do."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+from PySide6.QtCore import QPoint, QPointF, QRectF, Qt
+from PySide6.QtGui import QColor, QPainter, QPen
+from PySide6.QtWidgets import QMenu, QWidget
+
+from app.plan.model import FingeringEvent, PlayerPlan
+from app.project.document import Change
+from instrument_maps.model import Control, InstrumentMap
+from widgets.common.selection import Selection
+from widgets.common.session import Session
+from widgets.common.text import message_text
+from widgets.timeline.axis import TimeAxis
+from widgets.timeline.lane import Lane, LaneItem, LaneMouse
+from widgets.timeline.lanes.alternates import Alternates
+from widgets.timeline.lanes.drawing import (
+    draw_mark,
+    draw_path,
+    draw_rects,
+    draw_text,
+    shade,
+    small_font,
+)
+from widgets.timeline.lanes.geometry import Spans
+from widgets.timeline.lanes.row_names import RowNames
+
+Floats = npt.NDArray[np.float64]
+
+LABEL_PX = 16.0
+"""Height of the row of labels."""
+LEAST_LABEL_PX = 9.0
+MOST_BAR_PX = 26.0
+"""However high the lane, bars stay thin enough to be read together."""
+CHIPS_DELAY_PX = 3.0
+
+
+@dataclass(frozen=True)
+class Fingerings:
+    """A plan's fingerings as arrays (N,): what is pressed (by control) and where slides are.
+
+    ``pressed`` has a row for every pressable control, ``slides`` for every slide, both with values 0..1.
+    """
+
+    events: tuple[FingeringEvent, ...]
+    start_s: Floats
+    end_s: Floats
+    pressed: Floats
+    slides: Floats
+    spans: Spans
+
+
+def fingerings(plan: PlayerPlan, pressable: tuple[Control, ...], slides: tuple[Control, ...]) -> Fingerings:
+    """A plan's fingerings for drawing."""
+    events = plan.fingerings
+    start_s = np.array([event.start_s for event in events], np.float64)
+    end_s = np.array([event.end_s for event in events], np.float64)
+
+    def values(controls: tuple[Control, ...]) -> Floats:
+        rows = [[event.controls.get(control.name, control.rest_value) for event in events] for control in controls]
+        return np.array(rows, np.float64).reshape(len(controls), len(events))
+
+    return Fingerings(events, start_s, end_s, values(pressable), values(slides), Spans(start_s, end_s))
+
+
+def slide_places(instrument: InstrumentMap, slide: Control) -> tuple[tuple[float, str], ...]:
+    """Where the named places of a slide are: mean value of the fingerings that the slide alone makes, by label."""
+    found: dict[str, list[float]] = {}
+    for fingering in instrument.fingerings:
+        if set(fingering.controls) <= {slide.name}:
+            found.setdefault(fingering.label, []).append(fingering.controls.get(slide.name, slide.rest_value))
+    return tuple(sorted((sum(values) / len(values), label) for label, values in found.items()))
+
+
+class _Bars(LaneItem):
+    """Pressed controls as bars, slides as lines, labels beneath."""
+
+    def __init__(self, lane: FingeringLane) -> None:
+        super().__init__(lane)
+        self._lane = lane
+
+    def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
+        lane, data, player = self._lane, self._lane.data, self.lane.session.player
+        if data is None or player is None:
+            return
+        axis, tokens = lane.axis, lane.session.tokens
+        painter.setFont(small_font(lane.font()))
+        shown = data.spans.between(axis.seconds(exposed.left()), axis.seconds(exposed.right()))
+        left: Floats = axis.x_px(data.start_s[shown])
+        width = np.maximum(axis.x_px(data.end_s[shown]) - left - 1.0, 1.0)
+        colour = lane.session.colour(player)
+        selected = lane.session.selection.notes
+        chosen = np.array([data.events[index].note_id in selected for index in shown.tolist()], bool)
+        self._paint_selection(painter, left[chosen], width[chosen])
+        for row, values in enumerate(data.pressed):
+            top, height = lane.bar_box(row)
+            painter.setPen(QPen(shade(tokens.line_strong, 110), 1.0))
+            painter.drawLine(QPointF(exposed.left(), top + height / 2), QPointF(exposed.right(), top + height / 2))
+            value = values[shown]
+            for picked, token in ((~chosen, colour), (chosen, tokens.accent)):
+                down = picked & (value > 0.0)
+                size = np.maximum(value[down] * (height - 2.0), 2.0)
+                draw_rects(painter, left[down], top + height / 2 - size / 2, width[down], size, shade(token, 200))
+        for values in data.slides:
+            self._paint_slide(painter, exposed, left, width, values[shown], chosen, colour)
+        self._paint_labels(painter, data, shown, left, width, chosen)
+
+    def _paint_selection(self, painter: QPainter, left: Floats, width: Floats) -> None:
+        height = np.full(len(left), self._lane.plot_rect.height())
+        draw_rects(painter, left, np.zeros(len(left)), width, height, shade(self._lane.session.tokens.accent, 36))
+
+    def _paint_slide(
+        self,
+        painter: QPainter,
+        exposed: QRectF,
+        left: Floats,
+        width: Floats,
+        value: Floats,
+        chosen: npt.NDArray[np.bool_],
+        colour: str,
+    ) -> None:
+        lane, tokens = self._lane, self._lane.session.tokens
+        top, height = lane.slide_box
+        for place, _ in lane.places:
+            y = top + place * height
+            painter.setPen(QPen(shade(tokens.line_strong, 130), 1.0, Qt.PenStyle.DotLine))
+            painter.drawLine(QPointF(exposed.left(), y), QPointF(exposed.right(), y))
+        y = top + value * height
+        points = np.empty((2 * len(left), 2))
+        points[0::2, 0], points[1::2, 0] = left, left + width
+        points[0::2, 1] = points[1::2, 1] = y
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
+        draw_path(painter, points, QPen(shade(colour, 110), 1.0))
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
+        for picked, token in ((~chosen, colour), (chosen, tokens.accent)):
+            count = int(picked.sum())
+            draw_rects(painter, left[picked], y[picked] - 1.5, width[picked], np.full(count, 3.0), shade(token, 230))
+
+    def _paint_labels(
+        self,
+        painter: QPainter,
+        data: Fingerings,
+        shown: npt.NDArray[np.int64],
+        left: Floats,
+        width: Floats,
+        chosen: npt.NDArray[np.bool_],
+    ) -> None:
+        lane, tokens = self._lane, self._lane.session.tokens
+        top = lane.plot_rect.height() - LABEL_PX
+        text, strong = QColor(tokens.text_dim), QColor(tokens.text)
+        rows = zip(shown.tolist(), left.tolist(), width.tolist(), chosen.tolist(), strict=True)
+        for index, x, wide, is_chosen in rows:
+            event = data.events[index]
+            if event.corrected:
+                draw_mark(painter, tokens, x, top - 2.0)
+            if wide < LEAST_LABEL_PX:
+                continue
+            # What is not the first choice stands out: it is what one looks for.
+            painter.setPen(strong if is_chosen or event.corrected or event.rank > 1 else text)
+            inset = 8.0 if event.corrected else 2.0
+            box = QRectF(x + inset, top, max(wide - inset, 15.0), LABEL_PX)
+            if wide >= painter.fontMetrics().horizontalAdvance(event.label) + inset:
+                draw_text(painter, box, event.label)
+
+
+class FingeringLane(Lane):
+    """The fingerings of the player in front. A click on a note shows what else could be played there."""
+
+    id = "fingering"
+    preferred_height_px = 84
+    least_height_px = 48
+
+    def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
+        super().__init__(session, axis, parent)
+        self.data: Fingerings | None = None
+        self.places: tuple[tuple[float, str], ...] = ()
+        self._pressable: tuple[Control, ...] = ()
+        self._slides: tuple[Control, ...] = ()
+        self._plan: PlayerPlan | None = None
+        self._pressed_at: LaneMouse | None = None
+        self._selection_before = Selection()
+        self._hovered: FingeringEvent | None = None
+        self.bars = _Bars(self)
+        self.alternates = Alternates(session, self)
+        self._names = RowNames(self, self.row_names)
+        self.refresh()
+        self.retranslate()
+
+    def retranslate(self) -> None:
+        self.title.setText(self.tr("Fingering"))
+        self.title.setToolTip(self.tr("Click a note to see its alternates; type a fingering to pin it"))
+
+    # What is shown
+
+    def refresh(self) -> None:
+        """Show the plan of the player in front, if it is another."""
+        player = self.session.player
+        plan = self.plan_of(player) if player is not None else None
+        if plan is self._plan and plan is not None:
+            return
+        self._plan, self.data, self.places = plan, None, ()
+        if player is not None and plan is not None:
+            instrument = self.session.performance.instrument(player)
+            pitched = [control for control in instrument.controls if control.role == "pitch"]
+            self._pressable = tuple(control for control in pitched if control.kind != "slide")
+            self._slides = tuple(control for control in pitched if control.kind == "slide")
+            self.data = fingerings(plan, self._pressable, self._slides)
+            if self._slides:
+                self.places = slide_places(instrument, self._slides[0])
+        self._hovered = None
+        if hasattr(self, "_names"):
+            self._names.update()
+        self.update_items()
+
+    def row_names(self) -> list[tuple[str, float]]:
+        """Signs of the controls and places of the slide, and where they stand."""
+        if self.data is None:
+            return []
+        names = []
+        for row, control in enumerate(self._pressable):
+            top, height = self.bar_box(row)
+            names.append((control.label or control.name, top + height / 2))
+        top, height = self.slide_box
+        return names + [(label, top + place * height) for place, label in self.places]
+
+    @property
+    def _bars_share(self) -> float:
+        """The part of the height above the labels that the bars of pressed controls take."""
+        if not self._slides:
+            return 1.0
+        return len(self._pressable) / (len(self._pressable) + 4.0)
+
+    def bar_box(self, row: int) -> tuple[float, float]:
+        """Top and height of the bar of a pressable control."""
+        room = (self.plot_rect.height() - LABEL_PX - 4.0) * self._bars_share
+        height = min(room / max(len(self._pressable), 1), MOST_BAR_PX)
+        return 2.0 + row * height, height
+
+    @property
+    def slide_box(self) -> tuple[float, float]:
+        """Top and height of the range of a slide: closed at the top, far out at the bottom."""
+        room = self.plot_rect.height() - LABEL_PX - 4.0
+        top = sum(self.bar_box(len(self._pressable) - 1)) if self._pressable else 2.0
+        return top + 6.0, max(room - top - 10.0, 4.0)
+
+    def event_at(self, time_s: float) -> FingeringEvent | None:
+        """The fingering at a time."""
+        if self.data is None:
+            return None
+        reach_s = 2.0 / self.axis.px_per_s
+        found = self.data.spans.between(time_s - reach_s, time_s + reach_s)
+        inside = [index for index in found.tolist() if self.data.start_s[index] <= time_s <= self.data.end_s[index]]
+        return self.data.events[(inside or found.tolist())[-1]] if len(found) else None
+
+    def performance_changed(self) -> None:
+        self.refresh()
+
+    def players_changed(self) -> None:
+        self.alternates.hide()
+        self.refresh()
+
+    def project_changed(self, change: Change) -> None:
+        if change.opened:
+            self.alternates.hide()
+
+    def selection_changed(self) -> None:
+        self.update_items()
+
+    def axis_changed(self) -> None:
+        if hasattr(self, "alternates"):
+            self.alternates.hide()
+
+    # The mouse
+
+    def press(self, mouse: LaneMouse) -> None:
+        event = self.event_at(mouse.time_s)
+        self._pressed_at, self._selection_before = mouse, self.session.selection
+        notes = self.session.selection.notes
+        if event is None:
+            if not (mouse.ctrl or mouse.shift):
+                self.session.select(Selection())
+        elif mouse.ctrl:
+            self.session.select(Selection(notes=notes ^ {event.note_id}))
+        elif mouse.shift:
+            self.session.select(Selection(notes=notes | {event.note_id}))
+        elif event.note_id not in notes:
+            self.session.select(Selection(notes=frozenset({event.note_id})))
+
+    def drag(self, mouse: LaneMouse) -> None:
+        start = self._pressed_at
+        if start is None or self.data is None or abs(mouse.x_px - start.x_px) < CHIPS_DELAY_PX:
+            return
+        low, high = sorted((start.time_s, mouse.time_s))
+        inside = frozenset(self.data.events[index].note_id for index in self.data.spans.between(low, high).tolist())
+        more = self._selection_before.notes if start.ctrl or start.shift else frozenset()
+        self.session.select(Selection(notes=inside | more))
+
+    def release(self, mouse: LaneMouse) -> None:
+        start, self._pressed_at = self._pressed_at, None
+        if start is None or mouse.ctrl or mouse.shift or abs(mouse.x_px - start.x_px) >= CHIPS_DELAY_PX:
+            return
+        event = self.event_at(start.time_s)
+        if event is not None and self._plan is not None:
+            self.session.select(Selection(notes=frozenset({event.note_id})))
+            x = min(max(self.axis.x_px(event.start_s), 0.0), self.plot_rect.width() - 60.0)
+            self.alternates.show_for(self._plan.player_id, event, self.plot.mapTo(self.window(), QPoint(round(x), 0)))
+
+    def cancel(self) -> None:
+        self._pressed_at = None
+        self.session.select(self._selection_before)
+
+    def hover(self, mouse: LaneMouse | None) -> None:
+        event = self.event_at(mouse.time_s) if mouse is not None else None
+        if event is not self._hovered:
+            self._hovered = event
+            self.plot.setToolTip(f"{event.label}\n{message_text(event.reason)}" if event is not None else "")
+
+    def context_menu(self, mouse: LaneMouse) -> QMenu | None:
+        event = self.event_at(mouse.time_s)
+        if event is not None and event.note_id not in self.session.selection.notes:
+            self.session.select(Selection(notes=frozenset({event.note_id})))
+        menu = QMenu(self)
+        if event is not None and self._plan is not None:
+            self.alternates.fill_menu(menu, self._plan.player_id, event)
+            menu.addSeparator()
+        for action_id in ("fingering.cycle", "events.give_back"):
+            action = self.session.actions.get(action_id)
+            if action is not None:
+                menu.addAction(action)
+        return menu
