@@ -139,7 +139,7 @@ def pan(camera: Camera, right_px: float, down_px: float, height_px: float) -> Ca
     """Shift so that what lies at the target's distance follows the hand."""
     metre = 1.0 / camera.pixels_per_metre(height_px)
     target = np.asarray(camera.target_m) + metre * (down_px * camera.up - right_px * camera.right)
-    return replace(camera, target_m=_point(target))
+    return replace(camera, target_m=triple(target))
 
 
 def dolly(camera: Camera, steps: float) -> Camera:
@@ -158,7 +158,7 @@ def frame(camera: Camera, low_m: npt.ArrayLike, high_m: npt.ArrayLike, aspect: f
     across, over, before = away @ camera.right, away @ camera.up, away @ camera.backward
     needed = before + np.maximum(np.abs(across) / (tangent * aspect), np.abs(over) / tangent)
     distance = min(max(float(needed.max()), NEAREST_M), FARTHEST_M)
-    return replace(camera, target_m=_point(middle), distance_m=distance)
+    return replace(camera, target_m=triple(middle), distance_m=distance)
 
 
 def between(start: Camera, end: Camera, share: float) -> Camera:
@@ -169,7 +169,7 @@ def between(start: Camera, end: Camera, share: float) -> Camera:
     eased = share * share * (3.0 - 2.0 * share)
     target = (1.0 - eased) * np.asarray(start.target_m) + eased * np.asarray(end.target_m)
     return Camera(
-        target_m=_point(target),
+        target_m=triple(target),
         yaw_rad=_wrapped(start.yaw_rad + eased * _wrapped(end.yaw_rad - start.yaw_rad)),
         pitch_rad=start.pitch_rad + eased * (end.pitch_rad - start.pitch_rad),
         distance_m=start.distance_m ** (1.0 - eased) * end.distance_m**eased,
@@ -184,12 +184,13 @@ def followed(camera: Camera, target_m: npt.ArrayLike, elapsed_s: float, settle_s
     """
     share = 1.0 - math.exp(-max(elapsed_s, 0.0) / settle_s)
     target = np.asarray(camera.target_m)
-    return replace(camera, target_m=_point(target + share * (np.asarray(target_m, np.float64) - target)))
+    return replace(camera, target_m=triple(target + share * (np.asarray(target_m, np.float64) - target)))
 
 
 def _wrapped(angle_rad: float) -> float:
     return (angle_rad + math.pi) % (2.0 * math.pi) - math.pi
 
 
-def _point(vector: Floats) -> tuple[float, float, float]:
+def triple(vector: Floats) -> tuple[float, float, float]:
+    """A vector as plain numbers."""
     return float(vector[0]), float(vector[1]), float(vector[2])

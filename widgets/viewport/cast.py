@@ -119,10 +119,7 @@ class Troupe:
         offsets[:, self._hips] = [pose.hips_m for pose in poses]
         stage = self._stages
         for joints, parents in self._levels:
-            if parents is None:
-                above = stage[:, None]
-            else:
-                above = world[:, parents]
+            above = stage[:, None] if parents is None else world[:, parents]
             rotation = above[..., :3]
             world[..., :3][:, joints] = rotation @ local[:, joints]
             world[..., 3][:, joints] = (rotation @ offsets[:, joints, :, None])[..., 0] + above[..., 3]
@@ -230,12 +227,13 @@ class Stage:
 
     def node_matrix(self, row: int, node: int = 0) -> Floats:
         """``world_from_rest`` (3, 4) of an instrument's node."""
-        return self.bones[row, self.first_node + node].astype(np.float64)
+        matrix: Floats = self.bones[row, self.first_node + node].astype(np.float64)
+        return matrix
 
 
 def _levels(skeleton: Skeleton) -> list[tuple[Ints, Ints | None]]:
     """Joints by their depth, with their parents; the root has none."""
-    depth = []
+    depth: list[int] = []
     for parent in skeleton.parents:
         depth.append(0 if parent < 0 else depth[parent] + 1)
     result: list[tuple[Ints, Ints | None]] = []

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 import numpy.typing as npt
@@ -132,13 +133,14 @@ def _turned(
     steps = 28
     angles = np.linspace(0.0, 2.0 * np.pi, steps + 1)
     around = np.stack([np.cos(angles), np.zeros(steps + 1), np.sin(angles)], axis=1)
-    shapes, triangles = [], []
-    for (r0, y0), (r1, y1) in zip(profile[:-1], profile[1:], strict=True):
+    shapes: list[npt.NDArray[np.void]] = []
+    triangles: list[npt.NDArray[np.int64]] = []
+    for (r0, y0), (r1, y1) in pairwise(profile):
         slope = np.array([y0 - y1, r1 - r0])
         slope /= max(float(np.linalg.norm(slope)), 1e-9)
         normals = around * slope[0] + np.array([0.0, slope[1], 0.0])
         ring0, ring1 = around * r0 + [0.0, y0, 0.0], around * r1 + [0.0, y1, 0.0]
-        first = sum(len(shape) for shape in shapes)
+        first = 2 * (steps + 1) * len(shapes)
         shape = np.zeros(2 * (steps + 1), SHAPE)
         shape["a_position"] = np.concatenate([ring0, ring1])
         shape["a_normal"] = np.concatenate([normals, normals])

@@ -99,11 +99,11 @@ def _paint_skeleton(
         dots.append(QPointF(*places[joint]))
         if parent > 0 and depths[parent] > 0.0:
             lines.append(QLineF(QPointF(*places[parent]), QPointF(*places[joint])))
-    painter.setPen(QPen(_faded(tokens.sunken, 0.7), 3.6, cap=Qt.PenCapStyle.RoundCap))
+    painter.setPen(QPen(_faded(tokens.sunken, 0.7), 3.6, c=Qt.PenCapStyle.RoundCap))
     painter.drawLines(lines)
-    painter.setPen(QPen(QColor(color), 1.6, cap=Qt.PenCapStyle.RoundCap))
+    painter.setPen(QPen(QColor(color), 1.6, c=Qt.PenCapStyle.RoundCap))
     painter.drawLines(lines)
-    painter.setPen(QPen(QColor(tokens.text), 4.2, cap=Qt.PenCapStyle.RoundCap))
+    painter.setPen(QPen(QColor(tokens.text), 4.2, c=Qt.PenCapStyle.RoundCap))
     painter.drawPoints(dots)
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import replace
 from time import perf_counter
 
@@ -16,8 +15,8 @@ from app.errors import Message
 from app.project.document import Change
 from widgets.common.session import Session
 from widgets.common.text import message_text
-from widgets.common.viewport_state import VIEWS, View
-from widgets.viewport.camera import Camera, between, dolly, followed, frame, orbit, pan
+from widgets.common.viewport_state import View
+from widgets.viewport.camera import Camera, between, dolly, followed, frame, orbit, pan, triple
 from widgets.viewport.canvas import Canvas, Picture, pixels, why_no_gl
 from widgets.viewport.cast import Stage
 from widgets.viewport.contacts import touches
@@ -29,8 +28,8 @@ from widgets.viewport.look import look_of, rgb
 from widgets.viewport.overlay import Marks, Name, handle_at, over_head_m, paint
 from widgets.viewport.pose_tool import PoseTool
 from widgets.viewport.poses import Posed, Poses
-from widgets.viewport.renderer import Emphasis, Renderer
-from widgets.viewport.views import bounds, tracked, view_camera
+from widgets.viewport.renderer import Emphasis
+from widgets.viewport.views import bounds, in_the_way, tracked, view_camera
 
 Floats = npt.NDArray[np.float64]
 
@@ -76,7 +75,7 @@ class ViewportPanel(QWidget):
         self._press: QPointF | None = None
         self._pointer: QPointF | None = None
         self._dragging = False
-        self._override: tuple[Camera, float, float] | None = None
+        self._override: tuple[Camera, View] | None = None
 
         self.header = Header(session, self)
         self._stack = QStackedWidget(self)
@@ -196,8 +195,8 @@ class ViewportPanel(QWidget):
                 view, loaded.stage, self._rows(), replace(camera, fov_deg=Camera().fov_deg), width / height
             )
         elif (middle := self._tracked(loaded.stage)) is not None:
-            camera = replace(camera, target_m=_triple(middle + self._shift_m))
-        self._override = (camera, float(width), float(height))
+            camera = replace(camera, target_m=triple(middle + self._shift_m))
+        self._override = (camera, view if view is not None else self._shown_view)
         try:
             picture = canvas.render_image(width, height)
         finally:
@@ -255,7 +254,13 @@ class ViewportPanel(QWidget):
         """What to draw: asked by the canvas."""
         camera = self._override[0] if self._override is not None else self._camera
         hovered = None if self._override is not None else self._hovered
-        return camera, look_of(self._session.tokens), Emphasis(self._rings(), hovered, self._shows_wires())
+        aside = frozenset[int]()
+        if self._loaded is not None:
+            aside = in_the_way(self._view(), self._loaded.stage, self._rows(), camera)
+        return camera, look_of(self._session.tokens), Emphasis(self._rings(), hovered, aside, self._shows_wires())
+
+    def _view(self) -> View:
+        return self._override[1] if self._override is not None else self._shown_view
 
     def _shows_wires(self) -> bool:
         return self._session.viewport.shows("wireframe")
@@ -451,7 +456,9 @@ class ViewportPanel(QWidget):
             for row, member in enumerate(stage.members):
                 player = players.get(member.player_id)
                 if player is not None and stage.shown[row]:
-                    names.append(Name(player.name, session.colour(player), over_head_m(stage, row, camera.up), row in rows))
+                    names.append(
+                        Name(player.name, session.colour(player), over_head_m(stage, row, camera.up), row in rows)
+                    )
         skeletons = []
         if state.shows("skeleton"):
             for row, member in enumerate(stage.members):
@@ -685,6 +692,7 @@ class _Overlay(QWidget):
         self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
         self.setAttribute(Qt.WidgetAttribute.WA_NoSystemBackground)
         self._panel = panel
+        self._native = native
         self._marks = Marks()
         self.hide()
 
@@ -692,7 +700,7 @@ class _Overlay(QWidget):
         """Paint again, or go away where there is nothing to paint."""
         self._marks = self._panel._marks(self._panel._camera)
         wanted = bool(self._marks) or bool(self._panel.message())
-        if wanted != self.isVisibleTo(self.parentWidget()):
+        if wanted != self.isVisibleTo(self._native):
             self.setVisible(wanted)
             self.fit()
         if wanted:
@@ -700,7 +708,7 @@ class _Overlay(QWidget):
 
     def fit(self) -> None:
         """Cover the canvas."""
-        self.setGeometry(self.parentWidget().rect())
+        self.setGeometry(self._native.rect())
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Paint the marks, or what there is to say."""

@@ -7,7 +7,7 @@ together, from coarser shapes. All bones of all players travel in one float text
 from __future__ import annotations
 
 from collections import OrderedDict
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -18,7 +18,7 @@ from vispy import gloo
 from widgets.viewport import shaders
 from widgets.viewport.camera import Camera
 from widgets.viewport.cast import Stage
-from widgets.viewport.geometry import LEVELS, SHAPE, Geometry, character_levels, instrument_levels, joined, stool
+from widgets.viewport.geometry import LEVELS, Geometry, character_levels, instrument_levels, joined, stool
 from widgets.viewport.limbs import HELD, LIMBS, SHADING, Limbs
 from widgets.viewport.look import Color, Look
 
@@ -32,6 +32,8 @@ MOST_NEAR = 12
 SPREAD_M = 1.25
 """No part of a player or instrument is farther from the chest."""
 SHADOW_RADIUS_M = 1.9
+SEEN_THROUGH = 0.85
+"""Share of the pixels that are left out of who stands in the way."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,10 +47,11 @@ class Shapes:
 
 @dataclass(frozen=True)
 class Emphasis:
-    """What stands out: rings by row, the row under the pointer, and how figures are drawn."""
+    """What stands out: rings by row, the row under the pointer, rows that are seen through, how figures are drawn."""
 
     rings: Mapping[int, Color] = field(default_factory=dict)
     hovered: int | None = None
+    in_the_way: frozenset[int] = frozenset()
     wireframe: bool = False
 
 
@@ -219,7 +222,7 @@ class Renderer:
 
     def _levels(self, stage: Stage, camera: Camera, matrix: Floats, height_px: int) -> npt.NDArray[np.intp]:
         """The level of detail of everyone; -1: not in the picture."""
-        middles = np.array([member.world_from_player[:, 3] for member in stage.members]) + [0.0, 1.0, 0.0]
+        middles = np.array([member.world_from_player[:, 3] for member in stage.members]) + np.array([0.0, 1.0, 0.0])
         away = np.linalg.norm(middles - camera.eye_m, axis=1)
         scale = camera.pixels_per_metre(height_px, 1.0) / np.maximum(away - 0.35, 0.2)
         level = np.where(scale > FINE_PX_PER_M, 0, np.where(scale > COARSE_PX_PER_M, 1, LEVELS - 1))
@@ -240,6 +243,7 @@ class Renderer:
         rows[:, -1, 0] = level == LEVELS - 1
         if emphasis.hovered is not None and emphasis.hovered < count:
             rows[emphasis.hovered, -1, 1] = 1.0
+        rows[[row for row in emphasis.in_the_way if row < count], -1, 2] = SEEN_THROUGH
         self._bones.set_data(rows)
         capsules = limbs.capsules()
         self._limb_rows[:, :-1] = capsules.reshape(count, -1, 4)

@@ -28,6 +28,7 @@ varying vec4 v_color;
 varying float v_metallic;
 varying float v_glow;
 varying vec2 v_open;
+varying float v_solid;
 
 vec4 texel(float column, float row) {
     return texture2DLod(u_bones, (vec2(column, row) + 0.5) / u_bones_size, 0.0);
@@ -90,6 +91,7 @@ void main() {
     v_color = a_color;
     v_metallic = a_metallic;
     v_glow = state.y;
+    v_solid = 1.0 - state.z;
     v_open = u_shaded > 0.5 ? shaded(v_position, normalize(v_normal), row) : vec2(1.0);
     vec3 shown = v_position + u_lift * normalize(u_eye - v_position);
     gl_Position = u_clip_from_world * vec4(shown, 1.0);
@@ -114,6 +116,7 @@ varying vec4 v_color;
 varying float v_metallic;
 varying float v_glow;
 varying vec2 v_open;
+varying float v_solid;
 
 // A room to mirror: dark floor, bright ceiling, a large soft window before and one behind.
 vec3 room(vec3 d, float blur) {
@@ -124,7 +127,17 @@ vec3 room(vec3 d, float blur) {
     return c + vec3(2.3, 2.2, 2.05) * window + vec3(0.75, 0.85, 1.0) * back;
 }
 
+// Thresholds of ordered dithering (Bayer, 1973), 4 x 4.
+float threshold(vec2 at) {
+    vec2 p = floor(mod(at, 4.0));
+    vec2 q = floor(p / 2.0);
+    vec2 r = mod(p, 2.0);
+    return (4.0 * (2.0 * mod(r.x + r.y, 2.0) + r.y) + 2.0 * mod(q.x + q.y, 2.0) + q.y + 0.5) / 16.0;
+}
+
 void main() {
+    // Who stands in the way is seen through: a screen of pixels needs no sorting.
+    if (v_solid < 1.0 && v_solid < threshold(gl_FragCoord.xy)) discard;
     if (u_line.a > 0.0) {
         gl_FragColor = u_line;
         return;

@@ -27,6 +27,8 @@ _DIRECTIONS_DEG: dict[View, tuple[float, float]] = {
 }
 _HALF_M: dict[View, float] = {"hands": 0.21, "mouth": 0.115, "feet": 0.30}
 """Half the height of a close-up's picture, at least."""
+BODY_M = 0.55
+"""Room that a player with an instrument takes, from the middle."""
 
 
 def view_camera(view: View, stage: Stage, rows: Sequence[int], camera: Camera, aspect: float) -> Camera:
@@ -62,7 +64,8 @@ def tracked(view: View, stage: Stage, row: int) -> Floats | None:
     if not stage.shown[row]:
         return None
     if view == "hands":
-        return _hands(stage, row).mean(axis=0)
+        hands: Floats = _hands(stage, row).mean(axis=0)
+        return hands
     if view == "mouth":
         held = stage.node_matrix(row)
         kit = stage.members[row].kit
@@ -71,11 +74,33 @@ def tracked(view: View, stage: Stage, row: int) -> Floats | None:
         head = stage.joints[row, kit.character.skeleton.index("head")]
         face: Floats = head[:, :3] @ np.array([0.0, 0.02, 0.09]) + head[:, 3]
         near = float(np.clip(1.0 - (np.linalg.norm(lips - face) - 0.1) / 0.15, 0.0, 1.0))
-        return (1.0 - 0.6 * near) * face + 0.6 * near * lips
+        mouth: Floats = (1.0 - 0.6 * near) * face + 0.6 * near * lips
+        return mouth
     if view == "feet":
         feet = np.array([stage.joint_m(row, "leftFoot"), stage.joint_m(row, "rightFoot")])
-        return feet.mean(axis=0) + [0.0, 0.05, 0.0] + 0.08 * ahead(stage, row)
+        low: Floats = feet.mean(axis=0) + np.array([0.0, 0.05, 0.0]) + 0.08 * ahead(stage, row)
+        return low
     return None
+
+
+def in_the_way(view: View, stage: Stage, rows: Sequence[int], camera: Camera) -> frozenset[int]:
+    """Who stands between the camera and the selected players of a view that is about them."""
+    chosen = [row for row in rows if stage.shown[row]]
+    if view == "ensemble" or not chosen:
+        return frozenset()
+    chests = np.array([member.world_from_player[:, 3] for member in stage.members])
+    chests[:, 1] = camera.eye_m[1]
+    found = set[int]()
+    for row in chosen:
+        way = chests[row] - camera.eye_m
+        length = float(np.linalg.norm(way))
+        if length < 1e-6:
+            continue
+        off = chests - camera.eye_m
+        along = off @ way / length
+        aside = np.linalg.norm(off - along[:, None] * way / length, axis=1)
+        found |= set(np.flatnonzero((along > -BODY_M) & (along < length - BODY_M) & (aside < BODY_M)).tolist())
+    return frozenset(found - set(chosen))
 
 
 def bounds(stage: Stage, rows: Sequence[int]) -> tuple[Floats, Floats]:
@@ -91,7 +116,7 @@ def bounds(stage: Stage, rows: Sequence[int]) -> tuple[Floats, Floats]:
         points.append(corners @ held[:, :3].T + held[:, 3])
     whole = np.concatenate(points)
     head_m, flesh_m = 0.16, 0.10
-    low, high = whole.min(axis=0) - flesh_m, whole.max(axis=0) + [flesh_m, head_m, flesh_m]
+    low, high = whole.min(axis=0) - flesh_m, whole.max(axis=0) + np.array([flesh_m, head_m, flesh_m])
     low[1] = min(float(low[1]), 0.0)
     return low, high
 
