@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Final
 
 TEMPLATES: Final[dict[str, str]] = {
+    "work.plan": "planning what {players} players do",
     "work.load_figures": "loading the players' figures",
     "work.export": "writing the files",
     "work.playblast": "making the film",

@@ -184,6 +184,19 @@ class Performance:
             )
 
     @property
+    def unplanned_notes(self) -> int:
+        """How many notes have to be planned; those of players whom an edit has not touched are planned already."""
+        if self.planned:
+            return 0
+        before = self._before
+        if before is None or self.piece is not before.piece or self.time_frame != before.time_frame:
+            return sum(len(line.notes) for line in self.lines)
+        if self.project.seed != before.project.seed or self.expressions is not before.expressions:
+            return sum(len(line.notes) for line in self.lines)
+        known = {id(line) for line in before.lines}
+        return sum(len(line.notes) for line in self.lines if id(line) not in known)
+
+    @property
     def planned(self) -> bool:
         """Whether the plans are made already: asking for them then costs nothing."""
         return "_ensemble" in self.__dict__

@@ -1,0 +1,296 @@
+"""Plans and motion kept up with the document: after every edit, beside the window, the newest first.
+
+What an edit touches is planned at once where that takes no time, else by a thread that yields to the window; the same
+thread makes the motion, what is looked at first.
+"""
+
+from __future__ import annotations
+
+import sys
+import threading
+import time
+import weakref
+
+from PySide6.QtCore import QObject, Signal
+
+from app.errors import AppError, Cancelled, Message
+from app.performance.ensemble import Performance
+from app.performance.live import LiveMotion
+from app.project.document import Change
+from app.project.model import Project
+from widgets.common.session import Session, Severity
+from widgets.common.tasks import Progress, StopWanted, Tasks
+
+AT_ONCE_NOTES = 400
+"""So many notes are planned within the time of two pictures."""
+TOLD_NOTES = 6000
+"""So many take long enough that the person sees how far it is, and may stop it."""
+SWITCH_S = 0.001
+"""The window gets the interpreter back from the worker within this time."""
+TELL_S = 0.04
+"""The window is told of new motion this often."""
+REST_WHILE_PLAYING = 1.0
+"""While the performance plays the worker rests this many times as long as it worked."""
+
+
+class Generator(QObject):
+    """Makes performance and motion of a session's project, until it is closed.
+
+    Parameters
+    ----------
+    session : Session
+    tasks : Tasks
+        Where plans are made that take long.
+
+    Signals
+    -------
+    motion_changed()
+        Poses are there that were not, or are other ones.
+    ready_changed(float)
+        Share 0..1 of the motion that is made.
+    """
+
+    motion_changed = Signal()
+    ready_changed = Signal(float)
+
+    def __init__(self, session: Session, tasks: Tasks) -> None:
+        super().__init__()
+        self._session, self._tasks = session, tasks
+        self._asked = 0
+        """Plans are numbered as they are asked for."""
+        self._shown = 0
+        """Number of the newest that was shown, or would be of no use: older ones are dropped."""
+        self._long = False
+        """Whether a long planning is under way."""
+        self._ready = -1.0
+        self.live = LiveMotion(session.performance)
+        """The motion of all players: the viewport draws `LiveMotion.pose`."""
+        teller = _Teller()
+        teller.planned.connect(self._planned)
+        teller.fell.connect(self._fell)
+        teller.worked.connect(self._worked)
+        self._worker = _Worker(self.live, teller)
+        self._end = weakref.finalize(self, self._worker.close)
+        session.changed.connect(self._project_changed)
+        session.performance_changed.connect(self._show)
+        session.playhead_changed.connect(self._want)
+        session.players_changed.connect(self._want)
+        session.playing_changed.connect(self._worker.set_playing)
+        self._want()
+        self._worker.start()
+
+    @property
+    def up_to_date(self) -> bool:
+        """Whether the session's plans are those of its project."""
+        return self._session.performance.project is self._session.project
+
+    @property
+    def ready_share(self) -> float:
+        """Share 0..1 of the motion that is made."""
+        return self.live.ready_share
+
+    def close(self) -> None:
+        """End the worker; nothing is made any more."""
+        self._end()
+
+    def _project_changed(self, change: Change) -> None:
+        if change.opened:
+            self._shown = self._asked
+            self._long = False
+            self._worker.drop()
+        self._plan(change.after)
+
+    def _plan(self, project: Project) -> None:
+        if self._long:
+            # It is finished first: of edits that come faster than plans, some are seen.
+            return
+        try:
+            performance = Performance(project, self._session.performance)
+        except AppError as error:
+            self._session.notice(error.message, Severity.ERROR)
+            return
+        self._asked += 1
+        notes = performance.unplanned_notes
+        if notes > TOLD_NOTES:
+            self._worker.drop()
+            self._plan_told(performance)
+        elif notes > AT_ONCE_NOTES or self._worker.planning:
+            self._worker.plan(performance, self._asked)
+        else:
+            try:
+                performance.prepare()
+            except AppError as error:
+                self._session.notice(error.message, Severity.ERROR)
+                return
+            self._shown = self._asked
+            self._session.set_performance(performance)
+
+    def _plan_told(self, performance: Performance) -> None:
+        number = self._asked
+        self._long = True
+
+        def work(progress: Progress, stop_wanted: StopWanted) -> Performance:
+            try:
+                performance.prepare(lambda: stop_wanted() or self._shown >= number, progress)
+            finally:
+                # Also where the person stopped it: then nobody is told.
+                if self._shown < number:
+                    self._long = False
+            return performance
+
+        name = Message("work.plan", {"players": len(performance.project.players)})
+        self._tasks.run(
+            name,
+            work,
+            lambda made: self._planned(made, number, None),
+            lambda error: self._planned(performance, number, error),
+            key="plan",
+        )
+
+    def _planned(self, performance: Performance, number: int, error: AppError | None) -> None:
+        if number <= self._shown:
+            return
+        self._shown = number
+        if error is not None:
+            self._session.notice(error.message, Severity.ERROR)
+            return
+        self._session.set_performance(performance)
+        if not self.up_to_date and not self._worker.planning:
+            self._plan(self._session.project)
+
+    def _show(self) -> None:
+        self.live.show(self._session.performance)
+        self._want()
+        self.motion_changed.emit()
+
+    def _want(self, *_: object) -> None:
+        self.live.want(self._session.playhead_s, player_ids=self._session.players)
+        self._worker.wake()
+
+    def _worked(self, ready: float) -> None:
+        self.motion_changed.emit()
+        if ready != self._ready:
+            self._ready = ready
+            self.ready_changed.emit(ready)
+
+    def _fell(self, fault: BaseException) -> None:
+        """A fault of the program that the worker met is told like one that the window met."""
+        raise fault
+
+
+class _Teller(QObject):
+    """Carries what the worker says into the window's thread."""
+
+    planned = Signal(object, int, object)
+    fell = Signal(object)
+    worked = Signal(float)
+
+
+class _Worker:
+    """The thread: plans first, then motion. Holds nothing of the window, so that it may end without a goodbye."""
+
+    def __init__(self, live: LiveMotion, teller: _Teller) -> None:
+        self._live, self._teller = live, teller
+        self._changed = threading.Condition()
+        self._pending: tuple[Performance, int] | None = None
+        self._planning = False
+        self._dropped = threading.Event()
+        self._wishes = 0
+        self._met = -1
+        """The wishes up to this one are met."""
+        self._closed = False
+        self._playing = False
+        self._told_s = 0.0
+        self._thread = threading.Thread(target=self._run, name="generator", daemon=True)
+        self._switch_s = sys.getswitchinterval()
+
+    def start(self) -> None:
+        sys.setswitchinterval(SWITCH_S)
+        self._thread.start()
+
+    @property
+    def planning(self) -> bool:
+        return self._planning or self._pending is not None
+
+    def plan(self, performance: Performance, number: int) -> None:
+        """Plan this next, instead of what waits."""
+        with self._changed:
+            self._pending = (performance, number)
+            self._changed.notify()
+
+    def drop(self) -> None:
+        """What is planned is of no use any more."""
+        with self._changed:
+            self._pending = None
+            self._dropped.set()
+
+    def wake(self) -> None:
+        """Something else is wanted."""
+        with self._changed:
+            self._wishes += 1
+            self._changed.notify()
+
+    def set_playing(self, playing: bool) -> None:
+        self._playing = playing
+
+    def close(self) -> None:
+        with self._changed:
+            self._closed = True
+            self._pending = None
+            self._dropped.set()
+            self._changed.notify()
+        if self._thread.is_alive() and self._thread is not threading.current_thread():
+            self._thread.join(2.0)
+        sys.setswitchinterval(self._switch_s)
+
+    def _run(self) -> None:
+        try:
+            while not self._closed:
+                with self._changed:
+                    while self._met == self._wishes and self._pending is None and not self._closed:
+                        self._changed.wait()
+                    job, self._pending = self._pending, None
+                    self._planning = job is not None
+                    self._dropped.clear()
+                if job is not None:
+                    self._make_plans(*job)
+                elif not self._closed:
+                    self._make_motion()
+        except RuntimeError:
+            # The window has gone meanwhile: nobody is left to tell.
+            return
+
+    def _make_plans(self, performance: Performance, number: int) -> None:
+        failed: AppError | None = None
+        try:
+            performance.prepare(self._dropped.is_set)
+        except Cancelled:
+            return
+        except AppError as error:
+            failed = error
+        except Exception as fault:  # noqa: BLE001 - told in the window's thread
+            self._teller.fell.emit(fault)
+            return
+        finally:
+            self._planning = False
+        self._teller.planned.emit(performance, number, failed)
+
+    def _make_motion(self) -> None:
+        start_s, wishes = time.monotonic(), self._wishes
+        try:
+            more = self._live.work(self._interrupted)
+        except Exception as fault:  # noqa: BLE001 - told in the window's thread
+            self._met = wishes
+            self._teller.fell.emit(fault)
+            return
+        now_s = time.monotonic()
+        if not more:
+            self._met = wishes
+        if now_s - self._told_s >= TELL_S or not more:
+            self._told_s = now_s
+            self._teller.worked.emit(self._live.ready_share)
+        if self._playing:
+            time.sleep(REST_WHILE_PLAYING * (now_s - start_s))
+
+    def _interrupted(self) -> bool:
+        return self._closed or self._pending is not None

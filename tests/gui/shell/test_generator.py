@@ -1,0 +1,135 @@
+"""Plans and motion follow the document by themselves, and only what an edit touches is made again."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import msgspec
+import pytest
+from pytestqt.qtbot import QtBot
+
+from app.errors import Message
+from app.performance.ensemble import Performance
+from app.plan.corrections import AddExpression, SetEmbouchure
+from app.project.edit.corrections import put
+from app.shell import generator as module
+from app.shell.generator import Generator
+from app.shell.tasks import ThreadTasks
+from widgets.common.session import Session, Severity
+
+EDIT = Message("edit.test")
+
+
+@pytest.fixture
+def generator(session: Session) -> Iterator[Generator]:
+    made = Generator(session, session.tasks)
+    yield made
+    made.close()
+
+
+def _correct(session: Session, tension: float) -> None:
+    player = session.project.players[0]
+    note = session.project.part(player).notes[20]
+    session.apply(EDIT, put(session.project, player.id, [SetEmbouchure(note.id, tension=tension)]))
+
+
+def test_a_small_edit_is_planned_before_it_returns(session: Session, generator: Generator) -> None:
+    player, before = session.project.players[0], session.performance
+    _correct(session, 0.9)
+    assert generator.up_to_date
+    plan = session.performance.plan(player)
+    assert plan.embouchures[20].tension == 0.9
+    assert plan.fingerings is before.plan(player).fingerings
+    other = session.project.players[1]
+    assert session.performance.plan(other) is before.plan(other)
+
+
+def test_motion_is_made_by_itself_and_again_where_an_edit_touched_it(
+    session: Session, generator: Generator, qtbot: QtBot
+) -> None:
+    player = session.project.players[0]
+    qtbot.waitUntil(lambda: generator.ready_share == 1.0, timeout=60_000)
+    at_s = session.performance.plan(player).embouchures[20].start_s + 0.02
+    before = generator.live.pose(player.id, at_s)
+    other = generator.live.pose(player.id, at_s + 20.0)
+    start, end = (round(session.project.score.tempo_map.ticks(at_s + offset)) for offset in (-1.0, 1.0))
+    session.apply(EDIT, put(session.project, player.id, [AddExpression("mine", "strained", start, end)]))
+    assert generator.ready_share < 1.0
+    qtbot.waitUntil(lambda: generator.ready_share == 1.0, timeout=60_000)
+    after = generator.live.pose(player.id, at_s)
+    assert before is not None and after is not None
+    assert after.morphs != before.morphs
+    assert generator.live.pose(player.id, at_s + 20.0).morphs == other.morphs  # type: ignore[union-attr]
+
+
+@pytest.mark.parametrize("most", ["AT_ONCE_NOTES", "TOLD_NOTES"])
+def test_plans_that_take_longer_come_from_a_thread(
+    session: Session, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch, most: str
+) -> None:
+    monkeypatch.setattr(module, "AT_ONCE_NOTES", 1)
+    if most == "TOLD_NOTES":
+        monkeypatch.setattr(module, "TOLD_NOTES", 2)
+    tasks = ThreadTasks()
+    generator = Generator(session, tasks)
+    try:
+        for tension in (0.5, 0.6, 0.7, 0.8):
+            _correct(session, tension)
+        qtbot.waitUntil(lambda: generator.up_to_date, timeout=10_000)
+        player = session.project.players[0]
+        assert session.performance.plan(player).embouchures[20].tension == 0.8
+        fresh = Performance(session.project)
+        assert session.performance.plans == fresh.plans
+    finally:
+        generator.close()
+        tasks.cancel_all(1.0)
+
+
+def test_what_is_planned_of_a_document_that_was_closed_is_dropped(
+    session: Session, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(module, "AT_ONCE_NOTES", 1)
+    generator = Generator(session, session.tasks)
+    seen: list[object] = []
+    session.performance_changed.connect(lambda: seen.append(session.performance.project))
+    try:
+        _correct(session, 0.5)
+        dropped = session.project
+        other = replace(session.project, seed=5)
+        session.document.open(other)
+        qtbot.waitUntil(lambda: generator.up_to_date, timeout=10_000)
+        assert seen == [other]
+        assert dropped not in seen
+    finally:
+        generator.close()
+
+
+def test_a_player_without_an_instrument_is_a_problem_and_the_others_play(
+    session: Session, generator: Generator, qtbot: QtBot
+) -> None:
+    first, *others = session.project.players
+    lost = msgspec.structs.replace(first, instrument_id="serpent")
+    session.apply(EDIT, replace(session.project, players=(lost, *others)))
+    assert generator.up_to_date
+    assert [problem.message.id for problem in session.performance.plan(lost).problems] == ["project.instrument_missing"]
+    qtbot.waitUntil(lambda: generator.ready_share == 1.0, timeout=60_000)
+    assert generator.live.pose(first.id, 1.0) is None
+    assert generator.live.pose_now(first.id, 1.0) is None
+    assert generator.live.pose(others[0].id, 1.0) is not None
+
+
+def test_a_piece_that_cannot_be_played_is_told_and_the_last_performance_stays(
+    session: Session, generator: Generator
+) -> None:
+    told: list[tuple[Message, Severity]] = []
+    session.noticed.connect(lambda message, severity: told.append((message, severity)))
+    before, score = session.performance, session.project.score
+    slow = msgspec.structs.replace(
+        score.tempo_map,
+        changes=tuple(msgspec.structs.replace(change, microseconds_per_quarter=1e9) for change in score.tempo_map.changes),
+    )
+    session.apply(EDIT, replace(session.project, score=msgspec.structs.replace(score, tempo_map=slow)))
+    assert [(message.id, severity) for message, severity in told] == [("piece.too_long", Severity.ERROR)]
+    assert session.performance is before
+    session.document.undo()
+    assert generator.up_to_date
