@@ -22,7 +22,7 @@ TEMPLATES: Final[dict[str, str]] = {
     "edit.remove_events": "delete {count} events",
     "edit.give_back": "back to the generator's",
     "edit.give_back_player": "revert all corrections of {player}",
-    "edit.set_audio_offset": "offset of the recording",
+    "edit.set_offset": "offset of the recording",
     "edit.no_note_to_breathe_for": "there is no note after this place to breathe for",
     "edit.no_note_to_cue": "there is no note after this place to give a cue to",
     # Poses
