@@ -49,6 +49,9 @@ TEMPLATES: Final[dict[str, str]] = {
     "expression.name_taken": "there is an expression {name!r} already; choose another name",
     "expression.none_of_name": "there is no expression {name!r} of your own in this project",
     # Presets
+    # Re-import
+    "reimport.no_note": "a correction of this kind ({kind}) belongs to no note",
+    "reimport.not_played": "the player does not play the note {note}; choose one of theirs",
     "preset.no_name": "a preset needs a name that can be seen",
     "preset.none_of_name": "there is no preset {name!r}",
     "preset.invalid": "{file}: {place}: {detail}",

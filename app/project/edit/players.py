@@ -58,7 +58,7 @@ def rename(project: Project, player_id: str, name: str) -> Project:
     if not wanted:
         raise AppError("player.no_name")
     taken = [player.name for player in project.players if player.id != player_id]
-    return change(project, (player_id,), name=_free_name(wanted, taken))
+    return change(project, (player_id,), name=free_name(wanted, taken))
 
 
 def set_parameters(project: Project, player_ids: Collection[str], **values: Value) -> Project:
@@ -160,14 +160,14 @@ def add_player(
         Gets a number where another carries it.
     """
     [player_id], [part_id] = fresh_player_ids(project), fresh_part_ids(project)
-    called = _free_name(clean_name(name) or instrument.name.en, [player.name for player in project.players])
+    called = free_name(clean_name(name) or instrument.name.en, [player.name for player in project.players])
     parts = project.score.parts
     part = Part(
         id=part_id,
         name=called,
         track=max((part.track for part in parts), default=-1) + 1,
         voice=0,
-        channel=_free_channel(parts),
+        channel=free_channel(parts),
         program=next((part.program for part in parts if part.map_id == instrument.id), None),
         instrument=instrument.plays[0] if instrument.plays else None,
         map_id=instrument.id,
@@ -184,7 +184,7 @@ def add_player(
         stage=StagePosition(0.0, 0.0, 0.0),
     )
     score = msgspec.structs.replace(project.score, parts=(*parts, part))
-    return _joined(replace(project, score=score), (player,)), player_id
+    return with_newcomers(replace(project, score=score), (player,)), player_id
 
 
 def duplicate_players(project: Project, player_ids: Sequence[str]) -> tuple[Project, tuple[str, ...]]:
@@ -195,7 +195,7 @@ def duplicate_players(project: Project, player_ids: Sequence[str]) -> tuple[Proj
     names = [player.name for player in project.players]
     copies: dict[str, Player] = {}
     for player, new_id in zip(originals, new_ids, strict=True):
-        name = _free_name(player.name, names)
+        name = free_name(player.name, names)
         names.append(name)
         parameters = msgspec.structs.replace(player.parameters, seed=player_seed(project.seed, new_id), cue_leader=None)
         copies[player.id] = msgspec.structs.replace(
@@ -205,7 +205,7 @@ def duplicate_players(project: Project, player_ids: Sequence[str]) -> tuple[Proj
     for original, copy in copies.items():
         if original in corrections:
             corrections[copy.id] = corrections[original]
-    result = _joined(replace(project, corrections=corrections), tuple(copies.values()))
+    result = with_newcomers(replace(project, corrections=corrections), tuple(copies.values()))
     order: list[Player] = []
     for player in result.players[: len(project.players)]:
         order.append(player)
@@ -249,8 +249,8 @@ def _with_players(project: Project, players: Iterable[Player]) -> Project:
     return project if new == project.players else replace(project, players=new)
 
 
-def _joined(project: Project, newcomers: tuple[Player, ...]) -> Project:
-    """The project with more players: on the arc if the others are, else each to the right of them."""
+def with_newcomers(project: Project, newcomers: tuple[Player, ...]) -> Project:
+    """The project with more players, of parts it has: on the arc if the others are, else each to the right of them."""
     if len(project.players) + len(newcomers) > limits.MOST_PLAYERS:
         raise AppError("player.too_many", most=limits.MOST_PLAYERS)
     on_arc = _on_arc(project)
@@ -269,7 +269,7 @@ def _on_arc(project: Project) -> bool:
     return tuple(player.stage for player in project.players) == arc_of(project)
 
 
-def _free_name(wanted: str, taken: Iterable[str]) -> str:
+def free_name(wanted: str, taken: Iterable[str]) -> str:
     """The name itself, or with the first free number, counted on where it ends in one."""
     keys = {name.casefold() for name in taken}
     if wanted.casefold() not in keys:
@@ -282,7 +282,7 @@ def _free_name(wanted: str, taken: Iterable[str]) -> str:
     return f"{base} {number}"
 
 
-def _free_channel(parts: Sequence[Part]) -> int:
+def free_channel(parts: Sequence[Part]) -> int:
     """A channel no part uses, not the percussion's; the first again where all are taken."""
     used = {part.channel for part in parts}
     return next((channel for channel in range(16) if channel != 9 and channel not in used), 0)

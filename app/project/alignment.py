@@ -1,0 +1,247 @@
+"""Which note of one line is which note of another: alignment by pitch and place.
+
+The two are versions of one line: notes were added, taken out, moved or changed, bars inserted or cut, the whole
+transposed. So most notes are found again exactly, at one of a few distances in time; which distance holds where is
+found by dynamic programming over those distances (Viterbi), and what lies between the notes found by dynamic
+programming over both lines (Needleman and Wunsch, 1970).
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_left
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+import numpy.typing as npt
+
+from app.score.model import Note
+
+Floats = npt.NDArray[np.float64]
+Ints = npt.NDArray[np.int64]
+
+SAME_QUARTERS = 1 / 16
+"""Onsets this close are one: another resolution rounds, and people nudge."""
+SWITCH_COST = 3.0
+"""Of another distance in time, in notes not found."""
+GAP_COST = 0.7
+"""Of a note that has no partner; two are a little dearer than a changed pitch or a moved onset, cheaper than both."""
+PITCH_COST = 1.0
+TIME_COST = 0.8
+FAR_QUARTERS = 0.5
+"""From here on farther is not dearer."""
+LENGTH_COST = 0.05
+
+_BINS_PER_QUARTER = 12
+_MOST_DISTANCES = 24
+_SAMPLED_PAIRS = 200_000
+_LEAST_ROWS = 150
+_MOST_CELLS = 5_000_000
+
+
+@dataclass(frozen=True, eq=False)
+class Line:
+    """A line as arrays, all of one length and in the order of onset and pitch; times in quarters."""
+
+    onsets: Floats
+    lengths: Floats
+    pitches: Ints
+
+    @classmethod
+    def of(cls, notes: Sequence[Note], ticks_per_quarter: int) -> Line:
+        """The arrays of a part's notes."""
+        return cls(
+            np.array([note.onset_tick for note in notes], np.float64) / ticks_per_quarter,
+            np.array([note.duration_tick for note in notes], np.float64) / ticks_per_quarter,
+            np.array([note.pitch for note in notes], np.int64),
+        )
+
+    def __len__(self) -> int:
+        return len(self.onsets)
+
+    def part(self, first: int, end: int) -> Line:
+        """Notes from ``first`` to before ``end``."""
+        return Line(self.onsets[first:end], self.lengths[first:end], self.pitches[first:end])
+
+
+def align(old: Line, new: Line) -> Ints:
+    """The pairs of notes that are one, as indices.
+
+    Returns
+    -------
+    int64, shape (pairs, 2)
+        Old and new index; both columns ascend strictly.
+    """
+    if not len(old) or not len(new):
+        return np.empty((0, 2), np.int64)
+    distances, transposition = _distances(old, new)
+    anchors = _anchors(old, new, distances, transposition)
+    pairs = [*anchors]
+    for (first, new_first), (end, new_end) in _gaps(anchors, len(old), len(new)):
+        # The distances at the notes around it; the ends of the lines have a neighbour on one side only.
+        around = [(first - 1, new_first - 1)] * (first > 0) + [(end, new_end)] * (end < len(old))
+        shifts = [float(new.onsets[after] - old.onsets[before]) for before, after in around]
+        shifts = shifts or distances.tolist()
+        inner = _gap_pairs(old.part(first, end), new.part(new_first, new_end), shifts, transposition)
+        pairs += [(first + one, new_first + other) for one, other in inner]
+    return np.array(sorted(pairs), np.int64).reshape(-1, 2)
+
+
+def pair_costs(old: Line, new: Line, shifts: Sequence[float], transposition: int) -> Floats:
+    """What it costs to take an old note for a new one; shape (old, new).
+
+    Parameters
+    ----------
+    shifts : sequence of float
+        How far the new line may lie behind the old one, quarters; the best counts.
+    transposition : int
+        How much higher it is, semitones.
+    """
+    moved = new.onsets[None, :] - old.onsets[:, None]
+    away = np.min([np.abs(moved - shift) for shift in shifts], axis=0)
+    costs = TIME_COST * np.minimum(away / FAR_QUARTERS, 1.0)
+    costs += PITCH_COST * (new.pitches[None, :] - old.pitches[:, None] != transposition)
+    costs += LENGTH_COST * (np.abs(new.lengths[None, :] - old.lengths[:, None]) > SAME_QUARTERS)
+    return np.asarray(costs, np.float64)
+
+
+def cheapest(costs: Floats) -> list[tuple[int, int]]:
+    """The cheapest way to pair the rows of a matrix with its columns in order; what stays alone costs `GAP_COST`."""
+    rows, columns = costs.shape
+    steps = GAP_COST * np.arange(columns + 1)
+    totals = np.empty((rows + 1, columns + 1))
+    totals[0] = steps
+    for row in range(rows):
+        before, here = totals[row], totals[row + 1]
+        here[0] = before[0] + GAP_COST
+        np.minimum(before[:-1] + costs[row], before[1:] + GAP_COST, out=here[1:])
+        # Columns left out in a row: the least of all starts, each dearer by the columns passed.
+        here -= steps
+        np.minimum.accumulate(here, out=here)
+        here += steps
+    pairs = []
+    row, column = rows, columns
+    while row and column:
+        total = totals[row, column]
+        if np.isclose(total, totals[row - 1, column - 1] + costs[row - 1, column - 1], rtol=0.0, atol=1e-9):
+            row, column = row - 1, column - 1
+            pairs.append((row, column))
+        elif np.isclose(total, totals[row - 1, column] + GAP_COST, rtol=0.0, atol=1e-9):
+            row -= 1
+        else:
+            column -= 1
+    return pairs[::-1]
+
+
+def _distances(old: Line, new: Line) -> tuple[Floats, int]:
+    """The distances in time (new - old, quarters) at which many notes are found again, and the transposition."""
+    found, _ = _partners(old, new, 0.0, 0)
+    if np.count_nonzero(found >= 0) >= 0.98 * max(len(old), len(new)):
+        return np.zeros(1), 0
+    rows = min(len(old), max(_SAMPLED_PAIRS // len(new), _LEAST_ROWS))
+    chosen = np.unique(np.linspace(0, len(old) - 1, rows).astype(np.int64))
+    moved = np.subtract.outer(new.onsets, old.onsets[chosen]).T
+    higher = np.subtract.outer(new.pitches, old.pitches[chosen]).T
+    bins = np.rint(moved * _BINS_PER_QUARTER).astype(np.int64)
+    keys, votes = np.unique(higher + 128 + 256 * (bins - bins.min()), return_counts=True)
+    # Of equally many the nearest: nothing has moved unless more speaks for it.
+    places = keys // 256 + bins.min()
+    pitches = keys % 256 - 128
+    order = np.lexsort((np.abs(places), np.abs(pitches), -votes))
+    transposition = int(pitches[order[0]])
+    best = [index for index in order[: 40 * _MOST_DISTANCES] if pitches[index] == transposition][:_MOST_DISTANCES]
+    least = max(2, votes[order[0]] // 100) if votes[order[0]] > 1 else 1
+    distances = [0.0]
+    same = higher == transposition
+    for index in best:
+        if votes[index] >= least:
+            near = moved[same & (bins == places[index])]
+            distances.append(float(np.median(near)))
+    return np.unique(distances), transposition
+
+
+def _partners(old: Line, new: Line, distance: float, transposition: int) -> tuple[Ints, Floats]:
+    """The new note where each old one would be, -1 where there is none, and how far it is off (quarters)."""
+    width = float(max(old.onsets[-1] + abs(distance), new.onsets[-1]) + 2.0)
+    order = np.lexsort((new.onsets, new.pitches))
+    keys = new.pitches[order] * 4.0 * width + new.onsets[order]
+    wanted = (old.pitches + transposition) * 4.0 * width + old.onsets + distance
+    after = np.searchsorted(keys, wanted)
+    above, below = np.minimum(after, len(keys) - 1), np.maximum(after - 1, 0)
+    nearer = np.where(np.abs(keys[above] - wanted) <= np.abs(keys[below] - wanted), above, below)
+    away = np.abs(keys[nearer] - wanted)
+    return np.where(away <= SAME_QUARTERS, order[nearer], -1), away
+
+
+def _anchors(old: Line, new: Line, distances: Floats, transposition: int) -> list[tuple[int, int]]:
+    """Notes found again at a distance that holds over a stretch of the line, both indices ascending."""
+    partners, away = zip(*(_partners(old, new, distance, transposition) for distance in distances), strict=True)
+    found = np.array(partners)
+    costs = np.where(found >= 0, 0.2 * np.array(away) / SAME_QUARTERS, 1.0)
+    chosen = _held(costs)
+    pairs = [(index, int(found[state, index])) for index, state in enumerate(chosen) if found[state, index] >= 0]
+    return _ascending(pairs)
+
+
+def _held(costs: Floats) -> Ints:
+    """For every column the row of a cheapest path through them, on which to change the row costs `SWITCH_COST`."""
+    states, count = costs.shape
+    if states == 1:
+        return np.zeros(count, np.int64)
+    total = costs[:, 0].copy()
+    came = np.empty((count, states), np.int64)
+    own = np.arange(states)
+    for index in range(1, count):
+        best = int(np.argmin(total))
+        changed = total[best] + SWITCH_COST
+        came[index] = np.where(changed < total, best, own)
+        total = np.minimum(total, changed) + costs[:, index]
+    path = np.empty(count, np.int64)
+    path[-1] = np.argmin(total)
+    for index in range(count - 1, 0, -1):
+        path[index - 1] = came[index, path[index]]
+    return path
+
+
+def _ascending(pairs: list[tuple[int, int]]) -> list[tuple[int, int]]:
+    """As many pairs as can be kept so that the second index ascends too (patience sorting)."""
+    tops: list[int] = []
+    last: list[int] = []
+    before: list[int] = []
+    for index, (_, value) in enumerate(pairs):
+        pile = bisect_left(tops, value)
+        before.append(last[pile - 1] if pile else -1)
+        if pile == len(tops):
+            tops.append(value)
+            last.append(index)
+        else:
+            tops[pile], last[pile] = value, index
+    kept = []
+    index = last[-1] if last else -1
+    while index >= 0:
+        kept.append(pairs[index])
+        index = before[index]
+    return kept[::-1]
+
+
+def _gaps(
+    anchors: list[tuple[int, int]], old_count: int, new_count: int
+) -> Iterator[tuple[tuple[int, int], tuple[int, int]]]:
+    """Stretches between the anchors in which both lines have notes: where they begin and where they end."""
+    ends = [*anchors, (old_count, new_count)]
+    first, new_first = 0, 0
+    for end, new_end in ends:
+        if end > first and new_end > new_first:
+            yield (first, new_first), (end, new_end)
+        first, new_first = end + 1, new_end + 1
+
+
+def _gap_pairs(old: Line, new: Line, shifts: Sequence[float], transposition: int) -> Iterator[tuple[int, int]]:
+    # What is so long and has nothing in common is cut evenly: nobody could say what belongs to what.
+    blocks = -(-len(old) * len(new) // _MOST_CELLS)
+    cuts = [(len(old) * block // blocks, len(new) * block // blocks) for block in range(blocks + 1)]
+    for (first, new_first), (end, new_end) in pairwise(cuts):
+        if end > first and new_end > new_first:
+            costs = pair_costs(old.part(first, end), new.part(new_first, new_end), shifts, transposition)
+            yield from ((first + one, new_first + other) for one, other in cheapest(costs))

@@ -1,0 +1,86 @@
+"""What a correction hangs on, and how it is hung on something else.
+
+Fields say it by their names: ``note_id`` and ``moved_from`` are notes (or ``"@tick"``, a place), ``event_id`` ends
+with the note or the place of its event, ``..._offset_tick`` and ``..._ticks`` are lengths, other ``..._tick`` places.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+from fractions import Fraction
+from typing import Any, TypeVar
+
+import msgspec
+
+from app.plan.corrections import Correction
+
+C = TypeVar("C", bound=Correction)
+
+NOTE_FIELDS = ("note_id", "moved_from")
+_NOTE = re.compile(r"(?:^|(?<=:))(?:\d+|[nf]):\d+$", re.ASCII)
+_PLACE = re.compile(r"(?:^|(?<=:))@(-?\d+)$", re.ASCII)
+
+
+def note_of(correction: Correction) -> str | None:
+    """The note a correction is about; None for one that belongs to a place or an event without a note."""
+    note_id: str | None = getattr(correction, "note_id", None)
+    if note_id is not None:
+        return None if _PLACE.search(note_id) else note_id
+    found = _NOTE.search(getattr(correction, "event_id", ""))
+    return found.group() if found else None
+
+
+def moved(
+    correction: C,
+    note_ids: Mapping[str, str],
+    place: Callable[[int], int] | None = None,
+    scale: Fraction = Fraction(1),
+) -> C:
+    """The correction about other notes and places; the same value where nothing changes.
+
+    Parameters
+    ----------
+    note_ids : mapping of str to str
+        New ids by the old ones; what is not among them stays.
+    place : callable, optional
+        New ticks of old ones.
+    scale : Fraction
+        Of lengths in ticks.
+    """
+    changes: dict[str, Any] = {}
+    for field in correction.__struct_fields__:
+        value = getattr(correction, field)
+        if field in NOTE_FIELDS or field == "event_id":
+            if value is not None:
+                changes[field] = _renamed(value, note_ids, place)
+        elif not isinstance(value, int) or isinstance(value, bool):
+            continue
+        elif field.endswith(("_offset_tick", "_ticks")):
+            changes[field] = round(value * scale)
+        elif field.endswith("_tick") and place is not None:
+            changes[field] = place(value)
+    start, end = changes.get("start_tick"), changes.get("end_tick")
+    if start is not None and end is not None and end <= start and correction_span(correction) > 0:
+        changes["end_tick"] = start + 1
+    if all(getattr(correction, field) == value for field, value in changes.items()):
+        return correction
+    result: C = msgspec.structs.replace(correction, **changes)
+    return result
+
+
+def correction_span(correction: Correction) -> int:
+    """How long the stretch is that a correction says both ends of; 0 where it does not."""
+    start, end = getattr(correction, "start_tick", None), getattr(correction, "end_tick", None)
+    return 0 if start is None or end is None else int(end - start)
+
+
+def _renamed(text: str, note_ids: Mapping[str, str], place: Callable[[int], int] | None) -> str:
+    """A note's id, or an event's that ends with one or with a place, after the change."""
+    note = _NOTE.search(text)
+    if note is not None:
+        return text[: note.start()] + note_ids.get(note.group(), note.group())
+    found = _PLACE.search(text)
+    if found is not None and place is not None:
+        return f"{text[: found.start()]}@{place(int(found.group(1)))}"
+    return note_ids.get(text, text)
