@@ -17,5 +17,10 @@ TEMPLATES: Final[dict[str, str]] = {
         "take some bars with --from-bar and --to-bar"
     ),
     "piece.too_long": "the piece lasts {hours:g} hours; at most {most_hours} can be played",
+    "open.audio_alone": "{file} is a recording; open the piece that it belongs to first, then drop it again",
+    "program.fault": (
+        "something went wrong in the program: {detail}; your work was written down; please report this with the file "
+        "{log}"
+    ),
     "work.stopped": "stopped; nothing was written",
 }

@@ -5,6 +5,9 @@ from __future__ import annotations
 from typing import Final
 
 TEMPLATES: Final[dict[str, str]] = {
+    "work.open": "opening",
+    "work.save": "saving",
+    "work.autosave": "writing unsaved work down",
     "work.plan": "planning what {players} players do",
     "work.load_figures": "loading the players' figures",
     "work.export": "writing the files",

@@ -1,0 +1,374 @@
+"""The one table of actions: menus, palette, tool tips and shortcuts are made from it."""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Iterable, Sequence
+from functools import partial
+from typing import Final
+
+from PySide6.QtCore import QT_TRANSLATE_NOOP, QCoreApplication, QEvent, QObject, Qt, QTimer, Signal
+from PySide6.QtGui import QAction, QKeySequence
+from PySide6.QtWidgets import QApplication, QMenu, QMenuBar, QWidget
+
+from app.shell.action import Action
+from app.shell.settings import Settings
+from widgets.common.icons import icon
+from widgets.common.session import Session
+from widgets.common.text import message_text
+
+SUBJECTS: Final = (
+    "file",
+    "edit",
+    "notes",
+    "events",
+    "timeline",
+    "view",
+    "viewport",
+    "players",
+    "playback",
+    "generate",
+    "export",
+    "application",
+)
+"""Modules of `app.shell.commands`, in the order in which their rows stand in a menu."""
+
+MENUS: Final = {
+    "File": QT_TRANSLATE_NOOP("Menu", "&File"),
+    "Edit": QT_TRANSLATE_NOOP("Menu", "&Edit"),
+    "View": QT_TRANSLATE_NOOP("Menu", "&View"),
+    "Play": QT_TRANSLATE_NOOP("Menu", "&Play"),
+    "Generate": QT_TRANSLATE_NOOP("Menu", "&Generate"),
+    "Export": QT_TRANSLATE_NOOP("Menu", "E&xport"),
+    "Help": QT_TRANSLATE_NOOP("Menu", "&Help"),
+    "Notes": QT_TRANSLATE_NOOP("Menu", "Notes"),
+    "Viewport": QT_TRANSLATE_NOOP("Menu", "Viewport"),
+    "Panels": QT_TRANSLATE_NOOP("Menu", "Panels"),
+    "Theme": QT_TRANSLATE_NOOP("Menu", "Theme"),
+    "Language": QT_TRANSLATE_NOOP("Menu", "Language"),
+    "Pitch": QT_TRANSLATE_NOOP("Menu", "Pitch"),
+    "Time": QT_TRANSLATE_NOOP("Menu", "Time"),
+    "Recent": QT_TRANSLATE_NOOP("Menu", "Open Recent"),
+}
+"""Names of menus and of those within them; a path such as ``Edit/Notes`` is made of the keys."""
+
+BEFORE_LINE: Final = frozenset(
+    ("file.save", "file.import_midi", "file.close", "file.quit", "application.preferences", "application.about")
+)
+"""Rows that a line goes before; another line stands wherever the subject of the rows changes."""
+
+CONTEXTS: Final = {
+    "window": QT_TRANSLATE_NOOP("Context", "everywhere"),
+    "timeline": QT_TRANSLATE_NOOP("Context", "in the timeline"),
+    "viewport": QT_TRANSLATE_NOOP("Context", "in the viewport"),
+    "players": QT_TRANSLATE_NOOP("Context", "in the players"),
+    "inspector": QT_TRANSLATE_NOOP("Context", "in the inspector"),
+}
+
+
+def rows() -> tuple[Action, ...]:
+    """Every row of the table."""
+    found: list[Action] = []
+    for subject in SUBJECTS:
+        try:
+            module = importlib.import_module(f"app.shell.commands.{subject}")
+        except ModuleNotFoundError:
+            continue
+        found += module.ACTIONS
+    return tuple(found)
+
+
+def sequences(keys: str) -> list[QKeySequence]:
+    """Shortcuts as a row has them, ``;`` between several."""
+    portable = QKeySequence.SequenceFormat.PortableText
+    return [QKeySequence.fromString(part.strip(), portable) for part in keys.split(";") if part.strip()]
+
+
+def plain(text: str) -> str:
+    """An action's text without dots and marks."""
+    return text.replace("&", "").removesuffix("...").removesuffix("…")
+
+
+class ActionTable(QObject):
+    """The rows as actions of Qt.
+
+    Parameters
+    ----------
+    session : Session
+        Gets the actions by id.
+    settings : Settings
+        Knows a person's own shortcuts.
+    table : sequence of Action
+
+    Signals
+    -------
+    shortcuts_changed()
+        Some action has another shortcut.
+    """
+
+    shortcuts_changed = Signal()
+
+    def __init__(self, session: Session, settings: Settings, table: Sequence[Action]) -> None:
+        super().__init__(session)
+        self.session = session
+        self.settings = settings
+        self.rows = {row.id: row for row in table}
+        self.actions: dict[str, QAction] = {}
+        self._context = "window"
+        for row in table:
+            self.actions[row.id] = self._action(row)
+        session.actions = self.actions
+        self._soon = QTimer(self)
+        self._soon.setSingleShot(True)
+        self._soon.setInterval(0)
+        self._soon.timeout.connect(self.refresh)
+        for signal in (
+            session.changed,
+            session.performance_changed,
+            session.selection_changed,
+            session.players_changed,
+            session.playing_changed,
+            session.loop_changed,
+            session.grid_changed,
+            session.time_display_changed,
+            session.follow_changed,
+            session.pitch_display.changed,
+            session.listening.changed,
+            session.viewport.changed,
+        ):
+            signal.connect(self.refresh_soon)
+        session.theme_changed.connect(self._dress)
+        session.playhead_changed.connect(self._playhead_moved)
+        application = QApplication.instance()
+        if isinstance(application, QApplication):
+            application.focusChanged.connect(self._focus_moved)
+        self._dress()
+        self.retranslate()
+
+    def _action(self, row: Action) -> QAction:
+        action = QAction(self)
+        action.setObjectName(row.id)
+        action.setCheckable(row.checked is not None)
+        action.setMenuRole(QAction.MenuRole.NoRole)
+        if row.context != "window":
+            action.setShortcutContext(Qt.ShortcutContext.WidgetWithChildrenShortcut)
+        action.setShortcuts(sequences(self.keys(row.id)))
+        action.triggered.connect(partial(self._run, row))
+        return action
+
+    def _run(self, row: Action, checked: bool) -> None:
+        if row.checked is None:
+            row.run(self.session)
+        else:
+            row.run(self.session, checked)
+        self.refresh_soon()
+
+    def attach(self, context: str, widget: QWidget) -> None:
+        """Shortcuts of a context hold while the keyboard is in this widget."""
+        widget.addActions([self.actions[row.id] for row in self.rows.values() if row.context == context])
+
+    # Shortcuts
+
+    def keys(self, action_id: str) -> str:
+        """The shortcuts of an action as text."""
+        own = self.settings.shortcut(action_id)
+        return self.rows[action_id].shortcut if own is None else own
+
+    def set_keys(self, action_id: str, keys: str | None) -> None:
+        """Give an action other shortcuts; None: as they come."""
+        if keys == self.rows[action_id].shortcut:
+            keys = None
+        self.settings.set_shortcut(action_id, keys)
+        self._give_shortcuts()
+        self.retranslate()
+        self.shortcuts_changed.emit()
+
+    def conflicts(self, action_id: str, keys: str) -> tuple[str, ...]:
+        """Actions that one of these shortcuts would do as well, in the same place."""
+        wanted = {sequence.toString() for sequence in sequences(keys)}
+        context = self.rows[action_id].context
+        return tuple(
+            other.id
+            for other in self.rows.values()
+            if other.id != action_id
+            and other.context == context
+            and wanted & {sequence.toString() for sequence in sequences(self.keys(other.id))}
+        )
+
+    def _focus_moved(self, before: QWidget | None, now: QWidget | None) -> None:
+        context, widget = "window", now
+        while widget is not None:
+            if widget.objectName() in CONTEXTS:
+                context = widget.objectName()
+                break
+            widget = widget.parentWidget()
+        if context != self._context:
+            self._context = context
+            self._give_shortcuts()
+
+    def _give_shortcuts(self) -> None:
+        """Where a panel and the window know the same shortcut, the panel in which the keyboard is has it alone: Qt would
+        do neither."""
+        taken = {
+            sequence.toString()
+            for row in self.rows.values()
+            if row.context == self._context != "window"
+            for sequence in sequences(self.keys(row.id))
+        }
+        for row in self.rows.values():
+            wanted = sequences(self.keys(row.id))
+            if row.context == "window":
+                wanted = [sequence for sequence in wanted if sequence.toString() not in taken]
+            action = self.actions[row.id]
+            if action.shortcuts() != wanted:
+                action.setShortcuts(wanted)
+
+    # State and texts
+
+    def refresh_soon(self, *changes: object) -> None:
+        """Ask all rows again once whatever happens now is over."""
+        if not self._soon.isActive():
+            self._soon.start()
+
+    def _playhead_moved(self, playhead_s: float) -> None:
+        if not self.session.playing:
+            self.refresh_soon()
+
+    def refresh(self) -> None:
+        """Ask every row whether it makes sense now, and whether it is on."""
+        for row in self.rows.values():
+            action = self.actions[row.id]
+            if row.enabled is not None:
+                action.setEnabled(row.enabled(self.session))
+            if row.checked is not None:
+                action.setChecked(row.checked(self.session))
+        self._name_steps()
+
+    def _name_steps(self) -> None:
+        """What undo and redo would do."""
+        document = self.session.document
+        for action_id, steps in (("edit.undo", document.done), ("edit.redo", document.undone)):
+            text = self.text(action_id)
+            if steps:
+                step = message_text(steps[-1].name)
+                text = QCoreApplication.translate("ActionTable", "{action}: {step}").format(action=text, step=step)
+            self.actions[action_id].setText(text)
+
+    def text(self, action_id: str) -> str:
+        """An action's text in the language of the editor."""
+        return QCoreApplication.translate("Action", self.rows[action_id].text)
+
+    def place(self, action_id: str) -> str:
+        """Where an action stands in the menus, in the language of the editor; empty: nowhere."""
+        return " › ".join(plain_menu(menu_text(key)) for key in self.rows[action_id].menu.split("/") if key)
+
+    def retranslate(self) -> None:
+        """Set all texts and tool tips anew."""
+        native = QKeySequence.SequenceFormat.NativeText
+        for row in self.rows.values():
+            action, text = self.actions[row.id], self.text(row.id)
+            action.setText(text)
+            action.setIconText(plain(text))
+            keys = ", ".join(sequence.toString(native) for sequence in sequences(self.keys(row.id)))
+            action.setToolTip(f"{plain(text)} ({keys})" if keys else plain(text))
+        self._name_steps()
+
+    def _dress(self) -> None:
+        for row in self.rows.values():
+            if row.icon:
+                self.actions[row.id].setIcon(icon(row.icon, self.session.tokens))
+
+
+def menu_text(key: str) -> str:
+    """Name of a menu in the language of the editor."""
+    return QCoreApplication.translate("Menu", MENUS[key])
+
+
+def plain_menu(text: str) -> str:
+    """A menu's name without the mark of its key: ``&File``, ``ファイル(&F)``."""
+    if text.endswith(")") and "(&" in text:
+        text = text[: text.rindex("(&")]
+    return text.replace("&", "")
+
+
+class Menus(QObject):
+    """The menus of a menu bar, made from a table.
+
+    Parameters
+    ----------
+    bar : QMenuBar
+    table : ActionTable
+    """
+
+    def __init__(self, bar: QMenuBar, table: ActionTable) -> None:
+        super().__init__(bar)
+        self._bar = bar
+        self.menus: dict[str, QMenu] = {}
+        used = {row.menu.split("/")[0] for row in table.rows.values()}
+        for key in MENUS:
+            if key in used:
+                self.menu(key)
+        last: dict[str, str] = {}
+        for row in table.rows.values():
+            if not row.menu:
+                continue
+            menu = self.menu(row.menu)
+            subject = row.id.split(".")[0]
+            if menu.actions() and (row.id in BEFORE_LINE or last.get(row.menu, subject) != subject):
+                menu.addSeparator()
+            last[row.menu] = subject
+            menu.addAction(table.actions[row.id])
+        for menu in self.menus.values():
+            menu.aboutToShow.connect(table.refresh)
+        self.retranslate()
+
+    def menu(self, path: str) -> QMenu:
+        """The menu at a path, made if it is not there."""
+        if path not in self.menus:
+            above, _, key = path.rpartition("/")
+            parent = self.menu(above) if above else self._bar
+            menu = QMenu(parent)
+            menu.setObjectName(f"menu_{path.replace('/', '_').lower()}")
+            menu.setToolTipsVisible(False)
+            parent.addMenu(menu)
+            self.menus[path] = menu
+        return self.menus[path]
+
+    def retranslate(self) -> None:
+        """Set the names of all menus."""
+        for path, menu in self.menus.items():
+            menu.setTitle(menu_text(path.rpartition("/")[2]))
+
+
+def unnamed_menus(table: Iterable[Action]) -> set[str]:
+    """Parts of menu paths that have no name."""
+    return {key for row in table for key in row.menu.split("/") if key} - set(MENUS)
+
+
+class KeyboardButtons(QObject):
+    """Space plays; but who came to a button with the keyboard presses it with Space.
+
+    Installed on the application. A button that was clicked keeps the keyboard too, and there Space goes on to play.
+    """
+
+    def __init__(self, parent: QObject) -> None:
+        super().__init__(parent)
+        self._reached: int | None = None
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Watch how the keyboard moves."""
+        kind = event.type()
+        if kind == QEvent.Type.FocusIn and isinstance(watched, QWidget):
+            by_keys = event.reason() in (  # type: ignore[attr-defined]
+                Qt.FocusReason.TabFocusReason,
+                Qt.FocusReason.BacktabFocusReason,
+            )
+            self._reached = id(watched) if by_keys else None
+        elif kind == QEvent.Type.ShortcutOverride and id(watched) == self._reached and _is_pressed_by_space(watched):
+            if event.key() == Qt.Key.Key_Space:  # type: ignore[attr-defined]
+                event.accept()
+        return False
+
+
+def _is_pressed_by_space(watched: QObject) -> bool:
+    return watched.inherits("QAbstractButton") or watched.inherits("QComboBox")

@@ -1,0 +1,243 @@
+"""Commands of the editor itself: palette, panels, theme, language, how pitches and times are written."""
+
+from __future__ import annotations
+
+from functools import partial
+
+from PySide6.QtCore import QT_TRANSLATE_NOOP
+
+from app.shell.action import Action
+from app.shell.editor import editor_of
+from widgets.common.session import Session, TimeDisplay
+from widgets.common.tokens import THEMES
+
+
+def palette(session: Session) -> None:
+    """Search everything that can be done."""
+    editor_of(session).window.show_palette()
+
+
+def preferences(session: Session) -> None:
+    """Show the preferences."""
+    editor_of(session).window.show_preferences("general")
+
+
+def shortcuts(session: Session) -> None:
+    """Show the keyboard shortcuts."""
+    editor_of(session).window.show_preferences("shortcuts")
+
+
+def about(session: Session) -> None:
+    """Say which program this is."""
+    editor_of(session).window.show_about()
+
+
+def full_screen(session: Session, on: bool) -> None:
+    """The viewport alone on the whole screen, or not."""
+    editor_of(session).window.set_full_screen(on)
+
+
+def reset_layout(session: Session) -> None:
+    """Every panel back to its place."""
+    editor_of(session).window.reset_layout()
+
+
+def show_panel(name: str, session: Session, shown: bool) -> None:
+    """Show or hide a panel."""
+    editor_of(session).window.show_panel(name, shown)
+
+
+def theme(name: str, session: Session, on: bool) -> None:
+    """Dress the editor."""
+    session.set_tokens(THEMES[name])
+
+
+def language(code: str, session: Session, on: bool) -> None:
+    """Speak a language."""
+    editor_of(session).speak(code)
+
+
+def written_pitch(written: bool, session: Session, on: bool) -> None:
+    """Pitches as written, or as they sound."""
+    session.pitch_display.set(written=written)
+
+
+def middle_c(octave: int, session: Session, on: bool) -> None:
+    """The octave that middle C is in."""
+    session.pitch_display.set(middle_c_octave=octave)
+
+
+def syllables(on_syllables: bool, session: Session, on: bool) -> None:
+    """Do re mi, or letters."""
+    session.pitch_display.set(syllables=on_syllables)
+
+
+def time_display(display: TimeDisplay, session: Session, on: bool) -> None:
+    """How times are written."""
+    session.set_time_display(display)
+
+
+def _is_full_screen(session: Session) -> bool:
+    return editor_of(session).window.is_full_screen
+
+
+def _is_open(session: Session) -> bool:
+    return editor_of(session).files.is_open
+
+
+def _panel_shown(name: str, session: Session) -> bool:
+    return editor_of(session).window.is_panel_shown(name)
+
+
+def _panel(name: str, text: str, key: str) -> Action:
+    return Action(
+        f"panel.{name}",
+        text,
+        partial(show_panel, name),
+        "View/Panels",
+        key,
+        enabled=_is_open,
+        checked=partial(_panel_shown, name),
+    )
+
+
+ACTIONS: tuple[Action, ...] = (
+    Action(
+        "application.palette",
+        QT_TRANSLATE_NOOP("Action", "Search Commands..."),
+        palette,
+        "Help",
+        "Ctrl+Shift+P",
+        icon="search",
+    ),
+    Action(
+        "application.full_screen",
+        QT_TRANSLATE_NOOP("Action", "Full-Screen Viewport"),
+        full_screen,
+        "View",
+        "F11",
+        enabled=_is_open,
+        checked=_is_full_screen,
+        icon="full_screen",
+    ),
+    _panel("players", QT_TRANSLATE_NOOP("Action", "Players"), "Ctrl+1"),
+    _panel("inspector", QT_TRANSLATE_NOOP("Action", "Inspector"), "Ctrl+2"),
+    _panel("timeline", QT_TRANSLATE_NOOP("Action", "Timeline"), "Ctrl+3"),
+    Action(
+        "application.reset_layout",
+        QT_TRANSLATE_NOOP("Action", "Reset Layout"),
+        reset_layout,
+        "View/Panels",
+        enabled=_is_open,
+        icon="layout",
+    ),
+    Action(
+        "time.bars",
+        QT_TRANSLATE_NOOP("Action", "Bars and Beats"),
+        partial(time_display, "bars"),
+        "View/Time",
+        checked=lambda session: session.time_display == "bars",
+    ),
+    Action(
+        "time.seconds",
+        QT_TRANSLATE_NOOP("Action", "Seconds"),
+        partial(time_display, "seconds"),
+        "View/Time",
+        checked=lambda session: session.time_display == "seconds",
+    ),
+    Action(
+        "time.frames",
+        QT_TRANSLATE_NOOP("Action", "Frames"),
+        partial(time_display, "frames"),
+        "View/Time",
+        checked=lambda session: session.time_display == "frames",
+    ),
+    Action(
+        "pitch.concert",
+        QT_TRANSLATE_NOOP("Action", "Concert Pitch"),
+        partial(written_pitch, False),
+        "View/Pitch",
+        checked=lambda session: not session.pitch_display.written,
+    ),
+    Action(
+        "pitch.written",
+        QT_TRANSLATE_NOOP("Action", "Written Pitch"),
+        partial(written_pitch, True),
+        "View/Pitch",
+        checked=lambda session: session.pitch_display.written,
+    ),
+    Action(
+        "pitch_octave.c4",
+        QT_TRANSLATE_NOOP("Action", "Middle C Is C4"),
+        partial(middle_c, 4),
+        "View/Pitch",
+        checked=lambda session: session.pitch_display.middle_c_octave == 4,
+    ),
+    Action(
+        "pitch_octave.c3",
+        QT_TRANSLATE_NOOP("Action", "Middle C Is C3"),
+        partial(middle_c, 3),
+        "View/Pitch",
+        checked=lambda session: session.pitch_display.middle_c_octave == 3,
+    ),
+    Action(
+        "pitch_names.letters",
+        QT_TRANSLATE_NOOP("Action", "Letters (C D E)"),
+        partial(syllables, False),
+        "View/Pitch",
+        checked=lambda session: not session.pitch_display.syllables,
+    ),
+    Action(
+        "pitch_names.syllables",
+        QT_TRANSLATE_NOOP("Action", "Syllables (Do Re Mi)"),
+        partial(syllables, True),
+        "View/Pitch",
+        checked=lambda session: session.pitch_display.syllables,
+    ),
+    Action(
+        "theme.dark",
+        QT_TRANSLATE_NOOP("Action", "Dark Theme"),
+        partial(theme, "dark"),
+        "View/Theme",
+        checked=lambda session: session.tokens.name == "dark",
+        icon="dark",
+    ),
+    Action(
+        "theme.light",
+        QT_TRANSLATE_NOOP("Action", "Light Theme"),
+        partial(theme, "light"),
+        "View/Theme",
+        checked=lambda session: session.tokens.name == "light",
+        icon="light",
+    ),
+    Action(
+        "language.en",
+        "English",
+        partial(language, "en"),
+        "View/Language",
+        checked=lambda session: editor_of(session).language.code == "en",
+    ),
+    Action(
+        "language.ja",
+        "日本語",
+        partial(language, "ja"),
+        "View/Language",
+        checked=lambda session: editor_of(session).language.code == "ja",
+    ),
+    Action(
+        "application.preferences",
+        QT_TRANSLATE_NOOP("Action", "Preferences..."),
+        preferences,
+        "Edit",
+        "Ctrl+,",
+        icon="settings",
+    ),
+    Action(
+        "application.shortcuts",
+        QT_TRANSLATE_NOOP("Action", "Keyboard Shortcuts..."),
+        shortcuts,
+        "Help",
+        icon="keyboard",
+    ),
+    Action("application.about", QT_TRANSLATE_NOOP("Action", "About Suisou"), about, "Help", icon="information"),
+)

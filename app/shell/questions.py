@@ -1,0 +1,79 @@
+"""What the editor asks a person in a dialog: which file, and what becomes of unsaved work."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Literal, Protocol
+
+from PySide6.QtCore import QCoreApplication
+from PySide6.QtWidgets import QApplication, QDialog, QFileDialog, QMessageBox, QWidget
+
+from app.project.model import Project
+from app.score.read import MidiContents
+from instrument_maps.load import bundled_maps
+from widgets.common.tokens import Tokens
+
+Answer = Literal["save", "discard", "cancel"]
+
+
+class Questions(Protocol):
+    """How the person is asked; tests answer by themselves."""
+
+    def open_file(self, title: str, folder: str, filters: str) -> Path | None:
+        """An existing file; None: the person thought better of it."""
+
+    def save_file(self, title: str, proposal: str, filters: str) -> Path | None:
+        """A file to write; whether one may be replaced was asked."""
+
+    def unsaved(self, name: str) -> Answer:
+        """What becomes of the changes that are in no file."""
+
+    def import_midi(self, contents: MidiContents, source: str, tokens: Tokens) -> Project | None:
+        """Who plays what in a MIDI file."""
+
+
+class Dialogs:
+    """`Questions` asked in dialogs."""
+
+    def open_file(self, title: str, folder: str, filters: str) -> Path | None:
+        """See `Questions`."""
+        name, _ = QFileDialog.getOpenFileName(_parent(), title, folder, filters)
+        return Path(name) if name else None
+
+    def save_file(self, title: str, proposal: str, filters: str) -> Path | None:
+        """See `Questions`."""
+        name, _ = QFileDialog.getSaveFileName(_parent(), title, proposal, filters)
+        return Path(name) if name else None
+
+    def unsaved(self, name: str) -> Answer:
+        """See `Questions`."""
+        translate = QCoreApplication.translate
+        box = QMessageBox(_parent())
+        box.setObjectName("unsaved")
+        box.setIcon(QMessageBox.Icon.NoIcon)
+        box.setWindowTitle(translate("Questions", "Unsaved changes"))
+        box.setText(translate("Questions", "Save the changes to {name}?").format(name=name))
+        box.setInformativeText(translate("Questions", "They are lost if you do not save them."))
+        save = box.addButton(translate("Questions", "Save"), QMessageBox.ButtonRole.AcceptRole)
+        discard = box.addButton(translate("Questions", "Don't Save"), QMessageBox.ButtonRole.DestructiveRole)
+        cancel = box.addButton(translate("Questions", "Cancel"), QMessageBox.ButtonRole.RejectRole)
+        box.setDefaultButton(save)
+        box.setEscapeButton(cancel)
+        box.exec()
+        clicked = box.clickedButton()
+        box.deleteLater()
+        return "save" if clicked is save else "discard" if clicked is discard else "cancel"
+
+    def import_midi(self, contents: MidiContents, source: str, tokens: Tokens) -> Project | None:
+        """See `Questions`."""
+        from widgets.dialogs.import_midi import ImportDialog
+
+        dialog = ImportDialog(contents, bundled_maps(), source, tokens, _parent())
+        try:
+            return dialog.project() if dialog.exec() == QDialog.DialogCode.Accepted else None
+        finally:
+            dialog.deleteLater()
+
+
+def _parent() -> QWidget | None:
+    return QApplication.activeWindow()

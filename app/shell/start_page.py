@@ -1,0 +1,239 @@
+"""What is shown while no project is open: begin, open, go on, try the example."""
+
+from __future__ import annotations
+
+from datetime import UTC, datetime
+from functools import partial
+from pathlib import Path
+
+from PySide6.QtCore import QEvent, QLocale, QSize, Qt
+from PySide6.QtGui import QFontMetrics
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QScrollArea, QToolButton, QVBoxLayout, QWidget
+
+from app.project.recovery import Recoverable
+from app.shell.files import Files
+from app.shell.settings import Settings
+from widgets.common.icons import icon
+from widgets.common.session import Session
+
+WIDTH_PX = 860
+
+
+class StartPage(QScrollArea):
+    """The start page.
+
+    Parameters
+    ----------
+    session : Session
+    files : Files
+    settings : Settings
+    """
+
+    def __init__(self, session: Session, files: Files, settings: Settings, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setObjectName("start_page")
+        self.setFrameShape(QFrame.Shape.NoFrame)
+        self.setWidgetResizable(True)
+        self._session, self._files, self._settings = session, files, settings
+        self._offers: tuple[Recoverable, ...] = ()
+        page = QWidget()
+        outer = QHBoxLayout(page)
+        column = QWidget()
+        column.setMaximumWidth(WIDTH_PX)
+        outer.addStretch(1)
+        outer.addWidget(column, 6)
+        outer.addStretch(1)
+        self._column = QVBoxLayout(column)
+        self._column.setContentsMargins(24, 40, 24, 24)
+        self._column.setSpacing(10)
+        self.setWidget(page)
+
+        self._title = _label("start_title", 26)
+        self._about = _label("start_about", 11)
+        self._column.addWidget(self._title)
+        self._column.addWidget(self._about)
+        self._column.addSpacing(12)
+        self._recovery = QVBoxLayout()
+        self._recovery.setSpacing(6)
+        self._column.addLayout(self._recovery)
+        sides = QHBoxLayout()
+        sides.setSpacing(40)
+        self._column.addLayout(sides)
+        begin = QVBoxLayout()
+        begin.setSpacing(6)
+        sides.addLayout(begin, 2)
+        self._begin_heading = _label("start_begin", 10)
+        begin.addWidget(self._begin_heading)
+        self._buttons = {
+            "file.open": _row_button("start_open"),
+            "file.new": _row_button("start_new"),
+            "file.open_example": _row_button("start_example"),
+        }
+        for action_id, button in self._buttons.items():
+            button.clicked.connect(partial(self._trigger, action_id))
+            begin.addWidget(button)
+        begin.addSpacing(18)
+        self._teaching_heading = _label("start_teaching_heading", 10)
+        begin.addWidget(self._teaching_heading)
+        self._lessons = [_label(f"start_lesson_{number}", 9.5) for number in range(3)]
+        for lesson in self._lessons:
+            lesson.setWordWrap(True)
+            begin.addWidget(lesson)
+        begin.addStretch(1)
+        recent = QVBoxLayout()
+        recent.setSpacing(2)
+        sides.addLayout(recent, 3)
+        self._recent_heading = _label("start_recent", 10)
+        recent.addWidget(self._recent_heading)
+        self._recent = QVBoxLayout()
+        self._recent.setSpacing(2)
+        recent.addLayout(self._recent)
+        recent.addStretch(1)
+        self._column.addStretch(1)
+        session.theme_changed.connect(self.retranslate)
+        self.retranslate()
+
+    def refresh(self) -> None:
+        """Look for recent files and unsaved work anew."""
+        self._offers = self._files.recoverable()
+        self.retranslate()
+
+    def retranslate(self) -> None:
+        """Set all texts, and what depends on them."""
+        tokens = self._session.tokens
+        dim = f"color: {tokens.text_dim};"
+        self._title.setText("Suisou")
+        self._about.setText(self.tr("The performance of a wind ensemble, from its MIDI, for animation."))
+        self._about.setStyleSheet(dim)
+        self._begin_heading.setText(self.tr("Begin"))
+        self._teaching_heading.setText(self.tr("How it works"))
+        self._recent_heading.setText(self.tr("Recent files"))
+        for heading in (self._begin_heading, self._teaching_heading, self._recent_heading):
+            heading.setStyleSheet(f"{dim} font-weight: 600;")
+        for action_id, text, drawing in (
+            ("file.open", self.tr("Open a MIDI file or project"), "open"),
+            ("file.new", self.tr("New piece"), "new"),
+            ("file.open_example", self.tr("Try the example quartet"), "players"),
+        ):
+            self._buttons[action_id].setText(f"  {text}")
+            self._buttons[action_id].setIcon(icon(drawing, tokens))
+        for lesson, text in zip(
+            self._lessons,
+            (
+                self.tr("1. Open the MIDI of a piece: every part gets a player, with fingerings, breaths and cues."),
+                self.tr("2. Change what you would do differently. What you set by hand stays, whatever is generated."),
+                self.tr("3. Export each player and instrument as FBX and BVH. Files can also be dropped onto the window."),
+            ),
+            strict=True,
+        ):
+            lesson.setText(text)
+        self._fill_recovery()
+        self._fill_recent()
+
+    def _fill_recovery(self) -> None:
+        _clear(self._recovery)
+        tokens = self._session.tokens
+        for item in self._offers:
+            card = QFrame()
+            card.setObjectName("recovery")
+            card.setStyleSheet(
+                f"#recovery {{ background: {tokens.raised}; border: 1px solid {tokens.warning}; border-radius: 6px; }}"
+            )
+            line = QHBoxLayout(card)
+            line.setContentsMargins(12, 8, 8, 8)
+            changed = datetime.fromtimestamp(item.changed_s, UTC).astimezone()
+            when = QLocale().toString(changed, QLocale.FormatType.ShortFormat)
+            name = item.name or self.tr("a piece that was never saved")
+            text = QLabel(self.tr("Unsaved work was found: {name}, {when}").format(name=name, when=when))
+            text.setWordWrap(True)
+            go_on, throw = QPushButton(self.tr("Recover")), QPushButton(self.tr("Discard"))
+            go_on.setObjectName("recover")
+            throw.setObjectName("discard")
+            throw.setFlat(True)
+            go_on.clicked.connect(partial(self._files.recover, item))
+            throw.clicked.connect(partial(self._discard, item))
+            line.addWidget(text, 1)
+            line.addWidget(throw)
+            line.addWidget(go_on)
+            self._recovery.addWidget(card)
+        if self._offers:
+            self._recovery.addSpacing(14)
+
+    def _fill_recent(self) -> None:
+        _clear(self._recent)
+        tokens = self._session.tokens
+        paths = self._settings.recent
+        if not paths:
+            nothing = QLabel(self.tr("Files you open appear here."))
+            nothing.setStyleSheet(f"color: {tokens.text_dim};")
+            self._recent.addWidget(nothing)
+        for path in paths:
+            self._recent.addWidget(self._recent_row(Path(path)))
+
+    def _recent_row(self, path: Path) -> QWidget:
+        tokens = self._session.tokens
+        row = QWidget()
+        line = QHBoxLayout(row)
+        line.setContentsMargins(0, 0, 0, 0)
+        there = path.is_file()
+        button = _row_button("recent_file")
+        metrics = QFontMetrics(button.font())
+        folder = metrics.elidedText(str(path.parent), Qt.TextElideMode.ElideMiddle, 240)
+        button.setText(f"  {path.name}    {folder if there else self.tr('not found')}")
+        button.setIcon(icon("piece", tokens))
+        button.setToolTip(str(path))
+        button.setEnabled(there)
+        button.clicked.connect(partial(self._files.open, path))
+        forget = QToolButton()
+        forget.setObjectName("forget_recent")
+        forget.setIcon(icon("close", tokens))
+        forget.setFixedSize(26, 26)
+        forget.setToolTip(self.tr("Remove from this list"))
+        forget.clicked.connect(partial(self._forget, str(path)))
+        line.addWidget(button, 1)
+        line.addWidget(forget)
+        return row
+
+    def _forget(self, path: str) -> None:
+        self._settings.remove_recent(path)
+        self._fill_recent()
+
+    def _discard(self, item: Recoverable) -> None:
+        self._files.discard(item)
+        self.refresh()
+
+    def _trigger(self, action_id: str) -> None:
+        self._session.actions[action_id].trigger()
+
+    def changeEvent(self, event: QEvent) -> None:
+        """Another language."""
+        if event.type() == QEvent.Type.LanguageChange:
+            self.retranslate()
+        super().changeEvent(event)
+
+
+def _label(name: str, size_pt: float) -> QLabel:
+    label = QLabel()
+    label.setObjectName(name)
+    font = label.font()
+    font.setPointSizeF(size_pt)
+    label.setFont(font)
+    return label
+
+
+def _row_button(name: str) -> QPushButton:
+    button = QPushButton()
+    button.setObjectName(name)
+    button.setFlat(True)
+    button.setIconSize(QSize(20, 20))
+    button.setMinimumHeight(34)
+    button.setStyleSheet("text-align: left;")
+    return button
+
+
+def _clear(layout: QVBoxLayout) -> None:
+    while (item := layout.takeAt(0)) is not None:
+        widget = item.widget()
+        if widget is not None:
+            widget.hide()
+            widget.deleteLater()

@@ -1,0 +1,398 @@
+"""The status line: what is being done, what was said, problems, when it was saved, how smooth and how ready it is."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections import deque
+from functools import partial
+
+from PySide6.QtCore import QEvent, QSize, Qt, QTimer, Signal
+from PySide6.QtGui import QFontMetrics
+from PySide6.QtWidgets import (
+    QApplication,
+    QFrame,
+    QHBoxLayout,
+    QLabel,
+    QProgressBar,
+    QPushButton,
+    QStatusBar,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from app.errors import Message
+from app.shell.files import Files
+from app.shell.tasks import Task, ThreadTasks
+from widgets.common.icons import icon, pixmap
+from widgets.common.session import Session, Severity
+from widgets.common.text import message_text
+from widgets.common.tokens import LEAST_TARGET_PX, Tokens
+
+POLL_MS = 100
+QUIET_S = 0.25
+"""Work that is done sooner is not shown: a flash tells nothing."""
+INFORMATION_S = 6.0
+"""How long an information stays; warnings and errors stay until they are closed or another comes."""
+MOST_NOTICES = 100
+
+
+class StatusLine(QStatusBar):
+    """The status line.
+
+    Parameters
+    ----------
+    session : Session
+    files : Files
+    tasks : ThreadTasks or None
+        None: work is not shown.
+
+    Signals
+    -------
+    problems_asked()
+        The person wants to see the problems.
+    """
+
+    problems_asked = Signal()
+
+    def __init__(self, session: Session, files: Files, tasks: ThreadTasks | None, parent: QWidget) -> None:
+        super().__init__(parent)
+        self.setObjectName("status")
+        self.setSizeGripEnabled(False)
+        self._session, self._files, self._tasks = session, files, tasks
+        self._seen_s: dict[Task, float] = {}
+        self._shown: tuple[Task, ...] = ()
+        self._rows: dict[Task, _TaskRow] = {}
+        self._log: deque[tuple[Message, Severity]] = deque(maxlen=MOST_NOTICES)
+        self._frames: deque[float] = deque(maxlen=120)
+        self._ready = 1.0
+
+        self._work = QWidget()
+        self._work_line = QHBoxLayout(self._work)
+        self._work_line.setContentsMargins(4, 0, 0, 0)
+        self._work_line.setSpacing(10)
+        self._notice = QPushButton()
+        self._notice.setObjectName("notice")
+        self._notice.setFlat(True)
+        self._notice.setStyleSheet("text-align: left; padding: 2px 6px;")
+        self._notice.clicked.connect(self._unfold)
+        self._notice.hide()
+        self._dismiss = _tool("dismiss_notice")
+        self._dismiss.clicked.connect(self.dismiss)
+        self._dismiss.hide()
+        self.addWidget(self._work)
+        self.addWidget(self._notice)
+        self.addWidget(self._dismiss)
+        self._problems = QPushButton()
+        self._problems.setObjectName("problems")
+        self._problems.setFlat(True)
+        self._problems.setStyleSheet("padding: 2px 6px;")
+        self._problems.clicked.connect(self.problems_asked)
+        self._saved, self._rate, self._motion = QLabel(), QLabel(), QLabel()
+        self._saved.setObjectName("saved")
+        self._rate.setObjectName("frame_rate")
+        self._motion.setObjectName("motion")
+        self._motion_bar = QProgressBar()
+        self._motion_bar.setObjectName("motion_ready")
+        self._motion_bar.setTextVisible(False)
+        self._motion_bar.setFixedWidth(64)
+        self._motion_bar.setRange(0, 1000)
+        for widget in (self._saved, self._problems, self._rate, self._motion, self._motion_bar):
+            self.addPermanentWidget(widget)
+        self._details = _Details(session, self)
+        self._fade = QTimer(self)
+        self._fade.setSingleShot(True)
+        self._fade.timeout.connect(self.dismiss)
+        self._poll = QTimer(self)
+        self._poll.setInterval(POLL_MS)
+        self._poll.timeout.connect(self._look)
+        self._age = QTimer(self)
+        self._age.setInterval(5000)
+        self._age.timeout.connect(self._tell_saved)
+        self._age.start()
+
+        session.noticed.connect(self.tell)
+        session.performance_changed.connect(self._tell_problems)
+        session.theme_changed.connect(self.retranslate)
+        session.playing_changed.connect(self._played)
+        files.changed.connect(self._tell_saved)
+        files.opened.connect(self._opened)
+        if tasks is not None:
+            tasks.changed.connect(self._tasks_changed)
+        self.retranslate()
+
+    # Work
+
+    def _tasks_changed(self) -> None:
+        self._look()
+        if self._tasks is not None and self._tasks.running and not self._poll.isActive():
+            self._poll.start()
+
+    def _look(self) -> None:
+        running = self._tasks.running if self._tasks is not None else ()
+        now_s = time.monotonic()
+        self._seen_s = {task: self._seen_s.get(task, now_s) for task in running}
+        shown = tuple(task for task in running if now_s - self._seen_s[task] >= QUIET_S)
+        if shown != self._shown:
+            self._show_tasks(shown)
+        for task, row in self._rows.items():
+            row.set_share(task.share)
+        if not running:
+            self._poll.stop()
+
+    def _show_tasks(self, shown: tuple[Task, ...]) -> None:
+        self._shown = shown
+        for task in [task for task in self._rows if task not in shown]:
+            row = self._rows.pop(task)
+            self._work_line.removeWidget(row)
+            row.hide()
+            row.deleteLater()
+        for task in shown:
+            if task not in self._rows and self._tasks is not None:
+                row = _TaskRow(task, self._session.tokens)
+                row.stop.clicked.connect(partial(self._tasks.cancel, task))
+                self._rows[task] = row
+                self._work_line.addWidget(row)
+        self._work.setVisible(bool(shown))
+
+    # Notices
+
+    def tell(self, message: Message, severity: Severity) -> None:
+        """Say something."""
+        self._log.append((message, severity))
+        self._show_notice()
+        self._fade.stop()
+        if severity is Severity.INFORMATION:
+            self._fade.start(round(INFORMATION_S * 1000))
+
+    def _show_notice(self) -> None:
+        message, severity = self._log[-1]
+        text = message_text(message)
+        room_px = max(self.width() // 2, 240)
+        first = text.splitlines()[0] if text else ""
+        self._notice.setText(
+            " " + QFontMetrics(self._notice.font()).elidedText(first, Qt.TextElideMode.ElideRight, room_px)
+        )
+        self._notice.setIcon(icon(severity.value, self._session.tokens, severity_colour(severity, self._session.tokens)))
+        self._notice.setToolTip(self.tr("Show everything that was said"))
+        self._notice.show()
+        self._dismiss.show()
+
+    def dismiss(self) -> None:
+        """Take the notice away; the list keeps it."""
+        self._notice.hide()
+        self._dismiss.hide()
+        self._details.hide()
+
+    @property
+    def notice_text(self) -> str:
+        """The notice that is shown; empty: none."""
+        return "" if self._notice.isHidden() else message_text(self._log[-1][0])
+
+    def _unfold(self) -> None:
+        self._details.open_over(self._notice, tuple(self._log))
+
+    # The right side
+
+    def _opened(self) -> None:
+        for widget in (self._saved, self._problems, self._rate, self._motion, self._motion_bar):
+            widget.setVisible(self._files.is_open)
+        self._tell_saved()
+        self._tell_problems()
+        self._tell_motion()
+
+    def _tell_problems(self) -> None:
+        count = problem_count(self._session) if self._files.is_open else 0
+        tokens = self._session.tokens
+        self._problems.setVisible(self._files.is_open)
+        self._problems.setIcon(icon("warning" if count else "check", tokens, tokens.warning if count else tokens.good))
+        self._problems.setText(
+            " " + self.tr("%n problem(s)", "", count) if count else " " + self.tr("no problems")
+        )
+
+    def _tell_saved(self) -> None:
+        files = self._files
+        if not files.is_open:
+            self._saved.clear()
+            return
+        if files.saved_s is None:
+            self._saved.setText(self.tr("saved") if files.path and files.is_saved else self.tr("not saved yet"))
+            return
+        passed = max(time.monotonic() - files.saved_s, 0.0)
+        if passed < 60.0:
+            ago = self.tr("{count} s ago").format(count=5 * math.floor(passed / 5.0) or 1)
+        elif passed < 3600.0:
+            ago = self.tr("{count} min ago").format(count=int(passed // 60))
+        else:
+            ago = self.tr("{count} h ago").format(count=int(passed // 3600))
+        if files.autosaved:
+            self._saved.setText(self.tr("autosaved {ago}").format(ago=ago))
+        else:
+            self._saved.setText(self.tr("saved {ago}").format(ago=ago))
+
+    def painted(self) -> None:
+        """The viewport drew a picture."""
+        now_s = time.perf_counter()
+        self._frames.append(now_s)
+        if self._session.playing and len(self._frames) % 20 == 0:
+            recent = [at for at in self._frames if now_s - at <= 1.0]
+            if len(recent) > 1:
+                rate = round((len(recent) - 1) / (recent[-1] - recent[0]))
+                self._rate.setText(self.tr("{rate} fps").format(rate=rate))
+
+    def _played(self, playing: bool) -> None:
+        self._frames.clear()
+        if not playing:
+            self._rate.clear()
+
+    def set_ready(self, share: float) -> None:
+        """How much of the motion is made, 0..1."""
+        self._ready = share
+        self._tell_motion()
+
+    def _tell_motion(self) -> None:
+        busy = self._ready < 1.0 and self._files.is_open
+        self._motion_bar.setVisible(busy)
+        self._motion_bar.setValue(round(1000 * self._ready))
+        self._motion.setVisible(self._files.is_open)
+        if busy:
+            self._motion.setText(self.tr("making motion"))
+        else:
+            self._motion.setText(self.tr("motion ready"))
+
+    def retranslate(self) -> None:
+        """Set all texts, and what the theme colours."""
+        tokens = self._session.tokens
+        for label in (self._saved, self._rate, self._motion):
+            label.setStyleSheet(f"color: {tokens.text_dim}; padding: 0 4px;")
+        self._dismiss.setIcon(icon("close", tokens))
+        self._dismiss.setToolTip(self.tr("Close this notice"))
+        self._problems.setToolTip(self.tr("Go to the next problem"))
+        self._motion.setToolTip(self.tr("How much of the players' motion is made"))
+        self._details.retranslate()
+        if not self._notice.isHidden():
+            self._show_notice()
+        for task, row in self._rows.items():
+            row.tell(task, tokens)
+        self._opened()
+
+    def changeEvent(self, event: QEvent) -> None:
+        """Another language."""
+        if event.type() == QEvent.Type.LanguageChange:
+            self.retranslate()
+        super().changeEvent(event)
+
+
+def problem_count(session: Session) -> int:
+    """Problems of all players, as far as plans are there."""
+    performance = session.performance
+    return sum(len(performance.plan(player).problems) for player in performance.project.players)
+
+
+def severity_colour(severity: Severity, tokens: Tokens) -> str:
+    """The colour of a notice's mark."""
+    return {
+        Severity.INFORMATION: tokens.accent,
+        Severity.WARNING: tokens.warning,
+        Severity.ERROR: tokens.error,
+    }[severity]
+
+
+class _TaskRow(QWidget):
+    """Work: its name, how far it is, and a way to stop it."""
+
+    def __init__(self, task: Task, tokens: Tokens) -> None:
+        super().__init__()
+        line = QHBoxLayout(self)
+        line.setContentsMargins(0, 0, 0, 0)
+        line.setSpacing(6)
+        self._name = QLabel()
+        self._bar = QProgressBar()
+        self._bar.setTextVisible(False)
+        self._bar.setFixedWidth(110)
+        self._bar.setRange(0, 0)
+        self.stop = _tool("stop_task")
+        line.addWidget(self._name)
+        line.addWidget(self._bar)
+        line.addWidget(self.stop)
+        self.tell(task, tokens)
+
+    def tell(self, task: Task, tokens: Tokens) -> None:
+        """Set texts and colours."""
+        name = message_text(task.name)
+        self._name.setText(name[:1].upper() + name[1:])
+        self.stop.setIcon(icon("close", tokens))
+        self.stop.setToolTip(self.tr("Stop"))
+
+    def set_share(self, share: float) -> None:
+        """0..1; what says nothing of how far it is moves to and fro."""
+        self._bar.setRange(0, 1000 if share > 0.0 else 0)
+        self._bar.setValue(round(1000 * share))
+
+
+class _Details(QFrame):
+    """What was said, in full, the newest on top."""
+
+    def __init__(self, session: Session, parent: QWidget) -> None:
+        super().__init__(parent, Qt.WindowType.Popup)
+        self.setObjectName("notices")
+        self.setFrameShape(QFrame.Shape.StyledPanel)
+        self._session = session
+        column = QVBoxLayout(self)
+        column.setContentsMargins(10, 10, 10, 10)
+        column.setSpacing(8)
+        self._rows = QVBoxLayout()
+        self._rows.setSpacing(8)
+        column.addLayout(self._rows)
+        self._copy = QPushButton()
+        self._copy.setObjectName("copy_notices")
+        self._copy.clicked.connect(self._copy_all)
+        column.addWidget(self._copy, 0, Qt.AlignmentFlag.AlignRight)
+        self._text = ""
+        self.retranslate()
+
+    def retranslate(self) -> None:
+        """Set the texts."""
+        self._copy.setText(self.tr("Copy"))
+
+    def open_over(self, anchor: QWidget, log: tuple[tuple[Message, Severity], ...]) -> None:
+        """Show the newest notices above a widget."""
+        while (item := self._rows.takeAt(0)) is not None:
+            widget = item.widget()
+            if widget is not None:
+                widget.hide()
+                widget.deleteLater()
+        newest = tuple(reversed(log))[:12]
+        self._text = "\n".join(message_text(message) for message, _ in newest)
+        tokens = self._session.tokens
+        for message, severity in newest:
+            row = QWidget()
+            line = QHBoxLayout(row)
+            line.setContentsMargins(0, 0, 0, 0)
+            mark, text = QLabel(), QLabel(message_text(message))
+            mark.setPixmap(
+                pixmap(severity.value, 16, severity_colour(severity, tokens), self.devicePixelRatioF())
+            )
+            text.setWordWrap(True)
+            text.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+            text.setFixedWidth(520)
+            line.addWidget(mark, 0, Qt.AlignmentFlag.AlignTop)
+            line.addWidget(text, 1)
+            self._rows.addWidget(row)
+        self.adjustSize()
+        corner = anchor.mapToGlobal(anchor.rect().topLeft())
+        self.move(corner.x(), corner.y() - self.height() - 4)
+        self.show()
+
+    def _copy_all(self) -> None:
+        QApplication.clipboard().setText(self._text)
+        self.hide()
+
+
+def _tool(name: str) -> QToolButton:
+    button = QToolButton()
+    button.setObjectName(name)
+    button.setIconSize(QSize(14, 14))
+    button.setFixedSize(LEAST_TARGET_PX, LEAST_TARGET_PX)
+    return button

@@ -1,0 +1,392 @@
+"""The window: panels around the viewport, transport above, status line below."""
+
+from __future__ import annotations
+
+import importlib
+from functools import partial
+from pathlib import Path
+from typing import Final
+
+from PySide6.QtCore import QByteArray, QEvent, QPoint, QSize, Qt
+from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QKeySequence
+from PySide6.QtWidgets import QMainWindow, QPushButton, QStackedWidget, QToolBar, QVBoxLayout, QWidget
+
+from app.project.edit.piece import set_audio
+from app.project.recovery import Recoverable
+from app.project.storage import SUFFIX
+from app.shell.actions import CONTEXTS, ActionTable, Menus
+from app.shell.banner import Banner
+from app.shell.docks import Dock
+from app.shell.editor import Editor
+from app.shell.files import AUDIO_SUFFIXES, MIDI_SUFFIXES
+from app.shell.generator import Generator
+from app.shell.palette import Palette
+from app.shell.start_page import StartPage
+from app.shell.status import StatusLine
+from app.shell.tasks import ThreadTasks
+from app.errors import Message
+from widgets.common.icons import icon
+from widgets.common.session import Session
+
+LAYOUT_VERSION: Final = 1
+"""Another set of panels makes layouts of before useless: they are passed over."""
+SIZE: Final = QSize(1600, 1000)
+LEAST_SIZE: Final = QSize(960, 600)
+SIDES: Final = {
+    "players": Qt.DockWidgetArea.LeftDockWidgetArea,
+    "inspector": Qt.DockWidgetArea.RightDockWidgetArea,
+    "timeline": Qt.DockWidgetArea.BottomDockWidgetArea,
+}
+
+
+class Window(QMainWindow):
+    """The editor's window.
+
+    Parameters
+    ----------
+    editor : Editor
+        With its files and its table.
+    generator : Generator
+        Makes what the viewport shows.
+    """
+
+    def __init__(self, editor: Editor, generator: Generator) -> None:
+        super().__init__()
+        self.setObjectName("window")
+        self.setAcceptDrops(True)
+        self.setDockNestingEnabled(True)
+        self.setMinimumSize(LEAST_SIZE)
+        self.editor = editor
+        self.session: Session = editor.session
+        editor.window = self
+        self._files = editor.files
+        self._table: ActionTable = editor.table
+        self._closing = False
+        self._full: QByteArray | None = None
+        self._layout = QByteArray()
+
+        self.panels: dict[str, QWidget] = _panels(self.session, generator)
+        self.viewport = self.panels["viewport"]
+        self.banner = Banner(self.session)
+        self.start_page = StartPage(self.session, self._files, editor.settings)
+        self._pages = QStackedWidget()
+        self._pages.addWidget(self.start_page)
+        self._pages.addWidget(self.viewport)
+        centre = QWidget()
+        column = QVBoxLayout(centre)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(0)
+        column.addWidget(self.banner)
+        column.addWidget(self._pages, 1)
+        self.setCentralWidget(centre)
+        self.docks: dict[str, Dock] = {}
+        for name, area in SIDES.items():
+            dock = Dock(name, self.panels[name], self.session, self)
+            self.addDockWidget(area, dock)
+            dock.visibilityChanged.connect(self._table.refresh_soon)
+            self.docks[name] = dock
+        # The timeline has the whole width: time is read from edge to edge.
+        for corner in (Qt.Corner.BottomLeftCorner, Qt.Corner.BottomRightCorner):
+            self.setCorner(corner, Qt.DockWidgetArea.BottomDockWidgetArea)
+        self.bar = QToolBar()
+        self.bar.setObjectName("transport_bar")
+        self.bar.setMovable(False)
+        self.bar.setFloatable(False)
+        self.bar.toggleViewAction().setEnabled(False)
+        self.bar.setContextMenuPolicy(Qt.ContextMenuPolicy.PreventContextMenu)
+        self.bar.addWidget(self.panels["transport"])
+        self.addToolBar(Qt.ToolBarArea.TopToolBarArea, self.bar)
+        tasks = self.session.tasks
+        self.status = StatusLine(self.session, self._files, tasks if isinstance(tasks, ThreadTasks) else None, self)
+        self.setStatusBar(self.status)
+        self.menus = Menus(self.menuBar(), self._table)
+        self.palette_field = QPushButton()
+        self.palette_field.setObjectName("palette_button")
+        self.palette_field.clicked.connect(self.show_palette)
+        self.menuBar().setCornerWidget(self.palette_field, Qt.Corner.TopRightCorner)
+        self.palette_popup = Palette(self.session, self._table, self)
+        for name in CONTEXTS:
+            if name in self.panels:
+                self._table.attach(name, self.panels[name])
+        # Window-wide shortcuts work also where their menu is hidden, as in full screen.
+        self._table.attach("window", self)
+        recent = self.menus.menu("File/Recent")
+        recent.aboutToShow.connect(self._fill_recent)
+        self._place_recent()
+
+        self._files.changed.connect(self._tell_title)
+        self._files.opened.connect(self._show_page)
+        self._files.found.connect(self._offer_recovery)
+        self._files.missing.connect(self._ask_for_media)
+        self.session.theme_changed.connect(self._dress)
+        self.status.problems_asked.connect(self._next_problem)
+        generator.ready_changed.connect(self.status.set_ready)
+        self._arrange()
+        self._default_layout = self.saveState(LAYOUT_VERSION)
+        self._restore()
+        self._dress()
+        self.retranslate()
+        self._show_page()
+        self._table.refresh()
+
+    # Layout
+
+    def _arrange(self) -> None:
+        """Every panel in its place, at its size."""
+        for name, area in SIDES.items():
+            dock = self.docks[name]
+            dock.setFloating(False)
+            self.addDockWidget(area, dock)
+            dock.show()
+        self.resizeDocks([self.docks["players"]], [300], Qt.Orientation.Horizontal)
+        self.resizeDocks([self.docks["inspector"]], [320], Qt.Orientation.Horizontal)
+        self.resizeDocks([self.docks["timeline"]], [360], Qt.Orientation.Vertical)
+
+    def _restore(self) -> None:
+        settings = self.editor.settings
+        if settings.geometry.isEmpty() or not self.restoreGeometry(settings.geometry):
+            available = self.screen().availableSize()
+            self.resize(SIZE.boundedTo(available))
+        self._layout = settings.layout if not settings.layout.isEmpty() else self._default_layout
+
+    def remember(self) -> None:
+        """Keep the layout for the next time."""
+        settings = self.editor.settings
+        if self._full is None:
+            settings.geometry = self.saveGeometry()
+            settings.layout = self.saveState(LAYOUT_VERSION) if self._files.is_open else self._layout
+        settings.sync()
+
+    def reset_layout(self) -> None:
+        """Every panel back to its place."""
+        self.set_full_screen(False)
+        self._arrange()
+
+    def _show_page(self) -> None:
+        """Panels where a project is open, else the start page alone."""
+        is_open = self._files.is_open
+        self.set_full_screen(False)
+        self.banner.hide()
+        shown = self._pages.currentWidget() is self.viewport
+        if is_open and not shown:
+            if not self.restoreState(self._layout, LAYOUT_VERSION):
+                self.restoreState(self._default_layout, LAYOUT_VERSION)
+        elif not is_open:
+            if shown:
+                self._layout = self.saveState(LAYOUT_VERSION)
+            for dock in self.docks.values():
+                dock.hide()
+            self.start_page.refresh()
+        self._pages.setCurrentWidget(self.viewport if is_open else self.start_page)
+        self.bar.setVisible(is_open)
+        self._table.refresh_soon()
+        self._tell_title()
+
+    def show_panel(self, name: str, shown: bool) -> None:
+        """Show or hide a panel."""
+        dock = self.docks[name]
+        dock.setVisible(shown)
+        if shown:
+            dock.raise_()
+            self.panels[name].setFocus(Qt.FocusReason.ShortcutFocusReason)
+
+    def is_panel_shown(self, name: str) -> bool:
+        """Whether a panel is there, perhaps behind another tab."""
+        return not self.docks[name].isHidden()
+
+    @property
+    def is_full_screen(self) -> bool:
+        """Whether the viewport is alone on the screen."""
+        return self._full is not None
+
+    def set_full_screen(self, on: bool) -> None:
+        """The viewport alone on the whole screen, or as it was before."""
+        if on == self.is_full_screen:
+            return
+        if on:
+            self._full = self.saveState(LAYOUT_VERSION)
+            for widget in (*self.docks.values(), self.bar, self.status, self.menuBar()):
+                widget.hide()
+            self.showFullScreen()
+        elif self._full is not None:
+            before, self._full = self._full, None
+            self.showNormal()
+            self.menuBar().show()
+            self.status.show()
+            self.restoreState(before, LAYOUT_VERSION)
+        self._table.refresh_soon()
+
+    # What commands ask
+
+    def show_palette(self) -> None:
+        """Search everything that can be done."""
+        self.palette_popup.open_at(self.mapToGlobal(QPoint(self.width() - 8, self.menuBar().height() + 2)))
+
+    def show_preferences(self, page: str) -> None:
+        """Show a page of the preferences."""
+        from app.shell.preferences import show_preferences
+
+        show_preferences(self.editor, self, page)
+
+    def show_about(self) -> None:
+        """Say which program this is."""
+        from app.shell.about import AboutDialog
+
+        dialog = AboutDialog(self.session, self)
+        dialog.open()
+
+    def _next_problem(self) -> None:
+        action = self.session.actions.get("problems.next")
+        if action is not None:
+            action.trigger()
+
+    def _fill_recent(self) -> None:
+        menu = self.menus.menu("File/Recent")
+        menu.clear()
+        for text in self.editor.settings.recent:
+            path = Path(text)
+            row = menu.addAction(f"{path.name.replace('&', '&&')}    {path.parent}")
+            row.setEnabled(path.is_file())
+            row.triggered.connect(partial(self._open_recent, path))
+        if menu.isEmpty():
+            menu.addAction(self.tr("Nothing yet")).setEnabled(False)
+
+    def _open_recent(self, path: Path) -> None:
+        self._files.open(path)
+
+    def _place_recent(self) -> None:
+        """Below Open, where it is looked for."""
+        menu, recent = self.menus.menu("File"), self.menus.menu("File/Recent")
+        menu.removeAction(recent.menuAction())
+        menu.insertMenu(self._table.actions["file.open_example"], recent)
+
+    # What files say
+
+    def _offer_recovery(self, item: Recoverable) -> None:
+        self.banner.ask(
+            lambda: (
+                self.tr("There is unsaved work on this project that is newer than its file."),
+                (self.tr("Recover"), self.tr("Discard")),
+            ),
+            (partial(self._files.recover, item), partial(self._files.discard, item)),
+        )
+
+    def _ask_for_media(self, path: Path) -> None:
+        self.banner.ask(
+            lambda: (
+                self.tr("The recording {name} is not where it was. Without it the synthesiser is heard.").format(
+                    name=path.name
+                ),
+                (self.tr("Find It..."), self.tr("Remove It")),
+            ),
+            (partial(self._find_media, path), self._remove_media),
+        )
+
+    def _find_media(self, path: Path) -> None:
+        kinds = " ".join(f"*{suffix}" for suffix in AUDIO_SUFFIXES)
+        found = self.editor.questions.open_file(
+            self.tr("Find {name}").format(name=path.name), self._files.folder, f"{path.name} ({path.name});;({kinds})"
+        )
+        if found is not None:
+            self._files.replace_audio(found)
+
+    def _remove_media(self) -> None:
+        self.session.attempt(Message("edit.remove_audio"), lambda project: set_audio(project, None))
+
+    # Looks
+
+    def _tell_title(self) -> None:
+        if self._files.is_open:
+            self.setWindowTitle(f"{self._files.name}[*] — Suisou")
+        else:
+            self.setWindowTitle("Suisou")
+        self.setWindowModified(not self._files.is_saved)
+        self._table.refresh_soon()
+
+    def _dress(self) -> None:
+        tokens = self.session.tokens
+        self.palette_field.setIcon(icon("search", tokens, tokens.text_dim))
+        self.palette_field.setStyleSheet(
+            f"QPushButton {{ background: {tokens.sunken}; color: {tokens.text_dim}; border: 1px solid {tokens.line};"
+            f" border-radius: 4px; padding: 2px 12px; margin: 1px 6px 1px 0; min-height: 18px; text-align: left; }}"
+            f"QPushButton:hover, QPushButton:focus {{ border-color: {tokens.accent}; }}"
+        )
+
+    def retranslate(self) -> None:
+        """Set all texts."""
+        self.menus.retranslate()
+        self._table.retranslate()
+        self.docks["players"].setWindowTitle(self.tr("Players"))
+        self.docks["inspector"].setWindowTitle(self.tr("Inspector"))
+        self.docks["timeline"].setWindowTitle(self.tr("Timeline"))
+        keys = self._table.actions["application.palette"].shortcut().toString(QKeySequence.SequenceFormat.NativeText)
+        self.palette_field.setText(self.tr("Search...   {keys}").format(keys=keys))
+        self.palette_field.setAccessibleName(self.tr("Search commands"))
+        self._tell_title()
+
+    # Qt
+
+    def changeEvent(self, event: QEvent) -> None:
+        """Another language."""
+        if event.type() == QEvent.Type.LanguageChange:
+            self.retranslate()
+        super().changeEvent(event)
+
+    def keyPressEvent(self, event: QEvent) -> None:
+        """Escape leaves full screen."""
+        if event.key() == Qt.Key.Key_Escape and self.is_full_screen:  # type: ignore[attr-defined]
+            self.set_full_screen(False)
+            return
+        super().keyPressEvent(event)  # type: ignore[arg-type]
+
+    def dragEnterEvent(self, event: QDragEnterEvent) -> None:
+        """A file that can be opened is welcome."""
+        if dropped_file(event) is not None:
+            event.acceptProposedAction()
+
+    def dropEvent(self, event: QDropEvent) -> None:
+        """Open it."""
+        path = dropped_file(event)
+        if path is not None:
+            event.acceptProposedAction()
+            self._files.open(path)
+
+    def closeEvent(self, event: QCloseEvent) -> None:
+        """Unsaved changes are saved or given up first."""
+        if not self._closing and not self._files.is_saved:
+            event.ignore()
+            self._files.let_go(self._close_now)
+            return
+        self.remember()
+        self._files.end()
+        super().closeEvent(event)
+
+    def _close_now(self) -> None:
+        self._closing = True
+        self.close()
+
+
+def dropped_file(event: QDropEvent) -> Path | None:
+    """The first file of a drop that can be opened."""
+    for url in event.mimeData().urls():
+        path = Path(url.toLocalFile())
+        if path.suffix.lower() in (SUFFIX, *MIDI_SUFFIXES, *AUDIO_SUFFIXES):
+            return path
+    return None
+
+
+def _panels(session: Session, generator: Generator) -> dict[str, QWidget]:
+    def made(module: str, name: str, *arguments: object) -> QWidget:
+        try:
+            panel: QWidget = getattr(importlib.import_module(module), name)(session, *arguments)
+        except ModuleNotFoundError:
+            panel = QWidget()
+        return panel
+
+    return {
+        "viewport": made("widgets.viewport.panel", "ViewportPanel", generator.live),
+        "timeline": made("widgets.timeline.panel", "TimelinePanel"),
+        "players": made("widgets.players.panel", "PlayersPanel"),
+        "inspector": made("widgets.inspector.panel", "InspectorPanel"),
+        "transport": made("widgets.transport.bar", "TransportBar"),
+    }
