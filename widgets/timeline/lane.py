@@ -245,7 +245,7 @@ class Lane(QWidget):
         self._y_range = (0.0, 1.0)
         self._folded = False
         self._button = Qt.MouseButton.NoButton
-        self._panned_px: float | None = None
+        self._panned_px: QPointF | None = None
         self._last: QMouseEvent | None = None
         self._lines: tuple[tuple[object, ...], Lines] | None = None
 
@@ -346,6 +346,9 @@ class Lane(QWidget):
     def wheel(self, mouse: LaneMouse, steps: float) -> bool:
         """The wheel turned (or Alt and the wheel) by notches, away from the hand is positive; whether it was used."""
         return False
+
+    def pan_y(self, by_px: float) -> None:
+        """The plot is dragged up or down (positive) with the middle button."""
 
     def context_menu(self, mouse: LaneMouse) -> QMenu | None:
         """The menu at a place, made anew each time."""
@@ -474,7 +477,7 @@ class Lane(QWidget):
         if event.button() == Qt.MouseButton.LeftButton:
             self.press(self._mouse(event))
         elif event.button() == Qt.MouseButton.MiddleButton:
-            self._panned_px = event.position().x()
+            self._panned_px = event.position()
             self.plot.setCursor(Qt.CursorShape.ClosedHandCursor)
         elif event.button() == Qt.MouseButton.RightButton:
             mouse = self._mouse(event)
@@ -496,8 +499,10 @@ class Lane(QWidget):
                 self._autoscroll.stop()
             self.drag(self._mouse(event))
         elif self._panned_px is not None:
-            self.axis.pan((self._panned_px - event.position().x()) / self.axis.px_per_s)
-            self._panned_px = event.position().x()
+            by_px = event.position() - self._panned_px
+            self._panned_px = event.position()
+            self.axis.pan(-by_px.x() / self.axis.px_per_s)
+            self.pan_y(by_px.y())
         elif self._button == Qt.MouseButton.NoButton and event.buttons() == Qt.MouseButton.NoButton:
             self.hover(self._mouse(event))
 

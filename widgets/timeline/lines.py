@@ -52,7 +52,8 @@ def visible_lines(score: Score, grid: Grid, start_s: float, end_s: float, px_per
     first = score.bar_of_tick(int(np.floor(tempo.ticks(start_s))))
     last = score.bar_of_tick(int(np.ceil(tempo.ticks(end_s)))) + 1
     every = _bar_step(score, first, last, px_per_s)
-    bars = list(range(first - first % every, last + 1, every))
+    # Counted from bar 1: 1, 5, 9 ...
+    bars = list(range(first - (first - 1) % every, last + 1, every))
     bar_ticks = [score.tick_of_bar(bar) for bar in bars]
     beats: list[Fraction] = []
     steps: list[Fraction] = []

@@ -1,36 +1,378 @@
-"""The timeline: a ruler over lanes that share one time axis."""
+"""The timeline: a ruler over lanes that share one time axis, a bar of tools above, a scroll bar below."""
 
 from __future__ import annotations
 
-from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QSplitter, QVBoxLayout, QWidget
+import json
 
+from PySide6.QtCore import QEvent, QPoint, QSize, Qt, Signal
+from PySide6.QtGui import QColor, QHideEvent, QPainter, QPaintEvent, QResizeEvent, QShowEvent
+from PySide6.QtWidgets import (
+    QFrame,
+    QHBoxLayout,
+    QMenu,
+    QScrollArea,
+    QScrollBar,
+    QSplitter,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from app.project.document import Change
+from widgets.common.icons import icon
 from widgets.common.session import Session
+from widgets.common.timeline_view import Ghosts, Tool
 from widgets.timeline.axis import TimeAxis
-from widgets.timeline.lane import Lane
+from widgets.timeline.extent import scroll_limits, selected_span
+from widgets.timeline.lane import GUTTER_PX, Lane
 from widgets.timeline.lanes import LANES
+from widgets.timeline.quantise import QuantisePopover
+from widgets.timeline.roll import PianoRoll
+from widgets.timeline.ruler import Ruler
+from widgets.timeline.tool_bar import ToolBar
+
+ZOOM_A_CLICK = 1.5
+PAGE_AT = 0.94
+"""While playing, the page turns when the playhead is so far across it ..."""
+PAGE_TO = 0.06
+"""... and then stands here."""
+SCROLL_A_S = 1000
+"""Steps of the scroll bar in a second."""
+SELECTION_AIR = 0.08
+
+
+class Playhead(QWidget):
+    """A thin line over all lanes: it moves, they are not drawn again but where it was."""
+
+    def __init__(self, session: Session, parent: QWidget) -> None:
+        super().__init__(parent)
+        self.setObjectName("playhead")
+        self._session = session
+        self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
+        self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
+
+    # Qt overrides
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        QPainter(self).fillRect(event.rect(), QColor(self._session.tokens.accent))
 
 
 class TimelinePanel(QWidget):
-    """The timeline panel.
+    """The timeline panel. It is the session's `TimelineView`.
 
     Parameters
     ----------
     session : Session
+
+    Signals
+    -------
+    sought(float)
+        Somebody wants the playhead at this time (seconds); the shell hands it to the transport.
     """
+
+    sought = Signal(float)
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setObjectName("timeline")
         self.session = session
         self.axis = TimeAxis(self)
-        self.stack = QSplitter(Qt.Orientation.Vertical, self)
-        self.stack.setChildrenCollapsible(False)
+        self._scrolling = False
+        self._fitted = False
+
+        self.roll = PianoRoll(session, self.axis)
         self.lanes: dict[str, Lane] = {}
-        for kind in LANES:
-            lane = kind(session, self.axis)
+        """Every lane by id, in their order from the top."""
+        made = [kind(session, self.axis) for kind in LANES]
+        for lane in (*made[:1], self.roll, *made[1:]):
             self.lanes[lane.id] = lane
+
+        self.tool_bar = ToolBar(session, self.roll, self)
+        self.ruler = Ruler(session, self.axis, self)
+        self.stack = QSplitter(Qt.Orientation.Vertical)
+        self.stack.setObjectName("lanes")
+        self.stack.setChildrenCollapsible(False)
+        self.stack.setHandleWidth(4)
+        for index, lane in enumerate(self.lanes.values()):
             self.stack.addWidget(lane)
+            self.stack.setStretchFactor(index, 1 if lane is self.roll else 0)
+            lane.sought.connect(self.sought)
+            lane.fold_changed.connect(self._place_playhead)
+            lane.header.setContextMenuPolicy(Qt.ContextMenuPolicy.CustomContextMenu)
+            lane.header.customContextMenuRequested.connect(self._header_menu)
+            if lane.folded_at_first:
+                lane.set_folded(True)
+        self.viewport = QScrollArea(self)
+        self.viewport.setFrameShape(QFrame.Shape.NoFrame)
+        self.viewport.setWidgetResizable(True)
+        self.viewport.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.viewport.setWidget(self.stack)
+
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
-        column.addWidget(self.stack)
+        column.setSpacing(0)
+        column.addWidget(self.tool_bar)
+        column.addWidget(self.ruler)
+        column.addWidget(self.viewport, 1)
+        column.addLayout(self._make_foot())
+        self.playhead = Playhead(session, self)
+        self.quantise = QuantisePopover(session, self)
+
+        self.ruler.sought.connect(self.sought)
+        self.axis.changed.connect(self._axis_changed)
+        session.changed.connect(self._session_changed)
+        session.performance_changed.connect(self._set_limits)
+        session.playhead_changed.connect(self._playhead_moved)
+        session.revealed.connect(self.reveal)
+        session.theme_changed.connect(self._theme_set)
+        self._set_limits()
+        self.axis.fit()
+        self._theme_set()
+        self.retranslate()
+        session.timeline_view = self
+
+    def _make_foot(self) -> QHBoxLayout:
+        self.lanes_button = QToolButton(self)
+        self.lanes_button.setObjectName("lanes_menu")
+        self.lanes_button.setAutoRaise(True)
+        self.lanes_button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
+        self.lanes_button.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
+        self.lanes_button.setFixedSize(QSize(GUTTER_PX - 4, 24))
+        self._lanes_menu = QMenu(self.lanes_button)
+        self._lanes_menu.aboutToShow.connect(self._fill_lanes_menu)
+        self.lanes_button.setMenu(self._lanes_menu)
+        self.time_bar = QScrollBar(Qt.Orientation.Horizontal, self)
+        self.time_bar.setObjectName("time_bar")
+        self.time_bar.valueChanged.connect(self._scrolled)
+        self.zoom_buttons = {name: QToolButton(self) for name in ("zoom_out", "zoom_in", "fit")}
+        row = QHBoxLayout()
+        row.setContentsMargins(2, 1, 2, 1)
+        row.setSpacing(2)
+        row.addWidget(self.lanes_button)
+        row.addWidget(self.time_bar, 1)
+        for name, button in self.zoom_buttons.items():
+            button.setObjectName(name)
+            button.setAutoRaise(True)
+            button.setFixedSize(QSize(26, 24))
+            row.addWidget(button)
+        self.zoom_buttons["zoom_out"].clicked.connect(self.zoom_out)
+        self.zoom_buttons["zoom_in"].clicked.connect(self.zoom_in)
+        self.zoom_buttons["fit"].clicked.connect(self.fit)
+        return row
+
+    def retranslate(self) -> None:
+        """Set every text anew."""
+        self.lanes_button.setText(self.tr("Lanes"))
+        self.lanes_button.setToolTip(self.tr("Which lanes are shown, and in which order"))
+        for name, text in (
+            ("zoom_out", self.tr("Zoom out (Ctrl+wheel)")),
+            ("zoom_in", self.tr("Zoom in (Ctrl+wheel)")),
+            ("fit", self.tr("Show the whole piece (double-click the ruler)")),
+        ):
+            self.zoom_buttons[name].setToolTip(text)
+            self.zoom_buttons[name].setAccessibleName(text)
+
+    # What commands ask for
+
+    @property
+    def tool(self) -> Tool:
+        """What the left button does to notes."""
+        return self.roll.tool
+
+    def set_tool(self, tool: Tool) -> None:
+        """Let the left button do this."""
+        self.roll.set_tool(tool)
+        self.tool_bar.show_state()
+
+    @property
+    def ghosts(self) -> Ghosts:
+        """How the players behind are seen."""
+        return self.roll.ghosts_mode
+
+    def set_ghosts(self, ghosts: Ghosts) -> None:
+        """See the players behind so."""
+        self.roll.set_ghosts(ghosts)
+        self.tool_bar.show_state()
+
+    def zoom_in(self) -> None:
+        """Zoom about the playhead, or the middle where it is out of sight."""
+        self.axis.zoom(ZOOM_A_CLICK, self._zoom_centre())
+
+    def zoom_out(self) -> None:
+        """Zoom about the playhead, or the middle where it is out of sight."""
+        self.axis.zoom(1 / ZOOM_A_CLICK, self._zoom_centre())
+
+    def fit(self) -> None:
+        """Show the whole piece, and the pitches of the player in front."""
+        self.axis.fit()
+        self.roll.fit_pitch()
+
+    def zoom_to_selection(self) -> None:
+        """Show what is selected."""
+        span = selected_span(self.session)
+        if span is not None:
+            air = max(span[1] - span[0], 0.2) * SELECTION_AIR
+            self.axis.show(span[0] - air, span[1] + air)
+
+    def ask_quantise(self) -> None:
+        """Open the quantise popover over the roll."""
+        self.quantise.open_over(self.roll)
+
+    def reveal(self, time_s: float) -> None:
+        """Bring a time into view."""
+        self.axis.reveal(time_s)
+
+    def save_state(self) -> str:
+        """Order, visibility, folds and heights of the lanes, as text."""
+        order = [lane.id for lane in self._ordered()]
+        return json.dumps(
+            {
+                "order": order,
+                "hidden": [id for id in order if self.lanes[id].isHidden()],
+                "folded": [id for id in order if self.lanes[id].folded],
+                "sizes": self.stack.sizes(),
+                "ghosts": self.ghosts.value,
+            }
+        )
+
+    def restore_state(self, state: str) -> None:
+        """Take what `save_state` gave; what does not fit this program's lanes is left as it is."""
+        try:
+            saved = json.loads(state)
+            order = [id for id in saved["order"] if id in self.lanes]
+            hidden, folded = set(saved["hidden"]), set(saved["folded"])
+            sizes = [int(size) for size in saved["sizes"]]
+            ghosts = Ghosts(saved["ghosts"])
+        except (ValueError, KeyError, TypeError):
+            return
+        for index, id in enumerate(order):
+            self.stack.insertWidget(index, self.lanes[id])
+            self.lanes[id].setVisible(id not in hidden)
+            self.lanes[id].set_folded(id in folded)
+        if len(sizes) == self.stack.count():
+            self.stack.setSizes(sizes)
+        self.set_ghosts(ghosts)
+
+    # Lanes
+
+    def _ordered(self) -> list[Lane]:
+        widgets = [self.stack.widget(index) for index in range(self.stack.count())]
+        return [widget for widget in widgets if isinstance(widget, Lane)]
+
+    def _fill_lanes_menu(self) -> None:
+        self._lanes_menu.clear()
+        for lane in self._ordered():
+            action = self._lanes_menu.addAction(lane.title.text())
+            action.setCheckable(True)
+            action.setChecked(not lane.isHidden())
+            action.toggled.connect(lane.setVisible)
+        self._lanes_menu.addSeparator()
+        self._lanes_menu.addAction(self.tr("Unfold All")).triggered.connect(lambda: self._fold_all(False))
+        self._lanes_menu.addAction(self.tr("Fold All")).triggered.connect(lambda: self._fold_all(True))
+
+    def _fold_all(self, folded: bool) -> None:
+        for lane in self.lanes.values():
+            lane.set_folded(folded)
+
+    def _header_menu(self, place: QPoint) -> None:
+        header = self.sender()
+        assert isinstance(header, QWidget)
+        lane = header.parentWidget()
+        assert isinstance(lane, Lane)
+        at, last = self.stack.indexOf(lane), self.stack.count() - 1
+        menu = QMenu(self)
+        menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        up = menu.addAction(self.tr("Move Up"))
+        up.setEnabled(at > 0)
+        up.triggered.connect(lambda: self.stack.insertWidget(at - 1, lane))
+        down = menu.addAction(self.tr("Move Down"))
+        down.setEnabled(at < last)
+        down.triggered.connect(lambda: self.stack.insertWidget(at + 1, lane))
+        menu.addSeparator()
+        fold = menu.addAction(self.tr("Unfold") if lane.folded else self.tr("Fold"))
+        fold.triggered.connect(lambda: lane.set_folded(not lane.folded))
+        menu.addAction(self.tr("Hide")).triggered.connect(lane.hide)
+        menu.popup(header.mapToGlobal(place))
+
+    # Time
+
+    def _zoom_centre(self) -> float:
+        playhead_s, axis = self.session.playhead_s, self.axis
+        inside = axis.start_s <= playhead_s <= axis.end_s
+        return playhead_s if inside else (axis.start_s + axis.end_s) / 2
+
+    def _set_limits(self) -> None:
+        self.axis.set_limits(*scroll_limits(self.session))
+
+    def _session_changed(self, change: Change) -> None:
+        if change.opened or change.before.score is not change.after.score:
+            self._set_limits()
+        if change.opened:
+            self.axis.fit()
+            self._fitted = False
+
+    def _axis_changed(self) -> None:
+        low, high = self.axis.limits_s
+        span = self.axis.span_s
+        self._scrolling = True
+        self.time_bar.setRange(0, max(round((high - low - span) * SCROLL_A_S), 0))
+        self.time_bar.setPageStep(max(round(span * SCROLL_A_S), 1))
+        self.time_bar.setSingleStep(max(round(span * SCROLL_A_S / 10), 1))
+        self.time_bar.setValue(round((self.axis.start_s - low) * SCROLL_A_S))
+        self._scrolling = False
+        self._place_playhead()
+
+    def _scrolled(self, value: int) -> None:
+        if not self._scrolling:
+            start_s = self.axis.limits_s[0] + value / SCROLL_A_S
+            self.axis.show(start_s, start_s + self.axis.span_s)
+
+    def _playhead_moved(self, playhead_s: float) -> None:
+        axis, session = self.axis, self.session
+        if session.playing and session.follow and not any(lane.dragging for lane in self.lanes.values()):
+            share = (playhead_s - axis.start_s) / axis.span_s
+            if not 0 <= share <= PAGE_AT:
+                start_s = playhead_s - PAGE_TO * axis.span_s
+                axis.show(start_s, start_s + axis.span_s)
+        self._place_playhead()
+
+    def _place_playhead(self) -> None:
+        x = self.axis.x_px(self.session.playhead_s)
+        inside = 0 <= x <= self.axis.width_px
+        self.playhead.setVisible(inside)
+        if inside:
+            top, height = self.viewport.y(), self.viewport.height()
+            self.playhead.setGeometry(int(GUTTER_PX + x), top, 1, height)
+            self.playhead.raise_()
+
+    def _theme_set(self) -> None:
+        tokens = self.session.tokens
+        for name, button in self.zoom_buttons.items():
+            button.setIcon(icon(name, tokens))
+        self.lanes_button.setIcon(icon("layout", tokens))
+        self.playhead.update()
+
+    # Qt overrides
+
+    def changeEvent(self, event: QEvent) -> None:
+        if event.type() == QEvent.Type.LanguageChange:
+            self.retranslate()
+        super().changeEvent(event)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        self._place_playhead()
+
+    def showEvent(self, event: QShowEvent) -> None:
+        super().showEvent(event)
+        self.axis.set_width(self.roll.plot.width())
+        if not self._fitted:
+            # Only now is it known how wide everything is.
+            self._fitted = True
+            self.axis.fit()
+            self.roll.fit_pitch()
+        self._place_playhead()
+
+    def hideEvent(self, event: QHideEvent) -> None:
+        super().hideEvent(event)
+        self.quantise.hide()

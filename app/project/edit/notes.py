@@ -6,6 +6,7 @@ same edits give the same names. Whoever erases a note erases its corrections wit
 Messages
 --------
 notes.before_start(): a note would begin before the piece.
+notes.after_all_pieces(): a note would end later than a project can hold.
 notes.pitch_outside(pitch, low, high): there is no such pitch.
 notes.velocity_outside(velocity, low, high): there is no such velocity.
 notes.too_short(): a note would have no length.
@@ -25,6 +26,7 @@ import msgspec
 from app.errors import AppError
 from app.plan.corrections import Correction, anchor
 from app.project.grid import Grid
+from app.project.limits import LAST_TICK
 from app.project.model import Project
 from app.score.model import Note, Part
 
@@ -295,6 +297,8 @@ def _checked(note: Note) -> Note:
         raise AppError("notes.before_start")
     if note.duration_tick < 1:
         raise AppError("notes.too_short")
+    if note.end_tick > LAST_TICK:
+        raise AppError("notes.after_all_pieces")
     if not LOW_PITCH <= note.pitch <= HIGH_PITCH:
         raise AppError("notes.pitch_outside", pitch=note.pitch, low=LOW_PITCH, high=HIGH_PITCH)
     if not LOW_VELOCITY <= note.velocity <= HIGH_VELOCITY:

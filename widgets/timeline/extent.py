@@ -1,0 +1,49 @@
+"""Stretches of time: how far the timeline scrolls, and where the selection lies."""
+
+from __future__ import annotations
+
+from widgets.common.session import Session
+
+MARGIN_S = 2.0
+ROOM_SHARE = 0.1
+"""Free room after the last note, of the piece's length, to write on."""
+ROOM_S = 8.0
+LEAST_S = 60.0
+PREROLL_S = 4.0
+"""Before the plans say how long it is."""
+
+
+def scroll_limits(session: Session) -> tuple[float, float]:
+    """What the timeline can show, seconds: the performance with its pre-roll, and room to write on."""
+    score = session.project.score
+    end_s = score.tempo_map.seconds(float(score.end_tick))
+    start_s = -PREROLL_S
+    performance = session.performance
+    if performance.planned and performance.plans:
+        frame = performance.time_frame
+        start_s, end_s = min(frame.first_frame_s, 0.0), max(end_s, frame.end_s)
+    return start_s - MARGIN_S, max(end_s + max(ROOM_S, ROOM_SHARE * end_s), LEAST_S)
+
+
+def selected_span(session: Session) -> tuple[float, float] | None:
+    """From the beginning to the end of all that is selected, seconds; None: nothing is."""
+    selection, project = session.selection, session.project
+    tempo = project.score.tempo_map
+    places: list[tuple[float, float]] = []
+    if selection.span is not None:
+        places.append((tempo.seconds(float(selection.span[0])), tempo.seconds(float(selection.span[1]))))
+    if selection.notes:
+        places.extend(
+            (tempo.seconds(float(note.onset_tick)), tempo.seconds(float(note.end_tick)))
+            for part in project.score.parts
+            for note in part.notes
+            if note.id in selection.notes
+        )
+    if selection.events and session.performance.planned:
+        wanted = {(key.player_id, key.event_id) for key in selection.events}
+        for player_id, plan in session.performance.plans.items():
+            for events in (plan.fingerings, plan.breaths, plan.embouchures, plan.cues, plan.gestures, plan.expressions):
+                places.extend((event.start_s, event.end_s) for event in events if (player_id, event.id) in wanted)
+    if not places:
+        return None
+    return min(start for start, _ in places), max(end for _, end in places)

@@ -1,0 +1,160 @@
+"""A small window beside the notes: which grid, how strongly, onsets or ends; shown as it is set."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from PySide6.QtCore import QEvent, QPoint, Qt
+from PySide6.QtGui import QHideEvent, QKeyEvent
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QComboBox,
+    QFrame,
+    QGridLayout,
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QSlider,
+    QSpinBox,
+    QWidget,
+)
+
+from app.errors import Message
+from app.project.edit import notes
+from widgets.common.session import Session
+
+GRIDS: tuple[tuple[str, Fraction], ...] = (
+    ("1/1", Fraction(4)),
+    ("1/2", Fraction(2)),
+    ("1/4", Fraction(1)),
+    ("1/4 T", Fraction(2, 3)),
+    ("1/8", Fraction(1, 2)),
+    ("1/8 T", Fraction(1, 3)),
+    ("1/16", Fraction(1, 4)),
+    ("1/16 T", Fraction(1, 6)),
+    ("1/32", Fraction(1, 8)),
+    ("1/32 T", Fraction(1, 12)),
+)
+
+
+class QuantisePopover(QFrame):
+    """Quantise the selected notes, seen at once; Enter keeps it, Escape takes it back. One step of the history."""
+
+    def __init__(self, session: Session, parent: QWidget) -> None:
+        super().__init__(parent, Qt.WindowType.Popup)
+        self.setObjectName("quantise_popover")
+        self.setFrameShape(QFrame.Shape.StyledPanel)
+        self._session = session
+        self._token = object()
+        self._base = session.project
+        self._ours = self._base
+        self._kept = False
+        self.grid_label, self.strength_label = QLabel(self), QLabel(self)
+        self.grid_box = QComboBox(self)
+        for name, quarters in GRIDS:
+            self.grid_box.addItem(name, quarters)
+        self.slider = QSlider(Qt.Orientation.Horizontal, self)
+        self.slider.setRange(0, 100)
+        self.slider.setValue(100)
+        self.slider.setMinimumWidth(120)
+        self.percent = QSpinBox(self)
+        self.percent.setRange(0, 100)
+        self.percent.setValue(100)
+        self.percent.setSuffix(" %")
+        self.onsets, self.ends = QCheckBox(self), QCheckBox(self)
+        self.onsets.setChecked(True)
+        self.keep_button = QPushButton(self)
+        self.keep_button.setDefault(True)
+        grid = QGridLayout(self)
+        grid.setContentsMargins(10, 8, 10, 8)
+        grid.addWidget(self.grid_label, 0, 0)
+        grid.addWidget(self.grid_box, 0, 1, 1, 2)
+        grid.addWidget(self.strength_label, 1, 0)
+        grid.addWidget(self.slider, 1, 1)
+        grid.addWidget(self.percent, 1, 2)
+        row = QHBoxLayout()
+        row.addWidget(self.onsets)
+        row.addWidget(self.ends)
+        row.addStretch(1)
+        row.addWidget(self.keep_button)
+        grid.addLayout(row, 2, 0, 1, 3)
+        self.slider.valueChanged.connect(self.percent.setValue)
+        self.percent.valueChanged.connect(self.slider.setValue)
+        self.slider.valueChanged.connect(self._show)
+        self.grid_box.currentIndexChanged.connect(self._show)
+        self.onsets.toggled.connect(self._show)
+        self.ends.toggled.connect(self._show)
+        self.keep_button.clicked.connect(self._keep)
+        self.retranslate()
+
+    def retranslate(self) -> None:
+        """Set every text anew."""
+        self.grid_label.setText(self.tr("Grid"))
+        self.strength_label.setText(self.tr("Strength"))
+        self.onsets.setText(self.tr("Beginnings"))
+        self.ends.setText(self.tr("Ends"))
+        self.keep_button.setText(self.tr("Quantise"))
+
+    def open_over(self, widget: QWidget) -> None:
+        """Open in the middle of a widget, with the grid that edits snap to."""
+        if not self._session.selection.notes:
+            return
+        self._token, self._base = object(), self._session.project
+        self._ours, self._kept = self._base, False
+        quarters = [value for _, value in GRIDS]
+        if self._session.grid.quarters in quarters:
+            self.grid_box.setCurrentIndex(quarters.index(self._session.grid.quarters))
+        self.adjustSize()
+        middle = QPoint((widget.width() - self.width()) // 2, max((widget.height() - self.height()) // 2, 0))
+        self.move(widget.mapToGlobal(middle))
+        self.show()
+        self.grid_box.setFocus()
+        self._show()
+
+    def _show(self) -> None:
+        if self._session.project is not self._ours or not self.isVisible():
+            return
+        ids, base = self._session.selection.notes, self._base
+        self._session.attempt(
+            Message("edit.quantise_notes", {"count": len(ids)}),
+            lambda _: notes.quantise(
+                base,
+                ids,
+                self.grid_box.currentData(),
+                self.slider.value() / 100.0,
+                onsets=self.onsets.isChecked(),
+                ends=self.ends.isChecked(),
+            ),
+            self._token,
+            self,
+        )
+        self._ours = self._session.project
+
+    def _keep(self) -> None:
+        self._kept = True
+        self.hide()
+
+    # Qt overrides
+
+    def changeEvent(self, event: QEvent) -> None:
+        if event.type() == QEvent.Type.LanguageChange:
+            self.retranslate()
+        super().changeEvent(event)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
+            self._keep()
+        else:
+            super().keyPressEvent(event)
+
+    def hideEvent(self, event: QHideEvent) -> None:
+        super().hideEvent(event)
+        if not self._kept and self._session.project is self._ours and self._ours is not self._base:
+            self._session.apply(
+                Message("edit.quantise_notes", {"count": len(self._session.selection.notes)}),
+                self._base,
+                self._token,
+                self,
+            )
+        self._session.document.end_gesture()
+        self._kept = True

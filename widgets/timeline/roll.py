@@ -1,0 +1,469 @@
+"""The piano roll: every player's notes, the one in front in colour and open to the mouse."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+from PySide6.QtCore import QEvent, QLineF, QRectF, Qt
+from PySide6.QtGui import QAction, QCursor, QFont, QResizeEvent
+from PySide6.QtWidgets import QMenu, QToolTip, QWidget
+
+from app.errors import Message
+from app.plan.model import PlayerPlan
+from app.project.document import Change
+from app.project.edit import notes
+from app.project.model import Player
+from app.score.model import Note
+from widgets.common.pitch import pitch_text
+from widgets.common.selection import Selection
+from widgets.common.session import Session
+from widgets.common.text import message_text
+from widgets.common.timeline_view import Ghosts, Tool
+from widgets.common.tokens import LEAST_TEXT_PT
+from widgets.timeline.axis import TimeAxis
+from widgets.timeline.keyboard import KEYBOARD_PX, Keyboard
+from widgets.timeline.lane import GUTTER_PX, Lane, LaneItem, LaneMouse
+from widgets.timeline.note_table import Flags, Floats, NoteTable
+from widgets.timeline.roll_gestures import Draw, Erase, Gesture, LassoNotes, Move, Resize, Velocity
+from widgets.timeline.roll_items import Labels, Lasso, Notes, Rows
+
+Integers = npt.NDArray[np.int64]
+
+EDGE_PX = 6.0
+"""So near to a note's end a press takes hold of the end."""
+SLACK_PX = 3.0
+LEAST_ROWS, MOST_ROWS = 10.0, 128.0
+USUAL_ROWS = 28.0
+ROWS_A_NOTCH = 3.0
+ZOOM_A_NOTCH = 1.18
+FIRST_VELOCITY = 80
+MENU = (
+    "edit.cut",
+    "edit.copy",
+    "edit.paste",
+    "",
+    "notes.split",
+    "notes.join",
+    "notes.duplicate",
+    "notes.quantise",
+    "notes.erase",
+    "",
+    "notes.select_pitch",
+    "notes.select_bar",
+)
+
+
+class PianoRoll(Lane):
+    """The piano roll."""
+
+    id = "roll"
+    preferred_height_px = 210
+    least_height_px = 150
+
+    def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
+        self._tables: dict[str, NoteTable] = {}
+        self._flags: dict[str, tuple[NoteTable, Selection, Flags]] = {}
+        self._gesture: Gesture | None = None
+        self._tool = Tool.SELECT
+        self._ghosts = Ghosts.GHOSTS
+        self._panned_y: float | None = None
+        self._velocity = FIRST_VELOCITY
+        super().__init__(session, axis, parent)
+        self.keyboard = Keyboard(self)
+        self.rows = Rows(self, -200.0)
+        self.notes = Notes(self)
+        self.labels = Labels(self)
+        self.lasso = Lasso(self)
+        self._set_font()
+        session.pitch_display.changed.connect(self.keyboard.update)
+        self.fit_pitch()
+        self.retranslate()
+
+    # What is shown
+
+    @property
+    def tool(self) -> Tool:
+        """What the left button does."""
+        return self._tool
+
+    def set_tool(self, tool: Tool) -> None:
+        """Let the left button do this."""
+        self._tool = tool
+        self.lasso.show(None)
+        shapes = {Tool.SELECT: Qt.CursorShape.ArrowCursor, Tool.DRAW: Qt.CursorShape.CrossCursor}
+        self.plot.setCursor(shapes.get(tool, Qt.CursorShape.PointingHandCursor))
+
+    @property
+    def ghosted(self) -> bool:
+        """Whether the players behind are only seen, faintly."""
+        return self._ghosts is not Ghosts.ALL
+
+    @property
+    def ghosts_mode(self) -> Ghosts:
+        """How the players behind are seen."""
+        return self._ghosts
+
+    def set_ghosts(self, ghosts: Ghosts) -> None:
+        """See the players behind so."""
+        self._ghosts = ghosts
+        self.update_items()
+
+    def table(self, player: Player) -> NoteTable:
+        """A player's notes as arrays; kept until they are others."""
+        project = self.session.project
+        part, tempo = project.part(player), project.score.tempo_map
+        known = self._tables.get(part.id)
+        if known is None or known.part is not part or known.tempo is not tempo:
+            known = self._tables[part.id] = NoteTable(part, tempo)
+        return known
+
+    def front(self) -> tuple[NoteTable, str] | None:
+        """The notes of the player in front, and their colour."""
+        player = self.session.player
+        return (self.table(player), self.session.colour(player)) if player is not None else None
+
+    def ghosts(self) -> list[tuple[NoteTable, str]]:
+        """The notes of the players behind."""
+        if self._ghosts is Ghosts.ALONE:
+            return []
+        front = self.session.player
+        return [
+            (self.table(player), self.session.colour(player))
+            for player in self.session.project.players
+            if player is not front
+        ]
+
+    @property
+    def playable(self) -> tuple[int, int] | None:
+        """The range of the instrument in front, concert pitches."""
+        player = self.session.player
+        if player is None:
+            return None
+        instrument = self.session.performance.instrument(player)
+        return instrument.range.low, instrument.range.high
+
+    @property
+    def row_px(self) -> float:
+        """Height of a pitch."""
+        bottom, top = self.y_range
+        return self.plot_rect.height() / (top - bottom)
+
+    def visible(self, table: NoteTable, exposed: QRectF) -> Integers:
+        """Places of the notes that may show in a part of the plot."""
+        found = table.visible(self.axis.seconds(exposed.left()), self.axis.seconds(exposed.right()))
+        rows = np.arange(found.start, found.stop)
+        bottom, top = self.y_range
+        pitch = table.pitch[found]
+        inside = (pitch > bottom - 1) & (pitch < top)
+        return rows if inside.all() else rows[inside]
+
+    def boxes(self, table: NoteTable, rows: Integers) -> tuple[Floats, Floats, Floats, Floats]:
+        """Left, top, width and height of notes, in whole pixels so that edges are sharp."""
+        left = np.floor(self.axis.x_px(table.onset_s[rows]))
+        right = np.floor(self.axis.x_px(table.end_s[rows]))
+        row = self.row_px
+        top = np.floor((self.y_range[1] - table.pitch[rows] - 1) * row)
+        below = np.floor((self.y_range[1] - table.pitch[rows]) * row)
+        gap = 1.0 if row >= 4 else 0.0
+        return left, top, np.maximum(right - left - 1.0, 1.0), np.maximum(below - top - gap, 1.0)
+
+    def selected(self, table: NoteTable) -> Flags | None:
+        """Which notes of a table are selected; None: none."""
+        selection = self.session.selection
+        if not selection.notes:
+            return None
+        known = self._flags.get(table.part.id)
+        if known is None or known[0] is not table or known[1].notes is not selection.notes:
+            known = (table, selection, table.flags(selection.notes))
+            self._flags[table.part.id] = known
+        return known[2] if known[2].any() else None
+
+    # Pitch
+
+    def fit_pitch(self) -> None:
+        """Show the notes of the player in front, with some air."""
+        front = self.front()
+        pitches = front[0].pitch if front is not None else np.empty(0)
+        if len(pitches):
+            low, high = float(pitches.min()), float(pitches.max()) + 1.0
+        elif self.playable is not None:
+            low, high = float(self.playable[0]), float(self.playable[1])
+        else:
+            low, high = 53.0, 77.0
+        rows = max(high - low + 5.0, USUAL_ROWS)
+        self._show_pitches((low + high) / 2 - rows / 2, rows)
+
+    def scroll_pitch(self, notches: float) -> None:
+        """Scroll up and down."""
+        bottom, top = self.y_range
+        self._show_pitches(bottom + notches * ROWS_A_NOTCH, top - bottom)
+
+    def _show_pitches(self, bottom: float, rows: float) -> None:
+        rows = min(max(rows, LEAST_ROWS), MOST_ROWS)
+        bottom = min(max(bottom, 0.0), 128.0 - rows)
+        self.set_y_range(bottom, bottom + rows)
+        if hasattr(self, "keyboard"):
+            self.keyboard.update()
+
+    def pitch_text(self, pitch: int) -> str:
+        """A pitch as the person wants it named."""
+        player = self.session.player
+        instrument = self.session.performance.instrument(player) if player is not None else None
+        return pitch_text(
+            self.session.pitch_display, pitch, instrument.transposition_semitones if instrument is not None else 0
+        )
+
+    def pitch_tip(self, pitch: int) -> str:
+        """What the keyboard says about a key."""
+        return self.tr("{pitch}: click to select all its notes").format(pitch=self.pitch_text(pitch))
+
+    # Notes under the mouse
+
+    def note_at(self, mouse: LaneMouse) -> Note | None:
+        """The note at a place: of the player in front; where all are seen, else of another."""
+        slack_s = SLACK_PX / self.axis.px_per_s
+        tables = [self.front(), *(self.ghosts() if self._ghosts is Ghosts.ALL else [])]
+        for entry in tables:
+            if entry is not None:
+                place = entry[0].at(mouse.time_s, int(mouse.value // 1), slack_s)
+                if place is not None:
+                    return entry[0].part.notes[place]
+        return None
+
+    def notes_within(self, start_s: float, end_s: float, low: int, high: int) -> frozenset[str]:
+        """Ids of the notes that touch a rectangle."""
+        tables = [self.front(), *(self.ghosts() if self._ghosts is Ghosts.ALL else [])]
+        return frozenset(
+            id for entry in tables if entry is not None for id in entry[0].within(start_s, end_s, low, high)
+        )
+
+    def cell(self, mouse: LaneMouse) -> tuple[int, int]:
+        """Beginning and length in ticks of the grid's cell under the mouse; with Alt the very tick."""
+        score, grid = self.session.project.score, self.session.grid
+        length = max(round(grid.quarters * score.ticks_per_quarter), 1)
+        tick = max(mouse.tick, 0.0)
+        if mouse.alt or not grid.enabled:
+            return round(tick), length
+        onset = grid.snap(score, tick)
+        if onset > tick:
+            onset = grid.snap(score, max(tick - length / 2, 0.0))
+        return onset, length
+
+    def select_pitch(self, pitch: int, add: bool) -> None:
+        """Select every note of a pitch in the part in front."""
+        front = self.front()
+        if front is None:
+            return
+        table = front[0]
+        found = frozenset(table.part.notes[place].id for place in np.flatnonzero(table.pitch == pitch).tolist())
+        self.session.select(Selection((self.session.selection.notes if add else frozenset()) | found))
+
+    # The mouse
+
+    def press(self, mouse: LaneMouse) -> None:
+        self._gesture = self._begin(mouse)
+
+    def _begin(self, mouse: LaneMouse) -> Gesture | None:
+        hit = self.note_at(mouse)
+        player = self.session.player
+        if self._tool is Tool.ERASE:
+            return Erase(self, mouse)
+        if self._tool is Tool.SPLIT:
+            if hit is not None:
+                self._split(hit, mouse)
+            return None
+        if hit is not None:
+            return self._take_hold(hit, mouse)
+        if self._tool is Tool.DRAW and player is not None and 0 <= mouse.value < 128:
+            return Draw(self, mouse, player.part_id, self._velocity)
+        return LassoNotes(self, mouse)
+
+    def _take_hold(self, note: Note, mouse: LaneMouse) -> Gesture | None:
+        self._bring_forward(note)
+        selected = self.session.selection.notes
+        if mouse.ctrl and not mouse.alt:
+            self.session.select(Selection(selected ^ {note.id}))
+            return None
+        narrow = note.id in selected and len(selected) > 1 and not mouse.shift
+        if note.id not in selected:
+            self.session.select(Selection((selected if mouse.shift else frozenset()) | {note.id}))
+        elif self.session.selection.events or self.session.selection.span:
+            self.session.select(Selection(selected))
+        self._velocity = note.velocity
+        if mouse.ctrl:
+            return Velocity(self, mouse, note)
+        edge = self._edge(note, mouse)
+        if edge is not None:
+            return Resize(self, mouse, note, at_start=edge)
+        return Move(self, mouse, note, narrow)
+
+    def _edge(self, note: Note, mouse: LaneMouse) -> bool | None:
+        """Whether the mouse is at the note's beginning (True) or end (False)."""
+        tempo = self.session.project.score.tempo_map
+        left = self.axis.x_px(tempo.seconds(float(note.onset_tick)))
+        right = self.axis.x_px(tempo.seconds(float(note.end_tick)))
+        reach = min(EDGE_PX, max((right - left) / 4, 1.5))
+        if right - mouse.x_px <= reach:
+            return False
+        # Short notes are for moving, and long enough at their end: only the end takes hold there.
+        return True if mouse.x_px - left <= reach and right - left >= 4 * EDGE_PX else None
+
+    def _bring_forward(self, note: Note) -> None:
+        player = self.session.player
+        if player is not None and note.id in self.table(player).index:
+            return
+        for other in self.session.project.players:
+            if note.id in self.table(other).index:
+                self.session.set_players((other.id,))
+                return
+
+    def _split(self, note: Note, mouse: LaneMouse) -> None:
+        self.session.attempt(
+            Message("edit.split_notes", {"count": 1}),
+            lambda project: notes.split(project, {note.id}, mouse.snapped_tick)[0],
+        )
+
+    def drag(self, mouse: LaneMouse) -> None:
+        if self._gesture is not None:
+            self._gesture.drag(mouse)
+        self.keyboard.show_pitch(int(mouse.value // 1))
+
+    def release(self, mouse: LaneMouse) -> None:
+        gesture, self._gesture = self._gesture, None
+        if gesture is not None:
+            gesture.release(mouse)
+        QToolTip.hideText()
+
+    def cancel(self) -> None:
+        gesture, self._gesture = self._gesture, None
+        if gesture is not None:
+            gesture.cancel()
+        QToolTip.hideText()
+
+    def double_click(self, mouse: LaneMouse) -> None:
+        """A new note on empty ground."""
+        player = self.session.player
+        if self._tool is Tool.SELECT and player is not None and self.note_at(mouse) is None:
+            Draw(self, mouse, player.part_id, self._velocity).release(mouse)
+
+    def hover(self, mouse: LaneMouse | None) -> None:
+        self.keyboard.show_pitch(None if mouse is None else int(mouse.value // 1))
+        if mouse is None:
+            self.lasso.show(None)
+            return
+        hit = self.note_at(mouse)
+        if self._tool is Tool.SPLIT:
+            x = self.axis.x_px(self.session.project.score.tempo_map.seconds(float(mouse.snapped_tick)))
+            top = self.y_px(int(mouse.value // 1) + 1)
+            self.lasso.show(None, QLineF(x, top - 3, x, top + self.row_px + 3) if hit is not None else None)
+        elif self._tool in (Tool.SELECT, Tool.DRAW):
+            edge = self._edge(hit, mouse) if hit is not None and not mouse.ctrl else None
+            if edge is not None:
+                self.plot.setCursor(Qt.CursorShape.SizeHorCursor)
+            else:
+                self.set_tool(self._tool)
+
+    def wheel(self, mouse: LaneMouse, steps: float) -> bool:
+        """Scroll the pitches; with Alt zoom them about the one under the mouse."""
+        if not mouse.alt:
+            self.scroll_pitch(steps)
+            return True
+        bottom, top = self.y_range
+        rows = min(max((top - bottom) / ZOOM_A_NOTCH**steps, LEAST_ROWS), MOST_ROWS)
+        share = (mouse.value - bottom) / (top - bottom)
+        self._show_pitches(mouse.value - share * rows, rows)
+        return True
+
+    def pan_y(self, by_px: float) -> None:
+        """The plot is dragged up or down with the middle button."""
+        bottom, top = self.y_range
+        self._show_pitches(bottom + by_px / self.row_px, top - bottom)
+
+    def context_menu(self, mouse: LaneMouse) -> QMenu | None:
+        hit = self.note_at(mouse)
+        if hit is not None and hit.id not in self.session.selection.notes:
+            self._bring_forward(hit)
+            self.session.select(Selection(frozenset({hit.id})))
+        menu = QMenu(self)
+        for id in MENU:
+            action: QAction | None = self.session.actions.get(id) if id else menu.addSeparator()
+            if id and action is not None:
+                menu.addAction(action)
+        return menu
+
+    def show_moved(self, note_id: str) -> None:
+        """Say which pitch a dragged note has."""
+        note = self._note(note_id)
+        if note is not None:
+            QToolTip.showText(QCursor.pos(), self.pitch_text(note.pitch), self.plot)
+
+    def show_velocity(self, note_id: str) -> None:
+        """Say how loud a dragged note is."""
+        note = self._note(note_id)
+        if note is not None:
+            self._velocity = note.velocity
+            QToolTip.showText(QCursor.pos(), self.tr("Velocity {velocity}").format(velocity=note.velocity), self.plot)
+
+    def _note(self, note_id: str) -> Note | None:
+        front = self.front()
+        place = front[0].index.get(note_id) if front is not None else None
+        return front[0].part.notes[place] if front is not None and place is not None else None
+
+    def problems_at(self, note: Note, plan: PlayerPlan) -> str:
+        """What is wrong about a note, for a person."""
+        return "\n".join(message_text(problem.message) for problem in plan.problems if problem.note_id == note.id)
+
+    # When something changes
+
+    def project_changed(self, change: Change) -> None:
+        if change.opened:
+            self._tables.clear()
+            self._flags.clear()
+            self.fit_pitch()
+        if change.before.score is not change.after.score or change.before.players is not change.after.players:
+            self.update_items()
+            self.keyboard.update()
+
+    def performance_changed(self) -> None:
+        self._redraw(self.labels)
+
+    def selection_changed(self) -> None:
+        self._redraw(self.notes)
+
+    def players_changed(self) -> None:
+        front = self.front()
+        if front is not None and len(front[0]):
+            bottom, top = self.y_range
+            if front[0].pitch.min() < bottom or front[0].pitch.max() + 1 > top:
+                self.fit_pitch()
+        self.keyboard.update()
+        self.update_items()
+
+    def theme_changed(self) -> None:
+        self.keyboard.update()
+
+    def retranslate(self) -> None:
+        self.title.setText(self.tr("Notes"))
+        self.title.setToolTip(self.tr("Notes of the player in front; the others behind"))
+        self.keyboard.update()
+
+    def _redraw(self, item: LaneItem) -> None:
+        item.update()
+
+    def _set_font(self) -> None:
+        font = QFont(self.font())
+        if 0 < font.pointSizeF() < LEAST_TEXT_PT:
+            font.setPointSizeF(LEAST_TEXT_PT)
+        self.setFont(font)
+        self.labels.forget_fonts()
+
+    # Qt overrides
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        self.keyboard.setGeometry(GUTTER_PX - KEYBOARD_PX, 0, KEYBOARD_PX, self.height())
+
+    def changeEvent(self, event: QEvent) -> None:
+        if event.type() == QEvent.Type.FontChange and hasattr(self, "labels"):
+            self.labels.forget_fonts()
+        super().changeEvent(event)

@@ -1,0 +1,267 @@
+"""How the piano roll is drawn: rows, notes by the hundred thousand, what stands on them, and the lasso."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+import numpy.typing as npt
+from pyqtgraph.Qt.internals import PrimitiveArray
+from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
+from PySide6.QtGui import QBrush, QColor, QFontMetricsF, QPainter, QPen, QPolygonF, QStaticText
+
+from app.plan.model import PlayerPlan
+from widgets.common.pitch import BLACK
+from widgets.timeline.lane import LaneItem
+from widgets.timeline.note_table import NoteTable
+
+if TYPE_CHECKING:
+    from widgets.timeline.roll import PianoRoll
+
+LEVELS = 4
+"""Shades of velocity."""
+GHOST_ALPHA = 70
+LABEL_GAP_PX = 5.0
+INSIDE_PX = 15.0
+"""In rows at least so high a label stands inside its note."""
+
+Floats = npt.NDArray[np.float64]
+Integers = npt.NDArray[np.int64]
+
+
+def mixed(colour: str, other: str, share: float) -> QColor:
+    """A colour, ``share`` 0..1 of the way to another."""
+    a, b = QColor(colour), QColor(other)
+    return QColor.fromRgbF(
+        *(x + share * (y - x) for x, y in zip(a.getRgbF()[:3], b.getRgbF()[:3], strict=True))  # type: ignore[index]
+    )
+
+
+class Rows(LaneItem):
+    """Rows of black keys, lines at every C, and where the instrument in front cannot go."""
+
+    def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
+        lane: PianoRoll = self.lane  # type: ignore[assignment]
+        tokens = lane.session.tokens
+        bottom, top = lane.y_range
+        height = lane.row_px
+        black = QColor("#000000" if tokens.name == "dark" else tokens.line)
+        black.setAlpha(60 if tokens.name == "dark" else 90)
+        octave = QPen(QColor(tokens.line), 1.0)
+        for pitch in range(int(np.floor(bottom)), int(np.ceil(top))):
+            y = lane.y_px(pitch + 1)
+            if pitch % 12 in BLACK:
+                painter.fillRect(QRectF(exposed.left(), y, exposed.width(), height), black)
+            if pitch % 12 == 0 or height >= 14:
+                painter.setPen(octave)
+                line = round(lane.y_px(pitch)) - 0.5
+                painter.drawLine(QLineF(exposed.left(), line, exposed.right(), line))
+        playable = lane.playable
+        if playable is not None:
+            shade = QColor(tokens.error)
+            shade.setAlpha(26)
+            low, high = playable
+            above, below = lane.y_px(high + 1), lane.y_px(low)
+            painter.fillRect(QRectF(exposed.left(), 0, exposed.width(), above) & exposed, shade)
+            rest = lane.plot_rect.height() - below
+            painter.fillRect(QRectF(exposed.left(), below, exposed.width(), rest) & exposed, shade)
+
+
+class Notes(LaneItem):
+    """All players' notes as rectangles."""
+
+    def __init__(self, lane: PianoRoll) -> None:
+        super().__init__(lane, 0.0)
+        self._array = PrimitiveArray(QRectF, 4)
+
+    def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
+        lane: PianoRoll = self.lane  # type: ignore[assignment]
+        painter.setPen(Qt.PenStyle.NoPen)
+        for table, colour in lane.ghosts():
+            shade = QColor(colour)
+            shade.setAlpha(GHOST_ALPHA if lane.ghosted else 255)
+            self._draw(painter, table, lane.visible(table, exposed), shade)
+            if not lane.ghosted:
+                self._draw_selected(painter, table, exposed, colour)
+        front = lane.front()
+        if front is None:
+            return
+        table, colour = front
+        rows = lane.visible(table, exposed)
+        # Soft notes lie nearer to the ground, loud ones stand out.
+        ground = lane.session.tokens.sunken
+        level = np.clip(table.velocity[rows] * LEVELS // 128, 0, LEVELS - 1)
+        for number in range(LEVELS):
+            shade = mixed(colour, ground, 0.55 * (LEVELS - 1 - number) / (LEVELS - 1))
+            self._draw(painter, table, rows[level == number], shade)
+        self._draw_selected(painter, table, exposed, colour)
+
+    def _draw_selected(self, painter: QPainter, table: NoteTable, exposed: QRectF, colour: str) -> None:
+        lane: PianoRoll = self.lane  # type: ignore[assignment]
+        flags = lane.selected(table)
+        if flags is None:
+            return
+        rows = lane.visible(table, exposed)
+        rows = rows[flags[rows]]
+        tokens = lane.session.tokens
+        fill = mixed(colour, "#ffffff" if tokens.name == "dark" else "#000000", 0.55 if tokens.name == "dark" else 0.35)
+        if len(rows) < 4000:
+            painter.setPen(QPen(QColor(tokens.text), 1.0))
+        self._draw(painter, table, rows, fill)
+        painter.setPen(Qt.PenStyle.NoPen)
+
+    def _draw(self, painter: QPainter, table: NoteTable, rows: Integers, shade: QColor) -> None:
+        if not len(rows):
+            return
+        left, top, width, height = self.lane.boxes(table, rows)  # type: ignore[attr-defined]
+        array = self._array
+        array.resize(len(rows))
+        memory = array.ndarray()
+        memory[:, 0] = left
+        memory[:, 1] = top
+        memory[:, 2] = width
+        memory[:, 3] = height
+        painter.setBrush(QBrush(shade))
+        painter.drawRects(*array.drawargs())
+
+
+class Labels(LaneItem):
+    """Fingerings on the notes of the player in front, marks of what was pinned by hand, and of problems."""
+
+    def __init__(self, lane: PianoRoll) -> None:
+        super().__init__(lane, 10.0)
+        self._texts: dict[str, tuple[QStaticText, float]] = {}
+        self._plan: PlayerPlan | None = None
+        self._table: NoteTable | None = None
+        self._fingered: Integers = np.empty(0, np.int64)
+        self._said: list[tuple[str, bool]] = []
+        self._problems: dict[int, bool] = {}
+
+    def forget_fonts(self) -> None:
+        """The font is another one."""
+        self._texts.clear()
+
+    def _know(self, table: NoteTable, plan: PlayerPlan | None) -> None:
+        """Sort a plan's fingerings to the notes they belong to, once for each pair."""
+        if table is self._table and plan is self._plan:
+            return
+        self._table, self._plan = table, plan
+        pairs = []
+        self._problems = {}
+        if plan is not None:
+            index = table.index
+            for event in plan.fingerings:
+                place = index.get(event.note_id)
+                if place is not None:
+                    pairs.append((place, event.label, event.corrected))
+            for problem in plan.problems:
+                if problem.note_id is not None and problem.note_id in index:
+                    self._problems[index[problem.note_id]] = True
+        pairs.sort()
+        self._fingered = np.array([place for place, _, _ in pairs], np.int64)
+        self._said = [(label, corrected) for _, label, corrected in pairs]
+
+    def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
+        lane: PianoRoll = self.lane  # type: ignore[assignment]
+        front = lane.front()
+        if front is None:
+            return
+        table, colour = front
+        player = lane.session.player
+        self._know(table, lane.plan_of(player) if player is not None else None)
+        wider = exposed.adjusted(-60.0, 0.0, 4.0, 0.0)
+        rows = lane.visible(table, wider)
+        self._paint_problems(painter, table, rows)
+        self._paint_fingerings(painter, table, wider, colour)
+
+    def _paint_problems(self, painter: QPainter, table: NoteTable, rows: Integers) -> None:
+        lane: PianoRoll = self.lane  # type: ignore[assignment]
+        found = [place for place in rows.tolist() if place in self._problems] if self._problems else []
+        if not found:
+            return
+        left, top, width, height = lane.boxes(table, np.array(found, np.int64))
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(QColor(lane.session.tokens.warning))
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        for x, y, w, h in zip(left.tolist(), top.tolist(), width.tolist(), height.tolist(), strict=True):
+            painter.drawRect(QRectF(x, y + h - 2.0, max(w, 6.0), 2.0))
+            painter.drawPolygon(QPolygonF([QPointF(x, y), QPointF(x + 5.0, y - 8.0), QPointF(x + 10.0, y)]))
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
+
+    def _paint_fingerings(self, painter: QPainter, table: NoteTable, exposed: QRectF, colour: str) -> None:
+        lane: PianoRoll = self.lane  # type: ignore[assignment]
+        visible = table.visible(lane.axis.seconds(exposed.left()), lane.axis.seconds(exposed.right()))
+        first, last = np.searchsorted(self._fingered, (visible.start, visible.stop)).tolist()
+        row_px = lane.row_px
+        if first == last or (last - first) * 8.0 > lane.axis.width_px or row_px < 5.0:
+            return
+        tokens = lane.session.tokens
+        painter.setFont(lane.font())
+        line_px = QFontMetricsF(lane.font()).height()
+        inside = row_px >= max(INSIDE_PX, line_px - 2.0)
+        rows = self._fingered[first:last]
+        left, top, width, _ = lane.boxes(table, rows)
+        # What a label may take: to the next note's beginning where it hangs below, its own note where it is inside.
+        following = np.append(left[1:], np.inf) - left
+        room = width if inside else following
+        on_note = QColor("#10151b" if mixed(colour, "#000000", 0.0).lightnessF() > 0.45 else "#ffffff")
+        plain, pinned = QPen(on_note if inside else QColor(tokens.text_dim)), QPen(QColor(tokens.by_hand))
+        veil = QColor(tokens.sunken)
+        veil.setAlpha(190)
+        flags = lane.selected(table)
+        for place, (label, corrected), x, y, free in zip(
+            rows.tolist(), self._said[first:last], left.tolist(), top.tolist(), room.tolist(), strict=True
+        ):
+            text, text_px = self._text(label)
+            if corrected:
+                self._mark(painter, x, y, row_px)
+            if text_px + LABEL_GAP_PX > free:
+                continue
+            if inside:
+                painter.setPen(QPen(QColor("#10151b")) if flags is not None and flags[place] else plain)
+                painter.drawStaticText(QPointF(x + 4.0, y + (row_px - 1.0 - line_px) / 2), text)
+            else:
+                below = y + row_px - 1.0
+                painter.fillRect(QRectF(x, below, text_px + 2.0, line_px - 2.0), veil)
+                painter.setPen(pinned if corrected else plain)
+                painter.drawStaticText(QPointF(x + 1.0, below - 1.0), text)
+
+    def _mark(self, painter: QPainter, x: float, y: float, row_px: float) -> None:
+        """The solid mark of what a person decided: a bar at the note's beginning."""
+        painter.fillRect(QRectF(x, y - 1.0, 3.0, row_px + 1.0), QColor(self.lane.session.tokens.by_hand))
+
+    def _text(self, label: str) -> tuple[QStaticText, float]:
+        known = self._texts.get(label)
+        if known is None:
+            text = QStaticText(label)
+            text.setTextFormat(Qt.TextFormat.PlainText)
+            text.prepare(font=self.lane.font())
+            known = self._texts[label] = (text, QFontMetricsF(self.lane.font()).horizontalAdvance(label))
+        return known
+
+
+class Lasso(LaneItem):
+    """The rectangle that is drawn over what shall be selected, and the line where a note would be cut."""
+
+    def __init__(self, lane: PianoRoll) -> None:
+        super().__init__(lane, 20.0)
+        self.rect: QRectF | None = None
+        self.cut: QLineF | None = None
+
+    def show(self, rect: QRectF | None, cut: QLineF | None = None) -> None:
+        """Draw this."""
+        if (rect, cut) != (self.rect, self.cut):
+            self.rect, self.cut = rect, cut
+            self.update()
+
+    def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
+        accent = QColor(self.lane.session.tokens.accent)
+        painter.setPen(QPen(accent, 1.0))
+        if self.rect is not None:
+            fill = QColor(accent)
+            fill.setAlpha(40)
+            painter.setBrush(fill)
+            painter.drawRect(self.rect)
+        if self.cut is not None:
+            painter.setPen(QPen(accent, 1.0, Qt.PenStyle.DashLine))
+            painter.drawLine(self.cut)

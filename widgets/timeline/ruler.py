@@ -1,0 +1,569 @@
+"""The ruler: bars, seconds or frames, tempo and metre marks, the loop and the selected span."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt, Signal
+from PySide6.QtGui import (
+    QAction,
+    QActionGroup,
+    QColor,
+    QContextMenuEvent,
+    QFont,
+    QFontMetricsF,
+    QKeyEvent,
+    QMouseEvent,
+    QPainter,
+    QPaintEvent,
+    QPen,
+    QPolygonF,
+    QResizeEvent,
+    QWheelEvent,
+)
+from PySide6.QtWidgets import QApplication, QLineEdit, QMenu, QToolButton, QWidget
+
+from app.errors import Message
+from app.project.edit import tempo as tempo_edit
+from app.project.model import Project
+from widgets.common.icons import icon
+from widgets.common.selection import Selection
+from widgets.common.session import Session, TimeDisplay
+from widgets.common.tokens import LEAST_TEXT_PT
+from widgets.timeline.axis import TimeAxis
+from widgets.timeline.lane import GUTTER_PX, PAN_A_STEP, ZOOM_A_STEP
+from widgets.timeline.lines import Lines, visible_lines
+
+MARKS_PX = 22
+SCALE_PX = 24
+HEAD_PX = 6.0
+GRIP_PX = 5.0
+"""So near to an edge of the loop, or to the playhead, a press takes hold of it."""
+LEAST_LABEL_PX = 64.0
+STEPS_S = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 60.0, 120.0, 300.0, 600.0, 1800.0, 3600.0)
+STEPS_FRAMES = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10000, 20000, 50000, 100000)
+
+
+@dataclass(frozen=True)
+class Mark:
+    """A tempo or a metre, where it is drawn."""
+
+    kind: str
+    tick: int
+    text: str
+    rect: QRectF
+
+
+class _Editor(QLineEdit):
+    """A tempo or a metre typed in place."""
+
+    left = Signal(bool)
+    """Done; whether what stands there is meant."""
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
+            self.left.emit(True)
+        elif event.key() == Qt.Key.Key_Escape:
+            self.left.emit(False)
+        else:
+            super().keyPressEvent(event)
+
+
+class Ruler(QWidget):
+    """The ruler over the lanes.
+
+    Signals
+    -------
+    sought(float)
+        The playhead is wanted at this time (seconds).
+    """
+
+    sought = Signal(float)
+
+    def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setObjectName("ruler")
+        self.session = session
+        self.axis = axis
+        self._marks: list[Mark] = []
+        self._held: str = ""
+        self._pressed: QMouseEvent | None = None
+        self._dragged = False
+        self._mark: Mark | None = None
+        self._base: Project = session.project
+        self._token: object = object()
+        self._panned_px: float | None = None
+        self._before: tuple[Selection, tuple[float, float] | None] = (session.selection, session.loop_s)
+        self._editing: tuple[str, int] | None = None
+        self.setMouseTracking(True)
+        self.setFixedHeight(MARKS_PX + SCALE_PX)
+        self.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
+
+        self.unit_button = QToolButton(self)
+        self.unit_button.setObjectName("time_display")
+        self.unit_button.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
+        self.unit_button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
+        self.unit_button.setAutoRaise(True)
+        self._units: dict[TimeDisplay, QAction] = {}
+        menu = QMenu(self.unit_button)
+        group = QActionGroup(menu)
+        displays: tuple[TimeDisplay, ...] = ("bars", "seconds", "frames")
+        for display in displays:
+            action = menu.addAction("")
+            action.setCheckable(True)
+            action.setData(display)
+            group.addAction(action)
+            self._units[display] = action
+        group.triggered.connect(self._choose_unit)
+        self.unit_button.setMenu(menu)
+        self._editor = _Editor(self)
+        self._editor.setObjectName("mark_editor")
+        self._editor.hide()
+        self._editor.left.connect(self._leave_editor)
+        self._editor.editingFinished.connect(self._editing_finished)
+
+        axis.changed.connect(self._axis_changed)
+        session.changed.connect(self.update)
+        session.performance_changed.connect(self.update)
+        session.players_changed.connect(self.update)
+        session.theme_changed.connect(self._theme_set)
+        session.selection_changed.connect(self.update)
+        session.loop_changed.connect(self.update)
+        session.time_display_changed.connect(self._unit_set)
+        session.playhead_changed.connect(self._playhead_set)
+        self._head_x = 0.0
+        font = QFont(self.font())
+        if 0 < font.pointSizeF() < LEAST_TEXT_PT:
+            font.setPointSizeF(LEAST_TEXT_PT)
+            self.setFont(font)
+        self.retranslate()
+        self._theme_set()
+
+    def retranslate(self) -> None:
+        """Set every text anew."""
+        texts: dict[TimeDisplay, str] = {
+            "bars": self.tr("Bars"),
+            "seconds": self.tr("Seconds"),
+            "frames": self.tr("Frames"),
+        }
+        for display, action in self._units.items():
+            action.setText(texts[display])
+        self.unit_button.setToolTip(self.tr("What the ruler counts"))
+        self._unit_set()
+        self.update()
+
+    # Places
+
+    def _x(self, seconds: float) -> float:
+        return GUTTER_PX + self.axis.x_px(seconds)
+
+    def _tick_at(self, x: float, free: bool) -> int:
+        tick = self.session.project.score.tempo_map.ticks(self.axis.seconds(x - GUTTER_PX))
+        return max(round(tick) if free else self.session.grid.snap(self.session.project.score, tick), 0)
+
+    def _seconds_of(self, tick: int) -> float:
+        return self.session.project.score.tempo_map.seconds(float(tick))
+
+    def _mark_at(self, place: QPointF) -> Mark | None:
+        return next((mark for mark in reversed(self._marks) if mark.rect.contains(place)), None)
+
+    # Drawing
+
+    def _lay_marks(self, metrics: QFontMetricsF) -> None:
+        """Where the marks stand: metres before tempi, none over another."""
+        score = self.session.project.score
+        found = [(metre.tick, 0, "metre", f"{metre.numerator}/{metre.denominator}") for metre in score.metres]
+        found += [(tick, 1, "tempo", f"♩={bpm:.4g}") for tick, bpm in score.tempo_map.bpm]
+        self._marks = []
+        free_px = float(GUTTER_PX)
+        for tick, _, kind, text in sorted(found):
+            x = self._x(self._seconds_of(tick))
+            width = metrics.horizontalAdvance(text) + 12.0
+            if x > self.width():
+                break
+            # The mark that holds at the left edge stays in view only if it begins there or later.
+            if x + width < GUTTER_PX or (x < free_px - 1 and not (self._marks and self._marks[-1].tick == tick)):
+                continue
+            x = max(x, free_px)
+            self._marks.append(Mark(kind, tick, text, QRectF(x, 1.0, width, MARKS_PX - 3.0)))
+            free_px = x + width + 2.0
+
+    def _paint_marks(self, painter: QPainter) -> None:
+        tokens = self.session.tokens
+        self._lay_marks(QFontMetricsF(self.font()))
+        for mark in self._marks:
+            held = mark is self._mark or (self._mark is not None and (mark.kind, mark.tick) == self._held_mark)
+            painter.setPen(Qt.PenStyle.NoPen)
+            painter.setBrush(QColor(tokens.accent if held else tokens.raised))
+            painter.drawRoundedRect(mark.rect, 3.0, 3.0)
+            painter.setPen(QColor(tokens.accent_text if held else tokens.text))
+            painter.drawText(mark.rect, int(Qt.AlignmentFlag.AlignCenter), mark.text)
+            x = self._x(self._seconds_of(mark.tick))
+            painter.setPen(QPen(QColor(tokens.text_dim), 1.0))
+            painter.drawLine(QPointF(int(x) + 0.5, MARKS_PX - 3), QPointF(int(x) + 0.5, MARKS_PX + 3))
+
+    @property
+    def _held_mark(self) -> tuple[str, int] | None:
+        return (self._mark.kind, self._mark.tick) if self._mark is not None else None
+
+    def _paint_scale(self, painter: QPainter, exposed: QRectF) -> None:
+        tokens = self.session.tokens
+        bottom = float(self.height())
+        lines = visible_lines(
+            self.session.project.score,
+            self.session.grid,
+            self.axis.start_s,
+            self.axis.end_s,
+            self.axis.px_per_s,
+        )
+        display = self.session.time_display
+        labels = self._bar_labels(lines) if display == "bars" else self._clock_labels(display)
+        painter.setPen(QPen(QColor(tokens.line_strong), 1.0))
+        if display == "bars":
+            for seconds in lines.beat_s.tolist():
+                x = int(self._x(seconds)) + 0.5
+                painter.drawLine(QPointF(x, bottom - 6), QPointF(x, bottom))
+        for seconds, text in labels:
+            x = int(self._x(seconds)) + 0.5
+            if exposed.left() - 120 <= x <= exposed.right() + 4:
+                painter.setPen(QPen(QColor(tokens.line_strong), 1.0))
+                painter.drawLine(QPointF(x, MARKS_PX + 4), QPointF(x, bottom))
+                painter.setPen(QColor(tokens.text_dim))
+                painter.drawText(QRectF(x + 4, MARKS_PX, 120.0, SCALE_PX - 3.0), _MIDDLE, text)
+
+    def _bar_labels(self, lines: Lines) -> list[tuple[float, str]]:
+        first = 0 if self.session.project.score.pickup_ticks else 1
+        # Bars before the piece have lines, but no numbers.
+        return [
+            (seconds, str(bar) if bar >= first else "")
+            for bar, seconds in zip(lines.bars, lines.bar_s.tolist(), strict=True)
+        ]
+
+    def _clock_labels(self, display: TimeDisplay) -> list[tuple[float, str]]:
+        per_s = self.axis.px_per_s
+        if display == "frames":
+            fps = self.session.project.fps
+            frames = next((step for step in STEPS_FRAMES if step / float(fps) * per_s >= LEAST_LABEL_PX), 100000)
+            first = int(self.axis.start_s * fps // frames)
+            last = int(self.axis.end_s * fps // frames) + 1
+            return [(float(Fraction(number * frames) / fps), str(number * frames)) for number in range(first, last + 1)]
+        step_s = next((step for step in STEPS_S if step * per_s >= LEAST_LABEL_PX), 3600.0)
+        first, last = int(self.axis.start_s // step_s), int(self.axis.end_s // step_s) + 1
+        decimals = 0 if step_s >= 1 else 1 if step_s >= 0.1 else 2
+        return [(number * step_s, clock(number * step_s, decimals)) for number in range(first, last + 1)]
+
+    def _paint_bands(self, painter: QPainter) -> None:
+        tokens = self.session.tokens
+        span = self.session.selection.span
+        if span is not None:
+            self._band(painter, self._seconds_of(span[0]), self._seconds_of(span[1]), tokens.accent, 0.0)
+        if self.session.loop_s is not None:
+            self._band(painter, *self.session.loop_s, tokens.good, 4.0)
+
+    def _band(self, painter: QPainter, start_s: float, end_s: float, colour: str, height: float) -> None:
+        left, right = self._x(start_s), self._x(end_s)
+        shade = QColor(colour)
+        shade.setAlpha(60)
+        painter.fillRect(QRectF(left, MARKS_PX, right - left, SCALE_PX), shade)
+        if height:
+            painter.fillRect(QRectF(left, MARKS_PX, right - left, height), QColor(colour))
+            for x in (left, right - 2):
+                painter.fillRect(QRectF(x, MARKS_PX, 2.0, SCALE_PX), QColor(colour))
+
+    # Answers to the session
+
+    def _axis_changed(self) -> None:
+        self._leave_editor(False)
+        self._head_x = self._x(self.session.playhead_s)
+        self.update()
+
+    def _playhead_set(self, playhead_s: float) -> None:
+        before, self._head_x = self._head_x, self._x(playhead_s)
+        for x in (before, self._head_x):
+            self.update(int(x - HEAD_PX) - 1, 0, int(2 * HEAD_PX) + 4, self.height())
+
+    def _unit_set(self) -> None:
+        display = self.session.time_display
+        self._units[display].setChecked(True)
+        self.unit_button.setText(self._units[display].text())
+        self.update()
+
+    def _choose_unit(self, action: QAction) -> None:
+        self.session.set_time_display(action.data())
+
+    def _theme_set(self) -> None:
+        self.unit_button.setIcon(icon("clock", self.session.tokens))
+        self.update()
+
+    # Editing tempo and metre
+
+    def edit_mark(self, kind: str, tick: int) -> None:
+        """Type the tempo or the metre at a tick; where there is none, add one."""
+        score = self.session.project.score
+        x = self._x(self._seconds_of(tick))
+        mark = next((mark for mark in self._marks if (mark.kind, mark.tick) == (kind, tick)), None)
+        if kind == "tempo":
+            bpm = next(bpm for at, bpm in reversed(score.tempo_map.bpm) if at <= tick)
+            text = f"{bpm:.6g}"
+        else:
+            metre = next(metre for metre in reversed(score.metres) if metre.tick <= tick)
+            text = f"{metre.numerator}/{metre.denominator}"
+        self._editing = (kind, tick)
+        self._editor.setText(text)
+        self._editor.setToolTip(
+            self.tr("Tempo in quarters per minute; Enter takes it, Escape leaves it")
+            if kind == "tempo"
+            else self.tr("Metre, e.g. 6/8; Enter takes it, Escape leaves it")
+        )
+        left = mark.rect.left() if mark is not None else x
+        self._editor.setGeometry(int(min(left, self.width() - 84)), 0, 80, MARKS_PX + 2)
+        self._editor.show()
+        self._editor.raise_()
+        self._editor.selectAll()
+        self._editor.setFocus(Qt.FocusReason.OtherFocusReason)
+
+    def _editing_finished(self) -> None:
+        """The focus went elsewhere: what was typed is meant."""
+        if self._editor.isVisible() and not self._editor.hasFocus():
+            self._leave_editor(True)
+
+    def _leave_editor(self, meant: bool) -> None:
+        if self._editing is None:
+            return
+        (kind, tick), self._editing = self._editing, None
+        text = self._editor.text().strip()
+        self._editor.hide()
+        self.setFocus(Qt.FocusReason.OtherFocusReason)
+        if meant:
+            self._type(kind, tick, text)
+
+    def _type(self, kind: str, tick: int, text: str) -> None:
+        if kind == "tempo":
+            try:
+                bpm = float(text.replace(",", "."))
+            except ValueError:
+                bpm = 0.0
+            self.session.attempt(
+                Message("edit.set_tempo"), lambda project: tempo_edit.set_tempo(project, tick, bpm), origin=self
+            )
+            return
+        above, _, below = text.partition("/")
+        numbers = (int(above), int(below)) if above.strip().isdecimal() and below.strip().isdecimal() else (0, 0)
+        self.session.attempt(
+            Message("edit.set_metre"), lambda project: tempo_edit.set_metre(project, tick, *numbers), origin=self
+        )
+
+    def context_menu(self, place: QPointF) -> QMenu:
+        """The menu at a place."""
+        menu = QMenu(self)
+        mark = self._mark_at(place)
+        if mark is not None:
+            tick = mark.tick
+            change = menu.addAction(self.tr("Change Tempo") if mark.kind == "tempo" else self.tr("Change Metre"))
+            change.triggered.connect(lambda: self.edit_mark(mark.kind, tick))
+            remove = menu.addAction(self.tr("Remove Tempo") if mark.kind == "tempo" else self.tr("Remove Metre"))
+            remove.setEnabled(tick > 0)
+            remove.triggered.connect(lambda: self._remove(mark))
+            menu.addSeparator()
+        score = self.session.project.score
+        tick = self._tick_at(place.x(), False)
+        bar_tick = max(score.tick_of_bar(score.bar_of_tick(tick)), 0)
+        menu.addAction(self.tr("Add Tempo Here")).triggered.connect(lambda: self.edit_mark("tempo", tick))
+        menu.addAction(self.tr("Add Metre at This Bar")).triggered.connect(lambda: self.edit_mark("metre", bar_tick))
+        menu.addSeparator()
+        menu.addAction(self.tr("Select This Bar")).triggered.connect(lambda: self._select_bar(tick))
+        for id in ("transport.loop_selection", "transport.loop", "timeline.zoom_selection", "timeline.fit"):
+            action = self.session.actions.get(id)
+            if action is not None:
+                menu.addAction(action)
+        return menu
+
+    def _remove(self, mark: Mark) -> None:
+        if mark.kind == "tempo":
+            self.session.attempt(
+                Message("edit.remove_tempo"), lambda project: tempo_edit.remove_tempo(project, mark.tick), origin=self
+            )
+        else:
+            self.session.attempt(
+                Message("edit.remove_metre"), lambda project: tempo_edit.remove_metre(project, mark.tick), origin=self
+            )
+
+    def _select_bar(self, tick: int) -> None:
+        score = self.session.project.score
+        bar = score.bar_of_tick(tick)
+        self.session.select(Selection(span=(max(score.tick_of_bar(bar), 0), score.tick_of_bar(bar + 1))))
+
+    # The mouse
+
+    def _take_hold(self, place: QPointF) -> str:
+        """What a press takes hold of."""
+        if place.x() < GUTTER_PX:
+            return ""
+        self._mark = self._mark_at(place)
+        if self._mark is not None:
+            return "mark"
+        if place.y() < MARKS_PX:
+            return "seek"
+        if abs(place.x() - self._x(self.session.playhead_s)) <= GRIP_PX:
+            return "playhead"
+        if self.session.loop_s is not None:
+            for name, seconds in zip(("loop_start", "loop_end"), self.session.loop_s, strict=True):
+                if abs(place.x() - self._x(seconds)) <= GRIP_PX:
+                    return name
+        return "seek"
+
+    def _drag(self, event: QMouseEvent) -> None:
+        assert self._pressed is not None
+        free = bool(event.modifiers() & Qt.KeyboardModifier.AltModifier)
+        x = event.position().x()
+        tick = self._tick_at(x, free)
+        if self._held == "playhead":
+            self.sought.emit(self.axis.seconds(x - GUTTER_PX))
+        elif self._held == "mark" and self._mark is not None and self._mark.kind == "tempo":
+            start, base = self._mark.tick, self._base
+            self.session.attempt(
+                Message("edit.move_tempo"),
+                lambda _: tempo_edit.move_tempo(base, start, tick) if tick > 0 and start > 0 else base,
+                self._token,
+                self,
+            )
+        elif self._held in ("loop_start", "loop_end") and self.session.loop_s is not None:
+            start_s, end_s = self.session.loop_s
+            moved_s = self._seconds_of(tick)
+            loop = (moved_s, end_s) if self._held == "loop_start" else (start_s, moved_s)
+            if loop[1] > loop[0]:
+                self.session.set_loop(loop)
+        elif self._held == "seek":
+            start, end = sorted((self._tick_at(self._pressed.position().x(), free), tick))
+            span = (start, end) if end > start else None
+            self.session.select(Selection(span=span))
+            self.axis.reveal(self.axis.seconds(x - GUTTER_PX))
+
+    def _cancel(self) -> None:
+        if self._held == "mark":
+            self.session.apply(Message("edit.move_tempo"), self._base, self._token, self)
+            self.session.document.end_gesture()
+        elif self._held != "playhead":
+            self.session.select(self._before[0])
+            self.session.set_loop(self._before[1])
+        self._held, self._pressed, self._mark = "", None, None
+        self.update()
+
+    # Qt overrides
+
+    def sizeHint(self) -> QSize:
+        return QSize(800, MARKS_PX + SCALE_PX)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        tokens = self.session.tokens
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.fillRect(event.rect(), QColor(tokens.surface))
+        painter.setFont(self.font())
+        painter.setClipRect(QRectF(GUTTER_PX, 0, self.width() - GUTTER_PX, self.height()))
+        self._paint_bands(painter)
+        self._paint_scale(painter, QRectF(event.rect()))
+        self._paint_marks(painter)
+        x = self._x(self.session.playhead_s)
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(QColor(tokens.accent))
+        bottom = float(self.height())
+        painter.drawPolygon(
+            QPolygonF([QPointF(x - HEAD_PX, bottom - 9), QPointF(x + HEAD_PX, bottom - 9), QPointF(x, bottom)])
+        )
+        painter.setClipping(False)
+        painter.setPen(QPen(QColor(tokens.line_strong), 1.0))
+        painter.drawLine(QPointF(0, bottom - 0.5), QPointF(self.width(), bottom - 0.5))
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        self.unit_button.setGeometry(2, self.height() - 28, GUTTER_PX - 6, 26)
+        super().resizeEvent(event)
+
+    def changeEvent(self, event: QEvent) -> None:
+        if event.type() == QEvent.Type.LanguageChange:
+            self.retranslate()
+        super().changeEvent(event)
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        if event.button() == Qt.MouseButton.MiddleButton:
+            self._panned_px = event.position().x()
+        elif event.button() == Qt.MouseButton.LeftButton:
+            self._held = self._take_hold(event.position())
+            self._pressed, self._dragged = event.clone(), False
+            self._base, self._token = self.session.project, object()
+            self._before = (self.session.selection, self.session.loop_s)
+            if self._held == "seek":
+                self.sought.emit(self.axis.seconds(event.position().x() - GUTTER_PX))
+            self.update()
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:
+        if self._panned_px is not None:
+            self.axis.pan((self._panned_px - event.position().x()) / self.axis.px_per_s)
+            self._panned_px = event.position().x()
+        elif self._pressed is not None and self._held:
+            far = abs(event.position().x() - self._pressed.position().x()) >= QApplication.startDragDistance() / 2
+            self._dragged = self._dragged or far
+            if self._dragged:
+                self._drag(event)
+        elif not event.buttons():
+            mark = self._mark
+            held = self._take_hold(event.position())
+            self._mark = mark
+            shapes = {"loop_start": Qt.CursorShape.SizeHorCursor, "loop_end": Qt.CursorShape.SizeHorCursor}
+            shapes |= {"playhead": Qt.CursorShape.SplitHCursor, "mark": Qt.CursorShape.PointingHandCursor}
+            self.setCursor(shapes.get(held, Qt.CursorShape.ArrowCursor))
+
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:
+        if event.button() == Qt.MouseButton.MiddleButton:
+            self._panned_px = None
+        elif event.button() == Qt.MouseButton.LeftButton and self._held:
+            if self._held == "mark":
+                self.session.document.end_gesture()
+            elif self._held == "seek" and not self._dragged and self.session.selection.span is not None:
+                self.session.select(Selection(self.session.selection.notes, self.session.selection.events))
+            self._held, self._pressed, self._mark = "", None, None
+            self.update()
+
+    def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
+        if event.button() != Qt.MouseButton.LeftButton or event.position().x() < GUTTER_PX:
+            return
+        mark = self._mark_at(event.position())
+        if mark is not None:
+            self.edit_mark(mark.kind, mark.tick)
+        else:
+            self.axis.fit()
+
+    def contextMenuEvent(self, event: QContextMenuEvent) -> None:
+        if event.pos().x() >= GUTTER_PX:
+            menu = self.context_menu(QPointF(event.pos()))
+            menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+            menu.popup(event.globalPos())
+
+    def wheelEvent(self, event: QWheelEvent) -> None:
+        event.accept()
+        notches = (event.angleDelta().y() or event.angleDelta().x()) / 120.0
+        if event.modifiers() & Qt.KeyboardModifier.ControlModifier:
+            self.axis.zoom(ZOOM_A_STEP**notches, self.axis.seconds(event.position().x() - GUTTER_PX))
+        else:
+            self.axis.pan(-notches * PAN_A_STEP * self.axis.span_s)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        if event.key() == Qt.Key.Key_Escape and self._held:
+            self._cancel()
+        else:
+            super().keyPressEvent(event)
+
+
+_MIDDLE = int(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
+
+
+def clock(seconds: float, decimals: int) -> str:
+    """Minutes and seconds: ``-0:02.5``."""
+    scaled = round(abs(seconds) * 10**decimals)
+    whole, fraction = divmod(scaled, 10**decimals)
+    sign = "-" if seconds < 0 and scaled else ""
+    tail = f".{fraction:0{decimals}d}" if decimals else ""
+    hours, minutes = divmod(whole // 60, 60)
+    head = f"{hours}:{minutes:02d}" if hours else str(minutes)
+    return f"{sign}{head}:{whole % 60:02d}{tail}"

@@ -1,0 +1,158 @@
+"""The bar over the ruler: which tool, whose notes are in front, how the others are seen."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QEvent, QSize, Qt
+from PySide6.QtGui import QActionGroup, QColor, QIcon, QPalette, QPixmap
+from PySide6.QtWidgets import QButtonGroup, QComboBox, QHBoxLayout, QMenu, QSizePolicy, QToolButton, QWidget
+
+from app.project.document import Change
+from widgets.common.icons import icon
+from widgets.common.session import Session
+from widgets.common.timeline_view import Ghosts, Tool
+from widgets.timeline.roll import PianoRoll
+
+ICONS = {Tool.SELECT: "pointer", Tool.DRAW: "pencil", Tool.ERASE: "eraser", Tool.SPLIT: "split"}
+GHOST_ICONS = {Ghosts.GHOSTS: "ghosts", Ghosts.ALL: "players", Ghosts.ALONE: "player"}
+BUTTON_PX = 26
+SWATCH_PX = 12
+
+
+class ToolBar(QWidget):
+    """Tools of the piano roll."""
+
+    def __init__(self, session: Session, roll: PianoRoll, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setObjectName("timeline_tools")
+        self.setAutoFillBackground(True)
+        self._session = session
+        self._roll = roll
+        row = QHBoxLayout(self)
+        row.setContentsMargins(4, 2, 4, 2)
+        row.setSpacing(2)
+        self.tools: dict[Tool, QToolButton] = {}
+        group = QButtonGroup(self)
+        for tool in Tool:
+            button = self._button(f"tool_{tool.value}")
+            button.setCheckable(True)
+            group.addButton(button)
+            self.tools[tool] = button
+            row.addWidget(button)
+        group.buttonClicked.connect(self._choose_tool)
+        row.addSpacing(8)
+        self.player_box = QComboBox(self)
+        self.player_box.setObjectName("front_player")
+        self.player_box.setSizePolicy(QSizePolicy.Policy.Maximum, QSizePolicy.Policy.Fixed)
+        self.player_box.setMinimumWidth(150)
+        self.player_box.setMaximumWidth(280)
+        self.player_box.setIconSize(QSize(SWATCH_PX, SWATCH_PX))
+        self.player_box.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        self.player_box.activated.connect(self._choose_player)
+        row.addWidget(self.player_box)
+        self.ghosts_button = self._button("ghosts_mode")
+        self.ghosts_button.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
+        self.ghosts_button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
+        self.ghosts_button.setMaximumWidth(16777215)
+        self._modes = {mode: self._ghosts_menu().addAction("") for mode in Ghosts}
+        modes = QActionGroup(self)
+        for mode, action in self._modes.items():
+            action.setCheckable(True)
+            action.setData(mode)
+            modes.addAction(action)
+        modes.triggered.connect(lambda action: self._choose_ghosts(action.data()))
+        row.addWidget(self.ghosts_button)
+        row.addStretch(1)
+        session.changed.connect(self._session_changed)
+        session.players_changed.connect(self._fill_players)
+        session.theme_changed.connect(self._theme_set)
+        self._theme_set()
+        self.retranslate()
+        self.show_state()
+
+    def _button(self, name: str) -> QToolButton:
+        button = QToolButton(self)
+        button.setObjectName(name)
+        button.setAutoRaise(True)
+        button.setMinimumSize(QSize(BUTTON_PX, BUTTON_PX))
+        return button
+
+    def _ghosts_menu(self) -> QMenu:
+        menu = self.ghosts_button.menu()
+        if menu is None:
+            menu = QMenu(self.ghosts_button)
+            self.ghosts_button.setMenu(menu)
+        return menu
+
+    def retranslate(self) -> None:
+        """Set every text anew."""
+        tips = {
+            Tool.SELECT: self.tr("Select: click, drag a frame, drag notes and their ends"),
+            Tool.DRAW: self.tr("Draw: drag out a new note"),
+            Tool.ERASE: self.tr("Erase: drag over notes"),
+            Tool.SPLIT: self.tr("Split: click where the note shall be cut"),
+        }
+        for tool, button in self.tools.items():
+            action = self._session.actions.get(f"notes.tool_{tool.value}")
+            keys = action.shortcut().toString() if action is not None else ""
+            button.setToolTip(f"{tips[tool]} ({keys})" if keys else tips[tool])
+            button.setAccessibleName(tips[tool])
+        texts = {
+            Ghosts.GHOSTS: self.tr("Others as Ghosts"),
+            Ghosts.ALL: self.tr("All Players"),
+            Ghosts.ALONE: self.tr("Only This Player"),
+        }
+        for mode, action in self._modes.items():
+            action.setText(texts[mode])
+        self.ghosts_button.setToolTip(self.tr("How the other players' notes are seen"))
+        self.player_box.setToolTip(self.tr("The player in front"))
+        self._fill_players()
+        self.show_state()
+
+    def show_state(self) -> None:
+        """Show the tool and the way of seeing the others."""
+        self.tools[self._roll.tool].setChecked(True)
+        mode = self._roll.ghosts_mode
+        self._modes[mode].setChecked(True)
+        self.ghosts_button.setText(self._modes[mode].text())
+        self.ghosts_button.setIcon(icon(GHOST_ICONS[mode], self._session.tokens))
+
+    def _choose_tool(self, button: QToolButton) -> None:
+        self._roll.set_tool(next(tool for tool, each in self.tools.items() if each is button))
+
+    def _choose_ghosts(self, mode: Ghosts) -> None:
+        self._roll.set_ghosts(mode)
+        self.show_state()
+
+    def _choose_player(self, index: int) -> None:
+        self._session.set_players((self.player_box.itemData(index),))
+
+    def _session_changed(self, change: Change) -> None:
+        if change.opened or change.before.players is not change.after.players:
+            self._fill_players()
+
+    def _fill_players(self) -> None:
+        self.player_box.clear()
+        for player in self._session.project.players:
+            swatch = QPixmap(SWATCH_PX, SWATCH_PX)
+            swatch.fill(QColor(self._session.colour(player)))
+            self.player_box.addItem(QIcon(swatch), player.name, player.id)
+        front = self._session.player
+        self.player_box.setCurrentIndex(self.player_box.findData(front.id) if front is not None else -1)
+        self.player_box.setEnabled(front is not None)
+
+    def _theme_set(self) -> None:
+        tokens = self._session.tokens
+        for tool, button in self.tools.items():
+            button.setIcon(icon(ICONS[tool], tokens))
+        palette = self.palette()
+        palette.setColor(QPalette.ColorRole.Window, QColor(tokens.surface))
+        self.setPalette(palette)
+        self._fill_players()
+        self.show_state()
+
+    # Qt overrides
+
+    def changeEvent(self, event: QEvent) -> None:
+        if event.type() == QEvent.Type.LanguageChange:
+            self.retranslate()
+        super().changeEvent(event)
