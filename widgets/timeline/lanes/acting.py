@@ -150,8 +150,8 @@ class ActingLane(RegionLane):
         tokens, player = self.session.tokens, self.session.player
         painter.setPen(QPen(QColor(tokens.line), 1.0))
         for _, first, _ in self.groups[1:]:
-            y = round(self.row_box(first)[0]) + 0.5
-            painter.drawLine(QPointF(exposed.left(), y), QPointF(exposed.right(), y))
+            edge = round(self.row_box(first)[0]) + 0.5
+            painter.drawLine(QPointF(exposed.left(), edge), QPointF(exposed.right(), edge))
         if player is None:
             return
         colour = self.session.colour(player)
@@ -412,7 +412,7 @@ def _pose(player_id: str, event: PoseEvent) -> Region:
 
 
 def _strip(regions: Sequence[Region], kind: str, row: int) -> tuple[Floats, Floats, Floats]:
-    """Starts, ends and amounts of what is drawn as a strip; the sway's curve takes in changed swings, not added ones."""
+    """Starts, ends and amounts of what is drawn as a strip; a sway's curve takes in changed swings, not added ones."""
     chosen = [
         region
         for region in regions

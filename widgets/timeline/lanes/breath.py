@@ -16,6 +16,7 @@ from widgets.timeline.axis import TimeAxis
 from widgets.timeline.lane import LaneMouse
 from widgets.timeline.lanes.drawing import draw_mark, draw_text, shade
 from widgets.timeline.lanes.names import kind_name
+from widgets.timeline.lanes.problems import ProblemMarks
 from widgets.timeline.lanes.regions import Region, RegionLane
 
 PREPARATION_SHARE = 0.45
@@ -31,6 +32,7 @@ class BreathLane(RegionLane):
 
     def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
         super().__init__(session, axis, parent)
+        self.problem_marks = ProblemMarks(self, ("breath",))
         self.retranslate()
 
     def retranslate(self) -> None:

@@ -28,6 +28,7 @@ from widgets.timeline.lanes.drawing import (
     small_font,
 )
 from widgets.timeline.lanes.geometry import Spans
+from widgets.timeline.lanes.problems import ProblemMarks
 from widgets.timeline.lanes.row_names import RowNames
 
 Floats = npt.NDArray[np.float64]
@@ -127,9 +128,9 @@ class _Bars(LaneItem):
         lane, tokens = self._lane, self._lane.session.tokens
         top, height = lane.slide_box
         for place, _ in lane.places:
-            y = top + place * height
+            level = top + place * height
             painter.setPen(QPen(shade(tokens.line_strong, 130), 1.0, Qt.PenStyle.DotLine))
-            painter.drawLine(QPointF(exposed.left(), y), QPointF(exposed.right(), y))
+            painter.drawLine(QPointF(exposed.left(), level), QPointF(exposed.right(), level))
         y = top + value * height
         points = np.empty((2 * len(left), 2))
         points[0::2, 0], points[1::2, 0] = left, left + width
@@ -186,6 +187,7 @@ class FingeringLane(Lane):
         self._selection_before = Selection()
         self._hovered: FingeringEvent | None = None
         self.bars = _Bars(self)
+        self.problem_marks = ProblemMarks(self, ("fingering", "note"))
         self.alternates = Alternates(session, self)
         self._names = RowNames(self, self.row_names)
         self.refresh()

@@ -1,0 +1,170 @@
+"""Problems: a thin lane in which all are marked, and the same marks in the lanes where they belong."""
+
+from __future__ import annotations
+
+import numpy as np
+from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
+from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
+
+from app.plan.model import PlayerPlan, Problem
+from widgets.common.selection import Selection
+from widgets.common.session import Session, Severity
+from widgets.common.text import message_text
+from widgets.timeline.axis import TimeAxis
+from widgets.timeline.lane import Lane, LaneItem, LaneMouse
+from widgets.timeline.lanes.drawing import shade
+from widgets.timeline.lanes.geometry import Spans
+
+MARK_PX = 11.0
+REACH_PX = 8.0
+
+
+class ProblemMarks(LaneItem):
+    """Lines under the places of problems.
+
+    Parameters
+    ----------
+    lane : Lane
+    rooms : tuple of str
+        First parts of the ids of the messages that belong to the lane.
+    """
+
+    def __init__(self, lane: Lane, rooms: tuple[str, ...]) -> None:
+        super().__init__(lane, 50.0)
+        self._rooms = rooms
+        self._plan: PlayerPlan | None = None
+        self._spans = Spans(np.empty(0), np.empty(0))
+
+    def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
+        lane, player = self.lane, self.lane.session.player
+        plan = lane.plan_of(player) if player is not None else None
+        if plan is not self._plan:
+            self._plan = plan
+            self._spans = spans_of(problems_in(plan, self._rooms) if plan is not None else ())
+        axis, colour = lane.axis, QColor(lane.session.tokens.warning)
+        bottom = lane.plot_rect.height()
+        for index in self._spans.between(axis.seconds(exposed.left()), axis.seconds(exposed.right())).tolist():
+            left = axis.x_px(float(self._spans.start_s[index]))
+            right = max(axis.x_px(float(self._spans.end_s[index])), left + 4.0)
+            painter.fillRect(QRectF(left, bottom - 2.0, right - left, 2.0), colour)
+
+
+def problems_in(plan: PlayerPlan, rooms: tuple[str, ...] = ()) -> tuple[Problem, ...]:
+    """The problems whose messages belong to these rooms; all without rooms."""
+    return tuple(problem for problem in plan.problems if not rooms or problem.message.id.split(".")[0] in rooms)
+
+
+def spans_of(problems: tuple[Problem, ...]) -> Spans:
+    """Where problems are."""
+    return Spans(
+        np.array([problem.start_s for problem in problems], np.float64),
+        np.array([problem.end_s for problem in problems], np.float64),
+    )
+
+
+class _Marks(LaneItem):
+    """A triangle at the start of every problem, and how far it reaches."""
+
+    def __init__(self, lane: ProblemsLane) -> None:
+        super().__init__(lane)
+        self._lane = lane
+
+    def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
+        lane = self._lane
+        axis, tokens = lane.axis, lane.session.tokens
+        middle = lane.plot_rect.height() / 2
+        margin_s = MARK_PX / axis.px_per_s
+        found = lane.spans.between(axis.seconds(exposed.left()) - margin_s, axis.seconds(exposed.right()) + margin_s)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
+        drawn_to = -np.inf
+        for index in found.tolist():
+            problem = lane.problems[index]
+            x, end = axis.x_px(problem.start_s), axis.x_px(problem.end_s)
+            if end - x > 2.0:
+                painter.fillRect(QRectF(x, middle + MARK_PX / 2 - 1.0, end - x, 2.0), shade(tokens.warning, 130))
+            if x < drawn_to + 3.0:
+                continue
+            drawn_to = x
+            chosen = problem.note_id is not None and problem.note_id in lane.session.selection.notes
+            painter.setPen(QPen(QColor(tokens.accent if chosen else tokens.warning), 1.2))
+            painter.setBrush(QColor(tokens.warning))
+            half = MARK_PX / 2
+            painter.drawPolygon(
+                QPolygonF(
+                    [QPointF(x, middle - half), QPointF(x + half, middle + half), QPointF(x - half, middle + half)]
+                )
+            )
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
+
+
+class ProblemsLane(Lane):
+    """All problems of the player in front. A click on one selects its note and says what it is."""
+
+    id = "problems"
+    preferred_height_px = 28
+    least_height_px = 26
+
+    def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
+        super().__init__(session, axis, parent)
+        self.problems: tuple[Problem, ...] = ()
+        self.spans = spans_of(())
+        self._plan: PlayerPlan | None = None
+        self.count = QLabel(self.header)
+        self.count.setObjectName("problem_count")
+        self.count.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
+        self.count.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Preferred)
+        self.title_row.addWidget(self.count)
+        self.marks = _Marks(self)
+        self.refresh()
+        self.retranslate()
+
+    def retranslate(self) -> None:
+        self.title.setText(self.tr("Problems"))
+        self.title.setToolTip(self.tr("What the player in front cannot do as it stands; F8 goes to the next"))
+
+    def refresh(self) -> None:
+        """Show the problems of the player in front."""
+        player = self.session.player
+        plan = self.plan_of(player) if player is not None else None
+        if plan is self._plan and plan is not None:
+            return
+        self._plan = plan
+        self.problems = plan.problems if plan is not None else ()
+        self.spans = spans_of(self.problems)
+        self.count.setText(str(len(self.problems)) if self.problems else "")
+        self.plot.setToolTip("")
+        self.update_items()
+
+    def problem_at(self, mouse: LaneMouse) -> Problem | None:
+        """The problem nearest to a place, within reach."""
+        reach_s = REACH_PX / self.axis.px_per_s
+        found = self.spans.between(mouse.time_s - reach_s, mouse.time_s + reach_s).tolist()
+        # The mark stands at the start: the nearest start wins over a long problem that only passes by.
+        return min(
+            (self.problems[index] for index in found),
+            key=lambda problem: abs(problem.start_s - mouse.time_s),
+            default=None,
+        )
+
+    def performance_changed(self) -> None:
+        self.refresh()
+
+    def players_changed(self) -> None:
+        self.refresh()
+
+    def selection_changed(self) -> None:
+        self.update_items()
+
+    def press(self, mouse: LaneMouse) -> None:
+        problem = self.problem_at(mouse)
+        if problem is None:
+            self.session.select(Selection())
+            return
+        notes = frozenset({problem.note_id}) if problem.note_id is not None else frozenset[str]()
+        self.session.select(Selection(notes=notes))
+        self.session.notice(problem.message, Severity.WARNING)
+
+    def hover(self, mouse: LaneMouse | None) -> None:
+        problem = self.problem_at(mouse) if mouse is not None else None
+        self.plot.setToolTip(message_text(problem.message) if problem is not None else "")

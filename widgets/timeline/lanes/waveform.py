@@ -1,0 +1,226 @@
+"""The lane of the recording: its waveform, and where it lies against the score."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtGui import QColor, QFontMetricsF, QKeyEvent, QPainter, QPen
+from PySide6.QtWidgets import QLineEdit, QMenu, QWidget
+
+from app.audio.peaks import Peaks
+from app.errors import Message
+from app.project.document import Change
+from app.project.edit.piece import set_offset
+from app.project.model import Project
+from widgets.common.numbers import number_from, number_text
+from widgets.common.session import Session
+from widgets.timeline.axis import TimeAxis
+from widgets.timeline.lane import Lane, LaneItem, LaneMouse
+from widgets.timeline.lanes.drawing import Floats, draw_lines, draw_text, shade, small_font
+
+DRAG_PX = 3.0
+FINE = 0.1
+"""With Shift the offset follows the mouse this slowly."""
+DECIMALS = 3
+
+
+@dataclass
+class _Drag:
+    at: LaneMouse
+    project: Project
+    offset_s: float
+    token: object
+    moved: bool = False
+
+
+class _Waveform(LaneItem):
+    """The extremes of every column; the offset as a number; what to do where there is no recording."""
+
+    def __init__(self, lane: WaveformLane) -> None:
+        super().__init__(lane)
+        self._lane = lane
+
+    def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
+        lane, tokens = self._lane, self._lane.session.tokens
+        audio, peaks = lane.session.project.audio, lane.session.listening.waveform
+        painter.setFont(small_font(lane.font()))
+        if audio is None:
+            painter.setPen(QColor(tokens.text_dim))
+            draw_text(painter, lane.plot_rect, lane.empty_text(), Qt.AlignmentFlag.AlignCenter)
+            return
+        middle = lane.plot_rect.height() / 2
+        painter.setPen(QPen(QColor(tokens.line_strong), 1.0))
+        painter.drawLine(QPointF(exposed.left(), middle), QPointF(exposed.right(), middle))
+        if peaks is not None:
+            self._paint_peaks(painter, exposed, peaks, audio.offset_s)
+        text = lane.offset_text()
+        box = lane.text_box()
+        painter.fillRect(box.adjusted(-4.0, 0.0, 4.0, 0.0), shade(tokens.sunken, 215))
+        painter.setPen(QColor(tokens.text if peaks is not None else tokens.text_dim))
+        draw_text(painter, box.adjusted(0.0, 0.0, 4.0, 0.0), text)
+
+    def _paint_peaks(self, painter: QPainter, exposed: QRectF, peaks: Peaks, offset_s: float) -> None:
+        lane, tokens = self._lane, self._lane.session.tokens
+        left, right = int(exposed.left()), int(np.ceil(exposed.right()))
+        low, high = peaks.levels(lane.axis.seconds(left) - offset_s, lane.axis.seconds(right) - offset_s, right - left)
+        half = lane.plot_rect.height() / 2 - 2.0
+        x = np.arange(left, right) + 0.5
+        inside = (x >= lane.axis.x_px(offset_s)) & (x <= lane.axis.x_px(offset_s + peaks.duration_s))
+        x, low, high = x[inside], low[inside], high[inside]
+        top: Floats = half + 2.0 - high.astype(np.float64) * half
+        bottom = np.maximum(half + 2.0 - low.astype(np.float64) * half, top + 1.0)
+        colour = tokens.accent if lane.dragging_offset else tokens.text_dim
+        draw_lines(painter, x, top, x, bottom, QPen(shade(colour, 200), 1.0))
+
+
+class _Editor(QLineEdit):
+    """A field that Escape leaves as it was."""
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        if event.key() == Qt.Key.Key_Escape:
+            self.hide()
+            event.accept()
+        else:
+            super().keyPressEvent(event)
+
+
+class WaveformLane(Lane):
+    """The recording. Dragging it moves it against the score; a double click on it types the offset."""
+
+    id = "audio"
+    preferred_height_px = 60
+    least_height_px = 32
+
+    def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
+        super().__init__(session, axis, parent)
+        self._drag: _Drag | None = None
+        self.waveform = _Waveform(self)
+        self.editor = _Editor(self.plot.viewport())
+        self.editor.setObjectName("offset_editor")
+        self.editor.hide()
+        self.editor.returnPressed.connect(self._typed)
+        self.editor.editingFinished.connect(self._left_editor)
+        session.listening.waveform_changed.connect(self.update_items)
+        self.retranslate()
+
+    def retranslate(self) -> None:
+        self.title.setText(self.tr("Recording"))
+        self.title.setToolTip(self.tr("Drag to move it against the score, with Shift finely; double-click types"))
+        self.editor.setAccessibleName(self.tr("Offset in seconds"))
+        self.update_items()
+
+    def empty_text(self) -> str:
+        """What can be done where there is no recording."""
+        return self.tr("Drop a recording here. Until then the synthesiser plays the score.")
+
+    def offset_text(self) -> str:
+        """The offset, and where it is from."""
+        audio = self.session.project.audio
+        if audio is None:
+            return ""
+        number = number_text(audio.offset_s, DECIMALS)
+        if self.session.listening.waveform is None:
+            return self.tr("offset {offset} s · the recording is not read yet").format(offset=number)
+        if audio.confidence is None:
+            return self.tr("offset {offset} s").format(offset=number)
+        return self.tr("offset {offset} s (estimated, {confidence:.2f})").format(
+            offset=number, confidence=audio.confidence
+        )
+
+    def text_box(self) -> QRectF:
+        """Where the offset is written."""
+        metrics = QFontMetricsF(small_font(self.font()))
+        return QRectF(8.0, 2.0, metrics.horizontalAdvance(self.offset_text()) + 2.0, metrics.height())
+
+    @property
+    def dragging_offset(self) -> bool:
+        """Whether the recording is being moved."""
+        return self._drag is not None and self._drag.moved
+
+    def project_changed(self, change: Change) -> None:
+        if change.opened or change.before.audio is not change.after.audio:
+            self.editor.hide()
+            self.update_items()
+
+    # The mouse
+
+    def press(self, mouse: LaneMouse) -> None:
+        audio = self.session.project.audio
+        self._drag = None
+        if audio is not None:
+            self._drag = _Drag(mouse, self.session.project, audio.offset_s, object())
+
+    def drag(self, mouse: LaneMouse) -> None:
+        drag = self._drag
+        if drag is None or (not drag.moved and abs(mouse.x_px - drag.at.x_px) < DRAG_PX):
+            return
+        drag.moved = True
+        self.plot.setCursor(Qt.CursorShape.ClosedHandCursor)
+        by_s = (mouse.time_s - drag.at.time_s) * (FINE if mouse.shift else 1.0)
+        offset_s = round(drag.offset_s + by_s, DECIMALS)
+        before = round(drag.offset_s, DECIMALS)
+        self.session.attempt(
+            Message("edit.set_offset"),
+            lambda _: drag.project if offset_s == before else set_offset(drag.project, offset_s),
+            drag.token,
+            self,
+        )
+
+    def release(self, mouse: LaneMouse) -> None:
+        drag, self._drag = self._drag, None
+        self.hover(mouse)
+        if drag is not None and drag.moved:
+            self.session.document.end_gesture()
+            self.update_items()
+
+    def cancel(self) -> None:
+        drag, self._drag = self._drag, None
+        if drag is not None and drag.moved:
+            self.session.apply(Message("edit.set_offset"), drag.project, drag.token, self)
+            self.session.document.end_gesture()
+        self.update_items()
+
+    def double_click(self, mouse: LaneMouse) -> None:
+        audio = self.session.project.audio
+        self._drag = None
+        if audio is None:
+            return
+        box = self.text_box()
+        self.editor.setText(number_text(audio.offset_s, DECIMALS))
+        self.editor.setGeometry(int(box.left()) - 2, 2, 120, max(self.editor.sizeHint().height(), 24))
+        self.editor.show()
+        self.editor.setFocus()
+        self.editor.selectAll()
+
+    def hover(self, mouse: LaneMouse | None) -> None:
+        if mouse is not None and self.session.project.audio is not None:
+            self.plot.setCursor(Qt.CursorShape.OpenHandCursor)
+        else:
+            self.plot.unsetCursor()
+
+    def context_menu(self, mouse: LaneMouse) -> QMenu | None:
+        menu = QMenu(self)
+        if self.session.project.audio is not None:
+            menu.addAction(self.tr("Type the offset...")).triggered.connect(lambda _=False: self.double_click(mouse))
+        for action_id in ("file.add_audio", "audio.estimate_offset", "audio.remove"):
+            action = self.session.actions.get(action_id)
+            if action is not None:
+                menu.addAction(action)
+        return menu
+
+    def _left_editor(self) -> None:
+        if not self.editor.hasFocus():
+            self.editor.hide()
+
+    def _typed(self) -> None:
+        value = number_from(self.editor.text(), "s")
+        if value is None:
+            self.editor.selectAll()
+            return
+        self.editor.hide()
+        self.plot.setFocus()
+        audio = self.session.project.audio
+        if audio is not None and round(value, DECIMALS) != round(audio.offset_s, DECIMALS):
+            self.session.attempt(Message("edit.set_offset"), lambda project: set_offset(project, value))
