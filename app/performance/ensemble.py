@@ -147,16 +147,17 @@ class Performance:
                 stop_wanted,
                 progress,
             )
-            self._plans = {player.id: self._told(player, made) for player in self.project.players}
+            known = frozenset(characters())
+            self._plans = {player.id: self._told(player, made, known) for player in self.project.players}
             self.__dict__["_ensemble"] = made
             self._memo.close()
             self._before = None
 
-    def _told(self, player: Player, made: EnsemblePlan) -> PlayerPlan:
+    def _told(self, player: Player, made: EnsemblePlan, known: frozenset[str]) -> PlayerPlan:
         """A player's plan with what is wrong about the player."""
         plan, frame = made.plans.get(player.id), self.time_frame
         problems = [] if plan is not None else [("project.instrument_missing", player.instrument_id)]
-        if player.character_id not in characters():
+        if player.character_id not in known:
             problems.append(("project.character_missing", player.character_id))
         if plan is not None and not problems:
             return plan

@@ -147,16 +147,7 @@ def plan_ensemble(
     playable: list[tuple[Line, LineTimes, tuple[Problem, ...]]] = []
     for line in lines:
         _go_on(stop_wanted)
-        playable.append(
-            own[line.player_id].step(
-                "playable",
-                lambda line=line: _playable(line, piece.clock, tuple(faces), frame.first_frame_s),  # type: ignore[misc]
-                line,
-                piece.clock,
-                tuple(faces),
-                frame.first_frame_s,
-            )
-        )
+        playable.append(_playable(line, piece.clock, tuple(faces), frame.first_frame_s, own[line.player_id]))
     lines, all_times = tuple(line for line, _, _ in playable), tuple(times for _, times, _ in playable)
     cues, cue_ids = shared.step(
         "cues", lambda: plan_cues(lines, all_times, piece, frame), cue_inputs(lines), all_times, piece, frame
@@ -186,12 +177,25 @@ def _go_on(stop_wanted: Callable[[], bool]) -> None:
 
 
 def _playable(
-    line: Line, clock: Clock, faces: tuple[str, ...], at_s: float
+    line: Line, clock: Clock, faces: tuple[str, ...], at_s: float, memo: Memo
 ) -> tuple[Line, LineTimes, tuple[Problem, ...]]:
     """A line as it can be played, with its times, and what to tell of the rest."""
-    sound, unsound = sound_corrections(line.corrections, faces, at_s)
-    line, unplayable = one_at_a_time(msgspec.structs.replace(line, corrections=sound), clock)
-    return line, line_times(line, clock), unsound + unplayable
+    sound, unsound = memo.step(
+        "sound", lambda: sound_corrections(line.corrections, faces, at_s), line.corrections, faces, at_s
+    )
+    bare = Line(line.player_id, line.notes, line.instrument_map, loudness=line.loudness)
+    single, told = memo.step("single", lambda: one_at_a_time(bare, clock), line.notes, line.loudness, clock)
+    notes, loudness = single.notes, single.loudness
+    times = memo.step("times", lambda: line_times(single, clock), notes, loudness, clock)
+    line = memo.step(
+        "playable",
+        lambda: msgspec.structs.replace(line, notes=notes, loudness=loudness, corrections=sound),
+        line,
+        notes,
+        loudness,
+        sound,
+    )
+    return line, times, unsound + told
 
 
 class _Given(NamedTuple):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from app.plan.line import MEZZOFORTE, LineTimes, Piece, chance
+from app.plan.line import MEZZOFORTE, IntArray, LineTimes, Piece, chance
 from app.plan.model import FloatArray, Note, PlayerParameters
 
 FULL_BREATH_S = 0.5
@@ -102,6 +102,8 @@ def catch_places(
     breaths = np.flatnonzero(refill > 0.0)
     starts = np.unique(np.concatenate(([0], breaths)))
     ends = np.append(starts[1:], len(notes))
+    bars = piece.bars(int(times.onset_tick[0]), int(times.onset_tick[-1]) + 1)
+    around = _lengths_around(times.duration_s)
     result: list[int] = []
     for start, end in zip(starts.tolist(), ends.tolist(), strict=True):
         if used[end] - used[start] <= level[start] * lung_s + EPSILON:
@@ -110,7 +112,7 @@ def catch_places(
             index for index in range(start + 1, end) if open_[index] and f"breath:{notes[index].id}" not in removed
         ]
         if places:
-            cost = _place_costs(notes, times, piece, places, taken, seed)
+            cost = _place_costs(notes, times, piece, bars, around, places, taken, seed)
             result += _cheapest_chain(used, places, cost, length_s, start, end, float(level[start]), lung_s)
     return result
 
@@ -159,16 +161,16 @@ def _place_costs(
     notes: tuple[Note, ...],
     times: LineTimes,
     piece: Piece,
+    bars: IntArray,
+    around: FloatArray,
     places: list[int],
     taken: frozenset[str],
     seed: tuple[str | int, ...],
 ) -> FloatArray:
     at = np.array(places)
     duration = times.duration_s
-    around = np.array([np.median(duration[max(index - 4, 0) : index + 4]) for index in places])
     onset = times.onset_tick[at]
-    bars = piece.bars(int(times.onset_tick[0]), int(times.onset_tick[-1]) + 1)
-    good: FloatArray = LONG_NOTE * (duration[at - 1] >= 2.0 * around)
+    good: FloatArray = LONG_NOTE * (duration[at - 1] >= 2.0 * around[at])
     good += BAR_LINE * np.isin(onset, bars)
     bar = bars[np.maximum(np.searchsorted(bars, onset, side="right") - 1, 0)]
     good += ON_BEAT * ((onset - bar) % piece.beat_ticks == 0)
@@ -179,6 +181,19 @@ def _place_costs(
     good += np.array([JITTER * chance(*seed, "catch", int(tick)) for tick in onset])
     good -= TAKEN_COST * np.array([notes[index].id in taken for index in places])
     return np.asarray(PLACE_COST - good, dtype=np.float64)
+
+
+def _lengths_around(duration_s: FloatArray) -> FloatArray:
+    """(N,): the median length of the four notes before each and of four from it on, as far as there are any."""
+    count = len(duration_s)
+    around = np.empty(count)
+    if count >= 8:
+        windows = np.lib.stride_tricks.sliding_window_view(duration_s, 8)
+        around[4 : count - 3] = np.median(windows, axis=1)
+    edges = [*range(min(4, count)), *range(max(count - 3, 4), count)] if count >= 8 else range(count)
+    for index in edges:
+        around[index] = np.median(duration_s[max(index - 4, 0) : index + 4])
+    return around
 
 
 def catch_lengths_s(times: LineTimes) -> FloatArray:
