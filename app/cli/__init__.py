@@ -11,6 +11,7 @@ import os
 import sys
 from collections.abc import Callable, Sequence
 
+import app.cli.edit
 import app.cli.export
 import app.cli.inspect
 import app.cli.instruments
@@ -25,6 +26,7 @@ Turns the MIDI of a wind ensemble into the performance of its players, for anima
 """
 _EPILOG = """\
 examples:
+  suisou edit quartet.mid
   suisou inspect quartet.mid
   suisou export quartet.mid --to out
   suisou export quartet.mid --to out --format fbx --fps 30 --from-bar 1 --to-bar 8
@@ -43,6 +45,7 @@ def parser() -> argparse.ArgumentParser:
     )
     top.add_argument("--version", action="version", version=f"suisou {program_version()}")
     commands = top.add_subparsers(title="commands", dest="command", metavar="COMMAND")
+    app.cli.edit.add_command(commands)
     app.cli.inspect.add_command(commands)
     app.cli.export.add_command(commands)
     app.cli.instruments.add_command(commands)

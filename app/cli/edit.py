@@ -1,0 +1,66 @@
+"""``suisou edit``: the editor's command line. It is read here; the editor itself is started by `app.__main__`."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from pathlib import Path
+from typing import Final
+
+from app.cli.options import Commands
+
+VIEWS: Final = ("ensemble", "front", "side", "top", "hands", "mouth", "feet")
+LANGUAGES: Final = ("en", "ja")
+THEMES: Final = ("dark", "light")
+LEAST_PX, MOST_PX = (960, 600), (7680, 4320)
+
+
+def size(text: str) -> tuple[int, int]:
+    """Width and height from ``1600x1000``.
+
+    Raises
+    ------
+    argparse.ArgumentTypeError
+        Not a size that the window can have.
+    """
+    width, _, height = text.partition("x")
+    if not (width.isascii() and width.isdecimal() and height.isascii() and height.isdecimal()):
+        raise argparse.ArgumentTypeError(f"{text!r} is not a size such as 1600x1000")
+    result = int(width), int(height)
+    if not all(least <= value <= most for least, value, most in zip(LEAST_PX, result, MOST_PX, strict=True)):
+        raise argparse.ArgumentTypeError(
+            f"{text!r} is not between {LEAST_PX[0]}x{LEAST_PX[1]} and {MOST_PX[0]}x{MOST_PX[1]}"
+        )
+    return result
+
+
+def seconds(text: str) -> float:
+    """A finite number of seconds; before the first note it is negative."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise argparse.ArgumentTypeError(f"{text!r} is not a number of seconds")
+    return value
+
+
+def add_command(commands: Commands) -> None:
+    """Declare the sub-command."""
+    command = commands.add_parser(
+        "edit",
+        help="open the editor (also without any command)",
+        description="Opens the editor. With --screenshot it draws its window once, writes the picture and ends.",
+    )
+    command.add_argument("file", type=Path, nargs="?", metavar="FILE", help="a project (.suisou) or MIDI file")
+    command.add_argument("--screenshot", type=Path, metavar="OUT.png", help="write a picture of the window and end")
+    command.add_argument(
+        "--time", dest="time_s", type=seconds, default=0.0, metavar="S", help="where the playhead is (default 0)"
+    )
+    command.add_argument("--view", choices=VIEWS, default="", help="how the players are seen")
+    command.add_argument(
+        "--size", type=size, default=(1600, 1000), metavar="WxH", help="of the picture (default 1600x1000)"
+    )
+    command.add_argument("--language", choices=LANGUAGES, default="", help="of the editor")
+    command.add_argument("--theme", choices=THEMES, default="", help="of the editor")
+    command.set_defaults(run=None)

@@ -1,0 +1,252 @@
+"""The editor as a program: the application of Qt, the parts of the editor put together, and a picture of its window."""
+
+from __future__ import annotations
+
+import os
+import signal
+import tempfile
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from PySide6.QtCore import QCoreApplication, QEventLoop, QObject, Qt, QTimer
+from PySide6.QtGui import QGuiApplication
+from PySide6.QtWidgets import QApplication
+
+from app.errors import AppError
+from app.project.autosave import Autosave
+from app.project.edit.piece import new_piece
+from app.project.presence import Presence, recovery_folder
+from app.shell.actions import ActionTable, KeyboardButtons, rows
+from app.shell.editor import Editor
+from app.shell.faults import Faults, log_path
+from app.shell.files import Files
+from app.shell.garbage import Garbage
+from app.shell.generator import Generator
+from app.shell.language import Language
+from app.shell.questions import Dialogs, Questions
+from app.shell.settings import Settings, settings_path
+from app.shell.tasks import ThreadTasks
+from app.shell.theme import apply_font, apply_theme
+from app.shell.window import Window
+from widgets.common.session import Session, Severity
+from widgets.common.tasks import Tasks
+from widgets.common.viewport_state import VIEWS
+
+STOP_S = 3.0
+"""Workers that are asked to stop when the editor ends get this long."""
+PICTURE_S = 60.0
+"""A picture waits this long for plans and motion."""
+
+
+@dataclass(frozen=True)
+class Start:
+    """What the command line asks of the editor.
+
+    Attributes
+    ----------
+    file : Path or None
+    screenshot : Path or None
+        Draw the window once, write it there, and end.
+    time_s : float
+    view, language, theme : str
+        Empty: as the person left it.
+    size : (int, int)
+        Of the picture, in device-independent pixels.
+    """
+
+    file: Path | None = None
+    screenshot: Path | None = None
+    time_s: float = 0.0
+    view: str = ""
+    language: str = ""
+    theme: str = ""
+    size: tuple[int, int] = (1600, 1000)
+
+
+def make_application() -> QApplication:
+    """The application of Qt; before it what must be said before it."""
+    # Docking and floating keep the viewport's context only if contexts are shared.
+    QCoreApplication.setAttribute(Qt.ApplicationAttribute.AA_ShareOpenGLContexts)
+    QGuiApplication.setHighDpiScaleFactorRoundingPolicy(Qt.HighDpiScaleFactorRoundingPolicy.PassThrough)
+    QCoreApplication.setApplicationName("suisou")
+    QGuiApplication.setApplicationDisplayName("Suisou")
+    application = QApplication(["suisou"])
+    apply_font(application)
+    return application
+
+
+class Program(QObject):
+    """All parts of a running editor.
+
+    Parameters
+    ----------
+    settings : Settings
+    tasks : Tasks
+    questions : Questions
+    autosave : Autosave or None
+    """
+
+    def __init__(
+        self,
+        settings: Settings,
+        tasks: Tasks | None = None,
+        questions: Questions | None = None,
+        autosave: Autosave | None = None,
+    ) -> None:
+        super().__init__()
+        application = QApplication.instance()
+        assert isinstance(application, QApplication)
+        self._application = application
+        self.tasks: Tasks = ThreadTasks() if tasks is None else tasks
+        self.session = Session(new_piece(), self.tasks)
+        asked: Questions = Dialogs() if questions is None else questions
+        self.language = Language()
+        self.language.set(settings.language)
+        self.editor = Editor(self.session, settings, self.language, asked)
+        self.editor.files = Files(self.session, settings, asked, autosave)
+        self.session.theme_changed.connect(self._dress)
+        self._dress()
+        self.generator = Generator(self.session, self.tasks)
+        self.editor.table = ActionTable(self.session, settings, rows())
+        self.language.changed.connect(self.editor.table.retranslate)
+        self.window = Window(self.editor, self.generator)
+        self._buttons = KeyboardButtons(self)
+        application.installEventFilter(self._buttons)
+
+    def _dress(self) -> None:
+        apply_theme(self._application, self.session.tokens)
+
+    def end(self) -> None:
+        """Stop everything that works beside the window."""
+        self._application.removeEventFilter(self._buttons)
+        self.generator.close()
+        if isinstance(self.tasks, ThreadTasks):
+            self.tasks.cancel_all(STOP_S)
+
+
+def run(start: Start) -> int:
+    """Run the editor; returns the exit status."""
+    if start.screenshot is not None:
+        return picture(start, start.screenshot)
+    application = make_application()
+    settings = Settings(settings_path())
+    trouble: AppError | None = None
+    autosave: Autosave | None = None
+    try:
+        autosave = Autosave(Presence(recovery_folder()))
+    except AppError as error:
+        trouble = error
+    program = Program(settings, autosave=autosave)
+    if isinstance(program.tasks, ThreadTasks):
+        program.tasks.failed.connect(lambda error: program.session.notice(error.message, Severity.ERROR))
+    faults = Faults(program.session, program.editor.files.write_now, log_path())
+    faults.install()
+    if isinstance(program.tasks, ThreadTasks):
+        program.tasks.unexpected.connect(faults.tell)
+    garbage = Garbage()
+    _end_on_signal(application)
+    if start.theme or start.language:
+        _wish(program, start)
+    program.window.show()
+    if trouble is not None:
+        program.session.notice(trouble.message, Severity.WARNING)
+    if start.file is not None:
+        program.editor.files.open(start.file, ask=False)
+    try:
+        return application.exec()
+    finally:
+        program.end()
+        garbage.close()
+        settings.sync()
+
+
+def _wish(program: Program, start: Start) -> None:
+    if start.theme:
+        program.session.actions[f"theme.{start.theme}"].trigger()
+    if start.language:
+        program.editor.speak(start.language)
+
+
+def _end_on_signal(application: QApplication) -> None:
+    """Ctrl-C in the terminal ends the editor like its window's button; unsaved work stays recoverable."""
+
+    def stop(number: int, frame: object) -> None:
+        application.quit()
+
+    for name in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(name, stop)
+    # Python looks at signals only when Qt gives it a turn.
+    timer = QTimer(application)
+    timer.timeout.connect(lambda: None)
+    timer.start(250)
+
+
+def picture(start: Start, target: Path) -> int:
+    """Draw the real window once, whatever the person's settings are, write it to a file, and end."""
+    application = make_application()
+    with tempfile.TemporaryDirectory() as folder:
+        settings = Settings(Path(folder) / "editor.ini")
+        settings.language = start.language or "en"
+        settings.theme = start.theme or "dark"
+        program = Program(settings)
+        failure: list[AppError] = []
+        if isinstance(program.tasks, ThreadTasks):
+            program.tasks.failed.connect(failure.append)
+        program.session.noticed.connect(
+            lambda message, severity: (
+                failure.append(AppError(message.id, **message.arguments)) if severity is Severity.ERROR else None
+            )
+        )
+        window = program.window
+        window.setAttribute(Qt.WidgetAttribute.WA_DontShowOnScreen, False)
+        window.resize(*start.size)
+        window.show()
+        window.resize(*start.size)
+        window.reset_layout()
+        try:
+            if start.file is not None:
+                program.editor.files.open(start.file, ask=False)
+                _wait(application, lambda: program.editor.files.is_open or bool(failure))
+                if failure:
+                    raise failure[0]
+                _wait(application, lambda: not program.generator.planning)
+                if start.view in VIEWS:
+                    program.session.viewport.set_view(start.view)
+                program.session.set_playhead(start.time_s)
+                program.session.reveal(start.time_s)
+                _wait(application, lambda: _moves(program, start.time_s))
+                window.reset_layout()
+            # Flights of the camera and late layouts.
+            _wait(application, lambda: False, 1.2)
+            image = window.grab().toImage()
+            if not image.save(str(target)):
+                raise AppError("file.cannot_write", file=str(target), reason=_why_not(target))
+        finally:
+            program.end()
+            window.hide()
+    return 0
+
+
+def _moves(program: Program, time_s: float) -> bool:
+    """Whether everyone's pose at a time is there, or known to be impossible."""
+    live = program.generator.live
+    return all(
+        live.pose(player.id, time_s) is not None or live.error(player.id) is not None
+        for player in program.session.project.players
+    )
+
+
+def _wait(application: QApplication, ready: Callable[[], bool], most_s: float = PICTURE_S) -> None:
+    end_s = time.monotonic() + most_s
+    while not ready() and time.monotonic() < end_s:
+        application.processEvents(QEventLoop.ProcessEventsFlag.AllEvents, 50)
+        time.sleep(0.005)
+
+
+def _why_not(target: Path) -> str:
+    if target.suffix.lower() not in (".png", ".jpg", ".jpeg", ".webp", ".bmp"):
+        return f"unknown kind of picture {target.suffix!r}"
+    return os.strerror(2) if not target.parent.is_dir() else "not writable"
+

@@ -1,0 +1,97 @@
+"""Faults of the program: nothing is silent, the editor lives on, and the work is written down."""
+
+from __future__ import annotations
+
+import platform
+import sys
+import threading
+import traceback
+from collections.abc import Callable
+from datetime import UTC, datetime
+from pathlib import Path
+from types import TracebackType
+from typing import Final
+
+import platformdirs
+
+from app.errors import AppError, Message
+from widgets.common.session import Session, Severity
+
+MOST_BYTES: Final = 1_000_000
+"""A longer log begins anew."""
+
+
+def log_path() -> Path:
+    """Where faults are noted down."""
+    return platformdirs.user_log_path("suisou", appauthor=False) / "faults.log"
+
+
+class Faults:
+    """The one place where an exception that nobody expected ends.
+
+    Parameters
+    ----------
+    session : Session
+        Shows it.
+    write_down : callable
+        Writes unsaved work down.
+    log : Path
+    """
+
+    def __init__(self, session: Session, write_down: Callable[[], None], log: Path) -> None:
+        self._session = session
+        self._write_down = write_down
+        self._log = log
+        self._telling = False
+
+    def install(self) -> None:
+        """Be told of every exception that nobody caught."""
+        sys.excepthook = self._uncaught
+        threading.excepthook = self._uncaught_in_thread
+
+    def tell(self, error: BaseException) -> None:
+        """A fault: note it down, save what can be saved, say so."""
+        if isinstance(error, AppError):
+            self._session.notice(error.message, Severity.ERROR)
+            return
+        text = "".join(traceback.format_exception(error))
+        sys.stderr.write(text)
+        if self._telling:
+            # A fault of telling: once is enough.
+            return
+        self._telling = True
+        try:
+            self._note(text)
+            try:
+                self._write_down()
+            except Exception:  # noqa: BLE001 - whatever fails here, the first fault is still to be told
+                self._note(traceback.format_exc())
+            detail = f"{type(error).__name__}: {error}"
+            self._session.notice(Message("program.fault", {"detail": detail, "log": str(self._log)}), Severity.ERROR)
+        finally:
+            self._telling = False
+
+    def _note(self, text: str) -> None:
+        head = f"{datetime.now(UTC).isoformat(timespec='seconds')} Python {platform.python_version()} {sys.platform}"
+        try:
+            self._log.parent.mkdir(parents=True, exist_ok=True)
+            is_long = self._log.exists() and self._log.stat().st_size > MOST_BYTES
+            with self._log.open("w" if is_long else "a", encoding="utf-8") as stream:
+                stream.write(f"{head}\n{text}\n")
+        except OSError as error:
+            sys.stderr.write(f"suisou: {self._log}: {error}\n")
+
+    def _uncaught(
+        self, kind: type[BaseException], error: BaseException, trace: TracebackType | None
+    ) -> None:
+        if issubclass(kind, KeyboardInterrupt):
+            sys.__excepthook__(kind, error, trace)
+            return
+        self.tell(error)
+
+    def _uncaught_in_thread(self, arguments: threading.ExceptHookArgs) -> None:
+        # Widgets live in the window's thread: here it is only noted down.
+        if arguments.exc_value is not None:
+            text = "".join(traceback.format_exception(arguments.exc_value))
+            sys.stderr.write(text)
+            self._note(text)

@@ -1,0 +1,36 @@
+"""Python's cycles are collected in the window's thread alone.
+
+A worker that happens to trigger the collection would destroy widgets in its own thread, which Qt does not survive.
+"""
+
+from __future__ import annotations
+
+import gc
+
+from PySide6.QtCore import QObject, QTimer
+
+PERIOD_MS = 500
+
+
+class Garbage(QObject):
+    """Collects when Python would have; takes the matter out of its hands for as long as it lives."""
+
+    def __init__(self, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        gc.disable()
+        self._timer = QTimer(self)
+        self._timer.setInterval(PERIOD_MS)
+        self._timer.timeout.connect(self.collect)
+        self._timer.start()
+
+    def collect(self) -> None:
+        """What Python's thresholds ask for."""
+        for generation in (2, 1, 0):
+            if gc.get_count()[generation] > gc.get_threshold()[generation]:
+                gc.collect(generation)
+                return
+
+    def close(self) -> None:
+        """Give the matter back."""
+        self._timer.stop()
+        gc.enable()
