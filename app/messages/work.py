@@ -10,6 +10,7 @@ TEMPLATES: Final[dict[str, str]] = {
     "work.autosave": "writing unsaved work down",
     "work.plan": "planning what {players} players do",
     "work.load_figures": "loading the players' figures",
+    "work.compare": "what the generator would do for {player}",
     "work.export": "writing the files",
     "work.playblast": "making the film",
 }

@@ -1,0 +1,255 @@
+"""How a fingering is held, drawn from nothing but the controls of an instrument map."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from PySide6.QtCore import QCoreApplication, QPointF, QRectF, QSize, Qt
+from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPaintEvent, QPen
+from PySide6.QtWidgets import QSizePolicy, QWidget
+
+from instrument_maps.model import Control, InstrumentMap
+from widgets.common.session import Session
+from widgets.common.tokens import Tokens
+
+DOWN = 0.5
+"""A key further than this counts as down."""
+TOP_PX = 30.0
+COLUMN_PX = 50.0
+_MANY = 6
+"""More keys than this are drawn as a fingering chart, a row for each hand."""
+
+
+@dataclass(frozen=True)
+class Slot:
+    """A position of a slide: its name and where it is, 0..1."""
+
+    name: str
+    place: float
+
+
+def finger_text(mover: str) -> str:
+    """Which part of which hand moves a control, in the language of the editor: ``"right.index"``."""
+    hand, _, part = mover.partition(".")
+    hands = {
+        "left": QCoreApplication.translate("Fingering", "L"),
+        "right": QCoreApplication.translate("Fingering", "R"),
+    }
+    parts = {
+        "thumb": QCoreApplication.translate("Fingering", "thumb"),
+        "index": QCoreApplication.translate("Fingering", "index"),
+        "middle": QCoreApplication.translate("Fingering", "middle"),
+        "ring": QCoreApplication.translate("Fingering", "ring"),
+        "little": QCoreApplication.translate("Fingering", "little"),
+        "hand": QCoreApplication.translate("Fingering", "hand"),
+    }
+    return QCoreApplication.translate("Fingering", "{hand} {part}").format(
+        hand=hands.get(hand, hand), part=parts.get(part, part)
+    )
+
+
+def slide_slots(instrument: InstrumentMap, control: Control) -> tuple[Slot, ...]:
+    """The named positions of a slide: the usual place of every label that moves this control alone.
+
+    A label is played a little shorter or longer for some notes; the middle of its places is where it is drawn.
+    """
+    places: dict[str, list[float]] = {}
+    for fingering in instrument.fingerings:
+        others = [name for name in fingering.controls if name != control.name]
+        if not others:
+            places.setdefault(fingering.label, []).append(fingering.controls.get(control.name, control.rest_value))
+    middles = {label: sorted(values)[len(values) // 2] for label, values in places.items()}
+    return tuple(Slot(label, place) for label, place in sorted(middles.items(), key=lambda item: item[1]))
+
+
+class FingeringDiagram(QWidget):
+    """Valves as tops that are filled when down, levers beside them, a slide as a rail with its positions and a hand,
+    many keys as a chart with a row for each hand; each with the finger that works it."""
+
+    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._session = session
+        self._instrument: InstrumentMap | None = None
+        self._values: dict[str, float] = {}
+        self._slots: dict[str, tuple[Slot, ...]] = {}
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        session.theme_changed.connect(self.update)
+
+    @property
+    def values(self) -> Mapping[str, float]:
+        """The value of every control shown."""
+        return self._values
+
+    def show_fingering(self, instrument: InstrumentMap, controls: Mapping[str, float]) -> None:
+        """Draw this fingering; controls that are not named are at rest."""
+        if instrument is not self._instrument:
+            self._instrument = instrument
+            self._slots = {
+                control.name: slide_slots(instrument, control)
+                for control in instrument.controls
+                if control.kind == "slide" and control.role == "pitch"
+            }
+            self.updateGeometry()
+        self._values = {control.name: controls.get(control.name, control.rest_value) for control in instrument.controls}
+        self.setAccessibleDescription(self.spoken())
+        self.update()
+
+    def spoken(self) -> str:
+        """The fingering in words."""
+        if self._instrument is None:
+            return ""
+        return ", ".join(
+            f"{control.label or control.name} {finger_text(control.finger)}"
+            for control in self._keys()
+            if self._values[control.name] >= DOWN
+        )
+
+    def _keys(self) -> list[Control]:
+        assert self._instrument is not None
+        return [control for control in self._instrument.controls if control.kind != "slide" and control.role == "pitch"]
+
+    def _slides(self) -> list[Control]:
+        """Every slide, those that only correct the intonation last."""
+        assert self._instrument is not None
+        slides = [control for control in self._instrument.controls if control.kind == "slide"]
+        slides += [
+            control for control in self._instrument.controls if control.kind != "slide" and control.role == "intonation"
+        ]
+        return sorted(slides, key=lambda control: control.role != "pitch")
+
+    # Drawing
+
+    def _line_px(self) -> float:
+        return QFontMetricsF(self._small()).height()
+
+    def _small(self) -> QFont:
+        font = QFont(self.font())
+        font.setPointSizeF(9.0)
+        return font
+
+    def _rows(self) -> list[tuple[str, list[Control]]]:
+        """Keys in rows: all in one, or by hand where there are many."""
+        keys = self._keys()
+        if len(keys) <= _MANY:
+            return [("", keys)] if keys else []
+        return [
+            (hand, row)
+            for hand in ("left", "right")
+            if (row := [control for control in keys if control.finger.startswith(hand)])
+        ]
+
+    def _key_row_px(self) -> float:
+        return TOP_PX + self._line_px() + 8.0
+
+    def _rail_px(self, control: Control) -> float:
+        return (34.0 + self._line_px()) if control.role == "pitch" else (self._line_px() + 10.0)
+
+    def _paint_key(
+        self, painter: QPainter, tokens: Tokens, control: Control, centre: QPointF, column_px: float
+    ) -> None:
+        down = self._values[control.name] >= DOWN
+        radius = TOP_PX / 2.0 - 2.0
+        painter.setPen(QPen(QColor(tokens.accent if down else tokens.line_strong), 1.6))
+        painter.setBrush(QColor(tokens.accent) if down else QColor(tokens.surface))
+        if control.kind == "lever":
+            painter.drawRoundedRect(QRectF(centre.x() - radius * 1.3, centre.y() - 8.0, radius * 2.6, 16.0), 8, 8)
+        else:
+            painter.drawEllipse(centre, radius, radius)
+        painter.setPen(QColor(tokens.accent_text if down else tokens.text))
+        painter.setFont(self.font())
+        label = QRectF(centre.x() - column_px / 2, centre.y() - radius, column_px, 2 * radius)
+        painter.drawText(label, Qt.AlignmentFlag.AlignCenter, control.label)
+        painter.setFont(self._small())
+        painter.setPen(QColor(tokens.text if down else tokens.text_dim))
+        under = QRectF(centre.x() - column_px / 2, centre.y() + radius + 3.0, column_px, self._line_px())
+        text = QFontMetricsF(self._small()).elidedText(
+            finger_text(control.finger), Qt.TextElideMode.ElideRight, column_px - 2
+        )
+        painter.drawText(under, Qt.AlignmentFlag.AlignCenter, text)
+
+    def _paint_rail(self, painter: QPainter, tokens: Tokens, control: Control, top: float) -> None:
+        left, right, value = 18.0, self.width() - 18.0, self._values[control.name]
+        line_px = self._line_px()
+        painter.setFont(self._small())
+        if control.role != "pitch":
+            self._paint_correction(painter, tokens, control, QRectF(8.0, top, self.width() - 16.0, line_px + 6.0))
+            return
+        middle = top + line_px + 10.0
+        at = left + value * (right - left)
+        painter.setPen(QPen(QColor(tokens.line_strong), 4.0, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
+        painter.drawLine(QPointF(left, middle), QPointF(right, middle))
+        painter.setPen(QPen(QColor(tokens.accent), 4.0, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
+        painter.drawLine(QPointF(left, middle), QPointF(at, middle))
+        slots = self._slots.get(control.name, ())
+        nearest = min(slots, key=lambda slot: abs(slot.place - value), default=None)
+        for slot in slots:
+            x = left + slot.place * (right - left)
+            is_here = slot is nearest
+            painter.setPen(QPen(QColor(tokens.text if is_here else tokens.text_dim), 1.4))
+            painter.drawLine(QPointF(x, middle - 8.0), QPointF(x, middle - 3.0))
+            box = QRectF(x - 14.0, top, 28.0, line_px)
+            painter.drawText(box, Qt.AlignmentFlag.AlignCenter, slot.name)
+        painter.setPen(QPen(QColor(tokens.sunken), 2.0))
+        painter.setBrush(QColor(tokens.accent))
+        painter.drawEllipse(QPointF(at, middle), 7.0, 7.0)
+        painter.setPen(QColor(tokens.text_dim))
+        below = QRectF(8.0, middle + 8.0, self.width() - 16.0, line_px)
+        painter.drawText(below, Qt.AlignmentFlag.AlignLeft, finger_text(control.finger))
+        travel_m = control.motion.travel_m
+        if travel_m is not None:
+            length = QCoreApplication.translate("Fingering", "{cm} cm").format(cm=f"{value * travel_m * 100.0:.1f}")
+            painter.setPen(QColor(tokens.text))
+            painter.drawText(below, Qt.AlignmentFlag.AlignRight, length)
+
+    def _paint_correction(self, painter: QPainter, tokens: Tokens, control: Control, box: QRectF) -> None:
+        """A slide that only corrects the intonation: a thin bar."""
+        value = self._values[control.name]
+        name_px = box.width() * 0.5
+        painter.setPen(QColor(tokens.text if value > 0.01 else tokens.text_dim))
+        name = QFontMetricsF(self._small()).elidedText(
+            finger_text(control.finger), Qt.TextElideMode.ElideRight, name_px - 4
+        )
+        painter.drawText(
+            QRectF(box.left(), box.top(), name_px, box.height()),
+            Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft,
+            name,
+        )
+        bar = QRectF(box.left() + name_px, box.center().y() - 3.0, box.width() - name_px, 6.0)
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(QColor(tokens.line))
+        painter.drawRoundedRect(bar, 3, 3)
+        if value > 0.005:
+            painter.setBrush(QColor(tokens.accent))
+            painter.drawRoundedRect(QRectF(bar.left(), bar.top(), max(bar.width() * value, 6.0), bar.height()), 3, 3)
+
+    # Qt's own names
+
+    def sizeHint(self) -> QSize:
+        if self._instrument is None:
+            return QSize(200, 40)
+        height = 8.0 + len(self._rows()) * self._key_row_px() + sum(self._rail_px(slide) for slide in self._slides())
+        return QSize(200, round(height) + 4)
+
+    def minimumSizeHint(self) -> QSize:
+        return QSize(120, self.sizeHint().height())
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        if self._instrument is None:
+            return
+        tokens, painter = self._session.tokens, QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.setPen(QPen(QColor(tokens.line), 1.0))
+        painter.setBrush(QColor(tokens.sunken))
+        painter.drawRoundedRect(QRectF(self.rect()).adjusted(0.5, 0.5, -0.5, -0.5), 5, 5)
+        top = 6.0
+        for _, row in self._rows():
+            column_px = min(COLUMN_PX * 1.3, (self.width() - 12.0) / len(row))
+            left = self.width() / 2.0 - column_px * len(row) / 2.0
+            for number, control in enumerate(row):
+                centre = QPointF(left + (number + 0.5) * column_px, top + TOP_PX / 2.0)
+                self._paint_key(painter, tokens, control, centre, column_px)
+            top += self._key_row_px()
+        for slide in self._slides():
+            self._paint_rail(painter, tokens, slide, top)
+            top += self._rail_px(slide)

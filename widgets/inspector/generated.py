@@ -1,0 +1,79 @@
+"""What the generator would do without a player's corrections, to be shown beside them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from PySide6.QtCore import QObject, Signal
+
+from app.errors import AppError, Message
+from app.performance.ensemble import Performance
+from app.plan.model import PlayerPlan
+from app.project.model import Project
+from widgets.common.session import Session
+from widgets.common.tasks import Progress, StopWanted
+
+AT_ONCE_NOTES = 600
+"""So many notes are planned while a person does not notice."""
+
+
+class Generated(QObject):
+    """Plans of single players as they would be without anything done by hand.
+
+    Signals
+    -------
+    changed()
+        A plan that was asked for is there.
+    """
+
+    changed = Signal()
+
+    def __init__(self, session: Session) -> None:
+        super().__init__()
+        self._session = session
+        self._player_id: str | None = None
+        self._of: Performance | None = None
+        self._plan: PlayerPlan | None = None
+        self._underway: tuple[Performance, str] | None = None
+
+    def plan(self, player_id: str) -> PlayerPlan | None:
+        """The plan of a player without that player's corrections; None while it is being made (see `changed`)."""
+        performance = self._session.performance
+        if not performance.planned or player_id not in performance.plans:
+            return None
+        if not performance.project.corrections.get(player_id):
+            return performance.plans[player_id]
+        if self._of is performance and self._player_id == player_id:
+            return self._plan
+        if self._underway != (performance, player_id):
+            self._make(performance, player_id)
+        return self._plan if self._of is performance and self._player_id == player_id else None
+
+    def _make(self, performance: Performance, player_id: str) -> None:
+        bare = Performance(_without_corrections(performance.project, player_id), performance)
+        if len(performance.project.part(performance.project.player(player_id)).notes) <= AT_ONCE_NOTES:
+            try:
+                self._keep(performance, player_id, bare.plans[player_id])
+            except AppError:
+                self._keep(performance, player_id, None)
+            return
+        self._underway = (performance, player_id)
+
+        def work(progress: Progress, stop_wanted: StopWanted) -> PlayerPlan:
+            bare.prepare(stop_wanted, progress)
+            return bare.plans[player_id]
+
+        def done(plan: PlayerPlan) -> None:
+            self._underway = None
+            self._keep(performance, player_id, plan)
+            self.changed.emit()
+
+        name = performance.project.player(player_id).name
+        self._session.tasks.run(Message("work.compare", {"player": name}), work, done, key="compare")
+
+    def _keep(self, performance: Performance, player_id: str, plan: PlayerPlan | None) -> None:
+        self._of, self._player_id, self._plan = performance, player_id, plan
+
+
+def _without_corrections(project: Project, player_id: str) -> Project:
+    return replace(project, corrections={id: items for id, items in project.corrections.items() if id != player_id})
