@@ -175,6 +175,10 @@ class NumberSlider(QWidget):
         self._minimum, self._maximum = minimum, maximum
         self.update()
 
+    def set_step(self, step: float) -> None:
+        """Step so far by keys and wheel, and in a drag without a range to fill."""
+        self._step = step
+
     def set_texts(self, label: str, unit: str = "", tool_tip: str = "") -> None:
         """The words around the number, in the language of the editor."""
         self._label, self._unit = label, unit

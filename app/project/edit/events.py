@@ -12,7 +12,7 @@ edit.no_note_to_cue(): "There is no note after this place to give a cue to."
 from __future__ import annotations
 
 from bisect import bisect_left
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import Literal, NamedTuple, TypeAlias
 
 import msgspec
@@ -304,6 +304,26 @@ def give_back(project: Project, player_id: str, event_ids: Iterable[str] = (), n
     notes = tuple(note_ids)
     ids = (*event_ids, *(f"fingering:{note}" for note in notes), *(f"embouchure:{note}" for note in notes))
     return take_back(project, player_id, corrections_of(project, player_id, ids))
+
+
+def forget(
+    project: Project,
+    player_id: str,
+    kind: type[PinFingering] | type[SetEmbouchure],
+    note_ids: Collection[str],
+    field: str | None = None,
+) -> Project:
+    """Take pins or embouchures of notes back; of an embouchure perhaps only one value."""
+    for item in project.corrections.get(player_id, ()):
+        if not isinstance(item, kind) or item.note_id not in note_ids:
+            continue
+        if field is not None and isinstance(item, SetEmbouchure):
+            left = msgspec.structs.replace(item, **{field: None})
+            if left != SetEmbouchure(item.note_id):
+                project = put(project, player_id, (left,))
+                continue
+        project = take_back(project, player_id, (item,))
+    return project
 
 
 def give_back_player(project: Project, player_id: str) -> Project:
