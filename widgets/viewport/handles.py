@@ -33,6 +33,7 @@ MOST_DEG: dict[PoseTarget, float] = {
 """Farther no player holds these from where they are, whatever the handle says."""
 HEAD_ARM_M, ROLL_ARM_M = 0.25, 0.25
 """A drag as far as this is one radian where the handle itself hardly moves."""
+_SMALL = 1e-4
 FINER = 0.25
 """What a drag is worth with Shift."""
 
@@ -130,7 +131,9 @@ def dragged(
     turns = handle.leans if lean and handle.leans else handle.turns
     depth_m = float((camera.eye_m - handle.at_m) @ camera.backward)
     scale = camera.pixels_per_metre(height_px, max(depth_m, 0.05))
-    columns = np.array([[turn @ camera.right * scale, -(turn @ camera.up) * scale] for _, turn in turns]).T
+    # Pixels per radian, with what perspective does to a handle that comes nearer.
+    places, _ = camera.project([handle.at_m, *(handle.at_m + _SMALL * turn for _, turn in turns)], height_px, height_px)
+    columns = (places[1:] - places[0]).T / _SMALL
     lengths = np.linalg.norm(columns, axis=0)
     fullest = max((float(np.linalg.norm(turn)) for _, turn in turns), default=0.0) * scale
     # A turn seen from its end would need huge angles for small drags.

@@ -188,7 +188,9 @@ class ViewportPanel(QWidget):
         canvas, loaded = self._canvas, self._loaded
         if canvas is None or loaded is None:
             return None
-        self._take(loaded.stage, {m.player_id: self._poses.pose_now(m.player_id, time_s) for m in loaded.stage.members})
+        stage = loaded.stage
+        seen = {member.player_id: pose for member, pose in zip(stage.members, stage.poses, strict=True)}
+        self._take(stage, {player_id: self._poses.pose_now(player_id, time_s) for player_id in seen})
         camera = self._camera
         if view is not None:
             camera = view_camera(
@@ -211,7 +213,8 @@ class ViewportPanel(QWidget):
             paint(painter, marks, loaded.stage, camera, (width, height), self._session.tokens)
             painter.end()
             picture = pixels(image)
-        self.refresh()
+        # What the window shows has not changed.
+        stage.pose(seen)
         return picture
 
     # GL

@@ -1,0 +1,146 @@
+"""Shapes for the graphics card against the meshes they are made of."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+from app.rig.character import bundled_character, characters
+from app.rig.instrument import bundled_instrument
+from instrument_maps.load import bundled_maps
+from widgets.viewport.geometry import Geometry, character_levels, instrument_levels, joined, stool
+
+CHARACTERS = tuple(characters())
+
+
+@cache
+def levels(name: str) -> tuple[Geometry, ...]:
+    return character_levels(bundled_character(name))
+
+
+def area(geometry: Geometry) -> float:
+    places = geometry.shape["a_position"].astype(np.float64)[geometry.triangles]
+    return float(np.linalg.norm(np.cross(places[:, 1] - places[:, 0], places[:, 2] - places[:, 0]), axis=1).sum() / 2)
+
+
+@pytest.mark.parametrize("name", CHARACTERS)
+def test_the_finest_level_is_every_triangle_where_it_was_in_its_own_colour(name: str) -> None:
+    character, geometry = bundled_character(name), levels(name)[0]
+    wanted = set()
+    for mesh in character.meshes:
+        for triangle, material in zip(mesh.triangles, mesh.triangle_materials, strict=True):
+            color = tuple(np.float32(mesh.materials[material].base_color[:3]).tolist())
+            wanted.add((mesh.positions_m[triangle].tobytes(), color))
+    places = geometry.shape["a_position"][geometry.triangles]
+    colors = geometry.surface["a_color"][geometry.triangles][:, :, :3]
+    assert (colors == colors[:, :1]).all()
+    found = {(place.tobytes(), tuple(color[0].tolist())) for place, color in zip(places, colors, strict=True)}
+    assert found == wanted
+
+
+@pytest.mark.parametrize("name", CHARACTERS)
+def test_coarser_levels_are_smaller_but_cover_the_same_body(name: str) -> None:
+    fine, middle, coarse = levels(name)
+    assert len(fine.triangles) > 1.2 * len(middle.triangles) > 2.0 * len(coarse.triangles)
+    for level in (middle, coarse):
+        for bound in ("min", "max"):
+            own = getattr(level.shape["a_position"], bound)(axis=0)
+            assert own == pytest.approx(getattr(fine.shape["a_position"], bound)(axis=0), abs=0.02)
+        assert area(level) == pytest.approx(area(fine), rel=0.25)
+        a, b, c = level.triangles.T
+        assert not ((a == b) | (b == c) | (c == a)).any()
+        assert len(np.unique(level.triangles)) == len(level.shape)
+
+
+@pytest.mark.parametrize("name", CHARACTERS)
+def test_weights_sum_to_one_and_name_the_characters_own_joints(name: str) -> None:
+    for level in levels(name):
+        assert level.surface["a_weights"].sum(axis=1) == pytest.approx(1.0, abs=1e-5)
+        assert level.surface["a_bones"].max() < len(bundled_character(name).skeleton.names)
+
+
+@pytest.mark.parametrize("name", CHARACTERS)
+@pytest.mark.parametrize("level", [0, 1])
+def test_a_morph_moves_the_vertices_the_character_says_and_only_the_first_ones(name: str, level: int) -> None:
+    geometry = levels(name)[level]
+    face = geometry.face
+    assert face is not None
+    body = bundled_character(name).meshes[0]
+    morph = next(morph for morph in body.morphs if morph.name == "jawOpen")
+    moved = {
+        body.positions_m[vertex].tobytes(): body.positions_m[vertex] + delta
+        for vertex, delta in zip(morph.vertices, morph.deltas_m, strict=True)
+        if np.abs(delta).max() > 1e-6
+    }
+    weights = np.zeros(len(face.names), np.float32)
+    weights[face.names.index("jawOpen")] = 1.0
+    after = face.morphed(weights)
+    assert len(after) == face.count
+    met = 0
+    own_color = np.float32(body.materials[0].base_color[:3])
+    for index in range(face.count):
+        if not (geometry.surface["a_color"][index, :3] == own_color).all():
+            continue
+        goal = moved.get(geometry.shape["a_position"][index].tobytes())
+        if goal is not None:
+            met += 1
+            assert after["a_position"][index] == pytest.approx(goal, abs=1e-6)
+    assert met > 300 if level == 0 else met > 100
+
+
+@pytest.mark.parametrize("name", CHARACTERS)
+def test_normals_follow_a_morph(name: str) -> None:
+    """Against the normals of the moved triangles, by another way: finite areas around each vertex."""
+    geometry = levels(name)[0]
+    face = geometry.face
+    assert face is not None
+    weights = np.zeros(len(face.names), np.float32)
+    weights[face.names.index("cheekPuff")] = 1.0
+    shape = geometry.shape.copy()
+    shape[: face.count] = face.morphed(weights)
+    places = shape["a_position"].astype(np.float64)
+    faces = np.cross(
+        places[geometry.triangles[:, 1]] - places[geometry.triangles[:, 0]],
+        places[geometry.triangles[:, 2]] - places[geometry.triangles[:, 0]],
+    )
+    total = np.zeros((len(places), 3))
+    for corner in range(3):
+        np.add.at(total, geometry.triangles[:, corner], faces)
+    total /= np.maximum(np.linalg.norm(total, axis=1, keepdims=True), 1e-12)
+    moved = np.linalg.norm(shape["a_position"] - geometry.shape["a_position"], axis=1) > 0.002
+    given = shape["a_normal"] / np.linalg.norm(shape["a_normal"], axis=1, keepdims=True)
+    assert moved.sum() > 100
+    angles = np.degrees(np.arccos(np.clip((given[moved] * total[moved]).sum(axis=1), -1.0, 1.0)))
+    assert np.median(angles) < 4.0
+    assert np.percentile(angles, 95) < 20.0
+
+
+def test_instruments_move_with_bones_after_the_joints() -> None:
+    for instrument in bundled_maps().values():
+        model = bundled_instrument(instrument)
+        for level in instrument_levels(model, 60):
+            bones = level.surface["a_bones"][:, 0]
+            assert bones.min() == 60
+            assert bones.max() == 60 + len(model.node_names) - 1
+
+
+def test_joined_shapes_keep_their_triangles() -> None:
+    parts = [stool(3, 0.4), stool(5, 0.5)]
+    whole = joined(parts)
+    assert len(whole.triangles) == sum(len(part.triangles) for part in parts)
+    last = whole.shape["a_position"][whole.triangles[-1]]
+    assert (last == parts[1].shape["a_position"][parts[1].triangles[-1]]).all()
+    assert set(whole.surface["a_bones"][:, 0]) == {3.0, 5.0}
+
+
+def test_a_stool_stands_on_the_floor_and_is_seen_from_outside() -> None:
+    seat = stool(0, 0.43)
+    assert seat.shape["a_position"][:, 1].min() == pytest.approx(-0.43, abs=1e-3)
+    assert seat.shape["a_position"][:, 1].max() == 0.0
+    places = seat.shape["a_position"].astype(np.float64)[seat.triangles]
+    faces = np.cross(places[:, 1] - places[:, 0], places[:, 2] - places[:, 0])
+    normals = seat.shape["a_normal"][seat.triangles].mean(axis=1)
+    solid = np.linalg.norm(faces, axis=1) > 1e-9
+    assert ((faces * normals).sum(axis=1)[solid] > 0.0).all()
