@@ -281,7 +281,7 @@ class ActionTable(QObject):
 
 def menu_text(key: str) -> str:
     """Name of a menu in the language of the editor."""
-    return QCoreApplication.translate("Menu", MENUS[key])
+    return QCoreApplication.translate("Menu", MENUS.get(key, key))
 
 
 def plain_menu(text: str) -> str:

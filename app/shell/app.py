@@ -27,6 +27,7 @@ from app.shell.generator import Generator
 from app.shell.language import Language
 from app.shell.questions import Dialogs, Questions
 from app.shell.settings import Settings, settings_path
+from app.shell.sound import Sound
 from app.shell.tasks import ThreadTasks
 from app.shell.theme import apply_font, apply_theme
 from app.shell.window import Window
@@ -86,6 +87,8 @@ class Program(QObject):
     tasks : Tasks
     questions : Questions
     autosave : Autosave or None
+    heard : bool
+        Whether the performance can be played.
     """
 
     def __init__(
@@ -94,6 +97,7 @@ class Program(QObject):
         tasks: Tasks | None = None,
         questions: Questions | None = None,
         autosave: Autosave | None = None,
+        heard: bool = True,
     ) -> None:
         super().__init__()
         application = QApplication.instance()
@@ -109,6 +113,9 @@ class Program(QObject):
         self.session.theme_changed.connect(self._dress)
         self._dress()
         self.generator = Generator(self.session, self.tasks)
+        if heard:
+            # A child of the session: it stays.
+            Sound(self.session)
         self.editor.table = ActionTable(self.session, settings, rows())
         self.language.changed.connect(self.editor.table.retranslate)
         self.window = Window(self.editor, self.generator)
@@ -190,7 +197,7 @@ def picture(start: Start, target: Path) -> int:
         settings = Settings(Path(folder) / "editor.ini")
         settings.language = start.language or "en"
         settings.theme = start.theme or "dark"
-        program = Program(settings)
+        program = Program(settings, heard=False)
         failure: list[AppError] = []
         if isinstance(program.tasks, ThreadTasks):
             program.tasks.failed.connect(failure.append)
@@ -211,12 +218,12 @@ def picture(start: Start, target: Path) -> int:
                 _wait(application, lambda: program.editor.files.is_open or bool(failure))
                 if failure:
                     raise failure[0]
-                _wait(application, lambda: not program.generator.planning)
+                _wait(application, lambda: program.session.performance.project is program.session.project)
                 if start.view in VIEWS:
                     program.session.viewport.set_view(start.view)
                 program.session.set_playhead(start.time_s)
                 program.session.reveal(start.time_s)
-                _wait(application, lambda: _moves(program, start.time_s))
+                _wait(application, lambda: _moves(program, start.time_s) and not _working(program))
                 window.reset_layout()
             # Flights of the camera and late layouts.
             _wait(application, lambda: False, 1.2)
@@ -238,6 +245,10 @@ def _moves(program: Program, time_s: float) -> bool:
     )
 
 
+def _working(program: Program) -> bool:
+    return isinstance(program.tasks, ThreadTasks) and bool(program.tasks.running)
+
+
 def _wait(application: QApplication, ready: Callable[[], bool], most_s: float = PICTURE_S) -> None:
     end_s = time.monotonic() + most_s
     while not ready() and time.monotonic() < end_s:
@@ -249,4 +260,3 @@ def _why_not(target: Path) -> str:
     if target.suffix.lower() not in (".png", ".jpg", ".jpeg", ".webp", ".bmp"):
         return f"unknown kind of picture {target.suffix!r}"
     return os.strerror(2) if not target.parent.is_dir() else "not writable"
-

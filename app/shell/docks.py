@@ -56,7 +56,9 @@ class Dock(QDockWidget):
         tokens = self._session.tokens
         self._float.setIcon(icon("float", tokens, tokens.text_dim))
         self._close.setIcon(icon("close", tokens, tokens.text_dim))
-        self._bar.setStyleSheet(f"#dock_title {{ background: {tokens.surface}; border-bottom: 1px solid {tokens.line}; }}")
+        self._bar.setStyleSheet(
+            f"#dock_title {{ background: {tokens.surface}; border-bottom: 1px solid {tokens.line}; }}"
+        )
         self._title.setStyleSheet(f"color: {tokens.text_dim}; font-weight: 600;")
 
     def retranslate(self) -> None:

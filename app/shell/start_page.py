@@ -122,7 +122,9 @@ class StartPage(QScrollArea):
             (
                 self.tr("1. Open the MIDI of a piece: every part gets a player, with fingerings, breaths and cues."),
                 self.tr("2. Change what you would do differently. What you set by hand stays, whatever is generated."),
-                self.tr("3. Export each player and instrument as FBX and BVH. Files can also be dropped onto the window."),
+                self.tr(
+                    "3. Export each player and instrument as FBX and BVH. Files can also be dropped onto the window."
+                ),
             ),
             strict=True,
         ):

@@ -174,7 +174,9 @@ class StatusLine(QStatusBar):
         self._notice.setText(
             " " + QFontMetrics(self._notice.font()).elidedText(first, Qt.TextElideMode.ElideRight, room_px)
         )
-        self._notice.setIcon(icon(severity.value, self._session.tokens, severity_colour(severity, self._session.tokens)))
+        self._notice.setIcon(
+            icon(severity.value, self._session.tokens, severity_colour(severity, self._session.tokens))
+        )
         self._notice.setToolTip(self.tr("Show everything that was said"))
         self._notice.show()
         self._dismiss.show()
@@ -207,9 +209,7 @@ class StatusLine(QStatusBar):
         tokens = self._session.tokens
         self._problems.setVisible(self._files.is_open)
         self._problems.setIcon(icon("warning" if count else "check", tokens, tokens.warning if count else tokens.good))
-        self._problems.setText(
-            " " + self.tr("%n problem(s)", "", count) if count else " " + self.tr("no problems")
-        )
+        self._problems.setText(" " + self.tr("%n problem(s)", "", count) if count else " " + self.tr("no problems"))
 
     def _tell_saved(self) -> None:
         files = self._files
@@ -371,9 +371,7 @@ class _Details(QFrame):
             line = QHBoxLayout(row)
             line.setContentsMargins(0, 0, 0, 0)
             mark, text = QLabel(), QLabel(message_text(message))
-            mark.setPixmap(
-                pixmap(severity.value, 16, severity_colour(severity, tokens), self.devicePixelRatioF())
-            )
+            mark.setPixmap(pixmap(severity.value, 16, severity_colour(severity, tokens), self.devicePixelRatioF()))
             text.setWordWrap(True)
             text.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
             text.setFixedWidth(520)

@@ -11,6 +11,7 @@ from PySide6.QtCore import QByteArray, QEvent, QPoint, QSize, Qt
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QKeySequence
 from PySide6.QtWidgets import QMainWindow, QPushButton, QStackedWidget, QToolBar, QVBoxLayout, QWidget
 
+from app.errors import Message
 from app.project.edit.piece import set_audio
 from app.project.recovery import Recoverable
 from app.project.storage import SUFFIX
@@ -24,7 +25,6 @@ from app.shell.palette import Palette
 from app.shell.start_page import StartPage
 from app.shell.status import StatusLine
 from app.shell.tasks import ThreadTasks
-from app.errors import Message
 from widgets.common.icons import icon
 from widgets.common.session import Session
 

@@ -27,9 +27,7 @@ def _can_redo(session: Session) -> bool:
 
 
 ACTIONS: tuple[Action, ...] = (
-    Action(
-        "edit.undo", QT_TRANSLATE_NOOP("Action", "Undo"), undo, "Edit", "Ctrl+Z", enabled=_can_undo, icon="undo"
-    ),
+    Action("edit.undo", QT_TRANSLATE_NOOP("Action", "Undo"), undo, "Edit", "Ctrl+Z", enabled=_can_undo, icon="undo"),
     Action(
         "edit.redo",
         QT_TRANSLATE_NOOP("Action", "Redo"),

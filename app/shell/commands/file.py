@@ -107,7 +107,9 @@ ACTIONS: tuple[Action, ...] = (
         enabled=_can_save,
         icon="save",
     ),
-    Action("file.save_as", QT_TRANSLATE_NOOP("Action", "Save As..."), save_as, "File", "Ctrl+Shift+S", enabled=_is_open),
+    Action(
+        "file.save_as", QT_TRANSLATE_NOOP("Action", "Save As..."), save_as, "File", "Ctrl+Shift+S", enabled=_is_open
+    ),
     Action("file.import_midi", QT_TRANSLATE_NOOP("Action", "Import MIDI..."), import_midi, "File", icon="import"),
     Action(
         "file.add_audio",
