@@ -24,6 +24,8 @@ TEMPLATES: Final[dict[str, str]] = {
     "edit.give_back_player": "revert all corrections of {player}",
     "edit.set_offset": "offset of the recording",
     "edit.no_note_to_breathe_for": "there is no note after this place to breathe for",
+    "edit.no_such_fingering": "{label} is no fingering of this note; there are: {known}",
+    "problems.none": "there are no problems",
     "edit.no_note_to_cue": "there is no note after this place to give a cue to",
     # Poses
     "edit.hold_bell": "hold the bell differently",

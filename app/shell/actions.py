@@ -7,11 +7,11 @@ from collections.abc import Iterable, Sequence
 from functools import partial
 from typing import Final
 
-from PySide6.QtCore import QT_TRANSLATE_NOOP, QCoreApplication, QEvent, QObject, Qt, QTimer, Signal
-from PySide6.QtGui import QAction, QKeySequence
+from PySide6.QtCore import QCoreApplication, QEvent, QObject, Qt, QTimer, Signal
+from PySide6.QtGui import QAction, QFocusEvent, QKeyEvent, QKeySequence
 from PySide6.QtWidgets import QApplication, QMenu, QMenuBar, QWidget
 
-from app.shell.action import Action
+from app.shell.action import QT_TRANSLATE_NOOP, Action
 from app.shell.settings import Settings
 from widgets.common.icons import icon
 from widgets.common.session import Session
@@ -21,14 +21,14 @@ SUBJECTS: Final = (
     "file",
     "edit",
     "notes",
+    "fingerings",
     "events",
-    "timeline",
-    "view",
-    "viewport",
     "players",
+    "timeline",
+    "viewport",
     "playback",
     "generate",
-    "export",
+    "problems",
     "application",
 )
 """Modules of `app.shell.commands`, in the order in which their rows stand in a menu."""
@@ -42,6 +42,9 @@ MENUS: Final = {
     "Export": QT_TRANSLATE_NOOP("Menu", "E&xport"),
     "Help": QT_TRANSLATE_NOOP("Menu", "&Help"),
     "Notes": QT_TRANSLATE_NOOP("Menu", "Notes"),
+    "Fingering": QT_TRANSLATE_NOOP("Menu", "Fingering"),
+    "Events": QT_TRANSLATE_NOOP("Menu", "Breaths and Acting"),
+    "Gesture": QT_TRANSLATE_NOOP("Menu", "Add a Gesture"),
     "Viewport": QT_TRANSLATE_NOOP("Menu", "Viewport"),
     "Panels": QT_TRANSLATE_NOOP("Menu", "Panels"),
     "Theme": QT_TRANSLATE_NOOP("Menu", "Theme"),
@@ -207,8 +210,8 @@ class ActionTable(QObject):
             self._give_shortcuts()
 
     def _give_shortcuts(self) -> None:
-        """Where a panel and the window know the same shortcut, the panel in which the keyboard is has it alone: Qt would
-        do neither."""
+        """Where a panel and the window know the same shortcut, the panel that has the keyboard has it alone: Qt would do
+        neither."""
         taken = {
             sequence.toString()
             for row in self.rows.values()
@@ -325,7 +328,7 @@ class Menus(QObject):
     def menu(self, path: str) -> QMenu:
         """The menu at a path, made if it is not there."""
         if path not in self.menus:
-            above, _, key = path.rpartition("/")
+            above, _, _key = path.rpartition("/")
             parent = self.menu(above) if above else self._bar
             menu = QMenu(parent)
             menu.setObjectName(f"menu_{path.replace('/', '_').lower()}")
@@ -358,15 +361,17 @@ class KeyboardButtons(QObject):
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         """Watch how the keyboard moves."""
         kind = event.type()
-        if kind == QEvent.Type.FocusIn and isinstance(watched, QWidget):
-            by_keys = event.reason() in (  # type: ignore[attr-defined]
-                Qt.FocusReason.TabFocusReason,
-                Qt.FocusReason.BacktabFocusReason,
-            )
+        if kind == QEvent.Type.FocusIn and isinstance(event, QFocusEvent):
+            by_keys = event.reason() in (Qt.FocusReason.TabFocusReason, Qt.FocusReason.BacktabFocusReason)
             self._reached = id(watched) if by_keys else None
-        elif kind == QEvent.Type.ShortcutOverride and id(watched) == self._reached and _is_pressed_by_space(watched):
-            if event.key() == Qt.Key.Key_Space:  # type: ignore[attr-defined]
-                event.accept()
+        elif (
+            kind == QEvent.Type.ShortcutOverride
+            and id(watched) == self._reached
+            and isinstance(event, QKeyEvent)
+            and event.key() == Qt.Key.Key_Space
+            and _is_pressed_by_space(watched)
+        ):
+            event.accept()
         return False
 
 

@@ -66,11 +66,11 @@ class _Waveform(LaneItem):
         left, right = int(exposed.left()), int(np.ceil(exposed.right()))
         low, high = peaks.levels(lane.axis.seconds(left) - offset_s, lane.axis.seconds(right) - offset_s, right - left)
         half = lane.plot_rect.height() / 2 - 2.0
-        x = np.arange(left, right) + 0.5
+        x: Floats = np.arange(left, right, dtype=np.float64) + 0.5
         inside = (x >= lane.axis.x_px(offset_s)) & (x <= lane.axis.x_px(offset_s + peaks.duration_s))
         x, low, high = x[inside], low[inside], high[inside]
         top: Floats = half + 2.0 - high.astype(np.float64) * half
-        bottom = np.maximum(half + 2.0 - low.astype(np.float64) * half, top + 1.0)
+        bottom: Floats = np.maximum(half + 2.0 - low.astype(np.float64) * half, top + 1.0)
         colour = tokens.accent if lane.dragging_offset else tokens.text_dim
         draw_lines(painter, x, top, x, bottom, QPen(shade(colour, 200), 1.0))
 

@@ -1,0 +1,46 @@
+"""What a command is about: the selection, by player."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+
+from app.plan.model import PlayerPlan
+from app.project.model import Player
+from app.score.model import Note
+from widgets.common.session import Session
+
+
+def notes_by_player(session: Session) -> dict[Player, list[Note]]:
+    """The selected notes by who plays them, in the order of the score. Where several play a part, those in front are
+    meant, else all of them."""
+    project, selected = session.project, session.selection.notes
+    by_part = {
+        part.id: found
+        for part in project.score.parts
+        if selected and (found := [note for note in part.notes if note.id in selected])
+    }
+    owners: dict[str, list[Player]] = defaultdict(list)
+    for player in project.players:
+        if player.part_id in by_part:
+            owners[player.part_id].append(player)
+    result = {}
+    for part_id, players in owners.items():
+        front = [player for player in players if player.id in session.players]
+        for player in front or players:
+            result[player] = by_part[part_id]
+    return result
+
+
+def events_by_player(session: Session) -> dict[str, list[str]]:
+    """The ids of the selected events by player."""
+    result: dict[str, list[str]] = defaultdict(list)
+    known = {player.id for player in session.project.players}
+    for key in sorted(session.selection.events):
+        if key.player_id in known:
+            result[key.player_id].append(key.event_id)
+    return result
+
+
+def plan_of(session: Session, player_id: str) -> PlayerPlan | None:
+    """A player's plan, if the plans are made already."""
+    return session.performance.plans.get(player_id) if session.performance.planned else None

@@ -1,0 +1,366 @@
+"""Commands about a player's events: breaths, cues, gestures, expressions, and what a person changed of them."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Callable, Iterable
+
+from PySide6.QtGui import QCursor
+from PySide6.QtWidgets import QMenu
+
+from app.errors import Message
+from app.plan.model import PlayerPlan
+from app.project.edit.events import (
+    GESTURE_KINDS,
+    Edited,
+    GestureKind,
+    add_breath,
+    add_cue,
+    add_expression,
+    add_gesture,
+    event_id_of,
+    give_back,
+    give_back_player,
+    remove,
+    toggle_preparation,
+)
+from app.project.edit.notes import erase
+from app.project.model import Project
+from app.shell.action import QT_TRANSLATE_NOOP, Action
+from app.shell.commands import fingerings, problems
+from app.shell.commands.chosen import events_by_player, notes_by_player, plan_of
+from widgets.common.selection import EventKey, Selection
+from widgets.common.session import Session
+from widgets.timeline.lanes.names import expression_name
+
+NEW_BEATS = 2
+"""Length of an added gesture or expression at the playhead."""
+
+
+def _playhead_tick(session: Session) -> int:
+    return round(session.project.score.tempo_map.ticks(session.playhead_s))
+
+
+def _places(session: Session) -> list[tuple[PlayerPlan, int]]:
+    """Where something is added: before the first selected note of each player, else at the playhead of the one in
+    front."""
+    found = [(player.id, notes[0].onset_tick) for player, notes in notes_by_player(session).items()]
+    if not found and session.player is not None:
+        found = [(session.player.id, _playhead_tick(session))]
+    return [(plan, tick) for player_id, tick in found if (plan := plan_of(session, player_id)) is not None]
+
+
+def _spans(session: Session) -> list[tuple[PlayerPlan, int, int]]:
+    """Over what something is added: the selected notes of each player, or the selected range, or some beats from the
+    playhead on."""
+    found = [
+        (player.id, notes[0].onset_tick, max(note.end_tick for note in notes))
+        for player, notes in notes_by_player(session).items()
+    ]
+    if not found and session.player is not None:
+        span = session.selection.span
+        if span is None:
+            start = session.grid.snap(session.project.score, _playhead_tick(session))
+            span = (start, start + NEW_BEATS * session.project.felt_beat_ticks)
+        found = [(session.player.id, *span)]
+    return [(plan, start, end) for player_id, start, end in found if (plan := plan_of(session, player_id)) is not None]
+
+
+def _add(session: Session, name: Message, edits: Iterable[tuple[str, Callable[[Project], Edited]]]) -> None:
+    """Make several additions one step, and select what was added."""
+    chosen = tuple(edits)
+    if not chosen:
+        return
+    keys: set[EventKey] = set()
+
+    def whole(project: Project) -> Project:
+        for player_id, edit in chosen:
+            project, event_ids = edit(project)
+            keys.update(EventKey(player_id, event_id) for event_id in event_ids)
+        return project
+
+    if session.attempt(name, whole):
+        session.select(Selection(events=frozenset(keys)))
+
+
+def _has_player(session: Session) -> bool:
+    return session.player is not None
+
+
+# Adding
+
+
+def breathe(session: Session) -> None:
+    """Add a breath before the selected notes, or before the next note from the playhead on."""
+    _add(
+        session,
+        Message("edit.add_breath"),
+        [
+            (plan.player_id, lambda project, plan=plan, tick=tick: add_breath(project, plan, tick))  # type: ignore[misc]
+            for plan, tick in _places(session)
+        ],
+    )
+
+
+def cue(session: Session) -> None:
+    """Let the player give a cue to the selected entry, or to the next one from the playhead on."""
+    _add(
+        session,
+        Message("edit.add_cue"),
+        [
+            (plan.player_id, lambda project, plan=plan, tick=tick: add_cue(project, plan, tick))  # type: ignore[misc]
+            for plan, tick in _places(session)
+        ],
+    )
+
+
+def gesture(session: Session, kind: GestureKind) -> None:
+    """Add a gesture over the selection or at the playhead."""
+    amount = 1.0 if kind == "lower_instrument" else 0.5
+
+    def edit(plan: PlayerPlan, start: int, end: int) -> Callable[[Project], Edited]:
+        return lambda project: add_gesture(project, plan.player_id, kind, start, end, amount)
+
+    spans = _spans(session)
+    _add(session, Message("edit.add_gesture"), [(plan.player_id, edit(plan, *span)) for plan, *span in spans])
+
+
+def expression(session: Session, name: str) -> None:
+    """Add an expression over the selection or at the playhead."""
+    face = session.performance.expressions[name]
+
+    def edit(plan: PlayerPlan, start: int, end: int) -> Callable[[Project], Edited]:
+        return lambda project: add_expression(
+            project, plan.player_id, name, start, end, 1.0, face.fade_in_s, face.fade_out_s
+        )
+
+    spans = _spans(session)
+    _add(session, Message("edit.add_expression"), [(plan.player_id, edit(plan, *span)) for plan, *span in spans])
+
+
+def choose_gesture(session: Session) -> None:
+    """Show the kinds of gestures where the mouse is."""
+    menu = _menu()
+    for kind in GESTURE_KINDS:
+        menu.addAction(session.actions[f"gesture.{kind}"])
+    menu.popup(QCursor.pos())
+
+
+def choose_expression(session: Session) -> None:
+    """Show the expressions where the mouse is: the program's, then one's own."""
+    menu = _menu()
+    own = {item.name for item in session.project.expressions}
+    for name in sorted(session.performance.expressions, key=lambda name: (name in own, name)):
+        entry = menu.addAction(expression_name(name))
+        entry.setObjectName(f"expression_{name}")
+        entry.triggered.connect(lambda _=False, name=name: expression(session, name))
+    menu.popup(QCursor.pos())
+
+
+_open: list[QMenu] = []
+
+
+def _menu() -> QMenu:
+    """A menu that lives until it closes."""
+    menu = QMenu()
+    menu.setObjectName("choice")
+    _open[:] = [menu]
+    return menu
+
+
+# Taking away
+
+
+def _has_selection(session: Session) -> bool:
+    return bool(session.selection.notes or session.selection.events)
+
+
+def delete(session: Session) -> None:
+    """Delete the selected events, or else the selected notes."""
+    events = events_by_player(session)
+    if not events:
+        notes = session.selection.notes
+        session.attempt(Message("edit.erase_notes", {"count": len(notes)}), lambda project: erase(project, notes))
+        return
+    plans = {player_id: plan_of(session, player_id) for player_id in events}
+
+    def edit(project: Project) -> Project:
+        for player_id, ids in events.items():
+            plan = plans[player_id]
+            if plan is not None:
+                project = remove(project, plan, ids)
+        return project
+
+    count = sum(map(len, events.values()))
+    if session.attempt(Message("edit.remove_events", {"count": count}), edit):
+        session.select(Selection())
+
+
+def return_to_generated(session: Session) -> None:
+    """Let the generator decide again about the selected events, and about fingering and embouchure of the selected
+    notes."""
+    events = events_by_player(session)
+    notes = {player.id: [note.id for note in found] for player, found in notes_by_player(session).items()}
+
+    def edit(project: Project) -> Project:
+        for player_id in (*events, *(player_id for player_id in notes if player_id not in events)):
+            project = give_back(project, player_id, events.get(player_id, ()), notes.get(player_id, ()))
+        return project
+
+    session.attempt(Message("edit.give_back"), edit)
+
+
+def _can_return(session: Session) -> bool:
+    notes, events = session.selection.notes, session.selection.events
+    if not notes and not events:
+        return False
+    wanted = {f"{kind}:{note}" for note in notes for kind in ("fingering", "embouchure")}
+    return any(
+        (event_id := event_id_of(item)) in wanted or EventKey(player_id, event_id) in events
+        for player_id, corrections in session.project.corrections.items()
+        for item in corrections
+    )
+
+
+def revert_player(session: Session) -> None:
+    """Let the generator decide about everything of the player in front again."""
+    player = session.player
+    if player is not None:
+        session.attempt(
+            Message("edit.give_back_player", {"player": player.name}),
+            lambda project: give_back_player(project, player.id),
+        )
+
+
+def _player_corrected(session: Session) -> bool:
+    return session.player is not None and bool(session.project.corrections.get(session.player.id))
+
+
+# Preparations
+
+
+def _breathing_notes(session: Session) -> dict[str, list[str]]:
+    """Notes whose breath or preparation is selected, or that are selected themselves, by player."""
+    result: dict[str, list[str]] = defaultdict(list)
+    for player_id, ids in events_by_player(session).items():
+        for event_id in ids:
+            kind, _, note_id = event_id.partition(":")
+            if kind in ("breath", "preparation") and note_id not in result[player_id]:
+                result[player_id].append(note_id)
+    if not any(result.values()):
+        for player, notes in notes_by_player(session).items():
+            result[player.id] = [notes[0].id]
+    return {player_id: notes for player_id, notes in result.items() if notes}
+
+
+def _has_breaths(session: Session) -> bool:
+    selection = session.selection
+    return bool(selection.notes) or any(
+        key.event_id.startswith(("breath:", "preparation:")) for key in selection.events
+    )
+
+
+def prepare(session: Session) -> None:
+    """Turn the preparatory motion before the selected breaths on or off."""
+    wanted = _breathing_notes(session)
+    plans = {player_id: plan_of(session, player_id) for player_id in wanted}
+
+    def edit(project: Project) -> Project:
+        for player_id, note_ids in wanted.items():
+            plan = plans[player_id]
+            for note_id in note_ids if plan is not None else ():
+                assert plan is not None
+                project = toggle_preparation(project, plan, note_id).project
+        return project
+
+    session.attempt(Message("edit.toggle_preparation"), edit)
+
+
+def _kind(kind: GestureKind, text: str) -> Action:
+    return Action(f"gesture.{kind}", text, lambda session: gesture(session, kind), "Edit/Events/Gesture", enabled=_has_player)
+
+
+ACTIONS: tuple[Action, ...] = (
+    Action(
+        "edit.delete",
+        QT_TRANSLATE_NOOP("Action", "Delete"),
+        delete,
+        "Edit",
+        "Delete",
+        "timeline",
+        _has_selection,
+        icon="delete",
+    ),
+    Action(
+        "events.give_back",
+        QT_TRANSLATE_NOOP("Action", "Back to the Generator's"),
+        return_to_generated,
+        "Edit",
+        "Backspace",
+        "timeline",
+        _can_return,
+        icon="reset",
+    ),
+    Action(
+        "events.give_back_player",
+        QT_TRANSLATE_NOOP("Action", "Revert All Corrections of the Player"),
+        revert_player,
+        "Edit",
+        enabled=_player_corrected,
+    ),
+    Action(
+        "events.breath",
+        QT_TRANSLATE_NOOP("Action", "Add a Breath"),
+        breathe,
+        "Edit/Events",
+        "B",
+        "timeline",
+        _has_player,
+        icon="breath",
+    ),
+    Action(
+        "events.preparation",
+        QT_TRANSLATE_NOOP("Action", "Prepare the Breath, or Not"),
+        prepare,
+        "Edit/Events",
+        "Shift+B",
+        "timeline",
+        _has_breaths,
+    ),
+    Action(
+        "events.cue",
+        QT_TRANSLATE_NOOP("Action", "Add a Cue"),
+        cue,
+        "Edit/Events",
+        "C",
+        "timeline",
+        _has_player,
+        icon="cue",
+    ),
+    Action(
+        "events.gesture",
+        QT_TRANSLATE_NOOP("Action", "Add a Gesture..."),
+        choose_gesture,
+        "Edit/Events",
+        "G",
+        "timeline",
+        _has_player,
+        icon="gesture",
+    ),
+    Action(
+        "events.expression",
+        QT_TRANSLATE_NOOP("Action", "Add an Expression..."),
+        choose_expression,
+        "Edit/Events",
+        "X",
+        "timeline",
+        _has_player,
+        icon="expression",
+    ),
+    _kind("sway", QT_TRANSLATE_NOOP("Action", "Sway")),
+    _kind("weight_shift", QT_TRANSLATE_NOOP("Action", "Weight Shift")),
+    _kind("bell_height", QT_TRANSLATE_NOOP("Action", "Bell Height")),
+    _kind("lower_instrument", QT_TRANSLATE_NOOP("Action", "Lower the Instrument")),
+    *fingerings.ACTIONS,
+    *problems.ACTIONS,
+)

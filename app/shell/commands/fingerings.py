@@ -1,0 +1,149 @@
+"""Commands about fingerings: typed sign by sign, or one after the other."""
+
+from __future__ import annotations
+
+import time
+from weakref import WeakKeyDictionary
+
+from app.errors import Message
+from app.project.edit.events import pin_fingerings
+from app.project.model import Player, Project
+from app.score.model import Note
+from app.shell.action import QT_TRANSLATE_NOOP, Action
+from app.shell.commands.chosen import notes_by_player, plan_of
+from instrument_maps.model import Fingering
+from widgets.common.session import Session, Severity
+
+TYPED_TOGETHER_S = 0.6
+"""Signs typed within this time are one fingering: 1 and 3 are 13."""
+
+
+class _Typed:
+    """What of a fingering has been typed so far."""
+
+    def __init__(self) -> None:
+        self.text = ""
+        self.at_s = float("-inf")
+        self.notes: frozenset[str] = frozenset()
+        self.gesture = object()
+
+
+_typed: WeakKeyDictionary[Session, _Typed] = WeakKeyDictionary()
+
+
+def choices(session: Session, player: Player, note: Note) -> tuple[Fingering, ...]:
+    """Every fingering of a note on the player's instrument, first choice first."""
+    return session.performance.instrument(player).fingerings_for(note.pitch)
+
+
+def type_fingering(session: Session, sign: str, now_s: float | None = None) -> None:
+    """Pin the fingering that is being typed, sign by sign: its signs in any order, as the map writes its labels.
+
+    Parameters
+    ----------
+    sign : str
+        One sign of a label: a digit, T.
+    now_s : float, optional
+        On a monotonic clock.
+    """
+    at_s = time.monotonic() if now_s is None else now_s
+    typed = _typed.setdefault(session, _Typed())
+    notes = notes_by_player(session)
+    if not notes:
+        return
+    if at_s - typed.at_s > TYPED_TOGETHER_S or typed.notes != session.selection.notes:
+        typed.text, typed.gesture = "", object()
+    typed.at_s, typed.notes = at_s, session.selection.notes
+    labels = [
+        [fingering.label for fingering in choices(session, player, note)]
+        for player, found in notes.items()
+        for note in found
+    ]
+    if not any(_holds(label, typed.text + sign) for known in labels for label in known):
+        # Not the continuation of what came before: it begins anew.
+        typed.text, typed.gesture = "", object()
+    typed.text += sign
+    pins: dict[str, dict[str, str]] = {}
+    for player, found in notes.items():
+        for note in found:
+            for fingering in choices(session, player, note):
+                if sorted(fingering.label) == sorted(typed.text):
+                    pins.setdefault(player.id, {})[note.id] = fingering.label
+    if pins:
+        _pin(session, pins, typed.gesture)
+    elif not any(_holds(label, typed.text) for known in labels for label in known):
+        known_labels = ", ".join(dict.fromkeys(label for known in labels for label in known))
+        session.notice(
+            Message("edit.no_such_fingering", {"label": typed.text, "known": known_labels}), Severity.WARNING
+        )
+        typed.text = ""
+
+
+def _holds(label: str, signs: str) -> bool:
+    """Whether all signs are in a label."""
+    return all(label.count(sign) >= signs.count(sign) for sign in signs)
+
+
+def _pin(session: Session, pins: dict[str, dict[str, str]], token: object | None = None) -> None:
+    count = sum(map(len, pins.values()))
+
+    def edit(project: Project) -> Project:
+        for player_id, labels in pins.items():
+            project = pin_fingerings(project, player_id, labels)
+        return project
+
+    session.attempt(Message("edit.pin_fingerings", {"count": count}), edit, token)
+
+
+def cycle_fingering(session: Session) -> None:
+    """Pin the next alternate of each selected note; after the last comes the first choice."""
+    pins: dict[str, dict[str, str]] = {}
+    for player, notes in notes_by_player(session).items():
+        plan = plan_of(session, player.id)
+        now = {event.note_id: event.label for event in plan.fingerings} if plan is not None else {}
+        for note in notes:
+            labels = [fingering.label for fingering in choices(session, player, note)]
+            if len(labels) > 1:
+                place = labels.index(now[note.id]) if now.get(note.id) in labels else -1
+                pins.setdefault(player.id, {})[note.id] = labels[(place + 1) % len(labels)]
+    if pins:
+        _pin(session, pins)
+
+
+def _has_notes(session: Session) -> bool:
+    return bool(session.selection.notes)
+
+
+def _sign(sign: str, text: str) -> Action:
+    return Action(
+        f"fingering.type_{sign.lower()}",
+        text,
+        lambda session: type_fingering(session, sign),
+        "Edit/Fingering",
+        sign,
+        "timeline",
+        _has_notes,
+    )
+
+
+ACTIONS: tuple[Action, ...] = (
+    Action(
+        "fingering.cycle",
+        QT_TRANSLATE_NOOP("Action", "Next Alternate Fingering"),
+        cycle_fingering,
+        "Edit/Fingering",
+        "F",
+        "timeline",
+        _has_notes,
+        icon="fingering",
+    ),
+    _sign("0", QT_TRANSLATE_NOOP("Action", "Fingering 0")),
+    _sign("1", QT_TRANSLATE_NOOP("Action", "Fingering 1")),
+    _sign("2", QT_TRANSLATE_NOOP("Action", "Fingering 2")),
+    _sign("3", QT_TRANSLATE_NOOP("Action", "Fingering 3")),
+    _sign("4", QT_TRANSLATE_NOOP("Action", "Fingering 4")),
+    _sign("5", QT_TRANSLATE_NOOP("Action", "Fingering 5")),
+    _sign("6", QT_TRANSLATE_NOOP("Action", "Fingering 6")),
+    _sign("7", QT_TRANSLATE_NOOP("Action", "Fingering 7")),
+    _sign("T", QT_TRANSLATE_NOOP("Action", "Fingering T (Thumb or Trigger)")),
+)
