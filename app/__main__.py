@@ -27,8 +27,8 @@ def main() -> int:
 
 def run(arguments: Sequence[str]) -> int:
     """Run with these arguments (without the program's own name) and return the exit status."""
-    from app.cli import BAD_INPUT, BAD_USE, main as command_line
-    from app.cli import parser
+    from app.cli import BAD_INPUT, BAD_USE, parser
+    from app.cli import main as command_line
 
     if arguments and arguments[0] != "edit":
         return command_line(arguments)
@@ -37,7 +37,7 @@ def run(arguments: Sequence[str]) -> int:
     except SystemExit as stop:  # argparse: --help ends with 0, bad use with 2
         return stop.code if isinstance(stop.code, int) else BAD_USE
     if display_missing():
-        print(NO_DISPLAY_TEXT, file=sys.stderr)
+        sys.stderr.write(f"{NO_DISPLAY_TEXT}\n")
         return NO_DISPLAY
     try:
         return edit(parsed)
@@ -65,7 +65,7 @@ def edit(parsed: Namespace) -> int:
     try:
         return run_editor(start)
     except AppError as error:
-        print(f"suisou: {error_text(error)}", file=sys.stderr)
+        sys.stderr.write(f"suisou: {error_text(error)}\n")
         return BAD_INPUT
 
 

@@ -15,9 +15,9 @@ import app.cli.edit
 import app.cli.export
 import app.cli.inspect
 import app.cli.instruments
-from app.cli.version import program_version
 from app.errors import AppError, UsageError
 from app.messages import error_text
+from app.version import program_version
 
 DONE, BAD_INPUT, BAD_USE = 0, 1, 2
 

@@ -14,10 +14,10 @@ from typing import TYPE_CHECKING, Final, Literal
 from app.cli.options import Commands, add_source_options, frame_rate, open_project, whole_number
 from app.cli.progress import Progress
 from app.cli.summary import summary
-from app.cli.version import program_version
 from app.errors import UsageError
 from app.messages import text
 from app.project.parameters import select_players
+from app.version import program_version
 
 if TYPE_CHECKING:
     from app.performance.ensemble import Performance

@@ -9,6 +9,14 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from widgets.common.session import Session
 
+    def QT_TRANSLATE_NOOP(context: str, text: str) -> str:
+        """Marks a text for the translators; PySide6 declares its result as an object."""
+
+else:
+    from PySide6.QtCore import QT_TRANSLATE_NOOP
+
+__all__ = ["QT_TRANSLATE_NOOP", "Action"]
+
 
 @dataclass(frozen=True)
 class Action:

@@ -210,8 +210,8 @@ class ActionTable(QObject):
             self._give_shortcuts()
 
     def _give_shortcuts(self) -> None:
-        """Where a panel and the window know the same shortcut, the panel that has the keyboard has it alone: Qt would do
-        neither."""
+        """Where a panel and the window know the same shortcut, the panel that has the keyboard has it alone: Qt
+        would do neither."""
         taken = {
             sequence.toString()
             for row in self.rows.values()

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, get_args
 
 from PySide6.QtCore import QObject
 
-from widgets.common.session import Session
+from widgets.common.session import Session, TimeDisplay
 from widgets.common.tokens import THEMES
 
 if TYPE_CHECKING:
@@ -50,8 +50,9 @@ class Editor(QObject):
         session.set_tokens(THEMES.get(settings.theme, session.tokens))
         session.pitch_display.set(settings.written_pitch, 3 if settings.middle_c_octave == 3 else 4, settings.syllables)
         display = settings.time_display
-        if display == "seconds" or display == "frames":
-            session.set_time_display(display)
+        for known in get_args(TimeDisplay):
+            if display == known:
+                session.set_time_display(known)
 
     def _remember_pitch(self) -> None:
         pitch = self.session.pitch_display

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import time
 from collections.abc import Callable
 from importlib.resources import as_file, files
@@ -118,7 +117,7 @@ class Files(QObject):
         ask : bool
             Whether the import of a MIDI file asks who plays what.
         """
-        path = Path(os.path.abspath(path))
+        path = path.absolute()
         suffix = path.suffix.lower()
         if suffix in AUDIO_SUFFIXES:
             if self.is_open:

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from datetime import UTC, datetime
 from functools import partial
 from pathlib import Path
 
-from PySide6.QtCore import QEvent, QLocale, QSize, Qt
+from PySide6.QtCore import QDateTime, QEvent, QLocale, QSize, Qt
 from PySide6.QtGui import QFontMetrics
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QScrollArea, QToolButton, QVBoxLayout, QWidget
 
@@ -122,9 +121,7 @@ class StartPage(QScrollArea):
             (
                 self.tr("1. Open the MIDI of a piece: every part gets a player, with fingerings, breaths and cues."),
                 self.tr("2. Change what you would do differently. What you set by hand stays, whatever is generated."),
-                self.tr(
-                    "3. Export each player and instrument as FBX and BVH. Files can also be dropped onto the window."
-                ),
+                self.tr("3. Export players and instruments as FBX and BVH. Files can also be dropped onto the window."),
             ),
             strict=True,
         ):
@@ -143,7 +140,7 @@ class StartPage(QScrollArea):
             )
             line = QHBoxLayout(card)
             line.setContentsMargins(12, 8, 8, 8)
-            changed = datetime.fromtimestamp(item.changed_s, UTC).astimezone()
+            changed = QDateTime.fromSecsSinceEpoch(round(item.changed_s))
             when = QLocale().toString(changed, QLocale.FormatType.ShortFormat)
             name = item.name or self.tr("a piece that was never saved")
             text = QLabel(self.tr("Unsaved work was found: {name}, {when}").format(name=name, when=when))

@@ -160,7 +160,8 @@ class Window(QMainWindow):
     def reset_layout(self) -> None:
         """Every panel back to its place."""
         self.set_full_screen(False)
-        self._arrange()
+        if self._files.is_open:
+            self._arrange()
 
     def _show_page(self) -> None:
         """Panels where a project is open, else the start page alone."""

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from functools import partial
 
-from PySide6.QtCore import QT_TRANSLATE_NOOP
 
-from app.shell.action import Action
+from app.shell.action import QT_TRANSLATE_NOOP, Action
 from app.shell.editor import editor_of
 from widgets.common.session import Session, TimeDisplay
 from widgets.common.tokens import THEMES

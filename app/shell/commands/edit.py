@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QT_TRANSLATE_NOOP
 
-from app.shell.action import Action
+from app.shell.action import QT_TRANSLATE_NOOP, Action
 from widgets.common.session import Session
 
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from PySide6.QtCore import QT_TRANSLATE_NOOP, QCoreApplication
+from PySide6.QtCore import QCoreApplication
 
 from app.project.storage import SUFFIX
-from app.shell.action import Action
+from app.shell.action import QT_TRANSLATE_NOOP, Action
 from app.shell.editor import editor_of
 from app.shell.files import AUDIO_SUFFIXES, MIDI_SUFFIXES
 from widgets.common.session import Session

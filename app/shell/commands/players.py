@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QT_TRANSLATE_NOOP
 
 from app.errors import Message
 from app.project.edit import players as edit
 from app.project.model import Player
-from app.shell.action import Action
+from app.shell.action import QT_TRANSLATE_NOOP, Action
 from instrument_maps.load import bundled_maps
 from widgets.common.session import Session
 from widgets.players import newcomers

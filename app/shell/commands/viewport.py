@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from functools import partial
 
-from PySide6.QtCore import QT_TRANSLATE_NOOP
 
-from app.shell.action import Action
+from app.shell.action import QT_TRANSLATE_NOOP, Action
 from widgets.common.session import Session
 from widgets.common.viewport_state import Shown, View
 

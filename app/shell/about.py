@@ -1,0 +1,69 @@
+"""Which program this is, what it runs on, and where things are."""
+
+from __future__ import annotations
+
+import platform
+
+import PySide6
+from PySide6.QtCore import QEvent, Qt, qVersion
+from PySide6.QtWidgets import QDialog, QDialogButtonBox, QLabel, QVBoxLayout, QWidget
+
+from app.shell.faults import log_path
+from app.version import program_version
+from widgets.common.session import Session
+
+
+class AboutDialog(QDialog):
+    """About Suisou."""
+
+    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setObjectName("about")
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        self._session = session
+        self._name, self._text = QLabel("Suisou"), QLabel()
+        font = self._name.font()
+        font.setPointSizeF(20.0)
+        self._name.setFont(font)
+        self._text.setObjectName("about_text")
+        self._text.setWordWrap(True)
+        self._text.setTextInteractionFlags(
+            Qt.TextInteractionFlag.TextSelectableByMouse | Qt.TextInteractionFlag.TextSelectableByKeyboard
+        )
+        self._text.setMinimumWidth(440)
+        self._buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
+        self._buttons.rejected.connect(self.reject)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(24, 20, 24, 16)
+        column.setSpacing(12)
+        column.addWidget(self._name)
+        column.addWidget(self._text)
+        column.addWidget(self._buttons)
+        self.retranslate()
+
+    def retranslate(self) -> None:
+        """Set the texts."""
+        self.setWindowTitle(self.tr("About Suisou"))
+        versions = f"Python {platform.python_version()}, Qt {qVersion()}, PySide6 {PySide6.__version__}"
+        self._text.setText(
+            "\n\n".join(
+                (
+                    self.tr("The performance of a wind ensemble, from its MIDI, for animation."),
+                    self.tr("Version {version}, under the Apache License 2.0.").format(version=program_version()),
+                    versions,
+                    self.tr("Settings: {path}").format(path=self._settings_path()),
+                    self.tr("Faults are noted in: {path}").format(path=log_path()),
+                )
+            )
+        )
+
+    def _settings_path(self) -> str:
+        from app.shell.editor import editor_of
+
+        return str(editor_of(self._session).settings.path)
+
+    def changeEvent(self, event: QEvent) -> None:
+        """Another language."""
+        if event.type() == QEvent.Type.LanguageChange:
+            self.retranslate()
+        super().changeEvent(event)
