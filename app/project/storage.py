@@ -220,6 +220,7 @@ def _project(raw: Raw, folder: Path, file: str) -> Project:
     corrections = {
         player: _converted(items, tuple[Correction, ...], f"corrections[{player!r}]", file)
         for player, items in content.corrections.items()
+        if items
     }
     # What a struct does not forbid it passes over: nothing in a file may be lost by saving it again.
     for key in ("audio", "players", "expressions", "score"):

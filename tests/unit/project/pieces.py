@@ -11,6 +11,7 @@ from app.plan.corrections import (
     ChangeExpression,
     ChangeGesture,
     PinFingering,
+    PoseCorrection,
     RemoveEvent,
     SetBreath,
     SetCue,
@@ -81,6 +82,7 @@ def full_project(folder: str = "/music") -> Project:
             AddGesture("mine", "bell_height", 0, 480, 1.5),
             ChangeExpression("expression:neutral", "angry", 0, 100, 0.7),
             AddExpression("yours", "angry", 10, 20, 0.4, 0.1, 0.1),
+            PoseCorrection("pose", "bell", 480, 960, 5.0, 1.0, -1.0, 120, 60),
         ),
         trombone.id: (PinFingering("2:1", "1"),),
     }

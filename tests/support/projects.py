@@ -1,0 +1,173 @@
+"""Any sound project, for hypothesis."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import msgspec
+from hypothesis import strategies as st
+
+from app.errors import Message
+from app.plan.corrections import Correction
+from app.plan.model import PlayerParameters
+from app.project import limits
+from app.project.casting import StagePosition
+from app.project.model import AudioTrack, Player, Project
+from app.score.model import ControllerCurve, Metre, Note, Part, Score, UnplayedPart
+from app.score.tempo import TempoChange, TempoMap
+from metadata.model import ARKIT_MORPHS, Expression
+
+texts = st.text(st.characters(exclude_categories=["Cs"]), max_size=12)
+ids = st.text(st.characters(exclude_categories=["Cs"]), min_size=1, max_size=6)
+fractions01 = st.floats(0.0, 1.0)
+ticks = st.integers(-100_000, 100_000)
+
+
+def within(bounds: limits.Bounds) -> st.SearchStrategy[float]:
+    return st.floats(*bounds)
+
+
+@st.composite
+def scores(draw: st.DrawFn) -> Score:
+    quarter = draw(st.integers(1, 960))
+    note_ids = iter(draw(st.lists(ids, min_size=12, max_size=12, unique=True)))
+    parts = tuple(
+        Part(
+            id=part_id,
+            name=draw(texts),
+            track=draw(st.integers(0, 40)),
+            voice=draw(st.integers(0, 3)),
+            channel=draw(st.integers(0, 15)),
+            program=draw(st.none() | st.integers(0, 127)),
+            instrument=draw(st.none() | texts),
+            map_id=draw(ids),
+            notes=draw(notes(note_ids)),
+            curves=tuple(draw(st.lists(curves(), max_size=2))),
+        )
+        for part_id in draw(st.lists(ids, max_size=3, unique=True))
+    )
+    tempo_ticks = sorted({0, *draw(st.lists(st.integers(1, 10_000), max_size=3))})
+    tempi = tuple(TempoChange(tick, draw(within(limits.MICROSECONDS_PER_QUARTER))) for tick in tempo_ticks)
+    metre_ticks = sorted({0, *draw(st.lists(st.integers(1, 10_000), max_size=3))})
+    metres = tuple(Metre(tick, draw(st.integers(1, 20)), draw(st.sampled_from([2, 4, 8, 16]))) for tick in metre_ticks)
+    return Score(
+        title=draw(texts),
+        ticks_per_quarter=quarter,
+        tempo_map=TempoMap(quarter, tempi),
+        metres=metres,
+        pickup_ticks=draw(st.sampled_from([0, *metre_ticks[1:2]])),
+        parts=parts,
+        unplayed=tuple(
+            draw(
+                st.lists(
+                    st.builds(
+                        UnplayedPart, texts, st.just(Message("score.not_wind", {"instrument": "x"})), st.integers(0, 9)
+                    ),
+                    max_size=2,
+                )
+            )
+        ),
+        warnings=tuple(draw(st.lists(st.just(Message("midi.patterns", {"patterns": 3})), max_size=2))),
+    )
+
+
+@st.composite
+def notes(draw: st.DrawFn, note_ids: Any) -> tuple[Note, ...]:
+    drawn = draw(
+        st.lists(
+            st.tuples(st.integers(0, 9_000), st.integers(0, 127), st.integers(1, 900), st.integers(1, 127)), max_size=4
+        )
+    )
+    return tuple(
+        Note(next(note_ids), onset, length, pitch, velocity) for onset, pitch, length, velocity in sorted(drawn)
+    )
+
+
+@st.composite
+def curves(draw: st.DrawFn) -> ControllerCurve:
+    kind = draw(st.sampled_from(["breath", "volume", "expression", "aftertouch", "pitch_bend"]))
+    at = tuple(sorted(draw(st.sets(st.integers(0, 9_000), max_size=5))))
+    low = -1.0 if kind == "pitch_bend" else 0.0
+    return ControllerCurve(kind, at, tuple(draw(st.floats(low, 1.0)) for _ in at))
+
+
+@st.composite
+def players(draw: st.DrawFn, id: str, name: str, part_ids: list[str]) -> Player:
+    return Player(
+        id=id,
+        name=name,
+        part_id=draw(st.sampled_from(part_ids)),
+        instrument_id=draw(ids),
+        character_id=draw(ids),
+        parameters=PlayerParameters(
+            amplitude=draw(fractions01),
+            breath_min_beats=draw(st.floats(0.0, 64.0)),
+            lung_s=draw(st.floats(1.0, 60.0)),
+            sway=draw(st.floats(0.0, 2.0)),
+            posture=draw(st.sampled_from(["standing", "seated"])),
+            cue_leader=draw(st.none() | st.booleans()),
+            seed=draw(st.integers(0, 2**63 - 1)),
+        ),
+        stage=StagePosition(draw(within(limits.STAGE_M)), draw(within(limits.STAGE_M)), draw(st.floats(-7.0, 7.0))),
+        colour=draw(st.sampled_from(["", "#0A1b2C"])),
+        muted=draw(st.booleans()),
+        soloed=draw(st.booleans()),
+    )
+
+
+@st.composite
+def corrections(draw: st.DrawFn) -> Correction:
+    """A correction of any kind there is, also of kinds that come later: the fields say what they hold."""
+    struct = draw(st.sampled_from(Correction.__args__))
+    values = {}
+    for field in msgspec.structs.fields(struct):
+        if field.type in (int, int | None, "int", "int | None"):
+            values[field.name] = draw(ticks)
+        elif field.type in (float, float | None):
+            values[field.name] = draw(st.floats(-1e6, 1e6))
+        elif field.type in (str, str | None):
+            values[field.name] = draw(texts)
+        elif field.type is bool:
+            values[field.name] = draw(st.booleans())
+        elif field.required:
+            values[field.name] = draw(st.from_type(field.type))
+    made: Correction = struct(**values)
+    return made
+
+
+expressions = st.builds(
+    Expression,
+    name=ids,
+    description=texts,
+    # A file is in order, so that the same project is the same bytes.
+    weights=st.dictionaries(st.sampled_from(ARKIT_MORPHS), fractions01, max_size=4).map(
+        lambda weights: dict(sorted(weights.items()))
+    ),
+    while_playing=st.booleans(),
+    fade_in_s=st.floats(0.001, 60.0),
+    fade_out_s=st.floats(0.001, 60.0),
+)
+
+
+@st.composite
+def projects(draw: st.DrawFn, folder: str = "/music") -> Project:
+    score = draw(scores())
+    part_ids = [part.id for part in score.parts]
+    player_ids = draw(st.lists(ids, max_size=3, unique=True)) if part_ids else []
+    names = draw(
+        st.lists(texts, min_size=len(player_ids), max_size=len(player_ids), unique_by=lambda name: name.casefold())
+    )
+    path = st.sampled_from([f"{folder}/a.wav", f"{folder}/sub/録音.flac", "/elsewhere/x.mp3"])
+    corrected = {id: tuple(draw(st.lists(corrections(), max_size=3))) for id in player_ids}
+    return Project(
+        score=score,
+        players=tuple(draw(players(id, name, part_ids)) for id, name in zip(player_ids, names, strict=True)),
+        corrections={id: corrected[id] for id in sorted(corrected, key=str.encode) if corrected[id]},
+        seed=draw(st.integers(*limits.SEED)),
+        preroll_beats=draw(within(limits.PREROLL_BEATS)),
+        felt_beat_quarters=draw(within(limits.FELT_BEAT_QUARTERS)),
+        fps=draw(st.fractions(1, 240, max_denominator=1001)),
+        audio=draw(st.none() | st.builds(AudioTrack, path, st.floats(-1e4, 1e4), st.none() | fractions01)),
+        expressions=tuple(draw(st.lists(expressions, max_size=2, unique_by=lambda item: item.name))),
+        source=draw(st.just("") | path),
+    )

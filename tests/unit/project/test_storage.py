@@ -1,0 +1,316 @@
+"""Project files: what they look like, what they refuse and how, and that saving never costs what was there."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+from dataclasses import replace
+from fractions import Fraction
+from pathlib import Path
+
+import msgspec
+import numpy as np
+import pytest
+
+from app.errors import FileError, Message
+from app.messages import error_text, text
+from app.project.edit.piece import set_audio
+from app.project.migrations import CURRENT, MIGRATIONS, Raw, migrated
+from app.project.model import AudioTrack, Project
+from app.project.storage import backup_path, decode, encode, is_project_file, load, missing, missing_media, save
+from tests.unit.project.pieces import full_project, small_project
+
+SAMPLES = Path(__file__).parents[2] / "data" / "projects"
+
+
+def changed(project: Project, **fields: object) -> bytes:
+    """The bytes of a file with some fields, by key path, put to other values."""
+    whole = json.loads(encode(project, Path("/music/piece.suisou")))
+    for path, value in fields.items():
+        place = whole
+        *keys, last = path.split("__")
+        for key in keys:
+            place = place[int(key) if key.isdigit() else key]
+        place[last] = value
+    return json.dumps(whole).encode()
+
+
+def refused(content: bytes) -> Message:
+    with pytest.raises(FileError) as raised:
+        decode(content, Path("/music/piece.suisou"))
+    error_text(raised.value)
+    return raised.value.message
+
+
+def test_everything_comes_back(tmp_path: Path) -> None:
+    project = full_project(str(tmp_path / "media"))
+    save(project, tmp_path / "work.suisou")
+    assert load(tmp_path / "work.suisou") == project
+
+
+def test_the_file_is_readable_and_the_same_every_time(tmp_path: Path) -> None:
+    save(full_project(str(tmp_path)), tmp_path / "one.suisou")
+    save(load(tmp_path / "one.suisou"), tmp_path / "two.suisou")
+    content = (tmp_path / "one.suisou").read_text(encoding="utf-8")
+    assert content == (tmp_path / "two.suisou").read_text(encoding="utf-8")
+    lines = content.splitlines()
+    assert lines[:2] == ["{", f'  "schema_version": {CURRENT},']
+    assert '          {"id": "1:1", "onset_tick": 0, "duration_tick": 480, "pitch": 60, "velocity": 80},' in lines
+    assert '  "fps": "30000/1001",' in lines
+    assert "録音.wav" in content
+
+
+@pytest.mark.parametrize("version", range(1, CURRENT + 1))
+def test_every_version_that_ever_was_can_be_read(version: int) -> None:
+    path = SAMPLES / f"version_{version}.suisou"
+    assert json.loads(path.read_bytes())["schema_version"] == version
+    assert load(path) == full_project(str(SAMPLES))
+
+
+def test_the_present_version_is_written_as_its_sample_says() -> None:
+    # Whoever changes what a file holds adds a migration and a sample, and leaves the old samples as they are.
+    path = SAMPLES / f"version_{CURRENT}.suisou"
+    assert encode(load(path), path) == path.read_bytes()
+
+
+def test_migrations_follow_one_another() -> None:
+    def first(raw: Raw) -> Raw:
+        return {**raw, "steps": [*raw.get("steps", []), "1 to 2"]}
+
+    def second(raw: Raw) -> Raw:
+        return {**raw, "steps": [*raw["steps"], "2 to 3"]}
+
+    chain = (first, second)
+    old = {"schema_version": 1, "title": "x"}
+    new = migrated(old, 1, chain)
+    assert new == {"schema_version": 3, "title": "x", "steps": ["1 to 2", "2 to 3"]}
+    assert old == {"schema_version": 1, "title": "x"}
+    assert migrated({"schema_version": 2, "steps": []}, 2, chain)["steps"] == ["2 to 3"]
+    assert migrated(new, 3, chain) is new
+    assert len(MIGRATIONS) == CURRENT - 1
+
+
+def test_a_newer_file_is_refused_by_its_version_alone() -> None:
+    message = refused(json.dumps({"schema_version": CURRENT + 1, "everything": "else"}).encode())
+    assert message.id == "project.newer"
+    assert message.arguments["version"] == CURRENT + 1
+
+
+@pytest.mark.parametrize(
+    ("path", "value", "place"),
+    [
+        ("score__parts__0__notes__1__pitch", 128, "score.parts[0].notes[1].pitch"),
+        ("score__parts__0__notes__1__pitch", "c", "score.parts[0].notes[1].pitch"),
+        ("score__parts__0__notes__1__pitch", 60.5, "score.parts[0].notes[1].pitch"),
+        ("score__parts__0__notes__1__velocity", 0, "score.parts[0].notes[1].velocity"),
+        ("score__parts__0__notes__1__duration_tick", 0, "score.parts[0].notes[1].duration_tick"),
+        ("score__parts__0__notes__1__onset_tick", -1, "score.parts[0].notes[1].onset_tick"),
+        ("score__parts__0__notes__1__onset_tick", 2**40, "score.parts[0].notes[1].onset_tick"),
+        ("score__parts__0__notes__1__onset_tick", 5000, "score.parts[0].notes[2].onset_tick"),
+        ("score__parts__1__notes__0__id", "1:1", "score.parts[1].notes[0].id"),
+        ("score__parts__1__id", "1.1.1", "score.parts[1].id"),
+        ("score__parts__0__curves__0__ticks", [0, 240, 240], "score.parts[0].curves[0].ticks[2]"),
+        ("score__parts__0__curves__0__values", [0, 0.5], "score.parts[0].curves[0].values"),
+        ("score__parts__0__curves__0__values", [0, 0.5, 1.5], "score.parts[0].curves[0].values[2]"),
+        ("score__tempo_map__changes__0__tick", 5, "score.tempo_map.changes[0].tick"),
+        ("score__tempo_map__changes__1__tick", 0, "score.tempo_map.changes[1].tick"),
+        ("score__tempo_map__changes__1__microseconds_per_quarter", 0, "score.tempo_map.changes[1].microseconds_per_"),
+        ("score__tempo_map__ticks_per_quarter", 96, "score.tempo_map.ticks_per_quarter"),
+        ("score__ticks_per_quarter", 0, "score.ticks_per_quarter"),
+        ("score__metres__0__denominator", 0, "score.metres[0].denominator"),
+        ("score__pickup_ticks", 100, "score.pickup_ticks"),
+        ("players__0__part_id", "9.9.9", "players[0].part_id"),
+        ("players__1__id", "1.1.1", "players[1].id"),
+        ("players__1__name", "TROMPETE: 1/2", "players[1].name"),
+        ("players__0__parameters__amplitude", 1.5, "players[0].parameters.amplitude"),
+        ("players__0__parameters__posture", "lying", "players[0].parameters.posture"),
+        ("players__0__parameters__charisma", 1.0, "players[0].parameters"),
+        ("players__0__colour", "red", "players[0].colour"),
+        ("players__0__stage__x_m", 1e9, "players[0].stage.x_m"),
+        ("corrections__1.1.1__0__correction", "levitate", "corrections['1.1.1'][0]"),
+        ("corrections__1.1.1__2__depth", "deep", "corrections['1.1.1'][2].depth"),
+        ("corrections__1.1.1__2__depth", 1e300, "corrections['1.1.1'][2].depth"),
+        ("corrections__nobody", [{"correction": "set_cue", "note_id": "1:1"}], "corrections['nobody']"),
+        ("expressions__0__weights__browDownLeft", 1.5, "expressions[0].weights"),
+        ("expressions__0__weights__moustache", 0.5, "expressions[0].weights.moustache"),
+        ("fps", "0", "fps"),
+        ("fps", "60/0", "fps"),
+        ("fps", "1000", "fps"),
+        ("fps", 60, "fps"),
+        ("audio__offset_s", 1e9, "audio.offset_s"),
+        ("audio__path", "", "audio.path"),
+        ("seed", -1, "seed"),
+        ("future", 1, "$"),
+        ("score__future", 1, "score.future"),
+    ],
+)  # fmt: skip
+def test_what_is_wrong_is_named_by_its_place(path: str, value: object, place: str) -> None:
+    message = refused(changed(full_project(), **{path: value}))
+    assert message.id == "project.invalid"
+    assert str(message.arguments["place"]).startswith(place)
+    assert message.arguments["file"] == "/music/piece.suisou"
+
+
+def test_bars_without_number_are_refused() -> None:
+    project = small_project()
+    content = changed(
+        project, score__ticks_per_quarter=1, score__tempo_map__ticks_per_quarter=1, score__metres=[
+            {"tick": 0, "numerator": 1, "denominator": 64}
+        ], score__parts__0__notes__3__onset_tick=2**30
+    )  # fmt: skip
+    assert refused(content).arguments["place"] == "score.metres"
+
+
+def test_names_are_only_data(tmp_path: Path) -> None:
+    project = small_project()
+    evil = "../../../../tmp/evil\u202etxt"
+    players = (msgspec.structs.replace(project.players[0], name=evil), project.players[1])
+    (tmp_path / "work").mkdir()
+    save(replace(project, players=players), tmp_path / "work" / "piece.suisou")
+    assert load(tmp_path / "work" / "piece.suisou").players[0].name == evil
+    assert [path.name for path in tmp_path.rglob("*")] == ["work", "piece.suisou"]
+
+
+def test_media_move_with_the_folder(tmp_path: Path) -> None:
+    first = tmp_path / "first"
+    (first / "audio").mkdir(parents=True)
+    (first / "audio" / "take.wav").touch()
+    save(set_audio(small_project(), first / "audio" / "take.wav"), first / "piece.suisou")
+    assert '"path": "audio/take.wav"' in (first / "piece.suisou").read_text()
+    assert missing_media(load(first / "piece.suisou")) is None
+    shutil.move(first, tmp_path / "second")
+    moved = load(tmp_path / "second" / "piece.suisou")
+    assert moved.audio is not None
+    assert moved.audio.path == str(tmp_path / "second" / "audio" / "take.wav")
+    assert missing_media(moved) is None
+    (tmp_path / "second" / "audio" / "take.wav").unlink()
+    assert missing_media(moved) == tmp_path / "second" / "audio" / "take.wav"
+    # A file saved elsewhere still finds it.
+    save(moved, tmp_path / "elsewhere.suisou")
+    assert load(tmp_path / "elsewhere.suisou").audio == moved.audio
+
+
+@pytest.mark.parametrize("path", ["C:\\Music\\take.wav", "\\\\server\\share\\take.wav", "/nowhere/at/all/take.wav"])
+def test_paths_of_other_systems_stay_what_they_are(tmp_path: Path, path: str) -> None:
+    project = replace(small_project(), audio=AudioTrack(path))
+    save(project, tmp_path / "piece.suisou")
+    assert load(tmp_path / "piece.suisou") == project
+    assert missing_media(project) == Path(path)
+
+
+def test_what_is_not_installed_stays_and_is_told() -> None:
+    project = full_project()
+    back = decode(encode(project, Path("/music/a.suisou")), Path("/music/a.suisou"))
+    assert back == project
+    assert [message.id for message in missing(back)] == ["project.instrument_missing", "project.character_missing"]
+    assert "not_installed" in text(missing(back)[0])
+    assert missing(small_project()) == ()
+
+
+def test_remarks_of_another_version_are_kept_in_words_we_have() -> None:
+    content = changed(
+        full_project(),
+        score__warnings=[
+            {"id": "midi.of_tomorrow", "arguments": {"x": 1}},
+            {"id": "midi.patterns", "arguments": {}},
+            {"id": "midi.patterns", "arguments": {"patterns": 2}},
+        ],
+    )
+    warnings = decode(content, Path("/music/a.suisou")).score.warnings
+    assert [message.id for message in warnings] == ["project.unknown_remark", "project.unknown_remark", "midi.patterns"]
+    assert "midi.of_tomorrow" in text(warnings[0])
+
+
+def test_the_version_before_stays_beside(tmp_path: Path) -> None:
+    path = tmp_path / "piece.suisou"
+    first, second, third = (replace(small_project(), seed=seed) for seed in (1, 2, 3))
+    save(first, path)
+    assert not backup_path(path).exists()
+    save(second, path)
+    save(third, path)
+    assert load(path) == third
+    assert load(backup_path(path)) == second
+    assert sorted(file.name for file in tmp_path.iterdir()) == ["piece.suisou", "piece.suisou.bak"]
+
+
+def test_a_save_that_fails_costs_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = tmp_path / "piece.suisou"
+    save(small_project(), path)
+    before = path.read_bytes()
+
+    def full(descriptor: int) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(os, "fsync", full)
+    with pytest.raises(FileError) as raised:
+        save(replace(small_project(), seed=9), path)
+    assert raised.value.message.id == "file.cannot_write"
+    assert path.read_bytes() == before
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_where_a_file_has_one_name_only_the_backup_is_a_copy(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def unsupported(source: object, target: object) -> None:
+        raise OSError(1, "Operation not permitted")
+
+    monkeypatch.setattr(os, "link", unsupported)
+    path = tmp_path / "piece.suisou"
+    save(replace(small_project(), seed=1), path)
+    save(replace(small_project(), seed=2), path)
+    assert load(backup_path(path)).seed == 1
+    assert load(path).seed == 2
+
+
+def test_a_write_protected_file_is_respected(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = tmp_path / "piece.suisou"
+    save(small_project(), path)
+    # The tests may run as somebody whom no protection stops.
+    monkeypatch.setattr(os, "access", lambda file, mode: False)
+    with pytest.raises(FileError, match=r"project\.read_only"):
+        save(small_project(), path)
+
+
+def test_what_could_not_be_read_again_is_not_written(tmp_path: Path) -> None:
+    path = tmp_path / "piece.suisou"
+    save(small_project(), path)
+    before = path.read_bytes()
+    with pytest.raises(FileError) as raised:
+        save(replace(small_project(), preroll_beats=float("nan")), path)
+    assert raised.value.message.arguments["place"] == "preroll_beats"
+    with pytest.raises(FileError, match=r"project\.cannot_save"):
+        save(replace(small_project(), source="/music/\udcff.mid"), path)
+    assert path.read_bytes() == before
+
+
+def test_numbers_of_calculations_are_numbers(tmp_path: Path) -> None:
+    project = replace(small_project(), seed=np.int64(4), preroll_beats=np.float64(2.5), fps=Fraction(25))  # type: ignore[arg-type]
+    save(project, tmp_path / "piece.suisou")
+    back = load(tmp_path / "piece.suisou")
+    assert (type(back.seed), type(back.preroll_beats)) == (int, float)
+    assert back == project
+
+
+@pytest.mark.parametrize("name", ["missing.suisou", "folder", "bad\0name"])
+def test_what_cannot_be_opened_is_named(tmp_path: Path, name: str) -> None:
+    (tmp_path / "folder").mkdir()
+    with pytest.raises(FileError) as raised:
+        load(tmp_path / name)
+    assert raised.value.message.arguments["file"] == str(tmp_path / name)
+
+
+def test_a_link_stays_a_link(tmp_path: Path) -> None:
+    (tmp_path / "real").mkdir()
+    save(small_project(), tmp_path / "real" / "piece.suisou")
+    (tmp_path / "link.suisou").symlink_to(tmp_path / "real" / "piece.suisou")
+    save(replace(small_project(), seed=5), tmp_path / "link.suisou")
+    assert (tmp_path / "link.suisou").is_symlink()
+    assert load(tmp_path / "real" / "piece.suisou").seed == 5
+    assert (tmp_path / "real" / "piece.suisou.bak").exists()
+
+
+def test_which_files_are_projects() -> None:
+    for name in ("a.suisou", "A.SUISOU", "a.suisou.bak", "a.suisou.autosave", "曲.suisou"):
+        assert is_project_file(Path(name)), name
+    for name in ("a.mid", "suisou", "a.suisou.mid", "a.bak"):
+        assert not is_project_file(Path(name)), name
