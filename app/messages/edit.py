@@ -21,6 +21,7 @@ TEMPLATES: Final[dict[str, str]] = {
     "edit.toggle_preparation": "preparation on or off",
     "edit.remove_events": "delete {count} events",
     "edit.give_back": "back to the generator's",
+    "edit.reattach": "re-attach a correction",
     "edit.give_back_player": "revert all corrections of {player}",
     "edit.set_offset": "offset of the recording",
     "edit.no_note_to_breathe_for": "there is no note after this place to breathe for",

@@ -1,0 +1,78 @@
+"""A line that says what the generator made and what a person made of it, with the way back."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QEvent, Qt, Signal
+from PySide6.QtGui import QColor, QPainter, QPaintEvent
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QToolButton, QWidget
+
+from widgets.common.icons import icon
+from widgets.common.session import Session
+
+
+class ByHandLine(QWidget):
+    """``generated 0 · yours 2·3 ⟲``; hidden where nothing was done by hand.
+
+    Signals
+    -------
+    reverted()
+        The person wants the generator's again.
+    """
+
+    reverted = Signal()
+
+    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._session = session
+        self._generated: str | None = None
+        self._yours = ""
+        self._text = QLabel()
+        self._text.setWordWrap(True)
+        self._text.setTextFormat(Qt.TextFormat.PlainText)
+        self._button = QToolButton()
+        self._button.setObjectName("revert")
+        self._button.clicked.connect(self.reverted)
+        row = QHBoxLayout(self)
+        row.setContentsMargins(10, 2, 0, 2)
+        row.setSpacing(4)
+        row.addWidget(self._text, 1)
+        row.addWidget(self._button, 0, Qt.AlignmentFlag.AlignTop)
+        session.theme_changed.connect(self._dress)
+        self._dress()
+        self._retranslate()
+        self.hide()
+
+    def show_values(self, generated: str | None, yours: str) -> None:
+        """Show both; None as generated value while it is being made, empty where there was nothing."""
+        self._generated, self._yours = generated, yours
+        self._retranslate()
+        self.show()
+
+    def text(self) -> str:
+        """What the line says."""
+        return self._text.text()
+
+    def _retranslate(self) -> None:
+        if self._generated is None:
+            text = self.tr("yours {yours}").format(yours=self._yours)
+        elif not self._generated:
+            text = self.tr("added by hand")
+        else:
+            text = self.tr("generated {generated} · yours {yours}").format(generated=self._generated, yours=self._yours)
+        self._text.setText(text)
+        self._button.setToolTip(self.tr("Back to the generator's"))
+
+    def _dress(self) -> None:
+        self._button.setIcon(icon("reset", self._session.tokens, self._session.tokens.by_hand))
+        self.update()
+
+    # Qt's own names
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        painter = QPainter(self)
+        painter.fillRect(0, 3, 3, self.height() - 6, QColor(self._session.tokens.by_hand))
+
+    def changeEvent(self, event: QEvent) -> None:
+        if event.type() == QEvent.Type.LanguageChange:
+            self._retranslate()
+        super().changeEvent(event)

@@ -1,0 +1,240 @@
+"""Everything that was done by hand for the selected players: where, instead of what, and the way back."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from PySide6.QtCore import QEvent
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+
+from app.errors import Message
+from app.plan.corrections import Correction, PinFingering, SetEmbouchure
+from app.plan.model import Event, PlayerPlan
+from app.project.edit import events as edit
+from app.project.edit.corrections import take_back
+from app.project.model import Player, Project
+from app.project.reimport import orphaned, reattached
+from widgets.common.icons import icon
+from widgets.common.musical_time import place_text
+from widgets.common.selection import EventKey, Selection
+from widgets.common.session import Session
+from widgets.common.text import message_text
+from widgets.inspector.generated import Generated
+from widgets.inspector.rows import Line, LineList
+from widgets.inspector.words import correction_title, event_text
+
+LATE_TICK = 2**62
+
+
+@dataclass(frozen=True)
+class Place:
+    """A correction and where it is: its event or note in the plan, and what the generator has there."""
+
+    player_id: str
+    correction: Correction
+    event: Event | None
+    generated: Event | None
+    orphan: bool
+
+
+class CorrectionList(QWidget):
+    """Corrections of the selected players, those that lost their place first."""
+
+    def __init__(self, session: Session, generated: Generated, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._session, self._generated = session, generated
+        self.list = LineList(session)
+        self.list.setObjectName("correction_list")
+        self._empty = QLabel()
+        self._empty.setWordWrap(True)
+        self._empty.setMargin(12)
+        self._revert, self._revert_all, self._attach = QPushButton(), QPushButton(), QPushButton()
+        self._revert.setObjectName("revert_selected")
+        self._revert_all.setObjectName("revert_player")
+        self._attach.setObjectName("reattach")
+        buttons = QHBoxLayout()
+        buttons.setContentsMargins(6, 6, 6, 6)
+        buttons.setSpacing(4)
+        for button in (self._revert, self._revert_all, self._attach):
+            button.setMinimumWidth(40)
+            buttons.addWidget(button, 1)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(0)
+        layout.addWidget(self.list, 1)
+        layout.addWidget(self._empty, 1)
+        layout.addLayout(buttons)
+        self.list.opened.connect(self._open)
+        self.list.deleted.connect(self._revert_selected)
+        self.list.selectionModel().selectionChanged.connect(self._show_buttons)
+        self._revert.clicked.connect(self._revert_selected)
+        self._revert_all.clicked.connect(self._revert_players)
+        self._attach.clicked.connect(self._reattach)
+        generated.changed.connect(self.show_corrections)
+        session.performance_changed.connect(self.show_corrections)
+        session.players_changed.connect(self.show_corrections)
+        session.selection_changed.connect(self._show_buttons)
+        session.theme_changed.connect(self.show_corrections)
+        self.retranslate()
+
+    # Showing
+
+    def show_corrections(self) -> None:
+        """Show what was done by hand for the selected players."""
+        if not self.isVisible():
+            return
+        project, performance = self._session.project, self._session.performance
+        plans = performance.plans if performance.planned else {}
+        lost = {(orphan.player_id, orphan.correction) for orphan in orphaned(project)}
+        places: list[Place] = []
+        for player_id in self._session.players:
+            places += self._places(project.player(player_id), plans.get(player_id), lost)
+        places.sort(key=lambda place: (not place.orphan, self._tick(place)))
+        several = len(self._session.players) > 1
+        self.list.lines.show_lines([self._line(place, several) for place in places])
+        self.list.setVisible(bool(places))
+        self._empty.setVisible(not places)
+        self._show_buttons()
+
+    def _places(self, player: Player, plan: PlayerPlan | None, lost: set[tuple[str, Correction]]) -> list[Place]:
+        corrections = self._session.project.corrections.get(player.id, ())
+        if not corrections:
+            return []
+        events = edit.events_of(plan) if plan is not None else {}
+        bare = self._generated.plan(player.id)
+        before = edit.events_of(bare) if bare is not None else {}
+        known = self._event_ids(plan)
+        places = []
+        for item in corrections:
+            id = edit.event_id_of(item)
+            moved_from = getattr(item, "moved_from", None)
+            former = f"{id.split(':')[0]}:{moved_from}" if moved_from is not None else id
+            orphan = (player.id, item) in lost or (
+                plan is not None and hasattr(item, "event_id") and id not in known and former not in before
+                and bare is not None
+            )  # fmt: skip
+            places.append(Place(player.id, item, events.get(id), before.get(former), orphan))
+        return places
+
+    def _event_ids(self, plan: PlayerPlan | None) -> frozenset[str]:
+        return frozenset(edit.events_of(plan)) if plan is not None else frozenset()
+
+    def _tick(self, place: Place) -> int:
+        event = place.event or place.generated
+        if event is None:
+            return LATE_TICK
+        start = getattr(event, "start_tick", None)
+        if start is not None:
+            return int(start)
+        return round(self._session.project.score.tempo_map.ticks(event.start_s))
+
+    def _line(self, place: Place, several: bool) -> Line:
+        score, player = self._session.project.score, self._session.project.player(place.player_id)
+        title = correction_title(place.correction)
+        if several:
+            title = f"{player.name}: {title}"
+        if place.orphan:
+            detail = self.tr("Lost its place: it does nothing. Select a note and re-attach it, or revert it.")
+            return Line(place, title, "", detail, self._session.colour(player), "warning")
+        now, before = self._value(place, place.event), self._value(place, place.generated)
+        if place.generated is None:
+            detail = self.tr("added by hand: {yours}").format(yours=now) if now else self.tr("added by hand")
+        else:
+            reason = message_text(place.generated.reason) if hasattr(place.generated, "reason") else ""
+            detail = self.tr("generated {before} ({reason})").format(before=before, reason=reason)
+            if now and now != before:
+                detail = self.tr("yours {now} · {generated}").format(now=now, generated=detail)
+        tick = self._tick(place)
+        where = place_text(score, tick) if tick != LATE_TICK else ""
+        return Line(place, title, where, detail, self._session.colour(player), "by_hand")
+
+    def _value(self, place: Place, event: Event | None) -> str:
+        return event_text(self._session.project.score, event)
+
+    def _show_buttons(self, *_: object) -> None:
+        chosen = [key for key in self.list.selected_keys() if isinstance(key, Place)]
+        self._revert.setEnabled(bool(chosen))
+        self._revert_all.setEnabled(bool(self.list.lines.lines))
+        lost = [place for place in chosen if place.orphan]
+        self._attach.setVisible(any(_place(line).orphan for line in self.list.lines.lines))
+        self._attach.setEnabled(len(lost) == 1 and len(self._session.selection.notes) == 1)
+
+    # Doing
+
+    def _open(self, key: object) -> None:
+        assert isinstance(key, Place)
+        item, event = key.correction, key.event or key.generated
+        if isinstance(item, PinFingering | SetEmbouchure):
+            self._session.select(Selection(notes=frozenset((item.note_id,))))
+        elif key.event is not None:
+            self._session.select(Selection(events=frozenset((EventKey(key.player_id, key.event.id),))))
+        if event is not None:
+            self._session.reveal(event.start_s)
+
+    def _revert_selected(self) -> None:
+        chosen = [key for key in self.list.selected_keys() if isinstance(key, Place)]
+        if not chosen:
+            return
+
+        def reverted(project: Project) -> Project:
+            for place in chosen:
+                project = take_back(project, place.player_id, (place.correction,))
+            return project
+
+        self._session.attempt(Message("edit.give_back"), reverted)
+
+    def _revert_players(self) -> None:
+        chosen = self._session.players
+        names = ", ".join(self._session.project.player(player_id).name for player_id in chosen[:3])
+
+        def reverted(project: Project) -> Project:
+            for player_id in chosen:
+                project = edit.give_back_player(project, player_id)
+            return project
+
+        self._session.attempt(Message("edit.give_back_player", {"player": names}), reverted)
+
+    def _reattach(self) -> None:
+        lost = [key for key in self.list.selected_keys() if isinstance(key, Place) and key.orphan]
+        notes = tuple(self._session.selection.notes)
+        if len(lost) == 1 and len(notes) == 1:
+            place = lost[0]
+            self._session.attempt(
+                Message("edit.reattach"),
+                lambda project: reattached(project, place.player_id, place.correction, notes[0]),
+            )
+
+    # Words
+
+    def retranslate(self) -> None:
+        """Set every text in the language of the editor."""
+        self._revert.setText(self.tr("Revert"))
+        self._revert.setToolTip(self.tr("Back to the generator's: the selected lines"))
+        self._revert_all.setText(self.tr("Revert all"))
+        self._revert_all.setToolTip(self.tr("Back to the generator's: everything of the selected players"))
+        self._attach.setText(self.tr("Re-attach"))
+        self._attach.setToolTip(self.tr("Let the selected line be about the selected note"))
+        self._empty.setText(
+            self.tr(
+                "Nothing was changed by hand for the selected players. Pin a fingering, drag a breath or lift a bell: "
+                "it is listed here and stays when the performance is generated again."
+            )
+        )
+        for button in (self._revert, self._revert_all):
+            button.setIcon(icon("reset", self._session.tokens))
+        self.show_corrections()
+
+    # Qt's own names
+
+    def showEvent(self, event: QEvent) -> None:
+        self.show_corrections()
+
+    def changeEvent(self, event: QEvent) -> None:
+        if event.type() == QEvent.Type.LanguageChange:
+            self.retranslate()
+        super().changeEvent(event)
+
+
+def _place(line: Line) -> Place:
+    assert isinstance(line.key, Place)
+    return line.key

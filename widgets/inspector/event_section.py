@@ -1,0 +1,341 @@
+"""The selected events: when, how much, why; edited as numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import msgspec
+from PySide6.QtCore import QEvent, Qt
+from PySide6.QtWidgets import QGridLayout, QLabel, QVBoxLayout, QWidget
+
+from app.errors import Message
+from app.plan.corrections import PoseCorrection, SetBreath, SetCue
+from app.plan.cue import LEAD_BEATS
+from app.plan.model import CueEvent, ExpressionEvent, GestureEvent, PlayerPlan, PoseEvent
+from app.project.edit import events as edit
+from app.project.edit.corrections import put
+from app.project.edit.events import Placed
+from app.project.model import Project
+from widgets.common.combo import Combo, Option
+from widgets.common.event_names import expression_name, kind_name
+from widgets.common.musical_time import place_text, tick_of_place
+from widgets.common.number_slider import NumberSlider
+from widgets.common.section import Section
+from widgets.common.session import Session
+from widgets.common.text import message_text
+from widgets.inspector.by_hand import ByHandLine
+from widgets.inspector.generated import Generated
+from widgets.inspector.selected import selected_events
+from widgets.inspector.words import amount_field, event_text, event_title
+
+EARLIEST, LATEST = -(2.0**31), 2.0**31
+ANGLES = ("up_deg", "left_deg", "roll_deg")
+
+
+class EventSection(QWidget):
+    """Shows and edits the selected events of one kind."""
+
+    def __init__(self, session: Session, generated: Generated, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._session, self._generated = session, generated
+        self._plan: PlayerPlan | None = None
+        self._events: tuple[Placed, ...] = ()
+        self._section = Section(session, "inspector_event", self)
+        self._numbers: dict[str, NumberSlider] = {}
+        self._expression = Combo()
+        self._expression.setObjectName("event_expression")
+        self._length, self._why = QLabel(), QLabel()
+        self._by_hand = ByHandLine(session)
+        self._by_hand.setObjectName("event_by_hand")
+        self._build()
+        self._connect()
+        self.retranslate()
+
+    def _number(self, name: str, low: float, high: float, step: float, decimals: int, slides: bool) -> NumberSlider:
+        slider = NumberSlider(self._session, low, high, step=step, decimals=decimals, slides=slides)
+        slider.setObjectName(f"event_{name}")
+        slider.released.connect(self._session.document.end_gesture)
+        self._numbers[name] = slider
+        return slider
+
+    def _build(self) -> None:
+        grid = QGridLayout()
+        grid.setSpacing(4)
+        for column, side in enumerate(("start", "end")):
+            grid.addWidget(self._number(f"{side}_tick", EARLIEST, LATEST, 30, 0, False), 0, column)
+            grid.addWidget(self._number(f"{side}_s", -1e6, 1e6, 0.01, 3, False), 1, column)
+        body = self._section.body
+        body.addLayout(grid)
+        body.addWidget(self._length)
+        body.addWidget(self._expression)
+        body.addWidget(self._number("amount", 0, 1, 0.05, 2, True))
+        body.addWidget(self._number("beats", 0.25, 8, 0.25, 2, True))
+        for angle in ANGLES:
+            body.addWidget(self._number(angle, -60, 60, 1, 1, True))
+        fades = QGridLayout()
+        fades.setSpacing(4)
+        for column, name in enumerate(("fade_in_s", "fade_out_s")):
+            slider = NumberSlider(self._session, 0, 60, step=0.05, decimals=2, fills=(0.0, 3.0))
+            slider.setObjectName(f"event_{name}")
+            slider.released.connect(self._session.document.end_gesture)
+            self._numbers[name] = slider
+            fades.addWidget(slider, 0, column)
+        body.addLayout(fades)
+        body.addWidget(self._by_hand)
+        body.addWidget(self._why)
+        self._why.setWordWrap(True)
+        self._why.setTextFormat(Qt.TextFormat.PlainText)
+        self._why.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        outer = QVBoxLayout(self)
+        outer.setContentsMargins(0, 0, 0, 0)
+        outer.addWidget(self._section)
+
+    def _connect(self) -> None:
+        for side in ("start", "end"):
+            ticks, seconds = self._numbers[f"{side}_tick"], self._numbers[f"{side}_s"]
+            ticks.set_wording(self._place_text, self._place_from)
+            ticks.changed.connect(lambda value, token, side=side: self._set_side(side, round(value), token))
+            seconds.changed.connect(lambda value, token, side=side: self._set_side_s(side, value, token))
+        self._numbers["amount"].changed.connect(self._set_amount)
+        self._numbers["beats"].changed.connect(self._set_beats)
+        for angle in ANGLES:
+            self._numbers[angle].changed.connect(lambda value, token, name=angle: self._set_angle(name, value, token))
+        for name in ("fade_in_s", "fade_out_s"):
+            self._numbers[name].changed.connect(lambda value, token, name=name: self._set_fade(name, value, token))
+        self._expression.chosen.connect(self._set_expression)
+        self._by_hand.reverted.connect(self._revert)
+        self._session.theme_changed.connect(self._dress)
+        self._dress()
+
+    # Showing
+
+    def show_events(self) -> bool:
+        """Show the selected events; whether there are any."""
+        found = selected_events(self._session)
+        self._plan, self._events = found if found is not None else (None, ())
+        self.setVisible(bool(self._events))
+        if self._plan is None or not self._events:
+            return False
+        first = self._events[0]
+        made = self._generated_event(first)
+        player = self._session.project.player(self._plan.player_id)
+        title = event_title(first)
+        if len(self._events) > 1:
+            title = self.tr("{count} × {what}").format(count=len(self._events), what=kind_name(first.id.split(":")[0]))
+        self._section.header.set_texts(title, player.name)
+        self._show_places(first, made)
+        self._show_amounts(first, made)
+        self._show_reason(first, made)
+        return True
+
+    def _show_places(self, first: Placed, made: Placed | None) -> None:
+        grid = float(self._session.grid.step_ticks(self._session.project.score))
+        usual = made if made is not None else first
+        for side in ("start", "end"):
+            for unit in ("tick", "s"):
+                name = f"{side}_{unit}"
+                values = [float(getattr(event, name)) for event in self._events]
+                default = float(getattr(usual, name))
+                slider = self._numbers[name]
+                apart = abs(values[0] - default) > 1e-6
+                slider.show_value(values[0], mixed=len(set(values)) > 1, default=default, by_hand=apart)
+                if unit == "tick":
+                    slider.set_step(max(grid, 1.0))
+                # The entry belongs to the note; a cue's time is its preparatory beat.
+                slider.setVisible(not isinstance(first, CueEvent) or side == "end")
+                slider.setEnabled(not isinstance(first, CueEvent))
+        length_s = first.end_s - first.start_s
+        self._length.setText(
+            self.tr("{seconds} s long").format(seconds=f"{length_s:.2f}")
+            if not isinstance(first, CueEvent)
+            else self.tr("the preparatory beat lasts {seconds} s").format(seconds=f"{first.beat_s:.2f}")
+        )
+
+    def _show_amounts(self, first: Placed, made: Placed | None) -> None:
+        field = amount_field(first)
+        self._show_number("amount", field, made)
+        low = -1.0 if isinstance(first, GestureEvent) else 0.0
+        self._numbers["amount"].set_range(low, 1.0)
+        if field is not None:
+            self._numbers["amount"].set_texts(self._amount_word(field))
+        is_pose, is_face = isinstance(first, PoseEvent), isinstance(first, ExpressionEvent)
+        for name in ("fade_in_s", "fade_out_s"):
+            self._show_number(name, name if is_pose or is_face else None, made)
+        for angle in ANGLES:
+            # An elbow turns about one axis only.
+            has = is_pose and (angle == "up_deg" or "elbow" not in getattr(first, "target", ""))
+            self._show_number(angle, angle if has else None, made)
+        beats = self._numbers["beats"]
+        beats.setVisible(isinstance(first, CueEvent))
+        if isinstance(first, CueEvent):
+            usual = _cue_beats(made, self._session.project) if isinstance(made, CueEvent) else 1.0
+            beats.show_value(_cue_beats(first, self._session.project), default=usual)
+        self._expression.setVisible(is_face)
+        if is_face:
+            faces = self._session.performance.expressions
+            self._expression.set_options([Option(name, expression_name(name)) for name in faces])
+            names = {event.expression for event in self._events if isinstance(event, ExpressionEvent)}
+            self._expression.show_option(names.pop() if len(names) == 1 else None)
+
+    def _show_number(self, name: str, field: str | None, made: Placed | None) -> None:
+        slider = self._numbers[name]
+        slider.setVisible(field is not None)
+        if field is None:
+            return
+        values = [round(float(getattr(event, field)), 4) for event in self._events]
+        default = float(getattr(made, field)) if made is not None else values[0] if name not in ANGLES else 0.0
+        slider.show_value(
+            values[0], mixed=len(set(values)) > 1, default=default, by_hand=abs(values[0] - default) > 5e-4
+        )
+
+    def _show_reason(self, first: Placed, made: Placed | None) -> None:
+        corrected = [event for event in self._events if event.corrected]
+        reason = made if made is not None and first.corrected else first
+        template = self.tr("The generator: {reason}") if reason is not first else self.tr("Why: {reason}")
+        self._why.setText(template.format(reason=message_text(reason.reason)))
+        if not corrected:
+            self._by_hand.hide()
+            return
+        waits = self._plan is not None and self._generated.plan(self._plan.player_id) is None
+        score = self._session.project.score
+        before = None if waits else "" if made is None else event_text(score, made)
+        self._by_hand.show_values(before, event_text(score, first))
+
+    def _generated_event(self, event: Placed) -> Placed | None:
+        """What the generator has in an event's place."""
+        if self._plan is None:
+            return None
+        player_id = self._plan.player_id
+        bare = self._generated.plan(player_id)
+        if bare is None:
+            return None
+        said = edit.corrections_of(self._session.project, player_id, (event.id,))
+        ids = [event.id]
+        for item in said:
+            if isinstance(item, SetBreath | SetCue) and item.moved_from is not None:
+                ids.insert(0, f"{event.id.split(':')[0]}:{item.moved_from}")
+        return next(iter(edit.placed_events(bare, ids)), None)
+
+    # Editing
+
+    def _ids(self) -> tuple[str, ...]:
+        return tuple(event.id for event in self._events)
+
+    def _edit(self, name: str, change: Callable[[Project, PlayerPlan], Project], token: object | None = None) -> None:
+        plan = self._plan
+        if plan is None:
+            return
+        message = Message(name, {"count": len(self._events)})
+        if not self._session.attempt(message, lambda project: change(project, plan), token):
+            self.show_events()
+
+    def _set_side(self, side: str, tick: int, token: object | None) -> None:
+        events = self._events
+
+        def changed(project: Project, plan: PlayerPlan) -> Project:
+            for event in events:
+                by = tick - (event.start_tick if side == "start" else event.end_tick)
+                ids = (event.id,)
+                if side == "start":
+                    project = edit.resize(project, plan, ids, start_ticks=by)
+                else:
+                    project = edit.resize(project, plan, ids, end_ticks=by)
+            return project
+
+        self._edit("edit.resize_events", changed, token)
+
+    def _set_side_s(self, side: str, value: float, token: object | None) -> None:
+        self._set_side(side, round(self._session.project.score.tempo_map.ticks(value)), token)
+
+    def _set_amount(self, value: float, token: object | None) -> None:
+        amounts = dict.fromkeys(self._ids(), value)
+        self._edit("edit.set_event_amount", lambda project, plan: edit.set_amounts(project, plan, amounts), token)
+
+    def _set_beats(self, value: float, token: object | None) -> None:
+        events = [event for event in self._events if isinstance(event, CueEvent)]
+
+        def changed(project: Project, plan: PlayerPlan) -> Project:
+            for event in events:
+                start = event.end_tick - round(LEAD_BEATS * value * project.felt_beat_ticks)
+                project = edit.resize(project, plan, (event.id,), start_ticks=start - event.start_tick)
+            return project
+
+        self._edit("edit.resize_events", changed, token)
+
+    def _set_angle(self, name: str, value: float, token: object | None) -> None:
+        ids = self._ids()
+
+        def changed(project: Project, plan: PlayerPlan) -> Project:
+            said = edit.corrections_of(project, plan.player_id, ids)
+            poses = [
+                msgspec.structs.replace(item, **{name: value}) for item in said if isinstance(item, PoseCorrection)
+            ]
+            return put(project, plan.player_id, poses)
+
+        self._edit("edit.set_event_amount", changed, token)
+
+    def _set_fade(self, name: str, value: float, token: object | None) -> None:
+        ids = self._ids()
+        self._edit(
+            "edit.set_fades",
+            lambda project, plan: edit.set_fades(project, plan, ids, **{name: value}),
+            token,
+        )
+
+    def _set_expression(self, name: str) -> None:
+        ids = self._ids()
+        self._edit("edit.set_expression", lambda project, plan: edit.set_expression(project, plan, ids, name))
+
+    def _revert(self) -> None:
+        ids = self._ids()
+        self._edit("edit.give_back", lambda project, plan: edit.give_back(project, plan.player_id, ids))
+
+    # Words
+
+    def _place_text(self, value: float) -> str:
+        return place_text(self._session.project.score, round(value))
+
+    def _place_from(self, text: str) -> float | None:
+        tick = tick_of_place(self._session.project.score, text)
+        return None if tick is None else float(tick)
+
+    def _amount_word(self, field: str) -> str:
+        return {"depth": self.tr("Depth"), "amount": self.tr("Amount"), "strength": self.tr("Strength")}[field]
+
+    def _dress(self) -> None:
+        for label in (self._why, self._length):
+            label.setStyleSheet(f"color: {self._session.tokens.text_dim};")
+
+    def retranslate(self) -> None:
+        """Set every text in the language of the editor."""
+        seconds, degrees = self.tr("s", "seconds"), "°"
+        texts = {
+            "start_tick": (self.tr("Start"), "", self.tr("Bar.beat.ticks")),
+            "end_tick": (self.tr("End"), "", self.tr("Bar.beat.ticks")),
+            "start_s": ("", seconds, self.tr("Start in seconds of the performance")),
+            "end_s": ("", seconds, self.tr("End in seconds of the performance")),
+            "amount": (self.tr("Amount"), "", ""),
+            "beats": (
+                self.tr("Preparatory beat"), self.tr("beats"), self.tr("How long before the entry the cue's beat is"),
+            ),
+            "up_deg": (self.tr("Up"), degrees, self.tr("Raised, leaning back, or an elbow outwards")),
+            "left_deg": (self.tr("Left"), degrees, self.tr("Turned to the player's left")),
+            "roll_deg": (self.tr("Roll"), degrees, self.tr("Leaning to the player's left")),
+            "fade_in_s": (self.tr("Fade in"), seconds, self.tr("How long it takes to come")),
+            "fade_out_s": (self.tr("Fade out"), seconds, self.tr("How long it takes to go")),
+        }  # fmt: skip
+        for name, (label, unit, tip) in texts.items():
+            self._numbers[name].set_texts(label, unit, tip)
+        self._expression.setToolTip(self.tr("The face that is shown"))
+        self.show_events()
+
+    # Qt's own names
+
+    def changeEvent(self, event: QEvent) -> None:
+        if event.type() == QEvent.Type.LanguageChange:
+            self.retranslate()
+        super().changeEvent(event)
+
+
+def _cue_beats(event: CueEvent, project: Project) -> float:
+    return round((event.end_tick - event.start_tick) / LEAD_BEATS / project.felt_beat_ticks, 2)

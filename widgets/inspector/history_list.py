@@ -1,0 +1,64 @@
+"""What was done, step by step; a click goes there."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QEvent
+from PySide6.QtWidgets import QVBoxLayout, QWidget
+
+from widgets.common.session import Session
+from widgets.common.text import message_text
+from widgets.inspector.rows import Line, LineList
+
+
+class HistoryList(QWidget):
+    """Every step that can be undone or done again; the last one done is marked."""
+
+    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._session = session
+        self.list = LineList(session, has_details=False)
+        self.list.setObjectName("history_list")
+        self.list.setSelectionMode(LineList.SelectionMode.SingleSelection)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.addWidget(self.list)
+        self.list.opened.connect(self._go_to)
+        session.changed.connect(self.show_steps)
+
+    def show_steps(self, *_: object) -> None:
+        """Show the history as it is now."""
+        if not self.isVisible():
+            return
+        document = self._session.document
+        done, undone = document.done, document.undone[::-1]
+        texts = [self.tr("As opened"), *(_sentence(message_text(step.name)) for step in (*done, *undone))]
+        lines = []
+        for number, text in enumerate(texts):
+            tone = "current" if number == len(done) else "faint" if number > len(done) else ""
+            lines.append(Line(number, text, str(number) if number else "", tone=tone))
+        self.list.lines.show_lines(lines)
+        current = self.list.lines.index(len(done))
+        self.list.setCurrentIndex(current)
+        self.list.scrollTo(current)
+
+    def _go_to(self, key: object) -> None:
+        assert isinstance(key, int)
+        document = self._session.document
+        while len(document.done) > key:
+            document.undo()
+        while len(document.done) < key and document.undone:
+            document.redo()
+
+    # Qt's own names
+
+    def showEvent(self, event: QEvent) -> None:
+        self.show_steps()
+
+    def changeEvent(self, event: QEvent) -> None:
+        if event.type() == QEvent.Type.LanguageChange:
+            self.show_steps()
+        super().changeEvent(event)
+
+
+def _sentence(text: str) -> str:
+    return text[:1].upper() + text[1:]

@@ -1,0 +1,422 @@
+"""The selected notes: what they are, how they are fingered and why, their embouchure, and what is wrong with them."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QEvent, Qt
+from PySide6.QtWidgets import QGridLayout, QLabel, QVBoxLayout, QWidget
+
+from app.errors import MapError, Message
+from app.plan.corrections import PinFingering, SetEmbouchure
+from app.plan.model import EmbouchureEvent, FingeringEvent, PlayerPlan
+from app.project.edit import events as edit_events
+from app.project.edit import notes as edit_notes
+from app.project.model import Player, Project
+from instrument_maps.load import find_map
+from instrument_maps.model import Fingering, InstrumentMap
+from widgets.common.chip import Chip
+from widgets.common.flow import FlowLayout
+from widgets.common.musical_time import beat_ticks, place_text, tick_of_place
+from widgets.common.number_slider import NumberSlider
+from widgets.common.pitch import pitch_text
+from widgets.common.section import Section
+from widgets.common.session import Session
+from widgets.common.text import message_text
+from widgets.inspector.by_hand import ByHandLine
+from widgets.inspector.fingering_diagram import FingeringDiagram
+from widgets.inspector.generated import Generated
+from widgets.inspector.pitch_reading import pitch_from
+from widgets.inspector.selected import NoteFinder, SelectedNotes, fingering_of, selected_notes
+
+LATEST_TICK = float(2**31 - 1)
+EMBOUCHURE = ("tension", "effort", "air")
+
+
+class NoteSection(QWidget):
+    """Shows and edits the selected notes."""
+
+    def __init__(self, session: Session, generated: Generated, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._session, self._generated = session, generated
+        self._finder = NoteFinder()
+        self._shown: SelectedNotes | None = None
+        self._section = Section(session, "inspector_note", self)
+        self._numbers = {
+            "pitch": NumberSlider(session, 0, 127, decimals=0, step=1, slides=False),
+            "onset": NumberSlider(session, 0, LATEST_TICK, decimals=0, step=30, slides=False),
+            "length": NumberSlider(session, 0.001, 100_000, decimals=3, step=0.125, slides=False),
+            "velocity": NumberSlider(session, 1, 127, decimals=0, step=1),
+        }
+        self._lips = {name: NumberSlider(session, 0, 1, step=0.05) for name in EMBOUCHURE}
+        self._diagram = FingeringDiagram(session)
+        self._diagram.setObjectName("fingering_diagram")
+        self._chips = FlowLayout()
+        self._fingering_title, self._lips_title = QLabel(), QLabel()
+        self._why, self._problems = QLabel(), QLabel()
+        self._fingering_by_hand, self._lips_by_hand = ByHandLine(session), ByHandLine(session)
+        self._fingering_by_hand.setObjectName("fingering_by_hand")
+        self._lips_by_hand.setObjectName("embouchure_by_hand")
+        self._build()
+        self._connect()
+        self.retranslate()
+
+    def _build(self) -> None:
+        grid = QGridLayout()
+        grid.setSpacing(4)
+        for number, (name, slider) in enumerate(self._numbers.items()):
+            slider.setObjectName(f"note_{name}")
+            grid.addWidget(slider, number // 2, number % 2)
+        body = self._section.body
+        body.addLayout(grid)
+        self._fingering = QWidget()
+        fingering = QVBoxLayout(self._fingering)
+        fingering.setContentsMargins(0, 4, 0, 0)
+        fingering.setSpacing(4)
+        chips = QWidget()
+        chips.setObjectName("fingering_chips")
+        chips.setLayout(self._chips)
+        self._chips_box = chips
+        for widget in (self._fingering_title, chips, self._diagram, self._fingering_by_hand, self._why):
+            fingering.addWidget(widget)
+        body.addWidget(self._fingering)
+        self._lips_box = QWidget()
+        lips = QVBoxLayout(self._lips_box)
+        lips.setContentsMargins(0, 4, 0, 0)
+        lips.setSpacing(4)
+        lips.addWidget(self._lips_title)
+        for name, slider in self._lips.items():
+            slider.setObjectName(f"embouchure_{name}")
+            lips.addWidget(slider)
+        lips.addWidget(self._lips_by_hand)
+        body.addWidget(self._lips_box)
+        body.addWidget(self._problems)
+        for label in (self._why, self._problems):
+            label.setWordWrap(True)
+            label.setTextFormat(Qt.TextFormat.PlainText)
+            label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        outer = QVBoxLayout(self)
+        outer.setContentsMargins(0, 0, 0, 0)
+        outer.addWidget(self._section)
+
+    def _connect(self) -> None:
+        document = self._session.document
+        for slider in (*self._numbers.values(), *self._lips.values()):
+            slider.released.connect(document.end_gesture)
+        self._numbers["pitch"].changed.connect(self._set_pitch)
+        self._numbers["pitch"].set_wording(self._pitch_text, self._pitch_from)
+        self._numbers["onset"].changed.connect(self._set_onset)
+        self._numbers["onset"].set_wording(self._place_text, self._place_from)
+        self._numbers["length"].changed.connect(self._set_length)
+        self._numbers["velocity"].changed.connect(self._set_velocity)
+        for slider in self._numbers.values():
+            # A note has no value of its own to return to.
+            slider.reset.connect(lambda _: None)
+        for name, slider in self._lips.items():
+            slider.changed.connect(lambda value, token, name=name: self._set_lips(name, value, token))
+            slider.reset.connect(lambda _, name=name: self._reset_lips(name))
+        self._fingering_by_hand.reverted.connect(self._revert_fingering)
+        self._lips_by_hand.reverted.connect(self._revert_lips)
+        self._session.theme_changed.connect(self._dress)
+        self._dress()
+
+    # Showing
+
+    def show_notes(self) -> bool:
+        """Show the selected notes; whether there are any."""
+        self._shown = selected_notes(self._session, self._finder)
+        self.setVisible(self._shown is not None)
+        if self._shown is None:
+            return False
+        self._show_numbers(self._shown)
+        self._show_plan(self._shown)
+        return True
+
+    def _show_numbers(self, shown: SelectedNotes) -> None:
+        note, notes, score = shown.note, shown.notes, self._session.project.score
+        several = len(shown.note_ids)
+        title = self.tr("Note") if several == 1 else self.tr("{count} notes").format(count=several)
+        owner = shown.player.name if shown.player is not None else ""
+        self._section.header.set_texts(title, owner)
+        grid = self._session.grid.step_ticks(score)
+        self._numbers["onset"].set_step(float(grid) if grid > 1 else 1.0)
+        beat = beat_ticks(score, note.onset_tick)
+        values = {
+            "pitch": (float(note.pitch), {one.pitch for one in notes}),
+            "onset": (float(note.onset_tick), {one.onset_tick for one in notes}),
+            "length": (note.duration_tick / beat, {one.duration_tick for one in notes}),
+            "velocity": (float(note.velocity), {one.velocity for one in notes}),
+        }
+        for name, (value, among) in values.items():
+            mixed = len(among) > 1 and name not in ("pitch", "onset")
+            self._numbers[name].show_value(value, mixed=mixed, by_hand=False)
+
+    def _show_plan(self, shown: SelectedNotes) -> None:
+        plan, player = self._plan(shown), shown.player
+        instrument = _instrument(player)
+        there = plan is not None and player is not None and instrument is not None
+        self._fingering.setVisible(there)
+        self._lips_box.setVisible(there)
+        self._problems.setVisible(False)
+        if plan is None or player is None or instrument is None:
+            return
+        bare = self._generated.plan(player.id)
+        self._show_fingering(shown, plan, bare, instrument)
+        self._show_lips(shown, plan, bare)
+        told = [problem for problem in plan.problems if problem.note_id in shown.own_ids]
+        self._problems.setText("\n".join(f"⚠ {message_text(problem.message)}" for problem in told[:5]))
+        self._problems.setVisible(bool(told))
+
+    def _plan(self, shown: SelectedNotes) -> PlayerPlan | None:
+        performance = self._session.performance
+        if shown.player is None or not performance.planned:
+            return None
+        return performance.plans.get(shown.player.id)
+
+    def _show_fingering(
+        self, shown: SelectedNotes, plan: PlayerPlan, bare: PlayerPlan | None, instrument: InstrumentMap
+    ) -> None:
+        event = fingering_of(plan, shown.note.id)
+        self._fingering.setVisible(event is not None)
+        if event is None:
+            return
+        made = fingering_of(bare, shown.note.id) if bare is not None else None
+        same_pitch = len({note.pitch for note in shown.notes}) == 1
+        self._make_chips(instrument.fingerings_for(shown.note.pitch) if same_pitch else (), event, made)
+        self._chips_box.setVisible(same_pitch)
+        self._diagram.show_fingering(instrument, event.controls)
+        self._why.setText(self.tr("Why: {reason}").format(reason=message_text(event.reason)))
+        pinned = self._pinned(shown)
+        if pinned:
+            self._fingering_by_hand.show_values(
+                None if made is None else _spaced(made.label, instrument), _spaced(event.label, instrument)
+            )
+        else:
+            self._fingering_by_hand.hide()
+
+    def _make_chips(
+        self, fingerings: tuple[Fingering, ...], event: FingeringEvent, made: FingeringEvent | None
+    ) -> None:
+        self._chips.clear()
+        for fingering in fingerings:
+            note = f"{fingering.cents:+.0f}".replace("-", "−") + "¢" if round(fingering.cents) else ""
+            chosen = fingering.label == event.label
+            chip = Chip(
+                self._session,
+                fingering.label,
+                note,
+                by_hand=chosen and event.corrected,
+                outlined=made is not None and fingering.label == made.label,
+            )
+            chip.setObjectName(f"chip_{fingering.label}")
+            chip.setChecked(chosen)
+            chip.setToolTip(self._chip_tip(fingering, made))
+            chip.clicked.connect(lambda _=False, label=fingering.label: self._pin(label))
+            self._chips.addWidget(chip)
+
+    def _chip_tip(self, fingering: Fingering, made: FingeringEvent | None) -> str:
+        tags = {
+            "trill": self.tr("for trills"),
+            "fast": self.tr("for fast passages"),
+            "raised": self.tr("raised position"),
+            "alternate": self.tr("alternate"),
+        }
+        lines = [
+            self.tr("first choice") if fingering.rank == 1 else self.tr("choice no. {rank}").format(rank=fingering.rank)
+        ]
+        lines += [tags.get(tag, tag) for tag in fingering.tags]
+        if round(fingering.cents):
+            lines.append(self.tr("{cents} cents when simply blown").format(cents=f"{fingering.cents:+.0f}"))
+        if made is not None and made.label == fingering.label:
+            lines.append(self.tr("what the generator chose"))
+        return "\n".join(lines)
+
+    def _show_lips(self, shown: SelectedNotes, plan: PlayerPlan, bare: PlayerPlan | None) -> None:
+        ids = frozenset(shown.own_ids)
+        events = [event for event in plan.embouchures if event.note_id in ids]
+        self._lips_box.setVisible(bool(events))
+        if not events:
+            return
+        first = next((event for event in events if event.note_id == shown.note.id), events[0])
+        made = _lips_of(bare, first.note_id)
+        item = self._lips_correction(shown)
+        for name, slider in self._lips.items():
+            values = {round(getattr(event, name), 4) for event in events}
+            slider.show_value(
+                getattr(first, name),
+                mixed=len(values) > 1,
+                default=getattr(made or first, name),
+                by_hand=item is not None and getattr(item, name) is not None,
+            )
+        if item is None:
+            self._lips_by_hand.hide()
+            return
+        changed = [name for name in EMBOUCHURE if getattr(item, name) is not None]
+        yours = " ".join(f"{getattr(first, name):.2f}" for name in changed)
+        self._lips_by_hand.show_values(
+            None if made is None else " ".join(f"{getattr(made, name):.2f}" for name in changed), yours
+        )
+
+    def _corrections(self, shown: SelectedNotes) -> tuple[object, ...]:
+        return () if shown.player is None else self._session.project.corrections.get(shown.player.id, ())
+
+    def _pinned(self, shown: SelectedNotes) -> bool:
+        ids = frozenset(shown.own_ids)
+        return any(isinstance(item, PinFingering) and item.note_id in ids for item in self._corrections(shown))
+
+    def _lips_correction(self, shown: SelectedNotes) -> SetEmbouchure | None:
+        ids = frozenset(shown.own_ids)
+        found = [item for item in self._corrections(shown) if isinstance(item, SetEmbouchure) and item.note_id in ids]
+        return next((item for item in found if item.note_id == shown.note.id), found[0] if found else None)
+
+    # Words of numbers
+
+    def _transposition(self) -> int:
+        instrument = _instrument(self._shown.player) if self._shown is not None else None
+        return instrument.transposition_semitones if instrument is not None else 0
+
+    def _pitch_text(self, value: float) -> str:
+        return pitch_text(self._session.pitch_display, round(value), self._transposition())
+
+    def _pitch_from(self, text: str) -> float | None:
+        pitch = pitch_from(self._session.pitch_display, text, self._transposition())
+        return None if pitch is None else float(pitch)
+
+    def _place_text(self, value: float) -> str:
+        return place_text(self._session.project.score, round(value))
+
+    def _place_from(self, text: str) -> float | None:
+        tick = tick_of_place(self._session.project.score, text)
+        return None if tick is None else float(tick)
+
+    # Editing
+
+    def _edit(self, name: str, change: object, token: object | None) -> None:
+        assert callable(change)
+        count = len(self._shown.note_ids) if self._shown is not None else 0
+        if not self._session.attempt(Message(name, {"count": count}), change, token):
+            self.show_notes()
+
+    def _set_pitch(self, value: float, token: object | None) -> None:
+        if self._shown is not None:
+            ids, by = self._shown.note_ids, round(value) - self._shown.note.pitch
+            self._edit("edit.transpose_notes", lambda project: edit_notes.move(project, ids, 0, by), token)
+
+    def _set_onset(self, value: float, token: object | None) -> None:
+        if self._shown is not None:
+            ids, by = self._shown.note_ids, round(value) - self._shown.note.onset_tick
+            self._edit("edit.move_notes", lambda project: edit_notes.move(project, ids, by, 0), token)
+
+    def _set_length(self, value: float, token: object | None) -> None:
+        if self._shown is None:
+            return
+        notes, score = self._shown.notes, self._session.project.score
+        ticks = max(round(value * beat_ticks(score, self._shown.note.onset_tick)), 1)
+
+        def resized(project: Project) -> Project:
+            for note in notes:
+                project = edit_notes.resize(project, (note.id,), ticks - note.duration_tick)
+            return project
+
+        self._edit("edit.resize_notes", resized, token)
+
+    def _set_velocity(self, value: float, token: object | None) -> None:
+        if self._shown is not None:
+            ids = self._shown.note_ids
+            self._edit(
+                "edit.change_velocity", lambda project: edit_notes.set_velocity(project, ids, round(value)), token
+            )
+
+    def _pin(self, label: str) -> None:
+        if self._shown is not None and self._shown.player is not None:
+            player_id, ids = self._shown.player.id, self._shown.own_ids
+            self._edit(
+                "edit.pin_fingerings",
+                lambda project: edit_events.pin_fingerings(project, player_id, dict.fromkeys(ids, label)),
+                None,
+            )
+
+    def _set_lips(self, name: str, value: float, token: object | None) -> None:
+        if self._shown is not None and self._shown.player is not None:
+            player_id, ids = self._shown.player.id, self._shown.own_ids
+            self._edit(
+                "edit.set_embouchure",
+                lambda project: edit_events.set_embouchure(project, player_id, ids, **{name: value}),
+                token,
+            )
+
+    def _reset_lips(self, name: str) -> None:
+        self._without(SetEmbouchure, name)
+
+    def _revert_lips(self) -> None:
+        self._without(SetEmbouchure, None)
+
+    def _revert_fingering(self) -> None:
+        self._without(PinFingering, None)
+
+    def _without(self, kind: type[PinFingering] | type[SetEmbouchure], field: str | None) -> None:
+        """Take corrections of the shown notes back, or only one value of them."""
+        if self._shown is None or self._shown.player is None:
+            return
+        player_id, ids = self._shown.player.id, frozenset(self._shown.own_ids)
+        self._edit(
+            "edit.give_back",
+            lambda project: edit_events.forget(project, player_id, kind, ids, field),
+            None,
+        )
+
+    # Words and pictures
+
+    def _dress(self) -> None:
+        tokens = self._session.tokens
+        self._problems.setStyleSheet(f"color: {tokens.warning};")
+        for label in (self._why, self._fingering_title, self._lips_title):
+            label.setStyleSheet(f"color: {tokens.text_dim};")
+
+    def retranslate(self) -> None:
+        """Set every text in the language of the editor."""
+        texts = {
+            "pitch": (self.tr("Pitch"), "", self.tr("A name or a MIDI number; several notes move together")),
+            "onset": (self.tr("Bar"), "", self.tr("Bar.beat.ticks; several notes move together")),
+            "length": (self.tr("Length"), self.tr("beats"), self.tr("In beats of the metre")),
+            "velocity": (self.tr("Velocity"), "", self.tr("How hard the note is struck, 1 to 127")),
+        }
+        for name, (label, unit, tip) in texts.items():
+            self._numbers[name].set_texts(label, unit, tip)
+        lips = {
+            "tension": (self.tr("Tension"), self.tr("Lips: 0 relaxed for the low register, 1 drawn tight")),
+            "effort": (self.tr("Effort"), self.tr("How much the face works: height, loudness, length")),
+            "air": (self.tr("Air"), self.tr("How much air flows")),
+        }
+        for name, (label, tip) in lips.items():
+            self._lips[name].set_texts(label, "", tip)
+        self._fingering_title.setText(self.tr("Fingering"))
+        self._lips_title.setText(self.tr("Embouchure"))
+        self._diagram.setAccessibleName(self.tr("Fingering diagram"))
+        self.show_notes()
+
+    # Qt's own names
+
+    def changeEvent(self, event: QEvent) -> None:
+        if event.type() == QEvent.Type.LanguageChange:
+            self.retranslate()
+        super().changeEvent(event)
+
+
+def _instrument(player: Player | None) -> InstrumentMap | None:
+    if player is None:
+        return None
+    try:
+        return find_map(player.instrument_id)
+    except MapError:
+        return None
+
+
+def _lips_of(plan: PlayerPlan | None, note_id: str) -> EmbouchureEvent | None:
+    if plan is None:
+        return None
+    return next((event for event in plan.embouchures if event.note_id == note_id), None)
+
+
+def _spaced(label: str, instrument: InstrumentMap) -> str:
+    """``"13"`` as ``"1·3"`` where it names keys one by one."""
+    signs = {control.label for control in instrument.controls if control.label}
+    return "·".join(label) if len(label) > 1 and all(sign in signs for sign in label) else label

@@ -1,0 +1,140 @@
+"""The inspector: what is selected, and why it is as it is; problems, handwork and history."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QEvent, Qt
+from PySide6.QtWidgets import QLabel, QScrollArea, QSplitter, QTabWidget, QVBoxLayout, QWidget
+
+from app.project.document import Change
+from widgets.common.session import Session
+from widgets.inspector.correction_list import CorrectionList
+from widgets.inspector.event_section import EventSection
+from widgets.inspector.generated import Generated
+from widgets.inspector.history_list import HistoryList
+from widgets.inspector.note_section import NoteSection
+from widgets.inspector.problem_list import ProblemList
+
+MOST_COUNTED = 999
+
+
+class InspectorPanel(QWidget):
+    """Selected notes and events above, lists below.
+
+    Parameters
+    ----------
+    session : Session
+    """
+
+    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setObjectName("inspector")
+        self._session = session
+        self._generated = Generated(session)
+        self._notes = NoteSection(session, self._generated)
+        self._events = EventSection(session, self._generated)
+        self._empty = QLabel()
+        self._empty.setWordWrap(True)
+        self._empty.setMargin(16)
+        self._problems = ProblemList(session)
+        self._corrections = CorrectionList(session, self._generated)
+        self._history = HistoryList(session)
+        self._problem_count = 0
+        self._tabs = QTabWidget()
+        self._tabs.setObjectName("inspector_tabs")
+        self._build()
+        session.selection_changed.connect(self.show_selection)
+        session.performance_changed.connect(self._planned)
+        session.players_changed.connect(self.show_selection)
+        session.changed.connect(self._changed)
+        session.grid_changed.connect(self.show_selection)
+        session.pitch_display.changed.connect(self.show_selection)
+        session.theme_changed.connect(self._dress)
+        self._generated.changed.connect(self.show_selection)
+        self._problems.counted.connect(self._count_problems)
+        self._dress()
+        self.retranslate()
+        self._problems.show_problems()
+
+    def _build(self) -> None:
+        upper = QWidget()
+        layout = QVBoxLayout(upper)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(0)
+        for widget in (self._notes, self._events, self._empty):
+            layout.addWidget(widget)
+        layout.addStretch(1)
+        scroll = QScrollArea()
+        scroll.setWidgetResizable(True)
+        scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        scroll.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        scroll.setWidget(upper)
+        for page in (self._problems, self._corrections, self._history):
+            self._tabs.addTab(page, "")
+        self._tabs.setDocumentMode(True)
+        self._tabs.setUsesScrollButtons(True)
+        splitter = QSplitter(Qt.Orientation.Vertical)
+        splitter.addWidget(scroll)
+        splitter.addWidget(self._tabs)
+        splitter.setStretchFactor(0, 3)
+        splitter.setStretchFactor(1, 2)
+        splitter.setChildrenCollapsible(False)
+        splitter.setSizes([460, 280])
+        outer = QVBoxLayout(self)
+        outer.setContentsMargins(0, 0, 0, 0)
+        outer.addWidget(splitter)
+
+    def show_selection(self) -> None:
+        """Show the selected notes and events."""
+        notes, events = self._notes.show_notes(), self._events.show_events()
+        self._empty.setVisible(not notes and not events)
+
+    def _changed(self, change: Change) -> None:
+        if change.before.score.parts is not change.after.score.parts or change.opened:
+            self.show_selection()
+        if change.before.corrections is not change.after.corrections or change.opened:
+            self._show_tab_texts()
+
+    def _planned(self) -> None:
+        self.show_selection()
+        self._show_tab_texts()
+
+    def _count_problems(self, count: int) -> None:
+        if count != self._problem_count:
+            self._problem_count = count
+            self._show_tab_texts()
+
+    def _show_tab_texts(self) -> None:
+        by_hand = sum(len(items) for items in self._session.project.corrections.values())
+        problems = self._problem_count
+        texts = (
+            self.tr("Problems ({count})").format(count=_short(problems)) if problems else self.tr("Problems"),
+            self.tr("By hand ({count})").format(count=_short(by_hand)) if by_hand else self.tr("By hand"),
+            self.tr("History"),
+        )
+        for number, text in enumerate(texts):
+            self._tabs.setTabText(number, text)
+
+    def _dress(self) -> None:
+        self._empty.setStyleSheet(f"color: {self._session.tokens.text_dim};")
+
+    def retranslate(self) -> None:
+        """Set every text in the language of the editor."""
+        self._empty.setText(
+            self.tr(
+                "Click a note in the timeline to see and change its fingering, or a breath, a cue, a gesture or an "
+                "expression to see why it is there."
+            )
+        )
+        self._show_tab_texts()
+        self.show_selection()
+
+    # Qt's own names
+
+    def changeEvent(self, event: QEvent) -> None:
+        if event.type() == QEvent.Type.LanguageChange:
+            self.retranslate()
+        super().changeEvent(event)
+
+
+def _short(count: int) -> str:
+    return str(count) if count <= MOST_COUNTED else f"{MOST_COUNTED}+"

@@ -1,0 +1,149 @@
+"""What the animator should look at: problems of all players' plans."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QEvent, Signal
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
+
+from app.plan.model import Problem
+from widgets.common.combo import Combo, Option
+from widgets.common.musical_time import place_text
+from widgets.common.selection import Selection
+from widgets.common.session import Session
+from widgets.common.text import message_text
+from widgets.inspector.rows import Line, LineList
+
+EVERYONE, SELECTED, ALL = "everyone", "selected", "all"
+_KINDS = {
+    "fingering": "fingering",
+    "breath": "breath",
+    "note": "note",
+    "correction": "correction",
+    "contact": "contact",
+    "project": "project",
+}
+
+
+class ProblemList(QWidget):
+    """Problems, by player and kind; a click shows where.
+
+    Signals
+    -------
+    counted(int)
+        So many problems there are in all.
+    """
+
+    counted = Signal(int)
+
+    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._session = session
+        self._who, self._kind = Combo(), Combo()
+        self._who.setObjectName("problems_who")
+        self._kind.setObjectName("problems_kind")
+        self.list = LineList(session)
+        self.list.setObjectName("problem_list")
+        self._empty = QLabel()
+        self._empty.setWordWrap(True)
+        self._empty.setMargin(12)
+        filters = QHBoxLayout()
+        filters.setContentsMargins(6, 6, 6, 4)
+        filters.setSpacing(4)
+        filters.addWidget(self._who, 1)
+        filters.addWidget(self._kind, 1)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(0)
+        layout.addLayout(filters)
+        layout.addWidget(self.list, 1)
+        layout.addWidget(self._empty, 1)
+        self.list.opened.connect(self._open)
+        self._who.chosen.connect(lambda _: self.show_problems())
+        self._kind.chosen.connect(lambda _: self.show_problems())
+        session.performance_changed.connect(self.show_problems)
+        session.players_changed.connect(self._players_changed)
+        session.theme_changed.connect(self.show_problems)
+        self.retranslate()
+
+    def show_problems(self) -> None:
+        """Show what the newest plans have."""
+        performance = self._session.performance
+        plans = performance.plans if performance.planned else {}
+        project = performance.project
+        found = [
+            (player, problem) for player in project.players if player.id in plans
+            for problem in plans[player.id].problems
+        ]  # fmt: skip
+        self.counted.emit(len(found))
+        if not self.isVisible():
+            return
+        chosen = set(self._session.players) if self._who.shown == SELECTED else None
+        kind = self._kind.shown
+        current = {player.id: player for player in self._session.project.players}
+        lines = []
+        for player, problem in sorted(found, key=lambda item: item[1].start_s):
+            if chosen is not None and player.id not in chosen:
+                continue
+            if kind not in (ALL, None, _kind(problem)):
+                continue
+            tick = round(project.score.tempo_map.ticks(problem.start_s))
+            text = message_text(problem.message)
+            colour = self._session.colour(current[player.id]) if player.id in current else ""
+            lines.append(
+                Line((player.id, problem), player.name, place_text(project.score, tick), text, colour, "warning")
+            )
+        self.list.lines.show_lines(lines)
+        self.list.setVisible(bool(lines))
+        self._empty.setVisible(not lines)
+        self._empty.setText(
+            self.tr("No problems: everything can be played as it is planned.")
+            if not found
+            else self.tr("None of these. Choose other players or kinds above.")
+        )
+
+    def _players_changed(self) -> None:
+        if self._who.shown == SELECTED:
+            self.show_problems()
+
+    def _open(self, key: object) -> None:
+        assert isinstance(key, tuple)
+        player_id, problem = key
+        known = {player.id for player in self._session.project.players}
+        if player_id in known and player_id not in self._session.players:
+            self._session.set_players((player_id,))
+        if problem.note_id is not None:
+            self._session.select(Selection(notes=frozenset((problem.note_id,))))
+        self._session.reveal(problem.start_s)
+
+    def retranslate(self) -> None:
+        """Set every text in the language of the editor."""
+        who, kind = self._who.shown or EVERYONE, self._kind.shown or ALL
+        self._who.set_options([Option(EVERYONE, self.tr("All players")), Option(SELECTED, self.tr("Selected players"))])
+        words = {
+            "fingering": self.tr("Fingerings"),
+            "breath": self.tr("Breaths"),
+            "note": self.tr("Notes"),
+            "correction": self.tr("Corrections"),
+            "contact": self.tr("Contacts"),
+            "project": self.tr("Instruments and characters"),
+        }
+        self._kind.set_options(
+            [Option(ALL, self.tr("All kinds")), *(Option(id, words[name]) for id, name in _KINDS.items())]
+        )
+        self._who.show_option(who)
+        self._kind.show_option(kind)
+        self.show_problems()
+
+    # Qt's own names
+
+    def showEvent(self, event: QEvent) -> None:
+        self.show_problems()
+
+    def changeEvent(self, event: QEvent) -> None:
+        if event.type() == QEvent.Type.LanguageChange:
+            self.retranslate()
+        super().changeEvent(event)
+
+
+def _kind(problem: Problem) -> str:
+    return problem.message.id.split(".")[0]

@@ -1,0 +1,97 @@
+"""What the inspector looks at: the selected notes and events, and whose they are."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from app.plan.model import FingeringEvent, PlayerPlan
+from app.project.edit.events import Placed, placed_events
+from app.project.model import Player, Project
+from app.score.model import Note
+from widgets.common.session import Session
+
+MOST_NOTES = 500
+"""Of a larger selection so many are looked at: whether values differ is known by then."""
+
+
+@dataclass(frozen=True)
+class SelectedNotes:
+    """The selected notes of the player that matters most: in front, else the first who plays some of them.
+
+    Attributes
+    ----------
+    player : Player or None
+        None: a part that nobody plays.
+    note : Note
+        The first one.
+    notes : tuple of Note
+        At most `MOST_NOTES` of those this player plays.
+    note_ids : frozenset of str
+        Every selected note, also of others.
+    """
+
+    player: Player | None
+    note: Note
+    notes: tuple[Note, ...]
+    note_ids: frozenset[str]
+
+    @property
+    def own_ids(self) -> tuple[str, ...]:
+        """Ids of the notes that this player plays."""
+        return tuple(note.id for note in self.notes)
+
+
+class NoteFinder:
+    """Notes by id, found again quickly while the score stays the same."""
+
+    def __init__(self) -> None:
+        self._parts: object = None
+        self._where: dict[str, tuple[str, Note]] = {}
+
+    def find(self, project: Project, note_id: str) -> tuple[str, Note] | None:
+        """Part id and note."""
+        if self._parts is not project.score.parts:
+            self._parts = project.score.parts
+            self._where = {note.id: (part.id, note) for part in project.score.parts for note in part.notes}
+        return self._where.get(note_id)
+
+
+def selected_notes(session: Session, finder: NoteFinder) -> SelectedNotes | None:
+    """See `SelectedNotes`; None where no note is selected."""
+    project, ids = session.project, session.selection.notes
+    found = [place for note_id in ids if (place := finder.find(project, note_id)) is not None]
+    if not found:
+        return None
+    parts = {part_id for part_id, _ in found}
+    front = [project.player(player_id) for player_id in session.players]
+    player = next((one for one in (*front, *project.players) if one.part_id in parts), None)
+    part_id = player.part_id if player is not None else found[0][0]
+    notes = sorted((note for part, note in found if part == part_id), key=lambda note: (note.onset_tick, -note.pitch))
+    return SelectedNotes(player, notes[0], tuple(notes[:MOST_NOTES]), ids)
+
+
+def selected_events(session: Session) -> tuple[PlayerPlan, tuple[Placed, ...]] | None:
+    """The selected events of one player and one kind (that of the first in time), with the player's plan."""
+    keys, performance = session.selection.events, session.performance
+    if not keys or not performance.planned:
+        return None
+    order = {player.id: number for number, player in enumerate(session.project.players)}
+    owners = {key.player_id for key in keys}
+    wanted = [player_id for player_id in session.players if player_id in owners]
+    wanted += sorted(owners - set(wanted), key=lambda player_id: order.get(player_id, 0))
+    for player_id in wanted:
+        plan = performance.plans.get(player_id)
+        if plan is None:
+            continue
+        events = placed_events(plan, sorted(key.event_id for key in keys if key.player_id == player_id))
+        if events:
+            first = min(events, key=lambda event: event.start_s)
+            return plan, tuple(
+                sorted((event for event in events if type(event) is type(first)), key=lambda event: event.start_s)
+            )
+    return None
+
+
+def fingering_of(plan: PlayerPlan, note_id: str) -> FingeringEvent | None:
+    """How a plan plays a note; None for one that cannot sound (the lower note of a chord)."""
+    return next((event for event in plan.fingerings if event.note_id == note_id), None)

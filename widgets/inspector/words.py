@@ -1,0 +1,100 @@
+"""Events and corrections in words, short enough for a list."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QCoreApplication
+
+from app.plan.corrections import (
+    AddExpression,
+    AddGesture,
+    ChangeExpression,
+    ChangeGesture,
+    Correction,
+    PinFingering,
+    PoseCorrection,
+    RemoveEvent,
+    SetBreath,
+    SetCue,
+    SetEmbouchure,
+)
+from app.plan.model import BreathEvent, CueEvent, EmbouchureEvent, Event, ExpressionEvent, GestureEvent, PoseEvent
+from app.plan.model import FingeringEvent as Fingered
+from app.project.edit.events import Placed
+from app.score.model import Score
+from widgets.common.event_names import expression_name, kind_name, pose_name
+from widgets.common.musical_time import place_text
+
+
+def amount_field(event: Placed) -> str | None:
+    """What of an event says how much of it there is."""
+    if isinstance(event, BreathEvent):
+        return "depth"
+    if isinstance(event, GestureEvent):
+        return "amount"
+    return "strength" if isinstance(event, ExpressionEvent) else None
+
+
+def event_title(event: Event) -> str:
+    """What an event is."""
+    if isinstance(event, ExpressionEvent):
+        return QCoreApplication.translate("Inspector", "Expression: {name}").format(
+            name=expression_name(event.expression)
+        )
+    if isinstance(event, PoseEvent):
+        return QCoreApplication.translate("Inspector", "Pose: {name}").format(name=pose_name(event.target))
+    return kind_name(event.id.split(":")[0])
+
+
+def event_text(score: Score, event: Event | None) -> str:
+    """Where an event is and how much of it there is: ``"12.3–12.4, 0.80"``."""
+    match event:
+        case None:
+            return ""
+        case Fingered():
+            return event.label
+        case EmbouchureEvent():
+            return " ".join(f"{value:.2f}" for value in (event.tension, event.effort, event.air))
+        case CueEvent():
+            return QCoreApplication.translate("Inspector", "entry {place}, beat {seconds} s").format(
+                place=place_text(score, event.end_tick), seconds=f"{event.beat_s:.2f}"
+            )
+        case BreathEvent() | GestureEvent() | ExpressionEvent() | PoseEvent():
+            span = f"{place_text(score, event.start_tick)}–{place_text(score, event.end_tick)}"
+            if isinstance(event, PoseEvent):
+                angles = [f"{value:g}°".replace("-", "−") for value in (event.up_deg, event.left_deg, event.roll_deg)]
+                return f"{span}, {' '.join(angles)}"
+            field = amount_field(event)
+            amount = f"{getattr(event, field):.2f}".replace("-", "−") if field is not None else ""
+            face = f"{expression_name(event.expression)} " if isinstance(event, ExpressionEvent) else ""
+            return f"{span}, {face}{amount}"
+        case _:
+            return ""
+
+
+def correction_title(item: Correction) -> str:
+    """What was done by hand."""
+    match item:
+        case PinFingering():
+            return QCoreApplication.translate("Inspector", "Fingering {label}").format(label=item.label)
+        case RemoveEvent():
+            return QCoreApplication.translate("Inspector", "{what} removed").format(
+                what=kind_name(item.event_id.split(":")[0])
+            )
+        case SetBreath():
+            return kind_name(item.kind)
+        case SetCue():
+            return kind_name("cue")
+        case SetEmbouchure():
+            return QCoreApplication.translate("Inspector", "Embouchure")
+        case ChangeGesture():
+            return kind_name(item.event_id.split(":")[0])
+        case AddGesture():
+            return kind_name(item.kind)
+        case ChangeExpression():
+            if item.expression is not None:
+                return expression_name(item.expression)
+            return kind_name("expression")
+        case AddExpression():
+            return expression_name(item.expression)
+        case PoseCorrection():
+            return QCoreApplication.translate("Inspector", "Pose: {name}").format(name=pose_name(item.target))
