@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from PySide6.QtCore import QEvent
+from PySide6.QtCore import QEvent, Qt
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from app.errors import Message
@@ -48,6 +48,7 @@ class CorrectionList(QWidget):
         self._empty = QLabel()
         self._empty.setWordWrap(True)
         self._empty.setMargin(12)
+        self._empty.setAlignment(Qt.AlignmentFlag.AlignTop)
         self._revert, self._revert_all, self._attach = QPushButton(), QPushButton(), QPushButton()
         self._revert.setObjectName("revert_selected")
         self._revert_all.setObjectName("revert_player")
@@ -55,14 +56,18 @@ class CorrectionList(QWidget):
         buttons = QHBoxLayout()
         buttons.setContentsMargins(6, 6, 6, 6)
         buttons.setSpacing(4)
-        for button in (self._revert, self._revert_all, self._attach):
+        for button in (self._revert, self._revert_all):
             button.setMinimumWidth(40)
             buttons.addWidget(button, 1)
+        attach = QHBoxLayout()
+        attach.setContentsMargins(6, 6, 6, 0)
+        attach.addWidget(self._attach)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(0)
         layout.addWidget(self.list, 1)
         layout.addWidget(self._empty, 1)
+        layout.addLayout(attach)
         layout.addLayout(buttons)
         self.list.opened.connect(self._open)
         self.list.deleted.connect(self._revert_selected)
@@ -212,7 +217,7 @@ class CorrectionList(QWidget):
         self._revert.setToolTip(self.tr("Back to the generator's: the selected lines"))
         self._revert_all.setText(self.tr("Revert all"))
         self._revert_all.setToolTip(self.tr("Back to the generator's: everything of the selected players"))
-        self._attach.setText(self.tr("Re-attach"))
+        self._attach.setText(self.tr("Re-attach to the selected note"))
         self._attach.setToolTip(self.tr("Let the selected line be about the selected note"))
         self._empty.setText(
             self.tr(

@@ -144,6 +144,9 @@ class EventSection(QWidget):
                 # The entry belongs to the note; a cue's time is its preparatory beat.
                 slider.setVisible(not isinstance(first, CueEvent) or side == "end")
                 slider.setEnabled(not isinstance(first, CueEvent))
+        self._numbers["end_tick"].set_texts(
+            self.tr("Entry") if isinstance(first, CueEvent) else self.tr("End"), "", self.tr("Bar.beat.ticks")
+        )
         length_s = first.end_s - first.start_s
         self._length.setText(
             self.tr("{seconds} s long").format(seconds=f"{length_s:.2f}")

@@ -183,8 +183,10 @@ class NoteSection(QWidget):
         self._make_chips(instrument.fingerings_for(shown.note.pitch) if same_pitch else (), event, made)
         self._chips_box.setVisible(same_pitch)
         self._diagram.show_fingering(instrument, event.controls)
-        self._why.setText(self.tr("Why: {reason}").format(reason=message_text(event.reason)))
         pinned = self._pinned(shown)
+        by_whom = self.tr("The generator: {reason}") if pinned and made is not None else self.tr("Why: {reason}")
+        reason = made.reason if pinned and made is not None else event.reason
+        self._why.setText(by_whom.format(reason=message_text(reason)))
         if pinned:
             self._fingering_by_hand.show_values(
                 None if made is None else _spaced(made.label, instrument), _spaced(event.label, instrument)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent, Signal
+from PySide6.QtCore import QEvent, Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from app.plan.model import Problem
@@ -46,6 +46,7 @@ class ProblemList(QWidget):
         self._empty = QLabel()
         self._empty.setWordWrap(True)
         self._empty.setMargin(12)
+        self._empty.setAlignment(Qt.AlignmentFlag.AlignTop)
         filters = QHBoxLayout()
         filters.setContentsMargins(6, 6, 6, 4)
         filters.setSpacing(4)
