@@ -7,6 +7,7 @@ approached, and the last per cent of the limb's length is approached softly, so 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property, lru_cache
 from typing import Literal
 
 import numpy as np
@@ -25,7 +26,7 @@ TWIST_SHARE = 0.5
 """Part of the hand's turn about the forearm that the forearm takes: half, so that neither wrist nor elbow wrings."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Limb:
     """The joints and rest geometry of an arm or a leg.
 
@@ -49,10 +50,26 @@ class Limb:
     hinge_axis: FloatArray
     twist_share: float
 
+    @cached_property
+    def upper_m(self) -> float:
+        """Length of the upper bone."""
+        return float(np.linalg.norm(self.upper_vector_m))
+
+    @cached_property
+    def lower_m(self) -> float:
+        """Length of the lower bone."""
+        return float(np.linalg.norm(self.lower_vector_m))
+
     @property
     def length_m(self) -> float:
         """Upper plus lower bone."""
-        return float(np.linalg.norm(self.upper_vector_m) + np.linalg.norm(self.lower_vector_m))
+        return self.upper_m + self.lower_m
+
+    @cached_property
+    def rest_frames(self) -> tuple[FloatArray, FloatArray]:
+        """Of each bone the rotation (4,) from the world to its direction and hinge at rest."""
+        upper = _rest_frame(self.upper_vector_m / self.upper_m, self.hinge_axis)
+        return upper, _rest_frame(self.lower_vector_m / self.lower_m, self.hinge_axis)
 
 
 @dataclass(frozen=True)
@@ -65,12 +82,14 @@ class LimbPose:
     miss_m: FloatArray
 
 
+@lru_cache(maxsize=64)
 def arm(skeleton: Skeleton, side: Side, twist_share: float = TWIST_SHARE) -> Limb:
     """Return the limb of an arm (VRM names). The elbow bends forwards in the T-pose."""
     hinge = np.array([0.0, -1.0 if side == "left" else 1.0, 0.0])
     return _limb(skeleton, [f"{side}UpperArm", f"{side}LowerArm", f"{side}Hand"], hinge, twist_share)
 
 
+@lru_cache(maxsize=64)
 def leg(skeleton: Skeleton, side: Side, twist_share: float = 0.0) -> Limb:
     """Return the limb of a leg (VRM names). The knee bends backwards."""
     return _limb(
@@ -105,8 +124,7 @@ def solve_limb(
     -------
     LimbPose
     """
-    a = float(np.linalg.norm(limb.upper_vector_m))
-    b = float(np.linalg.norm(limb.lower_vector_m))
+    a, b = limb.upper_m, limb.lower_m
     line = target_m - root_m
     wanted = np.sqrt(np.einsum("fi,fi->f", line, line))
     direction = line / np.maximum(wanted, 1e-9)[:, None]
@@ -119,9 +137,10 @@ def solve_limb(
     middle = direction * along[:, None] + off * aside[:, None]
     end = direction * distance[:, None]
     # Bending turns the upper bone's direction towards the end: about middle x (end - middle).
-    hinge = np.cross(off, direction)
-    upper_world = _turn(limb.upper_vector_m / a, limb.hinge_axis, middle / a, hinge)
-    lower_world = _turn(limb.lower_vector_m / b, limb.hinge_axis, (end - middle) / b, hinge)
+    hinge = quaternion.cross(off, direction)
+    upper_rest, lower_rest = limb.rest_frames
+    upper_world = quaternion.multiply(quaternion.from_frames(middle / a, hinge), upper_rest)
+    lower_world = quaternion.multiply(quaternion.from_frames((end - middle) / b, hinge), lower_rest)
     if limb.twist_share:
         axis = limb.lower_vector_m / b
         twist = quaternion.twist_angle(quaternion.multiply(quaternion.conjugate(lower_world), target_rotation), axis)
@@ -142,11 +161,10 @@ def _soft_limit(distance: FloatArray, longest: float, shortest: float) -> FloatA
     return np.maximum(soft, shortest + 1e-6)
 
 
-def _turn(rest: FloatArray, rest_hinge: FloatArray, now: FloatArray, hinge: FloatArray) -> FloatArray:
-    """World rotation of a bone with rest direction and hinge, now along another direction and hinge."""
-    rest_hinge = rest_hinge - rest * float(rest @ rest_hinge)
-    rest_frame = quaternion.from_frames(rest, rest_hinge / np.linalg.norm(rest_hinge))
-    return quaternion.multiply(quaternion.from_frames(now, hinge), quaternion.conjugate(rest_frame))
+def _rest_frame(rest: FloatArray, hinge: FloatArray) -> FloatArray:
+    """Rotation (4,) that takes a bone's direction at rest, and its hinge as far as it is square to it, to the axes."""
+    hinge = hinge - rest * float(rest @ hinge)
+    return quaternion.conjugate(quaternion.from_frames(rest, hinge / np.linalg.norm(hinge)))
 
 
 def _limb(skeleton: Skeleton, names: list[str], hinge: FloatArray, twist_share: float) -> Limb:

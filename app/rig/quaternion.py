@@ -57,8 +57,11 @@ def normalize(q: ArrayLike) -> FloatArray:
     result = np.array(q, dtype=np.float64)
     length = np.sqrt(np.einsum("...i,...i->...", result, result))
     zero = length < 1e-12
-    result /= np.where(zero, 1.0, length)[..., None]
-    result[zero] = IDENTITY
+    if zero.any():
+        result /= np.where(zero, 1.0, length)[..., None]
+        result[zero] = IDENTITY
+    else:
+        result /= length[..., None]
     return result
 
 
@@ -67,9 +70,11 @@ def from_rotation_vector(v: ArrayLike) -> FloatArray:
     v = np.asarray(v, dtype=np.float64)
     angle = np.sqrt(np.einsum("...i,...i->...", v, v))
     result = np.empty((*v.shape[:-1], 4))
+    half = 0.5 * angle
     # sin(angle / 2) / angle, finite at 0
-    result[..., :3] = v * (0.5 * np.sinc(angle / (2.0 * np.pi)))[..., None]
-    result[..., 3] = np.cos(0.5 * angle)
+    safe = np.maximum(half, 1e-20)
+    result[..., :3] = v * (0.5 * np.where(half > 1e-20, np.sin(safe) / safe, 1.0))[..., None]
+    result[..., 3] = np.cos(half)
     return result
 
 
@@ -120,25 +125,42 @@ def from_matrix(m: ArrayLike) -> FloatArray:
     xx, yy, zz = m[..., 0, 0], m[..., 1, 1], m[..., 2, 2]
     yz, zx, xy = m[..., 2, 1] - m[..., 1, 2], m[..., 0, 2] - m[..., 2, 0], m[..., 1, 0] - m[..., 0, 1]
     pyz, pzx, pxy = m[..., 2, 1] + m[..., 1, 2], m[..., 0, 2] + m[..., 2, 0], m[..., 1, 0] + m[..., 0, 1]
-    forms = np.stack(
-        [
-            np.stack([1.0 + xx - yy - zz, pxy, pzx, yz], axis=-1),
-            np.stack([pxy, 1.0 - xx + yy - zz, pyz, zx], axis=-1),
-            np.stack([pzx, pyz, 1.0 - xx - yy + zz, xy], axis=-1),
-            np.stack([yz, zx, xy, 1.0 + xx + yy + zz], axis=-1),
-        ],
-        axis=-2,
-    )
+    forms = np.empty((*xx.shape, 4, 4))
+    forms[..., 0, 0], forms[..., 1, 1] = 1.0 + xx - yy - zz, 1.0 - xx + yy - zz
+    forms[..., 2, 2], forms[..., 3, 3] = 1.0 - xx - yy + zz, 1.0 + xx + yy + zz
+    forms[..., 0, 1] = forms[..., 1, 0] = pxy
+    forms[..., 0, 2] = forms[..., 2, 0] = pzx
+    forms[..., 1, 2] = forms[..., 2, 1] = pyz
+    forms[..., 0, 3] = forms[..., 3, 0] = yz
+    forms[..., 1, 3] = forms[..., 3, 1] = zx
+    forms[..., 2, 3] = forms[..., 3, 2] = xy
     best = np.argmax(np.einsum("...ii->...i", forms), axis=-1)
-    result = normalize(np.take_along_axis(forms, best[..., None, None], axis=-2)[..., 0, :])
+    if forms.ndim == 3:
+        result = normalize(forms[np.arange(len(forms)), best])
+    else:
+        result = normalize(np.take_along_axis(forms, best[..., None, None], axis=-2)[..., 0, :])
     result[result[..., 3] < 0.0] *= -1.0
     return result
 
 
 def from_frames(x_axis: ArrayLike, y_axis: ArrayLike) -> FloatArray:
     """Return the rotation whose columns are x, y and x cross y; x and y are unit and orthogonal, (..., 3)."""
-    x_axis, y_axis = np.broadcast_arrays(np.asarray(x_axis, dtype=np.float64), np.asarray(y_axis, dtype=np.float64))
-    return from_matrix(np.stack([x_axis, y_axis, np.cross(x_axis, y_axis)], axis=-1))
+    x_axis, y_axis = np.asarray(x_axis, dtype=np.float64), np.asarray(y_axis, dtype=np.float64)
+    z_axis = cross(x_axis, y_axis)
+    matrix = np.empty((*z_axis.shape, 3))
+    matrix[..., 0], matrix[..., 1], matrix[..., 2] = x_axis, y_axis, z_axis
+    return from_matrix(matrix)
+
+
+def cross(a: FloatArray, b: FloatArray) -> FloatArray:
+    """Return a x b (..., 3), as `numpy.cross` does with less ado."""
+    ax, ay, az = a[..., 0], a[..., 1], a[..., 2]
+    bx, by, bz = b[..., 0], b[..., 1], b[..., 2]
+    result = np.empty(np.broadcast_shapes(a.shape, b.shape))
+    result[..., 0] = ay * bz - az * by
+    result[..., 1] = az * bx - ax * bz
+    result[..., 2] = ax * by - ay * bx
+    return result
 
 
 def between(a: ArrayLike, b: ArrayLike) -> FloatArray:
