@@ -45,6 +45,8 @@ MENUS: Final = {
     "Fingering": QT_TRANSLATE_NOOP("Menu", "Fingering"),
     "Events": QT_TRANSLATE_NOOP("Menu", "Breaths and Acting"),
     "Gesture": QT_TRANSLATE_NOOP("Menu", "Add a Gesture"),
+    "Select": QT_TRANSLATE_NOOP("Menu", "Select"),
+    "Tool": QT_TRANSLATE_NOOP("Menu", "Tool"),
     "Viewport": QT_TRANSLATE_NOOP("Menu", "Viewport"),
     "Panels": QT_TRANSLATE_NOOP("Menu", "Panels"),
     "Theme": QT_TRANSLATE_NOOP("Menu", "Theme"),

@@ -119,6 +119,9 @@ class TimelinePanel(QWidget):
         self.quantise = QuantisePopover(session, self)
 
         self.ruler.sought.connect(self.sought)
+        # Whoever sounds hears of it there: a playhead that is set is sought.
+        self.sought.connect(session.set_playhead)
+        self.setFocusProxy(self.roll.plot)
         self.axis.changed.connect(self._axis_changed)
         session.changed.connect(self._session_changed)
         session.performance_changed.connect(self._set_limits)

@@ -38,15 +38,15 @@ ROWS_A_NOTCH = 3.0
 ZOOM_A_NOTCH = 1.18
 FIRST_VELOCITY = 80
 MENU = (
-    "edit.cut",
-    "edit.copy",
-    "edit.paste",
+    "notes.cut",
+    "notes.copy",
+    "notes.paste",
     "",
     "notes.split",
     "notes.join",
     "notes.duplicate",
     "notes.quantise",
-    "notes.erase",
+    "edit.delete",
     "",
     "notes.select_pitch",
     "notes.select_bar",

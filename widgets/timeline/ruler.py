@@ -373,7 +373,7 @@ class Ruler(QWidget):
         menu.addAction(self.tr("Add Metre at This Bar")).triggered.connect(lambda: self.edit_mark("metre", bar_tick))
         menu.addSeparator()
         menu.addAction(self.tr("Select This Bar")).triggered.connect(lambda: self._select_bar(tick))
-        for id in ("transport.loop_selection", "transport.loop", "timeline.zoom_selection", "timeline.fit"):
+        for id in ("play.loop", "notes.select_span", "timeline.zoom_selection", "timeline.fit"):
             action = self.session.actions.get(id)
             if action is not None:
                 menu.addAction(action)

@@ -1,0 +1,438 @@
+"""Notes: selecting, moving, cutting up, copying, quantising: the selection, at the playhead, the player in front."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+
+import msgspec
+from PySide6.QtCore import QByteArray, QMimeData
+from PySide6.QtGui import QGuiApplication
+
+from app.errors import Message
+from app.project.edit import events as event_edits
+from app.project.edit import notes
+from app.project.model import Project
+from app.shell.action import QT_TRANSLATE_NOOP, Action
+from widgets.common.selection import EventKey, Selection
+from widgets.common.session import Session, Severity
+from widgets.common.timeline_view import Tool
+
+MIME_TYPE = "application/x-suisou-notes+json"
+VELOCITY_STEP = 8
+
+
+def _name(id: str, note_ids: frozenset[str]) -> Message:
+    return Message(id, {"count": len(note_ids)})
+
+
+def _has_notes(session: Session) -> bool:
+    return bool(session.selection.notes)
+
+
+def _has_something(session: Session) -> bool:
+    return bool(session.selection.notes or session.selection.events)
+
+
+def _has_player(session: Session) -> bool:
+    return session.player is not None
+
+
+# Selecting
+
+
+def select_all(session: Session) -> None:
+    """Every note of the players that are selected; where all are already: of everybody."""
+    project = session.project
+    mine = _notes_of(session, session.players)
+    everybody = _notes_of(session, tuple(player.id for player in project.players))
+    session.select(Selection(everybody if session.selection.notes == mine else mine))
+
+
+def _notes_of(session: Session, player_ids: tuple[str, ...]) -> frozenset[str]:
+    project = session.project
+    return frozenset(note.id for player_id in player_ids for note in project.part(project.player(player_id)).notes)
+
+
+def select_none(session: Session) -> None:
+    """Nothing is selected."""
+    session.select(Selection())
+
+
+def select_pitch(session: Session) -> None:
+    """Every note at a pitch of the selected ones, in their parts."""
+    selected = session.selection.notes
+    found: set[str] = set()
+    for part, mine in notes.chosen_notes(session.project, selected):
+        pitches = {note.pitch for note in mine}
+        found.update(note.id for note in part.notes if note.pitch in pitches)
+    session.select(Selection(frozenset(found)))
+
+
+def select_bar(session: Session) -> None:
+    """The notes that begin in the bars of the selected ones; else those of the bar at the playhead."""
+    project = session.project
+    score = project.score
+    chosen = list(notes.chosen_notes(project, session.selection.notes))
+    if chosen:
+        bars = {score.bar_of_tick(note.onset_tick) for _, mine in chosen for note in mine}
+        parts = [part for part, _ in chosen]
+    else:
+        bars = {score.bar_of_tick(_playhead_tick(session))}
+        parts = [project.part(session.player)] if session.player is not None else []
+    found = frozenset(note.id for part in parts for note in part.notes if score.bar_of_tick(note.onset_tick) in bars)
+    session.select(Selection(found))
+
+
+def select_span(session: Session) -> None:
+    """The notes of the selected players that begin in the selected range, or in the loop."""
+    project, tempo = session.project, session.project.score.tempo_map
+    span = session.selection.span
+    if span is not None:
+        start, end = float(span[0]), float(span[1])
+    elif session.loop_s is not None:
+        start, end = (tempo.ticks(edge) for edge in session.loop_s)
+    else:
+        return
+    found = frozenset(
+        note.id
+        for player_id in session.players
+        for note in project.part(project.player(player_id)).notes
+        if start <= note.onset_tick < end
+    )
+    session.select(Selection(found))
+
+
+def _has_span(session: Session) -> bool:
+    return session.selection.span is not None or session.loop_s is not None
+
+
+# Editing
+
+
+def _edit(session: Session, id: str, edit: Callable[[Project, frozenset[str]], Project]) -> None:
+    ids = session.selection.notes
+    if ids:
+        session.attempt(_name(id, ids), lambda project: edit(project, ids))
+
+
+def _edit_making(
+    session: Session, name: Message, edit: Callable[[Project], tuple[Project, tuple[str, ...]]], kept: frozenset[str]
+) -> None:
+    """An edit that makes notes; they are selected afterwards, with ``kept``."""
+    made: list[str] = []
+
+    def run(project: Project) -> Project:
+        project, ids = edit(project)
+        made.extend(ids)
+        return project
+
+    if session.attempt(name, run):
+        session.select(Selection(kept | frozenset(made)))
+
+
+def split(session: Session) -> None:
+    """Cut the selected notes at the playhead; where none is selected, what the player in front plays there."""
+    tick = _playhead_tick(session)
+    ids = session.selection.notes
+    if not ids and session.player is not None:
+        part = session.project.part(session.player)
+        ids = frozenset(note.id for note in part.notes if note.onset_tick < tick < note.end_tick)
+    _edit_making(session, _name("edit.split_notes", ids), lambda project: notes.split(project, ids, tick), ids)
+
+
+def join(session: Session) -> None:
+    """Make one note of neighbours at one pitch."""
+    _edit(session, "edit.join_notes", notes.join)
+    known = _notes_of(session, tuple(player.id for player in session.project.players))
+    session.select(Selection(session.selection.notes & known))
+
+
+def duplicate(session: Session) -> None:
+    """Copy the selected notes behind themselves, on the next line of the grid."""
+    ids = session.selection.notes
+    chosen = [note for _, mine in notes.chosen_notes(session.project, ids) for note in mine]
+    if not chosen:
+        return
+    score = session.project.score
+    first, end = min(note.onset_tick for note in chosen), max(note.end_tick for note in chosen)
+    length = end - first
+    if session.grid.enabled:
+        step = session.grid.step_ticks(score)
+        length = round(-(-length // step) * step)
+    _edit_making(
+        session,
+        _name("edit.duplicate_notes", ids),
+        lambda project: notes.duplicate(project, ids, length),
+        frozenset(),
+    )
+
+
+def transpose(session: Session, by_pitch: int) -> None:
+    """Up or down by semitones, as far as pitches go."""
+    _edit(
+        session,
+        "edit.transpose_notes",
+        lambda project, ids: notes.move(project, ids, *notes.reach_of_move(project, ids, 0, by_pitch)),
+    )
+
+
+def nudge(session: Session, steps: int) -> None:
+    """Notes or events, by steps of the grid."""
+    step = session.grid.quarters * session.project.score.ticks_per_quarter
+    _shift(session, lambda onset: round(onset + steps * step))
+
+
+def nudge_frames(session: Session, frames: int) -> None:
+    """Notes or events, by frames of the picture; at least a tick."""
+    tempo = session.project.score.tempo_map
+    by_s = float(frames / session.project.fps)
+
+    def moved(onset: int) -> int:
+        target = round(tempo.ticks(tempo.seconds(float(onset)) + by_s))
+        return target if target != onset else onset + frames
+
+    _shift(session, moved)
+
+
+def _shift(session: Session, moved: Callable[[int], int]) -> None:
+    """Shift what is selected by what a function makes of its first tick."""
+    selection = session.selection
+    if selection.notes:
+        chosen = [note for _, mine in notes.chosen_notes(session.project, selection.notes) for note in mine]
+        if chosen:
+            first = min(note.onset_tick for note in chosen)
+            _edit(
+                session,
+                "edit.nudge_notes",
+                lambda project, ids: notes.move(
+                    project, ids, *notes.reach_of_move(project, ids, moved(first) - first, 0)
+                ),
+            )
+    elif selection.events and session.performance.planned:
+        _shift_events(session, moved)
+
+
+def _shift_events(session: Session, moved: Callable[[int], int]) -> None:
+    keys = session.selection.events
+    plans = session.performance.plans
+    now: set[EventKey] = set()
+
+    def run(project: Project) -> Project:
+        for player_id in sorted({key.player_id for key in keys}):
+            plan = plans[player_id]
+            ids = sorted(key.event_id for key in keys if key.player_id == player_id)
+            placed = event_edits.placed_events(plan, ids)
+            if not placed:
+                continue
+            first = min(event.start_tick for event in placed)
+            edited = event_edits.move(project, plan, [event.id for event in placed], moved(first) - first)
+            project = edited.project
+            now.update(EventKey(player_id, event_id) for event_id in edited.event_ids)
+        return project
+
+    if session.attempt(Message("edit.move_events", {"count": len(keys)}), run):
+        session.select(Selection(events=frozenset(now) or keys))
+
+
+def change_velocity(session: Session, by: int) -> None:
+    """Louder or softer."""
+    _edit(session, "edit.change_velocity", lambda project, ids: notes.change_velocity(project, ids, by))
+
+
+def quantise(session: Session) -> None:
+    """Draw the selected notes to a grid: the timeline asks how."""
+    if session.timeline_view is not None:
+        session.timeline_view.ask_quantise()
+
+
+# The clipboard
+
+
+def copy(session: Session) -> None:
+    """Put the selected notes on the clipboard."""
+    data = QMimeData()
+    text = msgspec.json.encode(notes.copied(session.project, session.selection.notes))
+    data.setData(MIME_TYPE, QByteArray(text))
+    QGuiApplication.clipboard().setMimeData(data)
+
+
+def cut(session: Session) -> None:
+    """Put the selected notes on the clipboard and delete them."""
+    copy(session)
+    _edit(session, "edit.cut_notes", notes.erase)
+    session.select(Selection())
+
+
+def paste(session: Session) -> None:
+    """Put the clipboard's notes at the playhead: one line to the player in front, several to where they came from."""
+    clip = _clipboard()
+    player = session.player
+    if clip is None or not clip.lines:
+        session.notice(Message("notes.nothing_to_paste"), Severity.WARNING)
+        return
+    if player is None:
+        session.notice(Message("notes.nowhere_to_paste"), Severity.WARNING)
+        return
+    count = sum(len(line.notes) for line in clip.lines)
+    tick = max(_playhead_tick(session), 0)
+    _edit_making(
+        session,
+        Message("edit.paste_notes", {"count": count}),
+        lambda project: notes.paste(project, player.part_id, clip, tick),
+        frozenset(),
+    )
+
+
+def _clipboard() -> notes.Clip | None:
+    data = QGuiApplication.clipboard().mimeData()
+    if data is None or not data.hasFormat(MIME_TYPE):
+        return None
+    try:
+        return msgspec.json.decode(bytes(data.data(MIME_TYPE).data()), type=notes.Clip)
+    except (msgspec.DecodeError, msgspec.ValidationError):
+        # Another program may put anything under our name.
+        return None
+
+
+def _playhead_tick(session: Session) -> int:
+    """The playhead's tick, on the grid's line where it stands on one to the eye."""
+    score = session.project.score
+    tick = score.tempo_map.ticks(session.playhead_s)
+    snapped = session.grid.snap(score, tick)
+    near_s = abs(score.tempo_map.seconds(float(snapped)) - session.playhead_s)
+    return snapped if near_s < 0.5 / float(session.project.fps) else round(tick)
+
+
+def set_tool(session: Session, tool: Tool, on: bool) -> None:
+    """What the left button does to notes."""
+    if session.timeline_view is not None:
+        session.timeline_view.set_tool(tool)
+
+
+def _has_tool(session: Session, tool: Tool) -> bool:
+    return session.timeline_view is not None and session.timeline_view.tool is tool
+
+
+def _tool(tool: Tool, text: str, key: str, icon: str) -> Action:
+    return Action(
+        f"notes.tool_{tool.value}",
+        text,
+        lambda session, on: set_tool(session, tool, on),
+        "Edit/Tool",
+        key,
+        "timeline",
+        checked=lambda session: _has_tool(session, tool),
+        icon=icon,
+    )
+
+
+def _row(
+    id: str,
+    text: str,
+    run: Callable[..., None],
+    keys: str = "",
+    icon: str = "",
+    menu: str = "Edit/Notes",
+    enabled: Callable[[Session], bool] = _has_notes,
+) -> Action:
+    return Action(id, text, run, menu, keys, "timeline", enabled=enabled, icon=icon)
+
+
+ACTIONS: tuple[Action, ...] = (
+    _row("notes.cut", QT_TRANSLATE_NOOP("Action", "Cut"), cut, "Ctrl+X", "cut", "Edit"),
+    _row("notes.copy", QT_TRANSLATE_NOOP("Action", "Copy"), copy, "Ctrl+C", "copy", "Edit"),
+    _row(
+        "notes.paste", QT_TRANSLATE_NOOP("Action", "Paste at Playhead"), paste, "Ctrl+V", "paste", "Edit", _has_player
+    ),
+    _row("notes.duplicate", QT_TRANSLATE_NOOP("Action", "Duplicate"), duplicate, "Ctrl+D", "duplicate", "Edit"),
+    _row(
+        "notes.select_all",
+        QT_TRANSLATE_NOOP("Action", "Select All Notes"),
+        select_all,
+        "Ctrl+A",
+        "",
+        "Edit/Select",
+        _has_player,
+    ),
+    _row(
+        "notes.select_none",
+        QT_TRANSLATE_NOOP("Action", "Select Nothing"),
+        select_none,
+        "Ctrl+Shift+A",
+        "",
+        "Edit/Select",
+        lambda session: bool(session.selection),
+    ),
+    _row(
+        "notes.select_pitch",
+        QT_TRANSLATE_NOOP("Action", "Select Same Pitch"),
+        select_pitch,
+        "Alt+P",
+        "",
+        "Edit/Select",
+    ),
+    _row(
+        "notes.select_bar",
+        QT_TRANSLATE_NOOP("Action", "Select Notes of the Bar"),
+        select_bar,
+        "Alt+B",
+        "",
+        "Edit/Select",
+        _has_player,
+    ),
+    _row(
+        "notes.select_span",
+        QT_TRANSLATE_NOOP("Action", "Select Notes of the Range"),
+        select_span,
+        "Alt+R",
+        "",
+        "Edit/Select",
+        _has_span,
+    ),
+    _tool(Tool.SELECT, QT_TRANSLATE_NOOP("Action", "Select"), "V", "pointer"),
+    _tool(Tool.DRAW, QT_TRANSLATE_NOOP("Action", "Draw"), "D", "pencil"),
+    _tool(Tool.ERASE, QT_TRANSLATE_NOOP("Action", "Erase"), "E", "eraser"),
+    _tool(Tool.SPLIT, QT_TRANSLATE_NOOP("Action", "Split"), "S", "split"),
+    _row(
+        "notes.split", QT_TRANSLATE_NOOP("Action", "Split at Playhead"), split, "Shift+S", "split", enabled=_has_player
+    ),
+    _row("notes.join", QT_TRANSLATE_NOOP("Action", "Join"), join, "J", "join"),
+    _row("notes.quantise", QT_TRANSLATE_NOOP("Action", "Quantise..."), quantise, "Q", "quantise"),
+    _row("notes.up", QT_TRANSLATE_NOOP("Action", "Semitone Up"), partial(transpose, by_pitch=1), "Up", "transpose"),
+    _row("notes.down", QT_TRANSLATE_NOOP("Action", "Semitone Down"), partial(transpose, by_pitch=-1), "Down"),
+    _row("notes.octave_up", QT_TRANSLATE_NOOP("Action", "Octave Up"), partial(transpose, by_pitch=12), "Shift+Up"),
+    _row(
+        "notes.octave_down", QT_TRANSLATE_NOOP("Action", "Octave Down"), partial(transpose, by_pitch=-12), "Shift+Down"
+    ),
+    _row(
+        "notes.earlier",
+        QT_TRANSLATE_NOOP("Action", "Earlier by the Grid"),
+        partial(nudge, steps=-1),
+        "Left",
+        enabled=_has_something,
+    ),
+    _row(
+        "notes.later",
+        QT_TRANSLATE_NOOP("Action", "Later by the Grid"),
+        partial(nudge, steps=1),
+        "Right",
+        enabled=_has_something,
+    ),
+    _row(
+        "notes.frame_earlier",
+        QT_TRANSLATE_NOOP("Action", "Earlier by a Frame"),
+        partial(nudge_frames, frames=-1),
+        "Ctrl+Left",
+        enabled=_has_something,
+    ),
+    _row(
+        "notes.frame_later",
+        QT_TRANSLATE_NOOP("Action", "Later by a Frame"),
+        partial(nudge_frames, frames=1),
+        "Ctrl+Right",
+        enabled=_has_something,
+    ),
+    _row("notes.louder", QT_TRANSLATE_NOOP("Action", "Louder"), partial(change_velocity, by=VELOCITY_STEP), "+;="),
+    _row("notes.softer", QT_TRANSLATE_NOOP("Action", "Softer"), partial(change_velocity, by=-VELOCITY_STEP), "-"),
+)
