@@ -23,11 +23,21 @@ from metadata.model import Body
 TRUNK_SHARES = {"spine": 0.40, "chest": 0.35, "upperChest": 0.25}
 NECK_SHARES = {"neck": 0.45, "head": 0.55}
 
-BELL_UP = {"bell": 0.5, "neck": 0.35, "trunk": 0.15}
+BELL_UP = {"bell": 0.30, "neck": 0.45, "trunk": 0.25}
 """A bell that goes up or down takes head and trunk along ..."""
 BELL_LEFT = {"bell": 0.4, "neck": 0.4, "trunk": 0.2}
 """... and one that goes to a side too; the shares make the whole angle."""
 
+BELL_ROOM = 0.42
+"""Share of a carriage's range up and down that the animator may use beside the melody: the more an instrument turns
+about the rim's centre, the further the rim is off the upper lip in breaths."""
+
+HANDS_FOLLOW_DEG: dict[PoseTarget, dict[str, tuple[float, float]]] = {
+    "head": {"up_deg": (-25.0, 18.0), "left_deg": (-22.0, 22.0), "roll_deg": (-20.0, 20.0)},
+    "torso": {"up_deg": (-45.0, 20.0), "left_deg": (-25.0, 25.0), "roll_deg": (-30.0, 30.0)},
+}
+"""Where head and trunk go the instrument goes: so far both hands were measured to keep hold of it, in every place of a
+slide."""
 ELBOW_DEG = (-25.0, 45.0)
 """How far an elbow goes towards the ribs and away from them, about the line from shoulder to wrist."""
 GENTLE_RAD_S2 = 40.0
@@ -101,10 +111,12 @@ def pose_limits(
         sideways.append(tuple(limit / share for limit in limits[joint].sideways_deg))
         twist.append(tuple(limit / share for limit in limits[joint].twist_deg))
     if target != "bell":
-        return {"up_deg": _narrowest(flexion), "left_deg": _narrowest(twist), "roll_deg": _narrowest(sideways)}
+        ranges = {"up_deg": flexion, "left_deg": twist, "roll_deg": sideways}
+        return {angle: _narrowest([*rows, HANDS_FOLLOW_DEG[target][angle]]) for angle, rows in ranges.items()}
     carriage = instrument.hold.seated if parameters.posture == "seated" else instrument.hold.standing
     low, usual, high = carriage.pitch_down_deg
-    up = (-(high - usual) / BELL_UP["bell"], (usual - low) / BELL_UP["bell"])
+    share = BELL_ROOM / BELL_UP["bell"]
+    up = (-share * (high - usual), share * (usual - low))
     low, usual, high = carriage.yaw_left_deg
     left = ((low - usual) / BELL_LEFT["bell"], (high - usual) / BELL_LEFT["bell"])
     low, usual, high = carriage.roll_left_deg
