@@ -280,9 +280,9 @@ def test_adding_twice_selects_what_is_there() -> None:
 
 def test_there_is_nothing_to_breathe_for_after_the_last_note() -> None:
     after = notes()[-1].onset_tick + 1
-    with pytest.raises(AppError, match="edit.no_note_to_breathe_for"):
+    with pytest.raises(AppError, match=r"edit\.no_note_to_breathe_for"):
         edit.add_breath(piece(), made(), after)
-    with pytest.raises(AppError, match="edit.no_note_to_cue"):
+    with pytest.raises(AppError, match=r"edit\.no_note_to_cue"):
         edit.add_cue(piece(), made(), after)
 
 

@@ -57,6 +57,7 @@ class ActingLane(RegionLane):
     id = "acting"
     preferred_height_px = 150
     least_height_px = 96
+    least_row_px = 19.0
 
     def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
         self.groups: list[tuple[str, int, int]] = []
@@ -102,9 +103,9 @@ class ActingLane(RegionLane):
                 np.array([region.start_tick for region in packed], np.float64),
                 np.array([max(region.end_tick, region.start_tick + 1) for region in packed], np.float64),
             )
-            result += [_in_row(region, row) for region in members if region.event_id == BASE]
             result += [_in_row(region, row + own) for region, own in zip(packed, rows.tolist(), strict=True)]
             count = int(rows.max(initial=0)) + 1
+            result += [_in_row(region, row + count - 1) for region in members if region.event_id == BASE]
             self.groups.append((kinds[0], row, count))
             row += count
         first = {kind: start for (_, start, _), kinds in zip(self.groups, GROUPS, strict=True) for kind in kinds}
@@ -126,6 +127,9 @@ class ActingLane(RegionLane):
     def regions_refreshed(self) -> None:
         if hasattr(self, "_names"):
             self._names.update()
+
+    def rows_scrolled(self) -> None:
+        self._names.update()
 
     def row_names(self) -> list[tuple[str, float]]:
         """The groups' names and where they stand."""
@@ -254,7 +258,9 @@ class ActingLane(RegionLane):
         painter.setPen(QColor(tokens.text))
         number = "" if region.steady or region.amount >= 1.0 else f" {region.amount:.2f}"
         left = 10.0 if region.by_hand else 5.0
-        draw_text(painter, box.adjusted(left, 0.0, -4.0, 0.0), region.label + number)
+        # The name of what begins before the left edge stays in sight.
+        inside = QRectF(QPointF(max(box.left(), 0.0), box.top()), box.bottomRight())
+        draw_text(painter, inside.adjusted(left, 0.0, -4.0, 0.0), region.label + number)
 
     # Hands on it
 

@@ -221,6 +221,9 @@ class CurvesLane(Lane):
             self.controllers = controller_steps(part, project) if part is not None else {}
             if tuple(self.controllers) != before:
                 self._fill_choice()
+        waiting = plan is None and player is not None and self._plan is not None
+        if waiting and self._plan is not None and player is not None and self._plan.player_id == player.id:
+            return
         if plan is not self._plan or plan is None:
             self._plan = plan
             self.lips = lips(plan) if plan is not None else None

@@ -205,6 +205,9 @@ class FingeringLane(Lane):
         plan = self.plan_of(player) if player is not None else None
         if plan is self._plan and plan is not None:
             return
+        if plan is None and player is not None and self._plan is not None and self._plan.player_id == player.id:
+            # New plans are on their way: what is shown stays until they are there.
+            return
         self._plan, self.data, self.places = plan, None, ()
         if player is not None and plan is not None:
             instrument = self.session.performance.instrument(player)

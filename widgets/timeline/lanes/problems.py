@@ -129,6 +129,8 @@ class ProblemsLane(Lane):
         plan = self.plan_of(player) if player is not None else None
         if plan is self._plan and plan is not None:
             return
+        if plan is None and player is not None and self._plan is not None and self._plan.player_id == player.id:
+            return
         self._plan = plan
         self.problems = plan.problems if plan is not None else ()
         self.spans = spans_of(self.problems)

@@ -132,11 +132,14 @@ class _Regions(LaneItem):
 class RegionLane(Lane):
     """A lane of regions. What a kind of event looks like, and where it is added, its sub-classes say."""
 
+    least_row_px = 0.0
+
     def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
         super().__init__(session, axis, parent)
         self._shown: list[Region] = []
         self._spans = Spans(np.empty(0), np.empty(0))
         self._row_count = 1
+        self._scrolled_px = 0.0
         self._made_for: tuple[object, ...] = ()
         self._preview: dict[EventKey, Region] = {}
         self._hidden: frozenset[EventKey] = frozenset()
@@ -190,9 +193,25 @@ class RegionLane(Lane):
         return self._drag.lasso if self._drag is not None else None
 
     def row_box(self, row: int) -> tuple[float, float]:
-        """Top and height of a row, pixels."""
-        height = self.plot_rect.height() / max(self._row_count, 1)
-        return row * height, height
+        """Top and height of a row, pixels: as high as there is room, at least `least_row_px`."""
+        room, count = self.plot_rect.height(), max(self._row_count, 1)
+        height = max(room / count, self.least_row_px)
+        most = max(count * height - room, 0.0)
+        return row * height - min(self._scrolled_px, most), height
+
+    def wheel(self, mouse: LaneMouse, steps: float) -> bool:
+        """With Alt the rows scroll, where they are more than fit."""
+        height = self.row_box(0)[1]
+        most = max(self._row_count * height - self.plot_rect.height(), 0.0)
+        if not mouse.alt or most <= 0.0:
+            return False
+        self._scrolled_px = min(max(min(self._scrolled_px, most) - steps * height, 0.0), most)
+        self.rows_scrolled()
+        self.update_items()
+        return True
+
+    def rows_scrolled(self) -> None:
+        """The rows are in other places."""
 
     def box(self, region: Region) -> QRectF:
         """Where a region lies, pixels."""
@@ -266,6 +285,9 @@ class RegionLane(Lane):
         player = self.session.player
         plan = self.plan_of(player) if player is not None else None
         project = self.session.project
+        if plan is None and player is not None and self._made_for and self._made_for[1] == player.id:
+            # New plans are on their way: what is shown stays until they are there.
+            return
         corrections = project.corrections.get(player.id) if player is not None else None
         made_for = (plan, player.id if player else None, self.session.performance, corrections)
         if len(made_for) == len(self._made_for) and all(a is b for a, b in zip(made_for, self._made_for, strict=True)):
