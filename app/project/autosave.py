@@ -4,7 +4,8 @@ When to write is decided here from times that are handed in, so that a test neve
 or so. Writing is a value (`Writing`) that can be done in the background.
 
 A project that has no file yet is kept in the user's state folder, each running editor its own; so is one whose file a
-second editor has open, because two editors must not write one autosave.
+second editor has open, because two editors must not write one autosave, and one beside whose file a crash left work
+that nobody has decided about.
 """
 
 from __future__ import annotations
@@ -73,7 +74,9 @@ class Autosave:
         own = self.presence.folder / f"{self.presence.token}{SUFFIX}"
         if self._document is None or is_open_elsewhere(self._document, self.presence.folder, self.presence.token):
             return own
-        return autosave_path(self._document)
+        beside = autosave_path(self._document)
+        # What a crash left there stays until the person has decided about it.
+        return own if beside.exists() and str(beside) != self.presence.note.autosave else beside
 
     @property
     def due_s(self) -> float | None:
@@ -136,6 +139,8 @@ class Autosave:
     def saved(self, document: Path) -> None:
         """The project, as it is, was saved to this file: there is nothing to recover any more. Raises FileError."""
         self._drop()
+        if not is_open_elsewhere(document, self.presence.folder, self.presence.token):
+            remove(autosave_path(document))
         self._document = document
         self._tell()
 

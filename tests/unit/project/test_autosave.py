@@ -213,7 +213,7 @@ def test_killed_in_mid_write(editor: Editor, folder: Path, document: Path, after
     assert project.seed >= 3
     assert replace(project, seed=0) == replace(small_project(), seed=0)
     # It is this editor's work now, and would survive its crash too.
-    assert load(mine.path) == project
+    assert load(Path(mine.presence.note.autosave)) == project
     assert recoverable(folder) == ()
     mine.closed()
     assert list(folder.iterdir()) == []
@@ -236,9 +236,31 @@ def test_work_older_than_the_file_or_the_same_is_not_offered(editor: Editor, fol
     os.utime(document, (time.time() + 60.0, time.time() + 60.0))
     assert recoverable(folder) == ()
     assert recoverable_of(document, folder) is None
+    autosave_path(document).unlink()
     left_behind(editor, document, project)
     os.utime(document, (1.0, 1.0))
     assert recoverable(folder) == ()
+
+
+def test_undecided_work_is_not_written_over(editor: Editor, folder: Path, document: Path) -> None:
+    left_behind(editor, document, later(load(document)))
+    item = recoverable_of(document, folder)
+    assert item is not None
+    mine = editor()
+    mine.opened(document)
+    changed = replace(load(document), seed=99)
+    mine.changed(changed, 0.0)
+    own = write(mine, 30.0)
+    assert own not in (None, item.autosave)
+    assert load(item.autosave) == later(load(document))
+    assert recover(item, mine) == later(load(document))
+    assert not item.autosave.exists()
+    mine.changed(changed, 50.0)
+    assert write(mine, 80.0) == autosave_path(document)
+    assert own is not None
+    assert not own.exists()
+    mine.saved(document)
+    assert not autosave_path(document).exists()
 
 
 def test_thrown_away(editor: Editor, folder: Path, document: Path) -> None:
