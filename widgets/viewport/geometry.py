@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
@@ -80,11 +81,13 @@ class Geometry:
     face: Face | None = None
 
 
+@lru_cache(maxsize=16)
 def character_levels(character: Character) -> tuple[Geometry, ...]:
     """All levels of detail of a character; the coarsest has no morphs."""
     return _levels(character.meshes, BODY_CELLS_M, 0)
 
 
+@lru_cache(maxsize=32)
 def instrument_levels(model: InstrumentModel, first_bone: int) -> tuple[Geometry, ...]:
     """All levels of detail of an instrument, whose node n moves with bone ``first_bone + n``."""
     return _levels(model.meshes, INSTRUMENT_CELLS_M, first_bone)
@@ -124,6 +127,15 @@ def joined(parts: Sequence[Geometry]) -> Geometry:
         np.concatenate([part.surface for part in parts]),
         np.concatenate(triangles).astype(np.uint32),
     )
+
+
+def edges(geometry: Geometry) -> npt.NDArray[np.uint32]:
+    """Every edge between two vertices once (E, 2)."""
+    triangles = geometry.triangles.astype(np.int64)
+    pairs = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
+    count = len(geometry.shape)
+    keys = np.unique(pairs[:, 0] * count + pairs[:, 1])
+    return np.stack([keys // count, keys % count], axis=1).astype(np.uint32)
 
 
 def _turned(

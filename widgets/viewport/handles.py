@@ -33,7 +33,7 @@ MOST_DEG: dict[PoseTarget, float] = {
 """Farther no player holds these from where they are, whatever the handle says."""
 HEAD_ARM_M, ROLL_ARM_M = 0.25, 0.25
 """A drag as far as this is one radian where the handle itself hardly moves."""
-_SMALL = 1e-4
+_SMALL, _DAMPING = 1e-4, 0.06
 FINER = 0.25
 """What a drag is worth with Shift."""
 
@@ -140,7 +140,10 @@ def dragged(
     seen = lengths > 0.3 * max(fullest, 1e-9)
     result: dict[Angle, float] = {angle: 0.0 for angle, _ in turns}
     if seen.any():
-        solved = np.linalg.lstsq(columns[:, seen], np.array([right_px, down_px]), rcond=None)[0]
+        own = columns[:, seen]
+        # Turns that look alike from here share the drag instead of working against one another.
+        damped = own.T @ own + (_DAMPING * fullest) ** 2 * np.eye(own.shape[1])
+        solved = np.linalg.solve(damped, own.T @ np.array([right_px, down_px]))
         for index, value in zip(np.flatnonzero(seen), solved, strict=True):
             result[turns[int(index)][0]] = math.degrees(float(value))
     return result

@@ -18,7 +18,7 @@ from vispy import gloo
 from widgets.viewport import shaders
 from widgets.viewport.camera import Camera
 from widgets.viewport.cast import Stage
-from widgets.viewport.geometry import LEVELS, Geometry, character_levels, instrument_levels, joined, stool
+from widgets.viewport.geometry import LEVELS, Geometry, character_levels, edges, instrument_levels, joined, stool
 from widgets.viewport.limbs import HELD, LIMBS, SHADING, Limbs
 from widgets.viewport.look import Color, Look
 
@@ -32,6 +32,8 @@ MOST_NEAR = 12
 SPREAD_M = 1.25
 """No part of a player or instrument is farther from the chest."""
 SHADOW_RADIUS_M = 1.9
+OVER = ("src_alpha", "one_minus_src_alpha", "zero", "one")
+"""Blended over what is there; the picture itself stays opaque."""
 SEEN_THROUGH = 0.85
 """Share of the pixels that are left out of who stands in the way."""
 
@@ -94,9 +96,7 @@ class _Solid:
     def edges(self) -> Any:
         """Its edges, each once."""
         if self._edges is None:
-            triangles = self.geometry.triangles
-            pairs = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
-            self._edges = gloo.IndexBuffer(np.unique(np.sort(pairs, axis=1), axis=0).astype(np.uint32))
+            self._edges = gloo.IndexBuffer(edges(self.geometry))
         return self._edges
 
 
@@ -171,6 +171,8 @@ class Renderer:
         self._batch.bind(gloo.VertexBuffer(whole.surface))
         self._batch["a_row"] = gloo.VertexBuffer(np.concatenate(rows))
         self._batch_triangles = gloo.IndexBuffer(whole.triangles)
+        self._batch_edges: Any = None
+        self._batch_shape = whole
 
     def draw(self, camera: Camera, size_px: tuple[int, int], look: Look, emphasis: Emphasis) -> None:
         """Draw one picture of this size into the bound framebuffer."""
@@ -187,7 +189,7 @@ class Renderer:
         level = self._levels(stage, camera, matrix, height)
         self._upload(stage, limbs, level, emphasis)
         clip = matrix.T.astype(np.float32)
-        gloo.set_state(blend=True, blend_func=("src_alpha", "one_minus_src_alpha"))
+        gloo.set_state(blend=True, blend_func=OVER)
         self._shadows["u_clip_from_world"] = clip
         self._shadows["u_key"] = look.key
         self._shadows["u_strength"] = look.shadow
@@ -308,13 +310,18 @@ class Renderer:
     def _draw_wires(
         self, stage: Stage, shapes: Shapes, level: npt.NDArray[np.intp], camera: Camera, look: Look
     ) -> None:
-        gloo.set_state(blend=True, blend_func=("src_alpha", "one_minus_src_alpha"))
-        self._figures["u_line"] = (*look.wire, 0.35)
-        self._figures["u_lift"] = 0.0006 * camera.distance_m
-        drawn = np.where((level >= 0) & (level < LEVELS - 1), level, -1)
-        self._draw_near(stage, shapes, drawn, "lines")
-        self._figures["u_line"] = (0.0, 0.0, 0.0, 0.0)
-        self._figures["u_lift"] = 0.0
+        gloo.set_state(blend=True, blend_func=OVER)
+        for program in (self._figures, self._batch):
+            program["u_line"] = (*look.wire, 0.35)
+            program["u_lift"] = 0.0006 * camera.distance_m
+        if (level == LEVELS - 1).any():
+            if self._batch_edges is None:
+                self._batch_edges = gloo.IndexBuffer(edges(self._batch_shape))
+            self._batch.draw("lines", self._batch_edges)
+        self._draw_near(stage, shapes, level, "lines")
+        for program in (self._figures, self._batch):
+            program["u_line"] = (0.0, 0.0, 0.0, 0.0)
+            program["u_lift"] = 0.0
 
     def _solid(self, geometry: Geometry) -> _Solid:
         solid = self._solids.get(id(geometry))

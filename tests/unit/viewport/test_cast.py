@@ -95,7 +95,7 @@ def test_a_ray_finds_the_nearest_player_and_misses_between_them() -> None:
     assert capsules.shape == (4, LIMBS, 2, 4)
     for row in range(4):
         chest = stage.joint_m(row, "chest")
-        found = hit(capsules, chest + [0.0, 0.0, 6.0], np.array([0.0, 0.0, -1.0]))
+        found = hit(capsules, chest + np.array([0.0, 0.0, 6.0]), np.array([0.0, 0.0, -1.0]))
         assert found is not None
         assert found[0] == row
         assert 5.0 < found[1] < 6.2

@@ -48,12 +48,22 @@ def test_every_target_has_one_handle_on_the_player() -> None:
             assert np.linalg.norm(item.at_m - stage.joint_m(row, "chest")) < 1.2
 
 
-@pytest.mark.parametrize("row", range(4))
+@pytest.mark.parametrize("row", [0, 2, 3])
 @pytest.mark.parametrize("side_deg", [0.0, -90.0, 90.0, 60.0])
 def test_the_bell_goes_up_with_the_pointer_from_every_side(row: int, side_deg: float) -> None:
     angles = dragged(handle("bell", row), from_side(side_deg, row), 0.0, -30.0, HEIGHT, lean=False)
     assert 1.0 < angles["up_deg"] < 40.0
     assert abs(angles["left_deg"]) < 0.6 * angles["up_deg"]
+
+
+@pytest.mark.parametrize("side_deg", range(-180, 180, 15))
+@pytest.mark.parametrize("target", TARGETS)
+def test_a_small_drag_never_turns_far_whatever_it_is_seen_from(target: str, side_deg: int) -> None:
+    # The second player has lowered the trumpet.
+    for row in (0, 1):
+        for right, down in ((10.0, 0.0), (0.0, 10.0), (7.0, -7.0)):
+            angles = dragged(handle(target, row), from_side(side_deg, row), right, down, HEIGHT, lean=False)
+            assert max(map(abs, angles.values())) < 40.0
 
 
 def test_seen_from_the_front_left_is_the_players_own_left() -> None:

@@ -1,0 +1,80 @@
+"""A viewport of the bundled quartet, with its motion made when it is asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import numpy.typing as npt
+import pytest
+from PySide6.QtWidgets import QApplication
+from pytestqt.qtbot import QtBot
+
+from app.performance.ensemble import Performance
+from app.performance.live import LiveMotion, Pose
+from app.project.model import Project
+from widgets.common.session import Session
+from widgets.viewport.panel import ViewportPanel
+
+AT_S = 6.0
+SIZE = (640, 360)
+
+Picture = npt.NDArray[np.uint8]
+
+
+_LIVE: dict[int, tuple[Project, LiveMotion]] = {}
+"""Kept with the project, so that its identity stays its own."""
+
+
+def _live(project: Project) -> LiveMotion:
+    if id(project) not in _LIVE:
+        _LIVE[id(project)] = (project, LiveMotion(Performance(project)))
+    return _LIVE[id(project)][1]
+
+
+class MadeNow:
+    """Poses of a session's project as it is now, made on the spot."""
+
+    def __init__(self, session: Session) -> None:
+        self._session = session
+        self.missing = False
+
+    def pose(self, player_id: str, time_s: float) -> Pose | None:
+        """None while told that nothing is made yet."""
+        return None if self.missing else self.pose_now(player_id, time_s)
+
+    def pose_now(self, player_id: str, time_s: float) -> Pose | None:
+        """The pose of the newest project."""
+        return _live(self._session.project).pose_now(player_id, time_s)
+
+
+@pytest.fixture
+def poses(session: Session) -> MadeNow:
+    """The session's motion."""
+    return MadeNow(session)
+
+
+@pytest.fixture
+def viewport(qtbot: QtBot, session: Session, poses: MadeNow) -> ViewportPanel:
+    """A visible viewport with the ensemble in it."""
+    session.set_playhead(AT_S)
+    panel = ViewportPanel(session, poses)
+    qtbot.addWidget(panel)
+    panel.resize(*SIZE)
+    panel.show()
+    qtbot.waitExposed(panel)
+    assert panel.has_gl, panel.message()
+    QApplication.processEvents()
+    return panel
+
+
+@pytest.fixture
+def shot(viewport: ViewportPanel) -> Callable[..., Picture]:
+    """A small picture of a view at a time."""
+
+    def take(view: str | None = None, time_s: float = AT_S) -> Picture:
+        picture = viewport.render_image(320, 180, time_s, view)  # type: ignore[arg-type]
+        assert picture is not None
+        return picture
+
+    return take

@@ -1,0 +1,507 @@
+"""The viewport under hands: pictures, views, selection, the pose tool; driven by mouse and keys."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import msgspec
+import numpy as np
+import numpy.typing as npt
+import pytest
+from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
+from PySide6.QtGui import QMouseEvent, QWheelEvent
+from PySide6.QtWidgets import QApplication, QToolButton, QWidget
+from pytestqt.qtbot import QtBot
+
+from app.errors import Message
+from app.plan.corrections import PoseCorrection
+from tests.gui.viewport.conftest import AT_S, MadeNow
+from widgets.common.session import Session
+from widgets.common.tokens import LIGHT
+from widgets.common.viewport_state import VIEWS
+from widgets.viewport.panel import ViewportPanel
+
+ROOT = Path(__file__).parents[3]
+Shot = Callable[..., npt.NDArray[np.uint8]]
+
+
+def canvas(viewport: ViewportPanel) -> QWidget:
+    widget = viewport.canvas_widget()
+    assert widget is not None
+    return widget
+
+
+def send(
+    widget: QWidget,
+    kind: QEvent.Type,
+    at: QPointF,
+    button: Qt.MouseButton = Qt.MouseButton.LeftButton,
+    modifiers: Qt.KeyboardModifier = Qt.KeyboardModifier.NoModifier,
+) -> None:
+    """A mouse event with fractions of a pixel and modifiers on moves, which QTest does not send."""
+    held = Qt.MouseButton.NoButton if kind == QEvent.Type.MouseButtonRelease else button
+    own = Qt.MouseButton.NoButton if kind == QEvent.Type.MouseMove else button
+    event = QMouseEvent(kind, at, QPointF(widget.mapToGlobal(at)), own, held, modifiers)
+    QApplication.sendEvent(widget, event)
+
+
+def drag(
+    widget: QWidget,
+    start: QPointF,
+    step: QPointF,
+    button: Qt.MouseButton = Qt.MouseButton.LeftButton,
+    modifiers: Qt.KeyboardModifier = Qt.KeyboardModifier.NoModifier,
+    release: bool = True,
+) -> None:
+    send(widget, QEvent.Type.MouseButtonPress, start, button, modifiers)
+    for share in (0.25, 0.5, 0.75, 1.0):
+        send(widget, QEvent.Type.MouseMove, start + share * step, button, modifiers)
+    if release:
+        send(widget, QEvent.Type.MouseButtonRelease, start + step, button, modifiers)
+
+
+def place_of(viewport: ViewportPanel, row: int, joint: str = "chest") -> QPointF:
+    """Where a joint is in the picture."""
+    assert viewport._loaded is not None
+    size = canvas(viewport).size()
+    (place,), _ = viewport.camera.project(viewport._loaded.stage.joint_m(row, joint), size.width(), size.height())
+    return QPointF(*place)
+
+
+def differing(one: npt.NDArray[np.uint8], other: npt.NDArray[np.uint8]) -> int:
+    """Pixels that clearly differ."""
+    return int((np.abs(one.astype(int) - other.astype(int)).max(axis=2) > 12).sum())
+
+
+# Pictures
+
+
+def test_every_view_is_another_picture_and_the_same_picture_twice(shot: Shot) -> None:
+    pictures = {view: shot(view) for view in VIEWS}
+    for view, picture in pictures.items():
+        assert picture.shape == (180, 320, 4)
+        assert (picture[..., 3] == 255).all()
+        assert picture[..., :3].std() > 8.0
+        assert (shot(view) == picture).all(), view
+    names = list(pictures)
+    for first in names:
+        for second in names[names.index(first) + 1 :]:
+            assert differing(pictures[first], pictures[second]) > 2000
+
+
+def test_a_valve_that_goes_down_is_seen(session: Session, viewport: ViewportPanel, poses: MadeNow) -> None:
+    """Same pose but for one control."""
+    real = poses.pose_now(session.project.players[0].id, AT_S)
+    assert real is not None
+
+    class Pressed:
+        value = 0.0
+
+        def pose(self, player_id: str, time_s: float) -> object:
+            return self.pose_now(player_id, time_s)
+
+        def pose_now(self, player_id: str, time_s: float) -> object:
+            found = poses.pose_now(player_id, time_s)
+            assert found is not None
+            return replace(found, controls={**found.controls, "valve_1": self.value, "valve_2": self.value})
+
+    pressed = Pressed()
+    viewport.set_poses(pressed)  # type: ignore[arg-type]
+    up = viewport.render_image(640, 360, AT_S, "hands")
+    pressed.value = 1.0
+    down = viewport.render_image(640, 360, AT_S, "hands")
+    assert up is not None
+    assert down is not None
+    assert 20 < differing(up, down) < 20000
+
+
+def test_a_face_that_opens_its_mouth_is_seen(viewport: ViewportPanel, poses: MadeNow) -> None:
+    class Agape:
+        jaw = 0.0
+
+        def pose(self, player_id: str, time_s: float) -> object:
+            return self.pose_now(player_id, time_s)
+
+        def pose_now(self, player_id: str, time_s: float) -> object:
+            found = poses.pose_now(player_id, time_s)
+            assert found is not None
+            return replace(found, morphs={**found.morphs, "jawOpen": self.jaw})
+
+    agape = Agape()
+    viewport.set_poses(agape)  # type: ignore[arg-type]
+    shut = viewport.render_image(640, 360, AT_S, "mouth")
+    agape.jaw = 1.0
+    wide = viewport.render_image(640, 360, AT_S, "mouth")
+    assert shut is not None
+    assert wide is not None
+    assert differing(shut, wide) > 300
+
+
+def test_players_move(shot: Shot) -> None:
+    assert differing(shot("hands", 6.0), shot("hands", 6.4)) > 100
+
+
+def test_the_picture_on_the_screen_is_that_of_the_file(viewport: ViewportPanel, session: Session) -> None:
+    session.viewport.show("names", False)
+    size = canvas(viewport).size()
+    QApplication.processEvents()
+    grabbed = viewport.grab().toImage()
+    picture = viewport.render_image(size.width(), size.height(), AT_S)
+    assert picture is not None
+    top = viewport.height() - size.height()
+    shown = np.array(
+        [
+            [grabbed.pixelColor(x, top + y).getRgb()[:3] for x in range(0, size.width(), 16)]
+            for y in range(0, size.height(), 16)
+        ]
+    )
+    assert np.median(np.abs(shown.astype(int) - picture[::16, ::16, :3].astype(int))) <= 4
+
+
+def test_a_picture_of_another_moment_leaves_the_window_as_it_was(viewport: ViewportPanel) -> None:
+    assert viewport._loaded is not None
+    before = viewport._loaded.stage.bones.copy()
+    viewport.render_image(64, 36, 10.0, "hands")
+    assert (viewport._loaded.stage.bones == before).all()
+
+
+def test_the_light_theme_is_lighter(shot: Shot, session: Session) -> None:
+    dark = shot("ensemble")
+    session.set_tokens(LIGHT)
+    assert shot("ensemble")[..., :3].mean() > dark[..., :3].mean() + 60
+
+
+def test_who_is_selected_is_seen(shot: Shot, session: Session) -> None:
+    session.viewport.show("names", False)
+    first = shot("ensemble")
+    session.set_players((session.project.players[2].id,))
+    assert differing(first, shot("ensemble")) > 40
+
+
+@pytest.mark.parametrize("what", ["wireframe", "skeleton", "contacts", "names"])
+def test_what_is_shown_beside_the_players_is_seen(what: str, shot: Shot, session: Session) -> None:
+    session.viewport.show(what, False)  # type: ignore[arg-type]
+    view = "hands" if what == "contacts" else "ensemble"
+    without = shot(view)
+    session.viewport.show(what, True)  # type: ignore[arg-type]
+    assert differing(without, shot(view)) > 60
+
+
+def test_seated_players_have_stools(shot: Shot, session: Session) -> None:
+    standing = shot("ensemble")
+    project = session.project
+    seated = tuple(
+        msgspec.structs.replace(player, parameters=msgspec.structs.replace(player.parameters, posture="seated"))
+        for player in project.players
+    )
+    session.apply(Message("edit.parameter_posture", {"count": 4}), replace(project, players=seated))
+    assert differing(standing, shot("ensemble")) > 400
+
+
+def test_who_is_moved_on_the_stage_stands_there_at_once(viewport: ViewportPanel, session: Session) -> None:
+    loaded = viewport._loaded
+    assert loaded is not None
+    player = session.project.players[0]
+    moved = msgspec.structs.replace(player, stage=msgspec.structs.replace(player.stage, x_m=player.stage.x_m - 1.0))
+    session.apply(
+        Message("edit.place_players", {"count": 1}),
+        replace(session.project, players=(moved, *session.project.players[1:])),
+    )
+    assert viewport._loaded is not None
+    assert viewport._loaded.shapes is loaded.shapes
+    before, after = loaded.stage.joint_m(0, "head"), viewport._loaded.stage.joint_m(0, "head")
+    assert after - before == pytest.approx([-1.0, 0.0, 0.0], abs=1e-6)
+
+
+def test_nobody_is_drawn_before_there_is_a_pose(qtbot: QtBot, session: Session, poses: MadeNow) -> None:
+    poses.missing = True
+    session.set_playhead(AT_S)
+    panel = ViewportPanel(session, poses)
+    qtbot.addWidget(panel)
+    panel.resize(320, 240)
+    panel.show()
+    assert panel.message()
+    poses.missing = False
+    qtbot.waitUntil(lambda: not panel.message(), timeout=3000)
+
+
+# The camera
+
+
+def test_keys_and_buttons_choose_views(qtbot: QtBot, viewport: ViewportPanel, session: Session) -> None:
+    for view in VIEWS:
+        button = viewport.findChild(QToolButton, f"viewport_view_{view}")
+        assert button is not None
+        button.click()
+        assert session.viewport.view == view
+        assert button.isChecked()
+    session.viewport.set_view("side")
+    assert viewport.findChild(QToolButton, "viewport_view_side").isChecked()  # type: ignore[union-attr]
+
+
+def test_dragging_orbits_pans_and_the_wheel_dollies(viewport: ViewportPanel) -> None:
+    widget, middle = canvas(viewport), QPointF(20, 20)
+    before = viewport.camera
+    drag(widget, middle, QPointF(60, 30))
+    turned = viewport.camera
+    assert turned.yaw_rad < before.yaw_rad
+    assert turned.pitch_rad > before.pitch_rad
+    assert turned.target_m == before.target_m
+    drag(widget, middle, QPointF(60, 30), Qt.MouseButton.MiddleButton)
+    panned = viewport.camera
+    assert panned.yaw_rad == turned.yaw_rad
+    assert panned.target_m != turned.target_m
+    drag(widget, middle, QPointF(-60, -30), modifiers=Qt.KeyboardModifier.ShiftModifier)
+    assert viewport.camera.target_m == pytest.approx(turned.target_m)
+    wheel = QWheelEvent(
+        middle,
+        middle,
+        QPoint(),
+        QPoint(0, 120),
+        Qt.MouseButton.NoButton,
+        Qt.KeyboardModifier.NoModifier,
+        Qt.ScrollPhase.NoScrollPhase,
+        False,
+    )
+    QApplication.sendEvent(widget, wheel)
+    assert viewport.camera.distance_m < panned.distance_m
+
+
+def test_framing_keeps_the_direction_and_brings_the_player_in(viewport: ViewportPanel, session: Session) -> None:
+    drag(canvas(viewport), QPointF(10, 10), QPointF(50, 0))
+    session.set_players((session.project.players[3].id,))
+    before = viewport.camera
+    session.viewport.frame(True)
+    after = viewport.camera
+    assert after.yaw_rad == before.yaw_rad
+    place = place_of(viewport, 3)
+    size = canvas(viewport).size()
+    assert abs(place.x() - size.width() / 2) < 0.2 * size.width()
+    session.viewport.frame(False)
+    assert viewport.camera.distance_m > after.distance_m
+
+
+def test_a_close_up_follows_the_hands_while_playing(qtbot: QtBot, viewport: ViewportPanel, session: Session) -> None:
+    session.set_players((session.project.players[3].id,))
+    session.viewport.set_view("hands")
+    qtbot.wait(500)
+    session.set_playing(True)
+    stage = viewport._loaded.stage  # type: ignore[union-attr]
+    before = np.asarray(viewport.camera.target_m)
+    for time_s in np.arange(6.0, 9.0, 0.1):
+        session.set_playhead(float(time_s))
+        qtbot.wait(20)
+    session.set_playing(False)
+    qtbot.wait(900)
+    hands = [stage.joint_m(3, side + name) for side in ("left", "right") for name in ("Hand", "MiddleProximal")]
+    assert np.asarray(viewport.camera.target_m) == pytest.approx(np.mean(hands, axis=0), abs=0.01)
+    assert np.linalg.norm(np.asarray(viewport.camera.target_m) - before) > 0.005
+
+
+# Selection
+
+
+def test_clicking_selects_and_control_adds(qtbot: QtBot, viewport: ViewportPanel, session: Session) -> None:
+    players = [player.id for player in session.project.players]
+    for row in (2, 1):
+        qtbot.mouseClick(canvas(viewport), Qt.MouseButton.LeftButton, pos=place_of(viewport, row).toPoint())
+        assert session.players == (players[row],)
+    qtbot.mouseClick(
+        canvas(viewport),
+        Qt.MouseButton.LeftButton,
+        Qt.KeyboardModifier.ControlModifier,
+        place_of(viewport, 3).toPoint(),
+    )
+    assert session.players == (players[1], players[3])
+    qtbot.mouseClick(
+        canvas(viewport),
+        Qt.MouseButton.LeftButton,
+        Qt.KeyboardModifier.ControlModifier,
+        place_of(viewport, 3).toPoint(),
+    )
+    assert session.players == (players[1],)
+    qtbot.mouseClick(canvas(viewport), Qt.MouseButton.LeftButton, pos=QPoint(4, 4))
+    assert session.players == (players[1],)
+
+
+def test_a_drag_that_begins_on_a_player_selects_nobody(viewport: ViewportPanel, session: Session) -> None:
+    before = session.players
+    drag(canvas(viewport), place_of(viewport, 2), QPointF(40, 0))
+    assert session.players == before
+
+
+def test_who_is_under_the_pointer_is_known(viewport: ViewportPanel, session: Session) -> None:
+    send(canvas(viewport), QEvent.Type.MouseMove, place_of(viewport, 2), Qt.MouseButton.NoButton)
+    assert viewport._hovered == 2
+    assert canvas(viewport).cursor().shape() == Qt.CursorShape.PointingHandCursor
+    send(canvas(viewport), QEvent.Type.MouseMove, QPointF(3, 3), Qt.MouseButton.NoButton)
+    assert viewport._hovered is None
+    assert viewport.player_at(3.0, 3.0) is None
+    place = place_of(viewport, 0)
+    assert viewport.player_at(place.x(), place.y()) == session.project.players[0].id
+
+
+# The pose tool
+
+
+@pytest.fixture
+def posing(viewport: ViewportPanel, session: Session, qtbot: QtBot) -> ViewportPanel:
+    session.viewport.set_view("front")
+    session.viewport.set_posing(True)
+    qtbot.wait(500)
+    return viewport
+
+
+def only(session: Session) -> PoseCorrection:
+    (found,) = session.project.corrections[session.project.players[0].id]
+    assert isinstance(found, PoseCorrection)
+    return found
+
+
+def test_dragging_the_bell_up_is_one_step_that_can_be_undone(posing: ViewportPanel, session: Session) -> None:
+    before = session.project
+    drag(canvas(posing), posing.handle_places()["bell"], QPointF(0, -12))
+    held = only(session)
+    assert held.target == "bell"
+    assert held.up_deg > 1.0
+    score = session.project.score
+    tick = round(score.tempo_map.ticks(AT_S))
+    assert held.start_tick <= tick < held.end_tick
+    assert held.start_tick == score.tick_of_bar(score.bar_of_tick(tick))
+    assert len(session.document.done) == 1
+    session.document.undo()
+    assert session.project is before
+
+
+def test_the_player_follows_the_drag(posing: ViewportPanel, session: Session, poses: MadeNow) -> None:
+    stage = posing._loaded.stage  # type: ignore[union-attr]
+    before = stage.node_matrix(0)[:, 2].copy()
+    drag(canvas(posing), posing.handle_places()["bell"], QPointF(0, -12), release=False)
+    assert stage.node_matrix(0)[1, 2] > before[1] + 0.01
+    send(canvas(posing), QEvent.Type.MouseButtonRelease, QPointF(0, 0))
+
+
+def test_a_drag_over_a_chosen_span_covers_it(posing: ViewportPanel, session: Session) -> None:
+    session.select(msgspec.structs.replace(session.selection, span=(960, 2400)))
+    drag(canvas(posing), posing.handle_places()["head"], QPointF(10, 0))
+    held = only(session)
+    assert (held.target, held.start_tick, held.end_tick) == ("head", 960, 2400)
+    assert held.left_deg > 0.0
+
+
+def test_a_second_drag_goes_on_from_the_first(posing: ViewportPanel, session: Session) -> None:
+    drag(canvas(posing), posing.handle_places()["head"], QPointF(6, 0))
+    first = only(session)
+    drag(canvas(posing), posing.handle_places()["head"], QPointF(6, 0))
+    second = only(session)
+    assert second.name == first.name
+    assert second.left_deg > first.left_deg
+    assert len(session.document.done) == 2
+
+
+def test_shift_is_finer(posing: ViewportPanel, session: Session) -> None:
+    drag(canvas(posing), posing.handle_places()["head"], QPointF(8, 0))
+    coarse = only(session).left_deg
+    session.document.undo()
+    drag(canvas(posing), posing.handle_places()["head"], QPointF(8, 0), modifiers=Qt.KeyboardModifier.ShiftModifier)
+    assert only(session).left_deg == pytest.approx(coarse / 4.0, abs=0.2)
+
+
+def test_escape_gives_a_drag_up(qtbot: QtBot, posing: ViewportPanel, session: Session) -> None:
+    before = session.project
+    drag(canvas(posing), posing.handle_places()["torso"], QPointF(12, 0), release=False)
+    assert session.project is not before
+    qtbot.keyClick(canvas(posing), Qt.Key.Key_Escape)
+    assert session.project is before
+    assert not session.document.done
+    # The button is still down: what follows is no drag any more.
+    send(canvas(posing), QEvent.Type.MouseMove, QPointF(100, 100))
+    send(canvas(posing), QEvent.Type.MouseButtonRelease, QPointF(100, 100))
+    assert session.project is before
+    qtbot.keyClick(canvas(posing), Qt.Key.Key_Escape)
+    assert not session.viewport.posing
+
+
+def test_a_drag_that_returns_is_no_step(posing: ViewportPanel, session: Session) -> None:
+    before, start = session.project, posing.handle_places()["left_elbow"]
+    widget = canvas(posing)
+    send(widget, QEvent.Type.MouseButtonPress, start)
+    for step in (5.0, 12.0, 4.0, 0.0):
+        send(widget, QEvent.Type.MouseMove, start + QPointF(step, -step))
+    send(widget, QEvent.Type.MouseButtonRelease, start)
+    assert session.project is before
+    assert not session.document.done
+
+
+def test_a_double_click_gives_back_to_the_generator(posing: ViewportPanel, session: Session) -> None:
+    drag(canvas(posing), posing.handle_places()["right_elbow"], QPointF(-10, -10))
+    assert only(session).target == "right_elbow"
+    send(canvas(posing), QEvent.Type.MouseButtonDblClick, posing.handle_places()["right_elbow"])
+    assert not session.project.corrections
+
+
+# Without GL
+
+_WITHOUT = """
+import sys
+from PySide6.QtWidgets import QApplication, QLabel
+app = QApplication(["suisou"])
+from tests.gui.conftest import quartet_project
+from tests.support.tasks import ImmediateTasks
+from widgets.common.session import Session
+from widgets.viewport.panel import ViewportPanel
+
+class Nothing:
+    def pose(self, player_id, time_s):
+        return None
+    pose_now = pose
+
+session = Session(quartet_project(), ImmediateTasks())
+panel = ViewportPanel(session, Nothing())
+panel.resize(400, 300)
+panel.show()
+app.processEvents()
+reason = panel.findChild(QLabel, "viewport_reason")
+assert not panel.has_gl
+assert reason.isVisible() and "OpenGL" in reason.text() and "offscreen" in reason.text(), reason.text()
+assert panel.render_image(64, 64, 0.0) is None
+for view in ("hands", "ensemble"):
+    session.viewport.set_view(view)
+session.viewport.set_posing(True)
+session.set_playhead(3.0)
+session.set_players(())
+panel.grab()
+print("fine")
+"""
+
+
+def test_without_gl_the_panel_says_why_and_nothing_fails() -> None:
+    done = subprocess.run(
+        [sys.executable, "-W", "error", "-c", _WITHOUT],
+        cwd=ROOT,
+        env={**os.environ, "QT_QPA_PLATFORM": "offscreen", "PYTHONPATH": str(ROOT)},
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    assert "fine" in done.stdout
+
+
+def test_a_driver_that_fails_while_drawing_leaves_the_reason(
+    qtbot: QtBot, viewport: ViewportPanel, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fails(*arguments: object) -> None:
+        raise RuntimeError("lost the device")
+
+    monkeypatch.setattr("widgets.viewport.renderer.Renderer.draw", fails)
+    assert viewport.render_image(32, 32, AT_S) is None
+    qtbot.waitUntil(lambda: not viewport.has_gl, timeout=2000)
+    assert viewport.render_image(32, 32, AT_S) is None
+    viewport.refresh()
