@@ -209,7 +209,8 @@ class StatusLine(QStatusBar):
         tokens = self._session.tokens
         self._problems.setVisible(self._files.is_open)
         self._problems.setIcon(icon("warning" if count else "check", tokens, tokens.warning if count else tokens.good))
-        self._problems.setText(" " + self.tr("%n problem(s)", "", count) if count else " " + self.tr("no problems"))
+        text = self.tr("problems: {count}").format(count=count) if count else self.tr("no problems")
+        self._problems.setText(f" {text}")
 
     def _tell_saved(self) -> None:
         files = self._files

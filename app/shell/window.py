@@ -227,7 +227,7 @@ class Window(QMainWindow):
         """Show a page of the preferences."""
         from app.shell.preferences import show_preferences
 
-        show_preferences(self.editor, self, page)
+        show_preferences(self.editor, page)
 
     def show_about(self) -> None:
         """Say which program this is."""

@@ -1,0 +1,50 @@
+"""The preferences dialog, connected to the editor."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QCoreApplication
+
+from app.shell.actions import CONTEXTS, plain
+from app.shell.editor import Editor
+from app.shell.language import LANGUAGES
+from widgets.dialogs.preferences import Choice, PreferencesDialog
+from widgets.dialogs.shortcuts import ShortcutRow
+
+
+def show_preferences(editor: Editor, page: str) -> PreferencesDialog:
+    """Show a page of the preferences; what is changed there holds at once.
+
+    Parameters
+    ----------
+    editor : Editor
+    page : str
+        ``"general"`` or ``"shortcuts"``.
+    """
+    dialog = PreferencesDialog(
+        editor.session,
+        Choice(editor.settings.language, {"": "", **LANGUAGES}),
+        lambda: shortcut_rows(editor),
+        editor.table.conflicts,
+        editor.window,
+    )
+    dialog.language_chosen.connect(editor.speak)
+    dialog.shortcut_chosen.connect(editor.table.set_keys)
+    dialog.show_page(page)
+    dialog.open()
+    return dialog
+
+
+def shortcut_rows(editor: Editor) -> tuple[ShortcutRow, ...]:
+    """What the list of shortcuts shows, in the language of the editor."""
+    table = editor.table
+    return tuple(
+        ShortcutRow(
+            id=row.id,
+            text=plain(table.text(row.id)),
+            place=table.place(row.id),
+            context=QCoreApplication.translate("Context", CONTEXTS.get(row.context, row.context)),
+            keys=table.keys(row.id),
+            default=row.shortcut,
+        )
+        for row in table.rows.values()
+    )

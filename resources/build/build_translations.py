@@ -1,0 +1,104 @@
+"""Collects the texts of the editor into resources/translations/<room>_ja.ts and releases suisou_ja.qm from them.
+
+Run from the repository, in the environment of the tests: ``python resources/build/build_translations.py``. Texts that are
+new stand in the .ts files as unfinished: translate them there (an editor for texts or Qt Linguist) and run this again.
+"""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import xml.etree.ElementTree as ET
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+TARGET = ROOT / "resources" / "translations"
+LANGUAGE = "ja"
+CONTEXT = "Message"
+
+
+def rooms() -> dict[str, list[Path]]:
+    """The sources of every room that shows texts."""
+    found = {"shell": sorted((ROOT / "app" / "shell").rglob("*.py"))}
+    for folder in sorted((ROOT / "widgets").iterdir()):
+        sources = sorted(folder.rglob("*.py"))
+        if len(sources) > 1:
+            found[folder.name] = sources
+    return found
+
+
+def tool(name: str) -> str:
+    """A program of Qt beside this Python."""
+    return str(Path(sys.executable).parent / f"pyside6-{name}")
+
+
+def collect(sources: list[Path], target: Path) -> None:
+    """Bring a room's file up to date with its sources; what is translated stays."""
+    command = [tool("lupdate"), *map(str, sources), "-ts", str(target), "-target-language", LANGUAGE]
+    command += ["-source-language", "en", "-no-obsolete", "-locations", "none"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    complaints = [line for line in done.stderr.splitlines() if line.strip()]
+    if done.returncode or complaints:
+        sys.exit("\n".join([f"{target.name}: lupdate complains", *complaints]))
+
+
+def collect_messages(target: Path) -> None:
+    """The templates of `app.messages`, in their order."""
+    sys.path.insert(0, str(ROOT))
+    from app.messages import TEMPLATES
+
+    known = translations(target) if target.exists() else {}
+    ts = ET.Element("TS", version="2.1", language=LANGUAGE, sourcelanguage="en")
+    context = ET.SubElement(ts, "context")
+    ET.SubElement(context, "name").text = CONTEXT
+    for source in dict.fromkeys(TEMPLATES.values()):
+        message = ET.SubElement(context, "message")
+        ET.SubElement(message, "source").text = source
+        text = known.get((CONTEXT, source), "")
+        translation = ET.SubElement(message, "translation")
+        if text:
+            translation.text = text
+        else:
+            translation.set("type", "unfinished")
+    ET.indent(ts, "    ")
+    body = ET.tostring(ts, encoding="unicode")
+    target.write_text(f'<?xml version="1.0" encoding="utf-8"?>\n<!DOCTYPE TS>\n{body}\n', encoding="utf-8")
+
+
+def translations(path: Path) -> dict[tuple[str, str], str]:
+    """Context and source to translation; empty where it is unfinished."""
+    found = {}
+    for context in ET.parse(path).getroot().iter("context"):
+        name = context.findtext("name") or ""
+        for message in context.iter("message"):
+            element = message.find("translation")
+            finished = element is not None and element.get("type") is None
+            text = "".join(element.itertext()).strip() if element is not None and finished else ""
+            found[name, message.findtext("source") or ""] = text
+    return found
+
+
+def release() -> None:
+    """All rooms into the one file that the editor reads."""
+    sources = sorted(TARGET.glob(f"*_{LANGUAGE}.ts"))
+    command = [tool("lrelease"), "-silent", "-nounfinished", *map(str, sources), "-qm"]
+    subprocess.run([*command, str(TARGET / f"suisou_{LANGUAGE}.qm")], check=True)
+
+
+def main() -> None:
+    """Collect, release, and say what is not translated."""
+    TARGET.mkdir(exist_ok=True)
+    for room, sources in rooms().items():
+        collect(sources, TARGET / f"{room}_{LANGUAGE}.ts")
+    collect_messages(TARGET / f"messages_{LANGUAGE}.ts")
+    release()
+    for path in sorted(TARGET.glob(f"*_{LANGUAGE}.ts")):
+        found = translations(path)
+        missing = [source for (_, source), text in found.items() if not text]
+        print(f"{path.name}: {len(found)} texts, {len(missing)} not translated")
+        for source in missing:
+            print(f"    {source}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,180 @@
+<?xml version="1.0" encoding="utf-8"?>
+<!DOCTYPE TS>
+<TS version="2.1" language="ja" sourcelanguage="en">
+<context>
+    <name>Character</name>
+    <message>
+        <source>Woman</source>
+        <translation>女性</translation>
+    </message>
+    <message>
+        <source>Man</source>
+        <translation>男性</translation>
+    </message>
+</context>
+<context>
+    <name>ColourSwatch</name>
+    <message>
+        <source>Automatic</source>
+        <translation>自動</translation>
+    </message>
+    <message>
+        <source>Sky blue</source>
+        <translation>空色</translation>
+    </message>
+    <message>
+        <source>Orange</source>
+        <translation>オレンジ</translation>
+    </message>
+    <message>
+        <source>Green</source>
+        <translation>緑</translation>
+    </message>
+    <message>
+        <source>Pink</source>
+        <translation>ピンク</translation>
+    </message>
+    <message>
+        <source>Yellow</source>
+        <translation>黄</translation>
+    </message>
+    <message>
+        <source>Blue</source>
+        <translation>青</translation>
+    </message>
+    <message>
+        <source>Vermilion</source>
+        <translation>朱</translation>
+    </message>
+    <message>
+        <source>Grey</source>
+        <translation>灰</translation>
+    </message>
+    <message>
+        <source>Other colour...</source>
+        <translation>その他の色...</translation>
+    </message>
+    <message>
+        <source>Colour of the player</source>
+        <translation>プレイヤーの色</translation>
+    </message>
+</context>
+<context>
+    <name>Event</name>
+    <message>
+        <source>Breath</source>
+        <translation>ブレス</translation>
+    </message>
+    <message>
+        <source>Preparation</source>
+        <translation>準備</translation>
+    </message>
+    <message>
+        <source>Cue</source>
+        <translation>合図</translation>
+    </message>
+    <message>
+        <source>Expression</source>
+        <translation>表情</translation>
+    </message>
+    <message>
+        <source>Sway</source>
+        <translation>揺れ</translation>
+    </message>
+    <message>
+        <source>Weight shift</source>
+        <translation>重心移動</translation>
+    </message>
+    <message>
+        <source>Bell height</source>
+        <translation>ベルの高さ</translation>
+    </message>
+    <message>
+        <source>Instrument lowered</source>
+        <translation>楽器を下ろす</translation>
+    </message>
+    <message>
+        <source>Pose</source>
+        <translation>ポーズ</translation>
+    </message>
+</context>
+<context>
+    <name>Expression</name>
+    <message>
+        <source>Neutral</source>
+        <translation>ニュートラル</translation>
+    </message>
+    <message>
+        <source>Strained</source>
+        <translation>力み</translation>
+    </message>
+    <message>
+        <source>Puffed</source>
+        <translation>頬をふくらます</translation>
+    </message>
+    <message>
+        <source>Brows up</source>
+        <translation>眉を上げる</translation>
+    </message>
+    <message>
+        <source>Smile</source>
+        <translation>微笑み</translation>
+    </message>
+</context>
+<context>
+    <name>Language</name>
+    <message>
+        <source>en</source>
+        <translation>ja</translation>
+    </message>
+</context>
+<context>
+    <name>NumberSlider</name>
+    <message>
+        <source>Type a value</source>
+        <translation>値を入力</translation>
+    </message>
+    <message>
+        <source>Copy value</source>
+        <translation>値をコピー</translation>
+    </message>
+    <message>
+        <source>Paste value</source>
+        <translation>値を貼り付け</translation>
+    </message>
+    <message>
+        <source>Reset</source>
+        <translation>初期値に戻す</translation>
+    </message>
+</context>
+<context>
+    <name>Pitch</name>
+    <message>
+        <source>Do Re Mi Fa So La Ti</source>
+        <translation>ド レ ミ ファ ソ ラ シ</translation>
+    </message>
+</context>
+<context>
+    <name>Pose</name>
+    <message>
+        <source>Bell</source>
+        <translation>ベル</translation>
+    </message>
+    <message>
+        <source>Head</source>
+        <translation>頭</translation>
+    </message>
+    <message>
+        <source>Left elbow</source>
+        <translation>左ひじ</translation>
+    </message>
+    <message>
+        <source>Right elbow</source>
+        <translation>右ひじ</translation>
+    </message>
+    <message>
+        <source>Torso</source>
+        <translation>胴</translation>
+    </message>
+</context>
+</TS>

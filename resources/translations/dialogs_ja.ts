@@ -1,0 +1,504 @@
+<?xml version="1.0" encoding="utf-8"?>
+<!DOCTYPE TS>
+<TS version="2.1" language="ja" sourcelanguage="en">
+<context>
+    <name>ExportDialog</name>
+    <message>
+        <source>Files written to {folder}: {count}</source>
+        <translation>{folder} に書き出したファイル: {count}</translation>
+    </message>
+    <message>
+        <source>Folder for the files</source>
+        <translation>書き出し先フォルダー</translation>
+    </message>
+    <message>
+        <source>Tick at least one player.</source>
+        <translation>プレイヤーを 1 人以上選んでください。</translation>
+    </message>
+    <message>
+        <source>Tick at least one kind of file.</source>
+        <translation>ファイル形式を 1 つ以上選んでください。</translation>
+    </message>
+    <message>
+        <source>The last bar comes before the first one.</source>
+        <translation>最後の小節が最初の小節より前にあります。</translation>
+    </message>
+    <message>
+        <source>Choose a folder.</source>
+        <translation>フォルダーを選んでください。</translation>
+    </message>
+    <message>
+        <source>Files that will be written: {count}</source>
+        <translation>書き出すファイル: {count}</translation>
+    </message>
+    <message>
+        <source>Of these, {count} will be replaced: {names}</source>
+        <translation>うち {count} 個は上書きされます: {names}</translation>
+    </message>
+    <message>
+        <source>Export</source>
+        <translation>書き出し</translation>
+    </message>
+    <message>
+        <source>Players</source>
+        <translation>プレイヤー</translation>
+    </message>
+    <message>
+        <source>Files</source>
+        <translation>ファイル</translation>
+    </message>
+    <message>
+        <source>Range</source>
+        <translation>範囲</translation>
+    </message>
+    <message>
+        <source>Pre-roll</source>
+        <translation>プリロール</translation>
+    </message>
+    <message>
+        <source>Frames per second</source>
+        <translation>フレームレート</translation>
+    </message>
+    <message>
+        <source>Folder</source>
+        <translation>フォルダー</translation>
+    </message>
+    <message>
+        <source>All or none</source>
+        <translation>すべて選択/解除</translation>
+    </message>
+    <message>
+        <source>FBX (characters and instruments)</source>
+        <translation>FBX(キャラクターと楽器)</translation>
+    </message>
+    <message>
+        <source>BVH (body motion)</source>
+        <translation>BVH(体の動き)</translation>
+    </message>
+    <message>
+        <source> beats</source>
+        <translation> 拍</translation>
+    </message>
+    <message>
+        <source>Whole piece</source>
+        <translation>曲全体</translation>
+    </message>
+    <message>
+        <source>Bars</source>
+        <translation>小節</translation>
+    </message>
+    <message>
+        <source>Bars of the selection</source>
+        <translation>選択範囲の小節</translation>
+    </message>
+    <message>
+        <source>Choose...</source>
+        <translation>選択...</translation>
+    </message>
+    <message>
+        <source>Show in folder</source>
+        <translation>フォルダーで表示</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>キャンセル</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>閉じる</translation>
+    </message>
+</context>
+<context>
+    <name>ImportDialog</name>
+    <message>
+        <source>Import MIDI</source>
+        <translation>MIDI の読み込み</translation>
+    </message>
+    <message>
+        <source>{title} · {minutes}:{seconds:02d} · {tempo:g} quarters a minute · {metre}</source>
+        <translation>{title} · {minutes}:{seconds:02d} · 毎分 {tempo:g} 四分音符 · {metre}</translation>
+    </message>
+    <message>
+        <source>Play</source>
+        <translation>演奏</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>名前</translation>
+    </message>
+    <message>
+        <source>Notes over the piece</source>
+        <translation>音符の分布</translation>
+    </message>
+    <message>
+        <source>Number, range</source>
+        <translation>音数・音域</translation>
+    </message>
+    <message>
+        <source>Notes together</source>
+        <translation>重なる音</translation>
+    </message>
+    <message>
+        <source>Instrument</source>
+        <translation>楽器</translation>
+    </message>
+    <message>
+        <source>Character</source>
+        <translation>キャラクター</translation>
+    </message>
+    <message>
+        <source>Merge into one part</source>
+        <translation>1 つのパートにまとめる</translation>
+    </message>
+    <message>
+        <source>Make one part of the selected tracks</source>
+        <translation>選択したトラックを 1 つのパートにします</translation>
+    </message>
+    <message>
+        <source>Take apart</source>
+        <translation>分ける</translation>
+    </message>
+    <message>
+        <source>Make a part of each merged track again</source>
+        <translation>まとめたトラックをそれぞれのパートに戻します</translation>
+    </message>
+    <message>
+        <source>Import</source>
+        <translation>読み込む</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>キャンセル</translation>
+    </message>
+    <message>
+        <source>{count} notes
+{low} to {high}</source>
+        <translation>{count} 音
+{low} ～ {high}</translation>
+    </message>
+    <message>
+        <source>Share among players</source>
+        <translation>複数人で分担</translation>
+    </message>
+    <message>
+        <source>One player</source>
+        <translation>1 人で演奏</translation>
+    </message>
+    <message>
+        <source>Automatic: {name}</source>
+        <translation>自動: {name}</translation>
+    </message>
+    <message>
+        <source>Automatic</source>
+        <translation>自動</translation>
+    </message>
+    <message>
+        <source>Players: {count}</source>
+        <translation>プレイヤー: {count} 人</translation>
+    </message>
+    <message>
+        <source>Nobody plays: tick a track, or import an empty stage</source>
+        <translation>演奏者がいません。トラックを選ぶか、空のステージとして読み込みます</translation>
+    </message>
+    <message>
+        <source>{name} is not played: {reason}</source>
+        <translation>{name} は演奏されません: {reason}</translation>
+    </message>
+    <message>
+        <source>What the reader noticed</source>
+        <translation>読み込み時の注意</translation>
+    </message>
+</context>
+<context>
+    <name>PlayblastDialog</name>
+    <message>
+        <source>The film is written: {file}</source>
+        <translation>動画を書き出しました: {file}</translation>
+    </message>
+    <message>
+        <source>Film</source>
+        <translation>動画</translation>
+    </message>
+    <message>
+        <source>Films (*.mp4)</source>
+        <translation>動画 (*.mp4)</translation>
+    </message>
+    <message>
+        <source>This file is there and will be replaced.</source>
+        <translation>既存のファイルを上書きします。</translation>
+    </message>
+    <message>
+        <source>Playblast</source>
+        <translation>プレイブラスト</translation>
+    </message>
+    <message>
+        <source>Size</source>
+        <translation>サイズ</translation>
+    </message>
+    <message>
+        <source>Frames per second</source>
+        <translation>フレームレート</translation>
+    </message>
+    <message>
+        <source>Range</source>
+        <translation>範囲</translation>
+    </message>
+    <message>
+        <source>View</source>
+        <translation>ビュー</translation>
+    </message>
+    <message>
+        <source>Sound</source>
+        <translation>音</translation>
+    </message>
+    <message>
+        <source>File</source>
+        <translation>ファイル</translation>
+    </message>
+    <message>
+        <source>With what is heard</source>
+        <translation>聞こえる音を入れる</translation>
+    </message>
+    <message>
+        <source>Choose...</source>
+        <translation>選択...</translation>
+    </message>
+    <message>
+        <source>Make the film</source>
+        <translation>動画を作る</translation>
+    </message>
+    <message>
+        <source>Show in folder</source>
+        <translation>フォルダーで表示</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>キャンセル</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>閉じる</translation>
+    </message>
+    <message>
+        <source>Whole piece</source>
+        <translation>曲全体</translation>
+    </message>
+    <message>
+        <source>Loop</source>
+        <translation>ループ範囲</translation>
+    </message>
+    <message>
+        <source>Selection</source>
+        <translation>選択範囲</translation>
+    </message>
+    <message>
+        <source>As the viewport shows it</source>
+        <translation>ビューポートのまま</translation>
+    </message>
+    <message>
+        <source>Ensemble</source>
+        <translation>全体</translation>
+    </message>
+    <message>
+        <source>Front</source>
+        <translation>正面</translation>
+    </message>
+    <message>
+        <source>Side</source>
+        <translation>側面</translation>
+    </message>
+    <message>
+        <source>Top</source>
+        <translation>上面</translation>
+    </message>
+    <message>
+        <source>Hands</source>
+        <translation>手元</translation>
+    </message>
+    <message>
+        <source>Mouth</source>
+        <translation>口元</translation>
+    </message>
+    <message>
+        <source>Feet</source>
+        <translation>足元</translation>
+    </message>
+</context>
+<context>
+    <name>PreferencesDialog</name>
+    <message>
+        <source>Preferences</source>
+        <translation>環境設定</translation>
+    </message>
+    <message>
+        <source>General</source>
+        <translation>一般</translation>
+    </message>
+    <message>
+        <source>Keyboard Shortcuts</source>
+        <translation>キーボードショートカット</translation>
+    </message>
+    <message>
+        <source>Language</source>
+        <translation>言語</translation>
+    </message>
+    <message>
+        <source>Theme</source>
+        <translation>テーマ</translation>
+    </message>
+    <message>
+        <source>Pitches</source>
+        <translation>音高</translation>
+    </message>
+    <message>
+        <source>Middle C</source>
+        <translation>中央ハ</translation>
+    </message>
+    <message>
+        <source>Names of notes</source>
+        <translation>音名</translation>
+    </message>
+    <message>
+        <source>Time</source>
+        <translation>時間</translation>
+    </message>
+    <message>
+        <source>Dark</source>
+        <translation>ダーク</translation>
+    </message>
+    <message>
+        <source>Light</source>
+        <translation>ライト</translation>
+    </message>
+    <message>
+        <source>As they sound (concert)</source>
+        <translation>実音</translation>
+    </message>
+    <message>
+        <source>As written for the instrument</source>
+        <translation>記譜音</translation>
+    </message>
+    <message>
+        <source>Do Re Mi</source>
+        <translation>ドレミ</translation>
+    </message>
+    <message>
+        <source>Bars and beats</source>
+        <translation>小節と拍</translation>
+    </message>
+    <message>
+        <source>Seconds</source>
+        <translation>秒</translation>
+    </message>
+    <message>
+        <source>Frames</source>
+        <translation>フレーム</translation>
+    </message>
+    <message>
+        <source>The system&apos;s</source>
+        <translation>システムに合わせる</translation>
+    </message>
+</context>
+<context>
+    <name>ReimportDialog</name>
+    <message>
+        <source>Re-import MIDI</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{file} says nothing new.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>What {file} changes. Everything done by hand stays with its notes.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Part</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Kept</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>New</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Gone</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>These corrections have lost their note. They are kept; the inspector can give them another note:</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Re-import</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>キャンセル</translation>
+    </message>
+    <message>
+        <source>New players: {names}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Players whose part is gone: {names}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Players whose part is gone, kept for what was done by hand: {names}</source>
+        <translation type="unfinished"></translation>
+    </message>
+</context>
+<context>
+    <name>ShortcutsPage</name>
+    <message>
+        <source>Search actions or keys</source>
+        <translation>操作やキーを検索</translation>
+    </message>
+    <message>
+        <source>Action</source>
+        <translation>操作</translation>
+    </message>
+    <message>
+        <source>Menu</source>
+        <translation>メニュー</translation>
+    </message>
+    <message>
+        <source>Keys</source>
+        <translation>キー</translation>
+    </message>
+    <message>
+        <source>Works</source>
+        <translation>有効な場所</translation>
+    </message>
+    <message>
+        <source>New keys</source>
+        <translation>新しいキー</translation>
+    </message>
+    <message>
+        <source>Assign</source>
+        <translation>割り当てる</translation>
+    </message>
+    <message>
+        <source>Remove Keys</source>
+        <translation>キーを外す</translation>
+    </message>
+    <message>
+        <source>Default</source>
+        <translation>既定に戻す</translation>
+    </message>
+    <message>
+        <source>All Back to Default</source>
+        <translation>すべて既定に戻す</translation>
+    </message>
+    <message>
+        <source>Used by: {names}. Assigning takes it away there.</source>
+        <translation>使用中: {names}。割り当てると、そちらから外れます。</translation>
+    </message>
+</context>
+</TS>

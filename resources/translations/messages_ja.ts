@@ -1,0 +1,983 @@
+<?xml version="1.0" encoding="utf-8"?>
+<!DOCTYPE TS>
+<TS version="2.1" language="ja" sourcelanguage="en">
+    <context>
+        <name>Message</name>
+        <message>
+            <source>move {count} events</source>
+            <translation>{count} 個のイベントを移動</translation>
+        </message>
+        <message>
+            <source>resize {count} events</source>
+            <translation>{count} 個のイベントの長さを変更</translation>
+        </message>
+        <message>
+            <source>change how much of {count} events</source>
+            <translation>{count} 個のイベントの量を変更</translation>
+        </message>
+        <message>
+            <source>change fades</source>
+            <translation>フェードを変更</translation>
+        </message>
+        <message>
+            <source>change the expression</source>
+            <translation>表情を変更</translation>
+        </message>
+        <message>
+            <source>change the embouchure of {count} notes</source>
+            <translation>{count} 音のアンブシュアを変更</translation>
+        </message>
+        <message>
+            <source>fingering of {count} notes</source>
+            <translation>{count} 音の運指</translation>
+        </message>
+        <message>
+            <source>add a breath</source>
+            <translation>ブレスを追加</translation>
+        </message>
+        <message>
+            <source>add a preparation</source>
+            <translation>準備動作を追加</translation>
+        </message>
+        <message>
+            <source>add a cue</source>
+            <translation>合図を追加</translation>
+        </message>
+        <message>
+            <source>add a gesture</source>
+            <translation>ジェスチャーを追加</translation>
+        </message>
+        <message>
+            <source>add an expression</source>
+            <translation>表情を追加</translation>
+        </message>
+        <message>
+            <source>preparation on or off</source>
+            <translation>準備動作の切り替え</translation>
+        </message>
+        <message>
+            <source>delete {count} events</source>
+            <translation>{count} 個のイベントを削除</translation>
+        </message>
+        <message>
+            <source>back to the generator's</source>
+            <translation>自動生成に戻す</translation>
+        </message>
+        <message>
+            <source>face of {expression}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>an expression made from {expression}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>rename an expression</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>remove {expression}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>{name} is kept for other projects</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>re-attach a correction</source>
+            <translation>修正を付け直す</translation>
+        </message>
+        <message>
+            <source>revert all corrections of {player}</source>
+            <translation>{player} の修正をすべて取り消す</translation>
+        </message>
+        <message>
+            <source>offset of the recording</source>
+            <translation>録音のオフセット</translation>
+        </message>
+        <message>
+            <source>there is no note after this place to breathe for</source>
+            <translation>この位置より後に、ブレスの対象となる音符がありません</translation>
+        </message>
+        <message>
+            <source>{label} is no fingering of this note; there are: {known}</source>
+            <translation>{label} はこの音の運指ではありません。使えるもの: {known}</translation>
+        </message>
+        <message>
+            <source>there are no problems</source>
+            <translation>問題はありません</translation>
+        </message>
+        <message>
+            <source>there is no note after this place to give a cue to</source>
+            <translation>この位置より後に、合図を出す音符がありません</translation>
+        </message>
+        <message>
+            <source>hold the bell differently</source>
+            <translation>ベルの構えを変更</translation>
+        </message>
+        <message>
+            <source>hold the head differently</source>
+            <translation>頭の構えを変更</translation>
+        </message>
+        <message>
+            <source>hold the left elbow differently</source>
+            <translation>左ひじの構えを変更</translation>
+        </message>
+        <message>
+            <source>hold the right elbow differently</source>
+            <translation>右ひじの構えを変更</translation>
+        </message>
+        <message>
+            <source>hold the torso differently</source>
+            <translation>胴の構えを変更</translation>
+        </message>
+        <message>
+            <source>pose back to the generator's</source>
+            <translation>ポーズを自動生成に戻す</translation>
+        </message>
+        <message>
+            <source>rename {player}</source>
+            <translation>{player} の名前を変更</translation>
+        </message>
+        <message>
+            <source>add {player}</source>
+            <translation>{player} を追加</translation>
+        </message>
+        <message>
+            <source>duplicate players: {count}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>remove players: {count}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>order of the players</source>
+            <translation>プレイヤーの順番</translation>
+        </message>
+        <message>
+            <source>mute players: {count}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>unmute players: {count}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>solo players: {count}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>end of solo for players: {count}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>another part for players: {count}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>another instrument for players: {count}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>another character for players: {count}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>colour of players: {count}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>amplitude of players: {count}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>shortest rest to breathe in, players: {count}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>rest with a breath on its last beat, players: {count}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>rest with a prepared breath, players: {count}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>lungs of players: {count}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>embouchure tension of players: {count}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>sway of players: {count}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>weight shift of players: {count}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>bell height of players: {count}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>standing or seated, players: {count}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>who gives cues, players: {count}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>seed of players: {count}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>reset players: {count}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>randomise players: {count}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>place players: {count}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>automatic arc</source>
+            <translation>自動で弧に並べる</translation>
+        </message>
+        <message>
+            <source>preset {preset} for players: {count}</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>a project can have {most} players</source>
+            <translation>1 つのプロジェクトに置けるプレイヤーは {most} 人までです</translation>
+        </message>
+        <message>
+            <source>a name must have at least one sign that can be seen</source>
+            <translation>名前には、目に見える文字が 1 つ以上必要です</translation>
+        </message>
+        <message>
+            <source>{file} cannot be read: {reason}</source>
+            <translation>{file} を読み込めません: {reason}</translation>
+        </message>
+        <message>
+            <source>{file} cannot be written: {reason}</source>
+            <translation>{file} に書き込めません: {reason}</translation>
+        </message>
+        <message>
+            <source>{file} cannot be read: {detail}</source>
+            <translation>{file} を読み込めません: {detail}</translation>
+        </message>
+        <message>
+            <source>files written to {folder}: {count}</source>
+            <translation>{folder} に書き出したファイル: {count}</translation>
+        </message>
+        <message>
+            <source>the film is written: {file}</source>
+            <translation>動画を書き出しました: {file}</translation>
+        </message>
+        <message>
+            <source>{file} cannot be written as a film: {detail}</source>
+            <translation>{file} に動画を書き出せません: {detail}</translation>
+        </message>
+        <message>
+            <source>{file} is not a binary FBX file</source>
+            <translation>{file} はバイナリー形式の FBX ファイルではありません</translation>
+        </message>
+        <message>
+            <source>{file} ends in the middle of a record (byte {offset})</source>
+            <translation>{file} がレコードの途中で終わっています(バイト {offset})</translation>
+        </message>
+        <message>
+            <source>{file}: the record at byte {offset} does not fit into its surroundings</source>
+            <translation>{file}: バイト {offset} のレコードが前後と整合しません</translation>
+        </message>
+        <message>
+            <source>{file}: the property at byte {offset} is of an unknown kind or too long for its record</source>
+            <translation>{file}: バイト {offset} のプロパティーは種類が不明か、レコードに対して長すぎます</translation>
+        </message>
+        <message>
+            <source>{file}: the array at byte {offset} is damaged</source>
+            <translation>{file}: バイト {offset} の配列が壊れています</translation>
+        </message>
+        <message>
+            <source>{file}: the records at byte {offset} are nested too deeply</source>
+            <translation>{file}: バイト {offset} のレコードの入れ子が深すぎます</translation>
+        </message>
+        <message>
+            <source>{file} has no {what}</source>
+            <translation>{file} に {what} がありません</translation>
+        </message>
+        <message>
+            <source>{file}: {what} is not supported</source>
+            <translation>{file}: {what} には対応していません</translation>
+        </message>
+        <message>
+            <source>{file} contradicts itself: {detail}</source>
+            <translation>{file} の内容が矛盾しています: {detail}</translation>
+        </message>
+        <message>
+            <source>{file}, line {line}: {found} does not belong here</source>
+            <translation>{file}、{line} 行目: ここに {found} は置けません</translation>
+        </message>
+        <message>
+            <source>{file} ends too early</source>
+            <translation>{file} が途中で終わっています</translation>
+        </message>
+        <message>
+            <source>{file}: the motion does not fit the skeleton ({detail})</source>
+            <translation>{file}: モーションがスケルトンに合いません({detail})</translation>
+        </message>
+        <message>
+            <source>{file}, line {line}: {what} is not supported</source>
+            <translation>{file}、{line} 行目: {what} には対応していません</translation>
+        </message>
+        <message>
+            <source>add a note</source>
+            <translation>音符を追加</translation>
+        </message>
+        <message>
+            <source>erase {count} notes</source>
+            <translation>{count} 音を消す</translation>
+        </message>
+        <message>
+            <source>move {count} notes</source>
+            <translation>{count} 音を移動</translation>
+        </message>
+        <message>
+            <source>transpose {count} notes</source>
+            <translation>{count} 音を移調</translation>
+        </message>
+        <message>
+            <source>nudge {count} notes</source>
+            <translation>{count} 音をずらす</translation>
+        </message>
+        <message>
+            <source>length of {count} notes</source>
+            <translation>{count} 音の長さ</translation>
+        </message>
+        <message>
+            <source>split {count} notes</source>
+            <translation>{count} 音を分割</translation>
+        </message>
+        <message>
+            <source>join {count} notes</source>
+            <translation>{count} 音を結合</translation>
+        </message>
+        <message>
+            <source>duplicate {count} notes</source>
+            <translation>{count} 音を複製</translation>
+        </message>
+        <message>
+            <source>velocity of {count} notes</source>
+            <translation>{count} 音のベロシティー</translation>
+        </message>
+        <message>
+            <source>quantise {count} notes</source>
+            <translation>{count} 音をクオンタイズ</translation>
+        </message>
+        <message>
+            <source>cut {count} notes</source>
+            <translation>{count} 音を切り取り</translation>
+        </message>
+        <message>
+            <source>paste {count} notes</source>
+            <translation>{count} 音を貼り付け</translation>
+        </message>
+        <message>
+            <source>set the tempo</source>
+            <translation>テンポを設定</translation>
+        </message>
+        <message>
+            <source>move a tempo</source>
+            <translation>テンポを移動</translation>
+        </message>
+        <message>
+            <source>remove a tempo</source>
+            <translation>テンポを削除</translation>
+        </message>
+        <message>
+            <source>set the metre</source>
+            <translation>拍子を設定</translation>
+        </message>
+        <message>
+            <source>remove a metre</source>
+            <translation>拍子を削除</translation>
+        </message>
+        <message>
+            <source>A note would begin before the piece.</source>
+            <translation>曲の始まりより前に音符が来てしまいます。</translation>
+        </message>
+        <message>
+            <source>A note would end later than any piece can last.</source>
+            <translation>扱える曲の長さを超えて音符が続いてしまいます。</translation>
+        </message>
+        <message>
+            <source>There is no pitch {pitch}; pitches go from {low} to {high}.</source>
+            <translation>音高 {pitch} はありません。{low} から {high} までです。</translation>
+        </message>
+        <message>
+            <source>There is no velocity {velocity}; velocities go from {low} to {high}.</source>
+            <translation>ベロシティー {velocity} はありません。{low} から {high} までです。</translation>
+        </message>
+        <message>
+            <source>A note needs a length of at least one tick.</source>
+            <translation>音符には 1 ティック以上の長さが必要です。</translation>
+        </message>
+        <message>
+            <source>No chosen note sounds across this place: there is nothing to split.</source>
+            <translation>この位置をまたぐ選択中の音符がないため、分割できません。</translation>
+        </message>
+        <message>
+            <source>To join notes, choose two or more of one pitch that follow one another.</source>
+            <translation>結合するには、連続する同じ音高の音符を 2 つ以上選んでください。</translation>
+        </message>
+        <message>
+            <source>There are no notes on the clipboard: copy some first.</source>
+            <translation>クリップボードに音符がありません。先にコピーしてください。</translation>
+        </message>
+        <message>
+            <source>There is no player to paste the notes to: add one first.</source>
+            <translation>貼り付け先のプレイヤーがいません。先に追加してください。</translation>
+        </message>
+        <message>
+            <source>{label}: the first choice</source>
+            <translation>{label}: 第一候補</translation>
+        </message>
+        <message>
+            <source>{label} instead of {first}: less motion in a trill at {time_ms} ms a note</source>
+            <translation>{first} の代わりに {label}: 1 音 {time_ms} ms のトリルで動きが少なくなります</translation>
+        </message>
+        <message>
+            <source>{label} instead of {first}: less motion where a note has {time_ms} ms</source>
+            <translation>{first} の代わりに {label}: 1 音が {time_ms} ms のところで動きが少なくなります</translation>
+        </message>
+        <message>
+            <source>{label}: set by hand</source>
+            <translation>{label}: 手で指定</translation>
+        </message>
+        <message>
+            <source>note {note} (MIDI {pitch}) lies outside the range {low}-{high} of this instrument; shown with the fingering of {played_pitch}</source>
+            <translation>音符 {note}(MIDI {pitch})はこの楽器の音域 {low}～{high} の外です。{played_pitch} の運指で表示します</translation>
+        </message>
+        <message>
+            <source>the way to {label} takes {needed_ms} ms, but only {available_ms} ms are free before note {note}; it starts earlier</source>
+            <translation>{label} への移動には {needed_ms} ms かかりますが、音符 {note} の前には {available_ms} ms しかありません。早めに動き始めます</translation>
+        </message>
+        <message>
+            <source>note {note} is struck together with the higher note {other}: only one can sound, and it is left out</source>
+            <translation>音符 {note} は、より高い音符 {other} と同時です。一度に 1 音しか出せないため、省きます</translation>
+        </message>
+        <message>
+            <source>note {note} still sounds for {overlap_ms} ms when {other} begins: it ends there</source>
+            <translation>音符 {note} は {other} が始まってからも {overlap_ms} ms 鳴っているため、そこで終わらせます</translation>
+        </message>
+        <message>
+            <source>the first breath, in the {beats:g} beats before the entry</source>
+            <translation>最初のブレス。入りの前の {beats:g} 拍で吸います</translation>
+        </message>
+        <message>
+            <source>a rest of {rest_beats:g} beats (from {min_beats:g} to below {last_beat_beats:g}): the breath takes all of it</source>
+            <translation>{rest_beats:g} 拍の休符({min_beats:g} 以上 {last_beat_beats:g} 未満): 休符全体でブレスします</translation>
+        </message>
+        <message>
+            <source>a rest of {rest_beats:g} beats (from {last_beat_beats:g} to below {prepare_beats:g}): the breath takes its last beat</source>
+            <translation>{rest_beats:g} 拍の休符({last_beat_beats:g} 以上 {prepare_beats:g} 未満): 最後の拍でブレスします</translation>
+        </message>
+        <message>
+            <source>a rest of {rest_beats:g} beats (from {prepare_beats:g}): prepared, then the last beat</source>
+            <translation>{rest_beats:g} 拍の休符({prepare_beats:g} 以上): 準備してから最後の拍でブレスします</translation>
+        </message>
+        <message>
+            <source>a rest of {rest_beats:g} beats (from {prepare_beats:g}): getting ready to breathe</source>
+            <translation>{rest_beats:g} 拍の休符({prepare_beats:g} 以上): ブレスの準備</translation>
+        </message>
+        <message>
+            <source>a catch breath after note {after_note}: {phrase_s:g} s without a rest ask for more than the {lung_s:g} s of a full lung; {from_note_ms:g} ms come out of that note's tail</source>
+            <translation>音符 {after_note} の後の素早いブレス: 休符なしの {phrase_s:g} 秒は、満杯の肺 {lung_s:g} 秒では足りません。その音の終わりから {from_note_ms:g} ms を使います</translation>
+        </message>
+        <message>
+            <source>from note {note} on, {phrase_s:g} s must be played on one breath; it takes {air_s:g} s of air, and there are {lung_s:g}</source>
+            <translation>音符 {note} から {phrase_s:g} 秒をひと息で吹く必要があります。{air_s:g} 秒分の息が要りますが、{lung_s:g} 秒分しかありません</translation>
+        </message>
+        <message>
+            <source>this breath, placed by hand, lies inside the sounding note {note}</source>
+            <translation>手で置いたこのブレスは、鳴っている音符 {note} の途中にあります</translation>
+        </message>
+        <message>
+            <source>starts the piece ({leader_reason}); the preparatory beat lasts {beat_s:g} s</source>
+            <translation>曲を始める合図({leader_reason})。予備拍は {beat_s:g} 秒です</translation>
+        </message>
+        <message>
+            <source>brings everyone in after {rest_s:g} s of common rest ({leader_reason}); the preparatory beat lasts {beat_s:g} s</source>
+            <translation>{rest_s:g} 秒の全休の後に全員を入れる合図({leader_reason})。予備拍は {beat_s:g} 秒です</translation>
+        </message>
+        <message>
+            <source>half a swing in {beats:g} beats of {beat_s:g} s</source>
+            <translation>{beat_s:g} 秒の拍 {beats:g} つで半往復の揺れ</translation>
+        </message>
+        <message>
+            <source>a shift of weight to the {side} foot</source>
+            <translation>{side} の足への重心移動</translation>
+        </message>
+        <message>
+            <source>the melody is around MIDI {pitch:g}; the line's mean is {mean_pitch:g}</source>
+            <translation>旋律は MIDI {pitch:g} のあたり。パートの平均は {mean_pitch:g}</translation>
+        </message>
+        <message>
+            <source>{rest_s:g} s of rest: the instrument comes down and is up again before the entry</source>
+            <translation>{rest_s:g} 秒の休み: 楽器を下ろし、入りの前に構え直します</translation>
+        </message>
+        <message>
+            <source>{after_s:g} s after the last note the instrument comes down</source>
+            <translation>最後の音から {after_s:g} 秒後に楽器を下ろします</translation>
+        </message>
+        <message>
+            <source>the entry is {rest_s:g} s away: the instrument is still down</source>
+            <translation>入りまで {rest_s:g} 秒あるため、楽器はまだ下ろしています</translation>
+        </message>
+        <message>
+            <source>MIDI {pitch} in a range of {low}-{high}, loudness {loudness:g}</source>
+            <translation>音域 {low}～{high} の中の MIDI {pitch}、音量 {loudness:g}</translation>
+        </message>
+        <message>
+            <source>the face at rest</source>
+            <translation>力を抜いた顔</translation>
+        </message>
+        <message>
+            <source>effort {effort:g} (from {threshold:g}): high, loud or long</source>
+            <translation>負担 {effort:g}({threshold:g} 以上): 高い・強い・長い音</translation>
+        </message>
+        <message>
+            <source>MIDI {pitch} lies below {easy_low} and is loud ({loudness:g})</source>
+            <translation>MIDI {pitch} は {easy_low} より低く、強い音です({loudness:g})</translation>
+        </message>
+        <message>
+            <source>gives the entry</source>
+            <translation>入りの合図を出す</translation>
+        </message>
+        <message>
+            <source>comes in after {rest_s:g} s of rest</source>
+            <translation>{rest_s:g} 秒の休みの後に入る</translation>
+        </message>
+        <message>
+            <source>the last note is over</source>
+            <translation>最後の音が終わった</translation>
+        </message>
+        <message>
+            <source>set by hand</source>
+            <translation>手で指定</translation>
+        </message>
+        <message>
+            <source>the correction ({kind}) for {anchor} has lost its place: it is kept, but does nothing</source>
+            <translation>{anchor} への修正({kind})は対象を失いました。残してありますが、効果はありません</translation>
+        </message>
+        <message>
+            <source>there is no expression {name!r}; there are: {known}</source>
+            <translation>表情 {name!r} はありません。使えるもの: {known}</translation>
+        </message>
+        <message>
+            <source>the correction ({kind}) for {anchor} ends before it begins: it is kept, but does nothing</source>
+            <translation>{anchor} への修正({kind})は、始まる前に終わっています。残してありますが、効果はありません</translation>
+        </message>
+        <message>
+            <source>the {target} was to be held {asked_deg:g} degrees ({angle}), but a body or the instrument's hold goes no further than {most_deg:g}</source>
+            <translation>{target} を {asked_deg:g} 度({angle})にする指定ですが、体や楽器の構えの限度は {most_deg:g} 度です</translation>
+        </message>
+        <message>
+            <source>{label} is not a fingering of note {note} on this instrument; the search chose</source>
+            <translation>{label} はこの楽器での音符 {note} の運指ではないため、自動で選びました</translation>
+        </message>
+        <message>
+            <source>{file} is no project file or is damaged: {detail}; the version before it was last saved may be beside it, with .bak at the end of its name</source>
+            <translation>{file} はプロジェクトファイルではないか、壊れています: {detail}。前回保存する前のものが、名前の末尾に .bak を付けて隣にあるかもしれません</translation>
+        </message>
+        <message>
+            <source>{file} cannot be opened: {place}: {detail}; put it right there in a text editor, or open the version before it was last saved, which has .bak at the end of its name</source>
+            <translation>{file} を開けません: {place}: {detail}。テキストエディターでその箇所を直すか、名前の末尾が .bak の前回保存前のものを開いてください</translation>
+        </message>
+        <message>
+            <source>{file} was saved by a newer version of the program (its file version is {version}, this program knows up to {known}); open it with the newer version</source>
+            <translation>{file} はより新しいバージョンで保存されています(ファイルのバージョン {version}、対応は {known} まで)。新しいバージョンで開いてください</translation>
+        </message>
+        <message>
+            <source>{file} is larger than the {most_mb} MB that a project can have; it is no project file</source>
+            <translation>{file} はプロジェクトの上限 {most_mb} MB を超えており、プロジェクトファイルではありません</translation>
+        </message>
+        <message>
+            <source>{file} was not saved, it could not be opened again: {place}: {detail}; undo the last edit, then save</source>
+            <translation>{file} は保存されませんでした。そのままでは開けなくなります: {place}: {detail}。直前の編集を元に戻してから保存してください</translation>
+        </message>
+        <message>
+            <source>{file} is write-protected; save it under another name or allow writing</source>
+            <translation>{file} は書き込み禁止です。別の名前で保存するか、書き込みを許可してください</translation>
+        </message>
+        <message>
+            <source>--encoding says how the texts of a MIDI file are read; {file} is a project and needs none</source>
+            <translation>--encoding は MIDI ファイルの文字の読み方を指定するものです。{file} はプロジェクトなので不要です</translation>
+        </message>
+        <message>
+            <source>{player} plays the instrument {id!r}, which is not installed; choose another one or install it</source>
+            <translation>{player} の楽器 {id!r} が入っていません。別の楽器を選ぶか、追加してください</translation>
+        </message>
+        <message>
+            <source>{player} is the character {id!r}, which is not installed; choose another one or install it</source>
+            <translation>{player} のキャラクター {id!r} が入っていません。別のキャラクターを選ぶか、追加してください</translation>
+        </message>
+        <message>
+            <source>a remark of another version of the program ({remark})</source>
+            <translation>別のバージョンのプログラムによる注記({remark})</translation>
+        </message>
+        <message>
+            <source>a tempo must be from {low:g} to {high:g} quarters per minute</source>
+            <translation>テンポは毎分 {low:g} から {high:g} 四分音符までです</translation>
+        </message>
+        <message>
+            <source>what holds from the beginning can be changed, but neither moved nor removed</source>
+            <translation>曲頭のものは変更できますが、移動や削除はできません</translation>
+        </message>
+        <message>
+            <source>no tempo begins at tick {tick}</source>
+            <translation>ティック {tick} から始まるテンポはありません</translation>
+        </message>
+        <message>
+            <source>tick {tick} lies outside every piece</source>
+            <translation>ティック {tick} は曲の範囲外です</translation>
+        </message>
+        <message>
+            <source>the piece would have more than {most} bars; choose a longer metre</source>
+            <translation>曲が {most} 小節を超えてしまいます。より長い拍子を選んでください</translation>
+        </message>
+        <message>
+            <source>no metre begins at tick {tick}</source>
+            <translation>ティック {tick} から始まる拍子はありません</translation>
+        </message>
+        <message>
+            <source>{numerator}/{denominator} is no metre; the lower number must be 1, 2, 4, 8, 16, 32 or 64</source>
+            <translation>{numerator}/{denominator} という拍子はありません。分母は 1、2、4、8、16、32、64 のいずれかです</translation>
+        </message>
+        <message>
+            <source>a pickup is shorter than a whole bar: at most {most} ticks</source>
+            <translation>弱起は 1 小節より短く、最長 {most} ティックです</translation>
+        </message>
+        <message>
+            <source>no metre can begin within the pickup; change the pickup first</source>
+            <translation>弱起の途中から拍子は始められません。先に弱起を変更してください</translation>
+        </message>
+        <message>
+            <source>{what} must be from {low:g} to {high:g}</source>
+            <translation>{what} は {low:g} から {high:g} までです</translation>
+        </message>
+        <message>
+            <source>there is no recording that an offset could belong to; choose one first</source>
+            <translation>オフセットを付ける録音がありません。先に録音を選んでください</translation>
+        </message>
+        <message>
+            <source>the path {path} cannot be kept in a project; rename the file or move it</source>
+            <translation>パス {path} はプロジェクトに保存できません。ファイル名を変えるか、移動してください</translation>
+        </message>
+        <message>
+            <source>the expression {name!r} cannot be kept: {place}: {detail}</source>
+            <translation>表情 {name!r} を保存できません: {place}: {detail}</translation>
+        </message>
+        <message>
+            <source>an expression needs a name that can be seen</source>
+            <translation>表情には、目に見える名前が必要です</translation>
+        </message>
+        <message>
+            <source>there is an expression {name!r} already; choose another name</source>
+            <translation>表情 {name!r} はすでにあります。別の名前にしてください</translation>
+        </message>
+        <message>
+            <source>there is no expression {name!r} of your own in this project</source>
+            <translation>このプロジェクトに、自作の表情 {name!r} はありません</translation>
+        </message>
+        <message>
+            <source>a correction of this kind ({kind}) belongs to no note</source>
+            <translation>この種類の修正({kind})は音符に付くものではありません</translation>
+        </message>
+        <message>
+            <source>the player does not play the note {note}; choose one of theirs</source>
+            <translation>このプレイヤーは音符 {note} を演奏しません。このプレイヤーの音符を選んでください</translation>
+        </message>
+        <message>
+            <source>a preset needs a name that can be seen</source>
+            <translation>プリセットには、目に見える名前が必要です</translation>
+        </message>
+        <message>
+            <source>there is no preset {name!r}</source>
+            <translation>プリセット {name!r} はありません</translation>
+        </message>
+        <message>
+            <source>{file}: {place}: {detail}</source>
+            <translation>{file}: {place}: {detail}</translation>
+        </message>
+        <message>
+            <source>--set {text}: expected PLAYER.parameter=value</source>
+            <translation>--set {text}: 「プレイヤー.パラメーター=値」の形で指定してください</translation>
+        </message>
+        <message>
+            <source>--set: there is no player {player!r}; there are: {possible}</source>
+            <translation>--set: プレイヤー {player!r} はいません。指定できるもの: {possible}</translation>
+        </message>
+        <message>
+            <source>--set: there is no parameter {parameter!r}; there are: {possible}</source>
+            <translation>--set: パラメーター {parameter!r} はありません。指定できるもの: {possible}</translation>
+        </message>
+        <message>
+            <source>--set: {parameter} cannot be {value!r}; possible: {possible}</source>
+            <translation>--set: {parameter} に {value!r} は指定できません。指定できる値: {possible}</translation>
+        </message>
+        <message>
+            <source>there is no player {player!r}; there are: {possible}</source>
+            <translation>プレイヤー {player!r} はいません。指定できるもの: {possible}</translation>
+        </message>
+        <message>
+            <source>there are no bars {first} to {last}; the piece has {lowest} to {highest}</source>
+            <translation>{first} から {last} の小節はありません。この曲は {lowest} から {highest} までです</translation>
+        </message>
+        <message>
+            <source>{file}: there is nobody to export; 'suisou inspect' says why each part is not played</source>
+            <translation>{file}: 書き出すプレイヤーがいません。演奏されない理由は「suisou inspect」で分かります</translation>
+        </message>
+        <message>
+            <source>{file}: {frames} frames are more than the {most} that one export holds; take some bars with --from-bar and --to-bar</source>
+            <translation>{file}: {frames} フレームは一度に書き出せる {most} を超えています。--from-bar と --to-bar で小節を絞ってください</translation>
+        </message>
+        <message>
+            <source>the piece lasts {hours:g} hours; at most {most_hours} can be played</source>
+            <translation>曲の長さが {hours:g} 時間あります。扱えるのは {most_hours} 時間までです</translation>
+        </message>
+        <message>
+            <source>{file} is a recording; open the piece that it belongs to first, then drop it again</source>
+            <translation>{file} は録音です。先に曲を開いてから、もう一度ドロップしてください</translation>
+        </message>
+        <message>
+            <source>something went wrong in the program: {detail}; your work was written down; please report this with the file {log}</source>
+            <translation>プログラムで問題が起きました: {detail}。作業内容は書き留めてあります。ファイル {log} を添えてご報告ください</translation>
+        </message>
+        <message>
+            <source>stopped; nothing was written</source>
+            <translation>中止しました。何も書き込んでいません</translation>
+        </message>
+        <message>
+            <source>{file} is empty</source>
+            <translation>{file} は空です</translation>
+        </message>
+        <message>
+            <source>{file} is not a MIDI file: byte {byte} has {found} where the header MThd belongs</source>
+            <translation>{file} は MIDI ファイルではありません: ヘッダー MThd があるべきバイト {byte} が {found} です</translation>
+        </message>
+        <message>
+            <source>{file} ends within its header, at byte {byte}</source>
+            <translation>{file} がヘッダーの途中(バイト {byte})で終わっています</translation>
+        </message>
+        <message>
+            <source>{file}: the time division at byte {byte} is 0, so the notes have no times</source>
+            <translation>{file}: バイト {byte} の分解能が 0 のため、音符の時間が決まりません</translation>
+        </message>
+        <message>
+            <source>{file} has no track: byte {byte} has {found} where a track MTrk belongs</source>
+            <translation>{file} にトラックがありません: トラック MTrk があるべきバイト {byte} が {found} です</translation>
+        </message>
+        <message>
+            <source>{file}: there is no text encoding {encoding!r}</source>
+            <translation>{file}: 文字コード {encoding!r} はありません</translation>
+        </message>
+        <message>
+            <source>{file}: track {track}, which begins at byte {byte}, cannot be read: {detail}</source>
+            <translation>{file}: バイト {byte} から始まるトラック {track} を読み込めません: {detail}</translation>
+        </message>
+        <message>
+            <source>the header says that it is {length} bytes long and is not (byte {byte}); its first 6 bytes were taken</source>
+            <translation>ヘッダーの長さが {length} バイトとありますが、違います(バイト {byte})。先頭の 6 バイトを使いました</translation>
+        </message>
+        <message>
+            <source>the file says it has the unknown format {format}; its tracks were taken as simultaneous</source>
+            <translation>不明なフォーマット {format} のファイルです。トラックは同時に鳴るものとして読みました</translation>
+        </message>
+        <message>
+            <source>the file says it has one track (format 0) and has {tracks}; they were taken as simultaneous</source>
+            <translation>トラックが 1 つ(フォーマット 0)のはずですが、{tracks} あります。同時に鳴るものとして読みました</translation>
+        </message>
+        <message>
+            <source>the length of track {track} (byte {byte}) is wrong; the track was read up to its real end</source>
+            <translation>トラック {track} の長さ(バイト {byte})が誤っています。実際の終わりまで読みました</translation>
+        </message>
+        <message>
+            <source>the header promises {expected} tracks, the file has {found}</source>
+            <translation>ヘッダーには {expected} トラックとありますが、実際は {found} です</translation>
+        </message>
+        <message>
+            <source>{count} bytes after the last track, from byte {byte}, are no part of a MIDI file and were left out</source>
+            <translation>最後のトラックの後、バイト {byte} からの {count} バイトは MIDI の内容ではないため省きました</translation>
+        </message>
+        <message>
+            <source>track {track} breaks off within an event at byte {byte}; what came before was read</source>
+            <translation>トラック {track} はバイト {byte} のイベントの途中で切れています。その前までを読みました</translation>
+        </message>
+        <message>
+            <source>{count} bytes of track {track} are no MIDI events and were left out, the first at byte {byte}</source>
+            <translation>トラック {track} の {count} バイトは MIDI イベントではないため省きました(最初はバイト {byte})</translation>
+        </message>
+        <message>
+            <source>the file counts time in frames of 1/{rate} s, which is no SMPTE rate; it was taken literally</source>
+            <translation>時間の単位が 1/{rate} 秒で、SMPTE にはない値です。そのまま使いました</translation>
+        </message>
+        <message>
+            <source>the file has {patterns} independent patterns (format 2); they follow one another</source>
+            <translation>独立した {patterns} 個のパターン(フォーマット 2)です。続けて並べました</translation>
+        </message>
+        <message>
+            <source>{count} notes of track {track} never end; they end with the track</source>
+            <translation>トラック {track} の {count} 音には終わりがないため、トラックの終わりまでとしました</translation>
+        </message>
+        <message>
+            <source>{count} notes of track {track} have no length; they last one tick</source>
+            <translation>トラック {track} の {count} 音には長さがないため、1 ティックとしました</translation>
+        </message>
+        <message>
+            <source>track {track} has an impossible time signature at tick {tick}; it was left out</source>
+            <translation>トラック {track} のティック {tick} の拍子はあり得ない値のため省きました</translation>
+        </message>
+        <message>
+            <source>track {track} has an impossible tempo at tick {tick}; it was left out</source>
+            <translation>トラック {track} のティック {tick} のテンポはあり得ない値のため省きました</translation>
+        </message>
+        <message>
+            <source>there is no instrument map for {instrument} yet</source>
+            <translation>{instrument} のインストゥルメントマップはまだありません</translation>
+        </message>
+        <message>
+            <source>left out on import</source>
+            <translation>読み込み時に外しました</translation>
+        </message>
+        <message>
+            <source>{instrument} is percussion</source>
+            <translation>{instrument} は打楽器です</translation>
+        </message>
+        <message>
+            <source>{instrument} is not a wind instrument</source>
+            <translation>{instrument} は管楽器ではありません</translation>
+        </message>
+        <message>
+            <source>neither its name nor its program says what it is, and no instrument map reaches its notes (MIDI {lowest} to {highest})</source>
+            <translation>名前からもプログラム番号からも楽器が分からず、音域(MIDI {lowest}～{highest})に合うマップもありません</translation>
+        </message>
+        <message>
+            <source>{part}: there is no instrument map for {instrument}; {map} plays it instead</source>
+            <translation>{part}: {instrument} のマップがないため、{map} で代わりに演奏します</translation>
+        </message>
+        <message>
+            <source>{part}: neither its name nor its program says what it is; {map} plays it because the range fits</source>
+            <translation>{part}: 名前からもプログラム番号からも楽器が分かりません。音域が合う {map} で演奏します</translation>
+        </message>
+        <message>
+            <source>{part}: neither its name nor its program says what it is; {map} plays it, though {outside} of {total} notes lie outside its range</source>
+            <translation>{part}: 名前からもプログラム番号からも楽器が分かりません。{map} で演奏しますが、{total} 音中 {outside} 音が音域外です</translation>
+        </message>
+        <message>
+            <source>{part}: up to {voices} notes sound together, so {voices} players share it</source>
+            <translation>{part}: 最大 {voices} 音が重なるため、{voices} 人で分担します</translation>
+        </message>
+        <message>
+            <source>{file}: {detail}</source>
+            <translation>{file}: {detail}</translation>
+        </message>
+        <message>
+            <source>{file} is not a glTF 2.0 file</source>
+            <translation>{file} は glTF 2.0 ファイルではありません</translation>
+        </message>
+        <message>
+            <source>{file} is damaged: {what} is wrong</source>
+            <translation>{file} が壊れています: {what} が正しくありません</translation>
+        </message>
+        <message>
+            <source>{file} needs the file {uri} beside it; only files that hold everything themselves are read</source>
+            <translation>{file} には別ファイル {uri} が必要です。すべてを含む単独のファイルだけを読み込めます</translation>
+        </message>
+        <message>
+            <source>{file} uses {what}, which is not supported</source>
+            <translation>{file} は未対応の {what} を使っています</translation>
+        </message>
+        <message>
+            <source>{file} describes more data than any character has</source>
+            <translation>{file} のデータ量は、キャラクターとしてあり得ない大きさです</translation>
+        </message>
+        <message>
+            <source>{file} is not valid; problems: {count}</source>
+            <translation>{file} に問題が {count} 件あります</translation>
+        </message>
+        <message>
+            <source>{file}: cannot be read: {detail}</source>
+            <translation>{file}: 読み込めません: {detail}</translation>
+        </message>
+        <message>
+            <source>{file}, line {line}, column {column}: {detail}</source>
+            <translation>{file}、{line} 行 {column} 桁: {detail}</translation>
+        </message>
+        <message>
+            <source>{file}: {path}: {detail}</source>
+            <translation>{file}: {path}: {detail}</translation>
+        </message>
+        <message>
+            <source>there is no instrument map named {id!r}</source>
+            <translation>{id!r} というインストゥルメントマップはありません</translation>
+        </message>
+        <message>
+            <source>there is no {kind} named {name!r}; there are: {known}</source>
+            <translation>{kind} に {name!r} はありません。使えるもの: {known}</translation>
+        </message>
+        <message>
+            <source>{file}: {key}: {detail}</source>
+            <translation>{file}: {key}: {detail}</translation>
+        </message>
+        <message>
+            <source>there is no character named {id!r}; there are: {known}</source>
+            <translation>{id!r} というキャラクターはありません。使えるもの: {known}</translation>
+        </message>
+        <message>
+            <source>the character {id!r} lacks what playing needs: {missing}</source>
+            <translation>キャラクター {id!r} には演奏に必要なものがありません: {missing}</translation>
+        </message>
+        <message>
+            <source>opening</source>
+            <translation>開いています</translation>
+        </message>
+        <message>
+            <source>saving</source>
+            <translation>保存しています</translation>
+        </message>
+        <message>
+            <source>writing unsaved work down</source>
+            <translation>自動保存しています</translation>
+        </message>
+        <message>
+            <source>planning what {players} players do</source>
+            <translation>{players} 人の演奏を組み立てています</translation>
+        </message>
+        <message>
+            <source>loading the players' figures</source>
+            <translation>キャラクターを読み込んでいます</translation>
+        </message>
+        <message>
+            <source>what the generator would do for {player}</source>
+            <translation>{player} の自動生成の結果を調べています</translation>
+        </message>
+        <message>
+            <source>writing the files</source>
+            <translation>ファイルを書き出しています</translation>
+        </message>
+        <message>
+            <source>making the film</source>
+            <translation>動画を作っています</translation>
+        </message>
+    </context>
+</TS>
