@@ -112,7 +112,8 @@ def pose_limits(
         twist.append(tuple(limit / share for limit in limits[joint].twist_deg))
     if target != "bell":
         ranges = {"up_deg": flexion, "left_deg": twist, "roll_deg": sideways}
-        return {angle: _narrowest([*rows, HANDS_FOLLOW_DEG[target][angle]]) for angle, rows in ranges.items()}
+        own = HANDS_FOLLOW_DEG[target]
+        return {angle: _narrowest((*rows, own[angle])) for angle, rows in ranges.items()}
     carriage = instrument.hold.seated if parameters.posture == "seated" else instrument.hold.standing
     low, usual, high = carriage.pitch_down_deg
     share = BELL_ROOM / BELL_UP["bell"]

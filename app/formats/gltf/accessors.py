@@ -12,9 +12,9 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-import pygltflib
 
 from app.errors import FileError
+from app.formats.gltf.container import field
 from app.formats.gltf.model import FloatArray, IntArray
 
 _COMPONENTS = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
@@ -32,11 +32,12 @@ _HARMLESS = ("KHR_materials_", "KHR_texture_transform", "VRMC_", "VRM")
 class Accessors:
     """A document and its bytes; every method raises FileError for what is not as it should be."""
 
-    def __init__(self, document: pygltflib.GLTF2, file: str) -> None:
+    def __init__(self, document: dict[str, Any], binary: bytes | None, file: str) -> None:
         self.document = document
+        self._binary = binary
         self.file = file
         self._taken = 0
-        required = document.extensionsRequired
+        required = document.get("extensionsRequired")
         for name in required if isinstance(required, list) else []:
             if not str(name).startswith(_HARMLESS):
                 raise FileError("gltf.unsupported", file=file, what=str(name))
@@ -48,7 +49,7 @@ class Accessors:
         return FileError("gltf.damaged", file=self.file, what=what)
 
     def items(self, name: str, owner: object = None) -> list[Any]:
-        values = getattr(self.document if owner is None else owner, name, None)
+        values = field(self.document if owner is None else owner, name)
         if values is None:
             return []
         if not isinstance(values, list) or any(value is None for value in values):
@@ -56,16 +57,16 @@ class Accessors:
         return values
 
     def mapping(self, owner: object, name: str) -> dict[str, Any]:
-        values = getattr(owner, name, None)
+        values = field(owner, name)
         return values if isinstance(values, dict) else {}
 
     def text(self, owner: object, name: str, otherwise: str) -> str:
-        value = getattr(owner, name, None)
+        value = field(owner, name)
         return value if isinstance(value, str) and value else otherwise
 
     def number(self, owner: object, name: str, otherwise: int | None = None) -> int:
         """A count, offset or code: an integer that is not negative."""
-        value = getattr(owner, name, None)
+        value = field(owner, name)
         if value is None and otherwise is not None:
             return otherwise
         if not isinstance(value, int) or isinstance(value, bool) or value < 0:
@@ -78,11 +79,11 @@ class Accessors:
         return value
 
     def optional_index(self, owner: object, name: str, count: int) -> int | None:
-        value = getattr(owner, name, None)
+        value = field(owner, name)
         return None if value is None else self.index(value, count, name)
 
     def floats(self, owner: object, name: str, otherwise: tuple[float, ...]) -> tuple[float, ...]:
-        values = getattr(owner, name, None)
+        values = field(owner, name)
         if values is None or values == []:
             return otherwise
         return self.finite(values, len(otherwise), name)
@@ -97,9 +98,9 @@ class Accessors:
     # ------------------------------------------------------------------------------------- buffers and accessors
 
     def _buffer(self, buffer: object, index: int) -> bytes:
-        uri = getattr(buffer, "uri", None)
+        uri = field(buffer, "uri")
         if uri is None:
-            data = self.document.binary_blob() if index == 0 else None
+            data = self._binary if index == 0 else None
         elif isinstance(uri, str) and uri.startswith("data:"):
             try:
                 data = base64.b64decode(uri.partition(",")[2], validate=True)
@@ -120,7 +121,7 @@ class Accessors:
         """Elements (count, width) of a buffer view, from an offset in bytes; a copy."""
         views = self.items("bufferViews")
         view = views[self.index(number, len(views), "bufferView")]
-        buffer = self._buffers[self.index(getattr(view, "buffer", None), len(self._buffers), "buffer")]
+        buffer = self._buffers[self.index(field(view, "buffer"), len(self._buffers), "buffer")]
         start, length = self.number(view, "byteOffset", 0), self.number(view, "byteLength")
         element = dtype.itemsize * width
         stride = self.number(view, "byteStride", 0) or element
@@ -144,26 +145,26 @@ class Accessors:
 
     def _sparse(self, accessor: object, dtype: np.dtype[Any], width: int, count: int) -> tuple[IntArray, Any]:
         """Changed elements of an accessor and their values."""
-        sparse = getattr(accessor, "sparse", None)
+        sparse = field(accessor, "sparse")
         if sparse is None:
             return np.empty(0, dtype=np.int64), np.empty((0, width), dtype)
         changed = self.number(sparse, "count")
-        places, values = getattr(sparse, "indices", None), getattr(sparse, "values", None)
+        places, values = field(sparse, "indices"), field(sparse, "values")
         index_type = _COMPONENTS.get(self.number(places, "componentType"))
         if index_type not in ("<u1", "<u2", "<u4"):
             raise self.damaged("sparse indices")
         offset = self.number(places, "byteOffset", 0)
-        indices = self._view(getattr(places, "bufferView", None), offset, changed, np.dtype(index_type), 1)
+        indices = self._view(field(places, "bufferView"), offset, changed, np.dtype(index_type), 1)
         rows = indices[:, 0].astype(np.int64)
         if changed and (rows[-1] >= count or (np.diff(rows) <= 0).any()):
             raise self.damaged("sparse indices")
         offset = self.number(values, "byteOffset", 0)
-        return rows, self._view(getattr(values, "bufferView", None), offset, changed, dtype, width)
+        return rows, self._view(field(values, "bufferView"), offset, changed, dtype, width)
 
     def _scaled(self, accessor: object, values: npt.NDArray[Any]) -> FloatArray:
         """Numbers that are meant: integers may stand for fractions."""
         result = values.astype(np.float64)
-        if getattr(accessor, "normalized", False) is True and values.dtype.kind != "f":
+        if field(accessor, "normalized") is True and values.dtype.kind != "f":
             result = np.maximum(result / np.iinfo(values.dtype).max, -1.0)
         if not np.isfinite(result).all():
             raise self.damaged("accessor value")
@@ -172,14 +173,14 @@ class Accessors:
     def _elements(self, number: object) -> tuple[object, npt.NDArray[Any]]:
         accessor, dtype, width, count = self._accessor(number)
         rows, changed = self._sparse(accessor, dtype, width, count)
-        if getattr(accessor, "bufferView", None) is None:
+        if field(accessor, "bufferView") is None:
             if count > _MOST_ZEROS:
                 raise FileError("gltf.too_large", file=self.file)
             self._take(count * width * dtype.itemsize)
             values = np.zeros((count, width), dtype)
         else:
             offset = self.number(accessor, "byteOffset", 0)
-            values = self._view(accessor.bufferView, offset, count, dtype, width)
+            values = self._view(field(accessor, "bufferView"), offset, count, dtype, width)
         values[rows] = changed
         return accessor, values
 
@@ -202,7 +203,7 @@ class Accessors:
         accessor, dtype, width, length = self._accessor(number)
         if width != 3 or length != count:
             raise self.damaged("morph target")
-        if getattr(accessor, "bufferView", None) is None:
+        if field(accessor, "bufferView") is None:
             rows, values = self._sparse(accessor, dtype, width, length)
             deltas = self._scaled(accessor, values)
         else:

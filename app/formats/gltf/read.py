@@ -1,7 +1,7 @@
 """glTF 2.0 files (``.glb``, or ``.gltf`` with everything inside) -> plain values.
 
-pygltflib reads the container and the document; here every index, offset and size is checked before any byte is
-touched, since characters come from anywhere. Nothing outside the file is ever opened. Units stay glTF's: metres,
+Every index, offset and size is checked before any byte is touched, since characters come from anywhere. Nothing outside
+the file is ever opened. Units stay glTF's: metres,
 right-handed, Y up, quaternions xyzw. Source: Khronos, "glTF 2.0 Specification", sections 3.6 (buffers and accessors),
 3.7 (geometry, skins, morph targets) and 4 (GLB).
 
@@ -17,15 +17,14 @@ from __future__ import annotations
 
 import math
 import os
-import warnings
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pygltflib
 
 from app.errors import FileError
 from app.formats.gltf.accessors import Accessors
+from app.formats.gltf.container import field, split
 from app.formats.gltf.model import (
     FloatArray,
     GltfMaterial,
@@ -59,7 +58,7 @@ def read_glb(path: str | os.PathLike[str]) -> GltfModel:
 
 def decode_gltf(data: bytes, file: str) -> GltfModel:
     """Model of a file's bytes, as `read_glb`."""
-    reader = _Reader(_document(data, file), file)
+    reader = _Reader(*split(data, file), file)
     return GltfModel(
         nodes=reader.nodes(),
         meshes=tuple(reader.mesh(mesh, index) for index, mesh in enumerate(reader.items("meshes"))),
@@ -69,21 +68,6 @@ def decode_gltf(data: bytes, file: str) -> GltfModel:
         extras=reader.mapping(reader.document, "extras"),
         scene_extras=reader.scene_extras(),
     )
-
-
-def _document(data: bytes, file: str) -> pygltflib.GLTF2:
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # unknown chunks are to be skipped, says the specification
-            if data[:4] == b"glTF":
-                document = pygltflib.GLTF2.load_from_bytes(data)
-            else:
-                document = pygltflib.GLTF2.gltf_from_json(data.decode("utf-8"))
-    except Exception as error:  # the library promises nothing about damaged files
-        raise FileError("gltf.not_gltf", file=file) from error
-    if not isinstance(document, pygltflib.GLTF2) or not str(getattr(document.asset, "version", "")).startswith("2."):
-        raise FileError("gltf.not_gltf", file=file)
-    return document
 
 
 class _Reader(Accessors):
@@ -103,8 +87,7 @@ class _Reader(Accessors):
         )
 
     def _primitive(self, primitive: object, names: list[str]) -> GltfPrimitive:
-        raw = getattr(primitive, "attributes", None)
-        attributes = vars(raw) if isinstance(raw, pygltflib.Attributes) else {}
+        attributes = self.mapping(primitive, "attributes")
         positions = self.real(attributes.get("POSITION"), 3)
         count = len(positions)
 
@@ -138,7 +121,7 @@ class _Reader(Accessors):
         )
 
     def _triangles(self, primitive: object, count: int) -> IntArray:
-        number = getattr(primitive, "indices", None)
+        number = field(primitive, "indices")
         if number is None:
             indices = np.arange(count)
         else:
@@ -159,7 +142,7 @@ class _Reader(Accessors):
         raise FileError("gltf.unsupported", file=self.file, what="points or lines")
 
     def _morph(self, target: object, name: str, count: int) -> GltfMorph:
-        attributes = target if isinstance(target, dict) else getattr(target, "__dict__", {})
+        attributes = target if isinstance(target, dict) else {}
         rows, deltas = np.empty(0, dtype=np.int64), np.empty((0, 3))
         if attributes.get("POSITION") is not None:
             rows, deltas = self.changes(attributes["POSITION"], count)
@@ -176,7 +159,7 @@ class _Reader(Accessors):
         nodes = self.items("nodes")
         joints = tuple(self.index(joint, len(nodes), "skin joint") for joint in self.items("joints", skin))
         matrices = np.tile(np.eye(4), (len(joints), 1, 1))
-        number = getattr(skin, "inverseBindMatrices", None)
+        number = field(skin, "inverseBindMatrices")
         if number is not None:
             values = self.real(number, 16)
             if len(values) < len(joints):
@@ -186,11 +169,11 @@ class _Reader(Accessors):
         return GltfSkin(self.text(skin, "name", ""), joints, matrices)
 
     def material(self, material: object) -> GltfMaterial:
-        surface = getattr(material, "pbrMetallicRoughness", None)
+        surface = field(material, "pbrMetallicRoughness")
         red, green, blue, alpha = self.floats(surface, "baseColorFactor", (1.0, 1.0, 1.0, 1.0))
         emissive = self.floats(material, "emissiveFactor", (0.0, 0.0, 0.0))
         metallic, roughness = (
-            1.0 if getattr(surface, name, None) is None else self.finite([getattr(surface, name)], 1, name)[0]
+            1.0 if field(surface, name) is None else self.finite([field(surface, name)], 1, name)[0]
             for name in ("metallicFactor", "roughnessFactor")
         )
         return GltfMaterial(
@@ -200,12 +183,12 @@ class _Reader(Accessors):
             roughness=roughness,
             emissive_rgb=(emissive[0], emissive[1], emissive[2]),
             alpha_mode=self.text(material, "alphaMode", "OPAQUE"),
-            double_sided=getattr(material, "doubleSided", False) is True,
+            double_sided=field(material, "doubleSided") is True,
         )
 
     def nodes(self) -> tuple[GltfNode, ...]:
         nodes = self.items("nodes")
-        if not nodes:  # the library takes any JSON for a document without anything
+        if not nodes:
             raise self.damaged("nodes")
         parents = [-1] * len(nodes)
         for number, node in enumerate(nodes):
@@ -235,8 +218,8 @@ class _Reader(Accessors):
         if length < 1e-6:
             raise self.damaged("rotation")
         rotation = rotation / length
-        if getattr(node, "matrix", None):
-            entries: FloatArray = np.array(self.finite(getattr(node, "matrix", None), 16, "matrix"))
+        if field(node, "matrix"):
+            entries: FloatArray = np.array(self.finite(field(node, "matrix"), 16, "matrix"))
             matrix = entries.reshape(4, 4).T
             translation, rotation, scale = self._parts(matrix)
         return GltfNode(
@@ -278,4 +261,4 @@ class _Reader(Accessors):
         scenes = self.items("scenes")
         if not scenes:
             return {}
-        return self.mapping(scenes[self.index(self.document.scene or 0, len(scenes), "scene")], "extras")
+        return self.mapping(scenes[self.index(field(self.document, "scene") or 0, len(scenes), "scene")], "extras")

@@ -1,0 +1,53 @@
+"""The outer layer of a glTF file: its JSON document and the bytes beside it.
+
+Source: Khronos, "glTF 2.0 Specification", section 4 (GLB). Read here and not by a library because those make an object
+of every accessor of a character with hundreds of morph targets, which takes longer than everything else.
+"""
+
+from __future__ import annotations
+
+import json
+import struct
+from typing import Any
+
+from app.errors import FileError
+
+_MAGIC = b"glTF"
+_JSON, _BINARY = 0x4E4F534A, 0x004E4942
+
+
+def field(owner: object, name: str) -> Any:
+    """A member of a JSON object; None where there is none, or no object."""
+    return owner.get(name) if isinstance(owner, dict) else None
+
+
+def split(data: bytes, file: str) -> tuple[dict[str, Any], bytes | None]:
+    """The document of a file and its binary chunk, if it has one. Raises FileError."""
+    text, binary = (data, None) if data[:4] != _MAGIC else _chunks(data, file)
+    try:
+        document = json.loads(text.decode("utf-8-sig"))
+    except (ValueError, RecursionError) as error:
+        raise FileError("gltf.not_gltf", file=file) from error
+    version = field(field(document, "asset"), "version")
+    if not isinstance(document, dict) or not str(version).startswith("2."):
+        raise FileError("gltf.not_gltf", file=file)
+    return document, binary
+
+
+def _chunks(data: bytes, file: str) -> tuple[bytes, bytes | None]:
+    """The JSON chunk and the first binary one; others are to be skipped, says the specification."""
+    kinds: dict[int, bytes] = {}
+    if len(data) < 12 or struct.unpack_from("<I", data, 4)[0] != 2:
+        raise FileError("gltf.not_gltf", file=file)
+    end, at = min(struct.unpack_from("<I", data, 8)[0], len(data)), 12
+    while at + 8 <= end:
+        length, kind = struct.unpack_from("<II", data, at)
+        if at + 8 + length > end:
+            raise FileError("gltf.damaged", file=file, what="chunk")
+        if not kinds and kind != _JSON:
+            break
+        kinds.setdefault(kind, data[at + 8 : at + 8 + length])
+        at += 8 + length
+    if _JSON not in kinds:
+        raise FileError("gltf.not_gltf", file=file)
+    return kinds[_JSON], kinds.get(_BINARY)
