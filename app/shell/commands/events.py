@@ -27,7 +27,6 @@ from app.project.edit.events import (
 from app.project.edit.notes import erase
 from app.project.model import Project
 from app.shell.action import QT_TRANSLATE_NOOP, Action
-from app.shell.commands import fingerings, problems
 from app.shell.commands.chosen import events_by_player, notes_by_player, plan_of
 from widgets.common.selection import EventKey, Selection
 from widgets.common.session import Session
@@ -361,6 +360,4 @@ ACTIONS: tuple[Action, ...] = (
     _kind("weight_shift", QT_TRANSLATE_NOOP("Action", "Weight Shift")),
     _kind("bell_height", QT_TRANSLATE_NOOP("Action", "Bell Height")),
     _kind("lower_instrument", QT_TRANSLATE_NOOP("Action", "Lower the Instrument")),
-    *fingerings.ACTIONS,
-    *problems.ACTIONS,
 )
