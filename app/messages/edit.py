@@ -21,6 +21,11 @@ TEMPLATES: Final[dict[str, str]] = {
     "edit.toggle_preparation": "preparation on or off",
     "edit.remove_events": "delete {count} events",
     "edit.give_back": "back to the generator's",
+    "edit.change_expression": "face of {expression}",
+    "edit.own_expression": "an expression made from {expression}",
+    "edit.rename_expression": "rename an expression",
+    "edit.remove_expression": "remove {expression}",
+    "expression.kept": "{name} is kept for other projects",
     "edit.reattach": "re-attach a correction",
     "edit.give_back_player": "revert all corrections of {player}",
     "edit.set_offset": "offset of the recording",
@@ -68,4 +73,5 @@ TEMPLATES: Final[dict[str, str]] = {
     "edit.apply_preset": "preset {preset} for players: {count}",
     "player.too_many": "a project can have {most} players",
     "player.no_name": "a name must have at least one sign that can be seen",
+    "edit.reimport": "re-import the MIDI file",
 }

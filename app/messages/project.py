@@ -50,6 +50,7 @@ TEMPLATES: Final[dict[str, str]] = {
     "expression.none_of_name": "there is no expression {name!r} of your own in this project",
     # Presets
     # Re-import
+    "reimport.done": "the MIDI file is taken in; notes found again: {kept}, corrections without a note: {lost}",
     "reimport.no_note": "a correction of this kind ({kind}) belongs to no note",
     "reimport.not_played": "the player does not play the note {note}; choose one of theirs",
     "preset.no_name": "a preset needs a name that can be seen",

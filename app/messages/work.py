@@ -11,6 +11,7 @@ TEMPLATES: Final[dict[str, str]] = {
     "work.plan": "planning what {players} players do",
     "work.load_figures": "loading the players' figures",
     "work.compare": "what the generator would do for {player}",
+    "work.reimport": "reading the MIDI file again",
     "work.export": "writing the files",
     "work.playblast": "making the film",
 }

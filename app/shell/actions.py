@@ -19,6 +19,7 @@ from widgets.common.text import message_text
 
 SUBJECTS: Final = (
     "file",
+    "exchange",
     "edit",
     "notes",
     "fingerings",

@@ -49,6 +49,15 @@ class Settings:
         self._file.sync()
 
     @property
+    def export_folder(self) -> str:
+        """Where files were exported to last; empty: nowhere yet."""
+        return self._get("export/folder", "")
+
+    @export_folder.setter
+    def export_folder(self, value: str) -> None:
+        self._set("export/folder", value)
+
+    @property
     def language(self) -> str:
         """``"en"``, ``"ja"``; empty: the system's."""
         return self._get("interface/language", "")

@@ -1,0 +1,149 @@
+"""Commands that exchange files with other programs: a changed MIDI file in, players and films out."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from PySide6.QtCore import QCoreApplication
+
+from app.audio.mix import mixdown
+from app.errors import AppError, Message
+from app.project.model import Project, map_choices
+from app.project.reimport import Reimport, reimport
+from app.score.read import read_midi
+from app.shell.action import QT_TRANSLATE_NOOP, Action
+from app.shell.editor import editor_of
+from app.shell.files import MIDI_SUFFIXES
+from app.version import program_version
+from instrument_maps.load import all_maps
+from widgets.common.session import Session, Severity
+from widgets.common.tasks import Progress, StopWanted
+from widgets.dialogs.export_files import ExportDialog
+from widgets.dialogs.playblast import PlayblastDialog
+from widgets.dialogs.reimport_midi import ReimportDialog
+from widgets.inspector.words import correction_title
+
+
+def read_again(session: Session) -> None:
+    """Read the project's MIDI file once more; one that is not there any more is asked for."""
+    source = Path(session.project.source) if session.project.source else None
+    if source is not None and source.is_file():
+        reimport_from(session, source)
+    else:
+        read_another(session)
+
+
+def read_another(session: Session) -> None:
+    """Ask for a newer version of the piece's MIDI file and take it in."""
+    editor = editor_of(session)
+    translate = QCoreApplication.translate
+    kinds = f"{translate('Files', 'MIDI files')} ({' '.join(f'*{suffix}' for suffix in MIDI_SUFFIXES)})"
+    path = editor.questions.open_file(translate("Files", "Re-import MIDI"), editor.files.folder, kinds)
+    if path is not None:
+        reimport_from(session, path)
+
+
+def reimport_from(session: Session, path: Path) -> None:
+    """Show what a MIDI file changes in the piece, and change it if the person agrees."""
+    project = session.project
+
+    def work(progress: Progress, stop_wanted: StopWanted) -> Reimport:
+        maps = all_maps()
+        score = read_midi(path, maps=map_choices(maps.values()))
+        return reimport(project, score, maps, str(path))
+
+    def done(outcome: Reimport) -> None:
+        if session.project is not project:
+            # Edited meanwhile: what was worked out is of another piece.
+            reimport_from(session, path)
+            return
+        window = editor_of(session).window
+        dialog = ReimportDialog(project, outcome, path.name, correction_title, session.tokens, window)
+        dialog.accepted.connect(lambda: _take(session, project, outcome))
+        dialog.open()
+
+    def failed(error: AppError) -> None:
+        session.notice(error.message, Severity.ERROR)
+
+    session.tasks.run(Message("work.reimport"), work, done, failed, key="reimport")
+
+
+def _take(session: Session, before: Project, outcome: Reimport) -> None:
+    if session.project is before:
+        session.apply(Message("edit.reimport"), outcome.project)
+        session.notice(
+            Message("reimport.done", {"kept": sum(part.kept for part in outcome.parts), "lost": len(outcome.orphans)})
+        )
+
+
+def export_files(session: Session) -> None:
+    """Ask what to export, and write it."""
+    editor = editor_of(session)
+    folder = editor.settings.export_folder or str(Path(editor.files.folder) / "export")
+    dialog = ExportDialog(session, Path(folder), editor.files.name, f"Suisou {program_version()}", editor.window)
+    dialog.exported.connect(lambda chosen: setattr(editor.settings, "export_folder", str(chosen)))
+    dialog.show()
+
+
+def playblast(session: Session) -> None:
+    """Ask for a film of the viewport, and make it."""
+    editor = editor_of(session)
+    path = Path(editor.files.folder) / f"{Path(editor.files.name).stem}.mp4"
+    project = session.project
+    dialog = PlayblastDialog(
+        session,
+        editor.window.viewport.render_image,
+        lambda start_s, end_s, rate: mixdown(project, start_s, end_s, rate),
+        path,
+        editor.window,
+    )
+    dialog.show()
+
+
+def _can_export(session: Session) -> bool:
+    return bool(session.project.players) and editor_of(session).files.is_open
+
+
+def _can_film(session: Session) -> bool:
+    return _can_export(session) and editor_of(session).window.viewport.has_gl
+
+
+def _is_open(session: Session) -> bool:
+    return editor_of(session).files.is_open
+
+
+ACTIONS: tuple[Action, ...] = (
+    Action(
+        "file.reimport",
+        QT_TRANSLATE_NOOP("Action", "Read the MIDI File Again..."),
+        read_again,
+        "File",
+        "Ctrl+Shift+I",
+        enabled=_is_open,
+    ),
+    Action(
+        "file.reimport_other",
+        QT_TRANSLATE_NOOP("Action", "Take In a Newer MIDI File..."),
+        read_another,
+        "File",
+        enabled=_is_open,
+    ),
+    Action(
+        "export.files",
+        QT_TRANSLATE_NOOP("Action", "Export Players..."),
+        export_files,
+        "Export",
+        "Ctrl+E",
+        enabled=_can_export,
+        icon="export",
+    ),
+    Action(
+        "export.playblast",
+        QT_TRANSLATE_NOOP("Action", "Playblast..."),
+        playblast,
+        "Export",
+        "Ctrl+Shift+E",
+        enabled=_can_film,
+        icon="film",
+    ),
+)

@@ -1,0 +1,151 @@
+"""The re-import of a changed MIDI file: what was found again, what is new, what is gone, before it is done."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from PySide6.QtCore import QEvent, QSize, Qt
+from PySide6.QtGui import QColor, QIcon
+from PySide6.QtWidgets import (
+    QAbstractItemView,
+    QDialog,
+    QDialogButtonBox,
+    QHeaderView,
+    QLabel,
+    QListWidget,
+    QTableWidget,
+    QTableWidgetItem,
+    QVBoxLayout,
+    QWidget,
+)
+
+from app.plan.corrections import Correction
+from app.project.model import Project
+from app.project.reimport import Reimport
+from widgets.common.tokens import Tokens
+
+
+class ReimportDialog(QDialog):
+    """Shows what a re-import would do and asks whether to do it.
+
+    Parameters
+    ----------
+    before : Project
+        The project as it is.
+    outcome : Reimport
+    file : str
+        Name of the MIDI file.
+    title : callable
+        Names a correction.
+    tokens : Tokens
+    parent : QWidget, optional
+    """
+
+    def __init__(
+        self,
+        before: Project,
+        outcome: Reimport,
+        file: str,
+        title: Callable[[Correction], str],
+        tokens: Tokens,
+        parent: QWidget | None = None,
+    ) -> None:
+        super().__init__(parent)
+        self.setObjectName("reimport_midi")
+        self._before, self._outcome, self._file = before, outcome, file
+        self._title, self._tokens = title, tokens
+        self._heading = QLabel()
+        self._heading.setWordWrap(True)
+        self._table = QTableWidget(0, 4)
+        self._table.setObjectName("reimport_parts")
+        self._table.verticalHeader().hide()
+        self._table.setShowGrid(False)
+        self._table.setSelectionMode(QAbstractItemView.SelectionMode.NoSelection)
+        self._table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
+        self._table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
+        self._table.horizontalHeader().setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
+        self._players = QLabel()
+        self._players.setObjectName("reimport_players")
+        self._players.setWordWrap(True)
+        self._orphan_title = QLabel()
+        self._orphan_title.setWordWrap(True)
+        self._orphans = QListWidget()
+        self._orphans.setObjectName("reimport_orphans")
+        self._orphans.setSelectionMode(QAbstractItemView.SelectionMode.NoSelection)
+        self._orphans.setMaximumHeight(140)
+        self._buttons = QDialogButtonBox(
+            QDialogButtonBox.StandardButton.Ok | QDialogButtonBox.StandardButton.Cancel, Qt.Orientation.Horizontal
+        )
+        for button in self._buttons.buttons():
+            button.setIcon(QIcon())
+        self._buttons.accepted.connect(self.accept)
+        self._buttons.rejected.connect(self.reject)
+        layout = QVBoxLayout(self)
+        layout.addWidget(self._heading)
+        layout.addWidget(self._table, 1)
+        layout.addWidget(self._players)
+        layout.addWidget(self._orphan_title)
+        layout.addWidget(self._orphans)
+        layout.addWidget(self._buttons)
+        self.retranslate()
+
+    def retranslate(self) -> None:
+        """Set every text anew."""
+        outcome = self._outcome
+        self.setWindowTitle(self.tr("Re-import MIDI"))
+        self._heading.setText(
+            self.tr("{file} says nothing new.").format(file=self._file)
+            if outcome.project is self._before
+            else self.tr("What {file} changes. Everything done by hand stays with its notes.").format(file=self._file)
+        )
+        self._table.setHorizontalHeaderLabels([self.tr("Part"), self.tr("Kept"), self.tr("New"), self.tr("Gone")])
+        self._table.setRowCount(len(outcome.parts))
+        for row, part in enumerate(outcome.parts):
+            name = part.name if part.name == part.former_name else f"{part.former_name} → {part.name}"
+            self._table.setItem(row, 0, QTableWidgetItem(name))
+            for column, (count, colour) in enumerate(
+                ((part.kept, self._tokens.text), (part.added, self._tokens.good), (part.removed, self._tokens.warning)),
+                start=1,
+            ):
+                item = QTableWidgetItem(str(count))
+                item.setTextAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
+                item.setForeground(QColor(colour if count else self._tokens.text_dim))
+                self._table.setItem(row, column, item)
+        self._players.setText("\n".join(self._about_players()))
+        self._players.setVisible(bool(self._players.text()))
+        self._orphan_title.setText(
+            self.tr("These corrections have lost their note. They are kept; the inspector can give them another note:")
+        )
+        self._orphans.clear()
+        for orphan in outcome.orphans:
+            player = outcome.project.player(orphan.player_id)
+            self._orphans.addItem(f"{player.name}: {self._title(orphan.correction)}")
+        for widget in (self._orphan_title, self._orphans):
+            widget.setVisible(bool(outcome.orphans))
+        ok = self._buttons.button(QDialogButtonBox.StandardButton.Ok)
+        ok.setText(self.tr("Re-import"))
+        ok.setEnabled(outcome.project is not self._before)
+        self._buttons.button(QDialogButtonBox.StandardButton.Cancel).setText(self.tr("Cancel"))
+
+    def _about_players(self) -> list[str]:
+        outcome = self._outcome
+        after = {player.id: player.name for player in outcome.project.players}
+        before = {player.id: player.name for player in self._before.players}
+        told = (
+            (self.tr("New players: {names}"), outcome.new_players, after),
+            (self.tr("Players whose part is gone: {names}"), outcome.gone_players, before),
+            (
+                self.tr("Players whose part is gone, kept for what was done by hand: {names}"),
+                outcome.idle_players,
+                after,
+            ),
+        )
+        return [text.format(names=", ".join(names[id_] for id_ in ids)) for text, ids, names in told if ids]
+
+    def sizeHint(self) -> QSize:
+        return QSize(620, 460)
+
+    def changeEvent(self, event: QEvent) -> None:
+        if event.type() == QEvent.Type.LanguageChange:
+            self.retranslate()
+        super().changeEvent(event)
