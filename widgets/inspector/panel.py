@@ -9,6 +9,7 @@ from app.project.document import Change
 from widgets.common.session import Session
 from widgets.inspector.correction_list import CorrectionList
 from widgets.inspector.event_section import EventSection
+from widgets.inspector.expression_maker import ExpressionMaker
 from widgets.inspector.generated import Generated
 from widgets.inspector.history_list import HistoryList
 from widgets.inspector.note_section import NoteSection
@@ -32,6 +33,7 @@ class InspectorPanel(QWidget):
         self._generated = Generated(session)
         self._notes = NoteSection(session, self._generated)
         self._events = EventSection(session, self._generated)
+        self._maker = ExpressionMaker(session)
         self._empty = QLabel()
         self._empty.setWordWrap(True)
         self._empty.setMargin(16)
@@ -60,7 +62,7 @@ class InspectorPanel(QWidget):
         layout = QVBoxLayout(upper)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(0)
-        for widget in (self._notes, self._events, self._empty):
+        for widget in (self._notes, self._events, self._empty, self._maker):
             layout.addWidget(widget)
         layout.addStretch(1)
         scroll = QScrollArea()

@@ -1,0 +1,352 @@
+"""Making expressions: morph sliders beside the live face, named, kept in the project and for other projects."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import msgspec
+from PySide6.QtCore import QEvent, Qt
+from PySide6.QtWidgets import QCheckBox, QGridLayout, QHBoxLayout, QLabel, QLineEdit, QToolButton, QVBoxLayout, QWidget
+
+from app.errors import AppError, Message
+from app.project import presets
+from app.project.document import Change
+from app.project.edit import piece as edit
+from app.project.edit.players import free_name
+from app.project.model import Project
+from metadata.load import load_expressions
+from metadata.model import ARKIT_MORPHS, Expression
+from widgets.common.combo import Combo, Option
+from widgets.common.event_names import expression_name
+from widgets.common.icons import icon
+from widgets.common.number_slider import NumberSlider
+from widgets.common.section import Section
+from widgets.common.session import Session, Severity
+from widgets.inspector.morph_names import morph_name
+
+GROUPS: tuple[tuple[str, tuple[str, ...]], ...] = (
+    ("brows", ("brow",)),
+    ("eyes", ("eye",)),
+    ("jaw", ("jaw",)),
+    ("mouth", ("mouth",)),
+    ("rest", ("cheek", "nose", "tongue")),
+)
+"""Groups of morph targets by how their names begin."""
+_TOOLS = (("duplicate", "duplicate"), ("remove", "delete"), ("keep", "save"), ("both", "link"), ("preview", "eye"))
+
+
+def mirrored(morph: str) -> str:
+    """The morph target of the other side; itself for one in the middle."""
+    if morph in ("jawLeft", "jawRight", "mouthLeft", "mouthRight"):
+        # These move the middle to a side: they are opposites, not a pair.
+        return morph
+    if morph.endswith("Left"):
+        return morph.removesuffix("Left") + "Right"
+    return morph.removesuffix("Right") + "Left" if morph.endswith("Right") else morph
+
+
+class ExpressionMaker(QWidget):
+    """Shows an expression as sliders, and its face on the player in front."""
+
+    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._session = session
+        self._name: str | None = None
+        self._kept: dict[str, Expression] = {}
+        self._section = Section(session, "inspector_expressions", self)
+        self._choice = Combo()
+        self._choice.setObjectName("expression_choice")
+        self._tools = {name: QToolButton() for name, _ in _TOOLS}
+        self._title = QLineEdit()
+        self._title.setObjectName("expression_name")
+        self._playing = QCheckBox()
+        self._playing.setObjectName("expression_while_playing")
+        self._hint = QLabel()
+        self._fades = {
+            name: NumberSlider(session, 0.01, 60, step=0.05, fills=(0.0, 3.0)) for name in ("fade_in_s", "fade_out_s")
+        }
+        self._groups: dict[str, Section] = {}
+        self._sliders: dict[str, NumberSlider] = {}
+        self._build()
+        self._connect()
+        self._section.set_open(False)
+        self._dress()
+        self.retranslate()
+
+    def _build(self) -> None:
+        body = self._section.body
+        line = QHBoxLayout()
+        line.setSpacing(2)
+        line.addWidget(self._choice, 1)
+        for name, button in self._tools.items():
+            button.setObjectName(f"expression_{name}")
+            if name in ("both", "preview"):
+                button.setCheckable(True)
+                button.setChecked(True)
+            line.addWidget(button)
+        body.addLayout(line)
+        self._hint.setWordWrap(True)
+        body.addWidget(self._hint)
+        body.addWidget(self._title)
+        body.addWidget(self._playing)
+        fades = QGridLayout()
+        fades.setSpacing(4)
+        for column, (name, slider) in enumerate(self._fades.items()):
+            slider.setObjectName(f"expression_{name}")
+            fades.addWidget(slider, 0, column)
+        body.addLayout(fades)
+        self._faces = QWidget()
+        self._faces_layout = QVBoxLayout(self._faces)
+        self._faces_layout.setContentsMargins(0, 4, 0, 0)
+        self._faces_layout.setSpacing(0)
+        body.addWidget(self._faces)
+        outer = QVBoxLayout(self)
+        outer.setContentsMargins(0, 0, 0, 0)
+        outer.addWidget(self._section)
+
+    def _make_sliders(self) -> None:
+        """52 sliders, made when they are first seen."""
+        for group, beginnings in GROUPS:
+            section = Section(self._session, f"morphs_{group}")
+            section.body.setContentsMargins(0, 4, 0, 6)
+            for morph in sorted(ARKIT_MORPHS, key=ARKIT_MORPHS.index):
+                if not morph.startswith(beginnings):
+                    continue
+                slider = NumberSlider(self._session, 0, 1, step=0.05)
+                slider.setObjectName(f"morph_{morph}")
+                slider.changed.connect(lambda value, token, morph=morph: self._set_morph(morph, value, token))
+                slider.released.connect(self._session.document.end_gesture)
+                self._sliders[morph] = slider
+                section.body.addWidget(slider)
+            section.set_open(group in ("brows", "eyes"))
+            self._groups[group] = section
+            self._faces_layout.addWidget(section)
+        self._name_sliders()
+
+    def _connect(self) -> None:
+        session = self._session
+        self._section.header.toggled.connect(self._unfolded)
+        self._choice.chosen.connect(self._choose)
+        self._title.editingFinished.connect(self._rename)
+        self._playing.clicked.connect(self._set_playing)
+        for name, slider in self._fades.items():
+            slider.changed.connect(lambda value, token, name=name: self._put(token, **{name: value}))
+            slider.released.connect(session.document.end_gesture)
+        self._tools["duplicate"].clicked.connect(self.duplicate)
+        self._tools["remove"].clicked.connect(self._remove)
+        self._tools["keep"].clicked.connect(self._keep)
+        self._tools["preview"].toggled.connect(self._preview)
+        session.changed.connect(self._changed)
+        session.theme_changed.connect(self._dress)
+
+    # Showing
+
+    @property
+    def expression(self) -> Expression | None:
+        """The expression that is shown; one of the project's own can be edited."""
+        own = {item.name: item for item in self._session.project.expressions}
+        return {**self._kept, **load_expressions(), **own}.get(self._name or "")
+
+    @property
+    def editable(self) -> bool:
+        """Whether it is the project's own."""
+        return any(item.name == self._name for item in self._session.project.expressions)
+
+    def _unfolded(self, is_open: bool) -> None:
+        if is_open and not self._sliders:
+            self._make_sliders()
+        if is_open:
+            self._kept = dict(presets.expressions(presets.expression_folder()).items)
+            if self.expression is None:
+                own = self._session.project.expressions
+                self._name = own[0].name if own else next(iter(load_expressions()))
+        self.show_expression()
+
+    def show_expression(self) -> None:
+        """Show the chosen expression."""
+        if not self._section.is_open:
+            self._preview()
+            return
+        own = [item.name for item in self._session.project.expressions]
+        bundled = [name for name in load_expressions() if name not in own]
+        kept = [name for name in self._kept if name not in own and name not in bundled]
+        options = [Option(name, f"● {name}") for name in own]
+        options += [Option(name, expression_name(name)) for name in bundled]
+        options += [Option(name, self.tr("{name} (kept)").format(name=name)) for name in kept]
+        self._choice.set_options(options)
+        expression, editable = self.expression, self.editable
+        self._choice.show_option(self._name if expression is not None else None)
+        self._hint.setText(
+            ""
+            if editable
+            else self.tr("Comes from your folder: use it in this project to change it.")
+            if self._name in kept
+            else self.tr("Comes with the program: duplicate it to make your own.")
+        )
+        self._hint.setVisible(not editable)
+        self._title.setVisible(editable)
+        for widget in (self._playing, *self._fades.values(), *self._sliders.values()):
+            widget.setEnabled(editable)
+        for name in ("remove", "keep"):
+            self._tools[name].setEnabled(editable)
+        if expression is not None:
+            if not self._title.hasFocus():
+                self._title.setText(expression.name)
+            self._playing.setChecked(expression.while_playing)
+            for name, slider in self._fades.items():
+                slider.show_value(getattr(expression, name), by_hand=False)
+            for morph, slider in self._sliders.items():
+                slider.show_value(expression.weights.get(morph, 0.0))
+            self._count_groups(expression)
+        self._preview()
+
+    def _count_groups(self, expression: Expression) -> None:
+        for group, beginnings in GROUPS:
+            used = sum(1 for morph, weight in expression.weights.items() if weight and morph.startswith(beginnings))
+            self._groups[group].header.set_texts(self._group_title(group), str(used) if used else "")
+
+    def _preview(self, *_: object) -> None:
+        """Let the player in front wear the face, while the section is open."""
+        expression = self.expression
+        live = self._section.is_open and self.isVisible() and self._tools["preview"].isChecked()
+        self._session.set_preview_morphs(dict(expression.weights) if live and expression is not None else None)
+
+    def _changed(self, change: Change) -> None:
+        if change.before.expressions is not change.after.expressions or change.opened:
+            if self.expression is None:
+                self._name = next(iter(load_expressions()))
+            self.show_expression()
+
+    # Editing
+
+    def _choose(self, name: str) -> None:
+        self._name = name
+        self.show_expression()
+
+    def _attempt(self, name: str, change: Callable[[Project], Project], token: object | None = None) -> bool:
+        message = Message(name, {"expression": self._name or ""})
+        return self._session.attempt(message, change, token)
+
+    def _put(self, token: object | None, **fields: object) -> None:
+        expression = self.expression
+        if expression is not None and self.editable:
+            changed = msgspec.structs.replace(expression, **fields)
+            self._attempt("edit.change_expression", lambda project: edit.put_expression(project, changed), token)
+
+    def _set_morph(self, morph: str, value: float, token: object | None) -> None:
+        expression = self.expression
+        if expression is None:
+            return
+        morphs = {morph, mirrored(morph)} if self._tools["both"].isChecked() else {morph}
+        weights = {**expression.weights, **dict.fromkeys(morphs, value)}
+        kept = {name: weights[name] for name in ARKIT_MORPHS if weights.get(name)}
+        self._put(token, weights=kept)
+
+    def _set_playing(self, playing: bool) -> None:
+        self._put(None, while_playing=playing)
+
+    def duplicate(self) -> None:
+        """Make one's own from the expression shown, under a name of its own; one from the folder comes as it is."""
+        expression = self.expression
+        if expression is None:
+            return
+        own = {item.name for item in self._session.project.expressions}
+        taken = {*own, *load_expressions(), *self._kept}
+        from_folder = expression.name in self._kept and expression.name not in own | set(load_expressions())
+        name = expression.name if from_folder else free_name(expression_name(expression.name), taken)
+        made = msgspec.structs.replace(expression, name=name)
+        if self._attempt("edit.own_expression", lambda project: edit.put_expression(project, made)):
+            self._name = name
+            self.show_expression()
+            self._title.setFocus(Qt.FocusReason.OtherFocusReason)
+            self._title.selectAll()
+
+    def _rename(self) -> None:
+        expression, name = self.expression, self._title.text()
+        if expression is None or not self.editable or name == expression.name:
+            return
+        renamed = msgspec.structs.replace(expression, name=name)
+        former = self._name
+        before = {item.name for item in self._session.project.expressions}
+        self._name = None
+        done = self._attempt(
+            "edit.rename_expression", lambda project: edit.put_expression(project, renamed, former_name=former)
+        )
+        fresh = [item.name for item in self._session.project.expressions if item.name not in before]
+        self._name = fresh[0] if done and fresh else former
+        self._title.setText(self._name or "")
+        self.show_expression()
+
+    def _remove(self) -> None:
+        name = self._name
+        if name is not None and self.editable:
+            self._attempt("edit.remove_expression", lambda project: edit.remove_expression(project, name))
+
+    def _keep(self) -> None:
+        """Write it to the person's folder, for other projects."""
+        expression = self.expression
+        if expression is None:
+            return
+        try:
+            presets.save_expression(presets.expression_folder(), expression)
+        except AppError as error:
+            self._session.notice(error.message, Severity.ERROR)
+            return
+        self._kept = dict(presets.expressions(presets.expression_folder()).items)
+        self._session.notice(Message("expression.kept", {"name": expression.name}))
+
+    # Words and pictures
+
+    def _group_title(self, group: str) -> str:
+        return {
+            "brows": self.tr("Brows"),
+            "eyes": self.tr("Eyes"),
+            "jaw": self.tr("Jaw"),
+            "mouth": self.tr("Mouth"),
+            "rest": self.tr("Cheeks, nose, tongue"),
+        }[group]
+
+    def _name_sliders(self) -> None:
+        for morph, slider in self._sliders.items():
+            slider.set_texts(morph_name(morph), "", morph)
+        for group, section in self._groups.items():
+            section.header.set_texts(self._group_title(group))
+
+    def _dress(self) -> None:
+        tokens = self._session.tokens
+        for name, drawing in _TOOLS:
+            self._tools[name].setIcon(icon(drawing, tokens))
+        self._hint.setStyleSheet(f"color: {tokens.text_dim};")
+
+    def retranslate(self) -> None:
+        """Set every text in the language of the editor."""
+        self._section.header.set_texts(self.tr("Expressions"))
+        tips = {
+            "duplicate": self.tr("Make one of your own from it"),
+            "remove": self.tr("Remove it from the project"),
+            "keep": self.tr("Keep it for other projects"),
+            "both": self.tr("Move both sides of the face together"),
+            "preview": self.tr("Show it on the player in front"),
+        }
+        for name, tip in tips.items():
+            self._tools[name].setToolTip(tip)
+        self._title.setPlaceholderText(self.tr("Name"))
+        self._playing.setText(self.tr("May show while playing"))
+        self._playing.setToolTip(self.tr("What moves the lips must not: they belong to the embouchure"))
+        self._fades["fade_in_s"].set_texts(self.tr("Fade in"), self.tr("s", "seconds"))
+        self._fades["fade_out_s"].set_texts(self.tr("Fade out"), self.tr("s", "seconds"))
+        self._name_sliders()
+        self.show_expression()
+
+    # Qt's own names
+
+    def showEvent(self, event: QEvent) -> None:
+        self._preview()
+
+    def hideEvent(self, event: QEvent) -> None:
+        self._session.set_preview_morphs(None)
+
+    def changeEvent(self, event: QEvent) -> None:
+        if event.type() == QEvent.Type.LanguageChange:
+            self.retranslate()
+        super().changeEvent(event)
