@@ -7,7 +7,7 @@ from typing import Final
 
 import numpy as np
 
-from app.audio.mix import RATE_HZ, Piece, Samples, Track
+from app.audio.track import RATE_HZ, Piece, Samples, Track
 from app.project.model import Project
 
 _BAR_HZ, _BEAT_HZ = 1760.0, 1320.0

@@ -21,7 +21,7 @@ import numpy as np
 import soundfile
 import soxr
 
-from app.audio.mix import RATE_HZ, Block, Samples
+from app.audio.track import RATE_HZ, Block, Samples
 from app.errors import Cancelled, FileError, Message
 
 MOST_HOURS: Final = 4

@@ -1,119 +1,141 @@
-"""Sound on the performance's time line: pieces of sound, tracks of pieces, and their mix."""
+"""What a project sounds like: its recording, its players by the synthesiser, the metronome."""
 
 from __future__ import annotations
 
-from bisect import bisect_left, bisect_right
-from collections.abc import Iterable
-from dataclasses import dataclass
-from functools import cached_property
-from typing import Final, TypeAlias
+from collections.abc import Callable, Iterable, Mapping
+from typing import Final
 
 import numpy as np
-import numpy.typing as npt
+import soxr
 
-Samples: TypeAlias = npt.NDArray[np.int16]
-Block: TypeAlias = npt.NDArray[np.float32]
+from app.audio.decode import Recording, decode
+from app.audio.synth import Phrase, Synthesiser, phrases, program_of
+from app.audio.track import RATE_HZ, Block, Mix, Piece, Track
+from app.errors import Cancelled
+from app.project.model import Player, Project
+from instrument_maps.load import find_map
 
-RATE_HZ: Final = 48000
-"""Everything is mixed at this rate; a device that has another gets it resampled."""
-_FULL_SCALE: Final = 1.0 / 32768.0
-_KNEE: Final = 0.8
-"""Louder samples are bent below full scale instead of being cut off."""
-
-
-@dataclass(frozen=True, eq=False)
-class Piece:
-    """A stretch of sound.
-
-    Attributes
-    ----------
-    start : int
-        Performance time of its first sample, in samples; may be negative.
-    samples : int16 array, shape (n,) or (n, 2)
-    """
-
-    start: int
-    samples: Samples
+_LEVEL: Final = 4.5
+"""The soundfont's tones are some 30 dB below full scale; an ensemble of any size comes to about -18."""
+_SIDE: Final = 0.6
+"""How far to the side the outermost player is heard; 1 is one channel alone."""
 
 
-class Track:
-    """Pieces with one loudness and place; they may overlap.
+def player_phrases(project: Project, player: Player) -> tuple[Phrase, ...]:
+    """What the synthesiser renders for a player. Raises MapError where there is no such instrument."""
+    part = project.part(player)
+    return phrases(part, project.score.tempo_map, program_of(part, find_map(player.instrument_id)))
+
+
+def player_tracks(project: Project, pieces: Mapping[str, Iterable[Piece]]) -> tuple[Track, ...]:
+    """The players who are heard: those who are soloed if any is, else those who are not muted.
 
     Parameters
     ----------
-    pieces : iterable of Piece
-    left, right : float
-        Gains of the two channels.
+    project : Project
+    pieces : mapping of str to iterable of Piece
+        What is rendered, by player id.
     """
-
-    def __init__(self, pieces: Iterable[Piece], left: float = 1.0, right: float = 1.0) -> None:
-        self.pieces = tuple(sorted(pieces, key=lambda piece: piece.start))
-        self.gains = np.array([left, right], np.float32) * np.float32(_FULL_SCALE)
-
-    @cached_property
-    def _starts(self) -> list[int]:
-        return [piece.start for piece in self.pieces]
-
-    @cached_property
-    def _longest(self) -> int:
-        return max((len(piece.samples) for piece in self.pieces), default=0)
-
-    @property
-    def end(self) -> int:
-        """Where the last piece ends, in samples; 0 without pieces."""
-        return max((piece.start + len(piece.samples) for piece in self.pieces), default=0)
-
-    def add_to(self, out: Block, start: int) -> None:
-        """Add what sounds from ``start`` on to a block."""
-        end = start + len(out)
-        first = bisect_left(self._starts, start - self._longest)
-        for piece in self.pieces[first : bisect_right(self._starts, end)]:
-            begin, stop = max(piece.start, start), min(piece.start + len(piece.samples), end)
-            if begin < stop:
-                part = piece.samples[begin - piece.start : stop - piece.start]
-                out[begin - start : stop - start] += (part if part.ndim == 2 else part[:, None]) * self.gains
+    players = project.players
+    soloed = any(player.soloed for player in players)
+    width_m = max((abs(player.stage.x_m) for player in players), default=0.0)
+    level = _LEVEL / np.sqrt(max(len(players), 1))
+    tracks = []
+    for player in players:
+        if (player.soloed if soloed else not player.muted) and player.id in pieces:
+            left, right = place_gains(player.stage.x_m, width_m)
+            tracks.append(Track(pieces[player.id], level * left, level * right))
+    return tuple(tracks)
 
 
-class Mix:
-    """What is heard: the sum of tracks. Immutable, so that a player may read it while another is made."""
-
-    def __init__(self, tracks: Iterable[Track] = ()) -> None:
-        self.tracks = tuple(tracks)
-
-    def read(self, start: int, count: int) -> Block:
-        """Sound from a sample on.
-
-        Returns
-        -------
-        float32 array, shape (count, 2)
-            Within -1..1.
-        """
-        out = np.zeros((count, 2), np.float32)
-        for track in self.tracks:
-            track.add_to(out, start)
-        return softened(out)
-
-
-def softened(block: Block) -> Block:
-    """A block whose peaks are bent below full scale; quieter ones stay as they are."""
-    size = np.abs(block)
-    if block.size == 0 or size.max() <= _KNEE:
-        return block
-    room = np.float32(1.0 - _KNEE)
-    bent = np.float32(_KNEE) + room * np.tanh((size - np.float32(_KNEE)) / room)
-    return np.where(size > _KNEE, np.copysign(bent, block), block).astype(np.float32)
+def recording_track(recording: Recording, offset_s: float) -> Track:
+    """A recording at its place."""
+    return Track([Piece(round(offset_s * RATE_HZ), recording.samples)])
 
 
 def place_gains(x_m: float, width_m: float) -> tuple[float, float]:
-    """Gains of left and right for somebody on the stage, at equal power.
+    """Gains of left and right for somebody on the stage, at equal power; both 1 in the middle.
 
     Parameters
     ----------
     x_m : float
-        Place on the stage; a player's left is +X, so that the listener in front hears it on the right.
+        Place on the stage; +X is at the right of a listener in front of it.
     width_m : float
-        Half the width of the ensemble; a soloist is in the middle.
+        Half the width of the ensemble.
     """
-    side = 0.6 * x_m / width_m if width_m > 0.0 else 0.0
+    side = _SIDE * x_m / width_m if width_m > 0.0 else 0.0
     angle = (min(max(side, -1.0), 1.0) + 1.0) * np.pi / 4.0
     return float(np.sqrt(2.0) * np.cos(angle)), float(np.sqrt(2.0) * np.sin(angle))
+
+
+def mixdown(
+    project: Project,
+    start_s: float,
+    end_s: float,
+    rate_hz: int = RATE_HZ,
+    progress: Callable[[float], None] = lambda share: None,
+    stop_wanted: Callable[[], bool] = lambda: False,
+) -> Block:
+    """The sound of a span of the performance, as films and files get it: the recording, else the synthesiser.
+
+    Parameters
+    ----------
+    project : Project
+        Muted players are not heard.
+    start_s, end_s : float
+        Seconds of the performance; may be negative.
+    rate_hz : int
+    progress : callable
+        Told the share 0..1 that is done.
+    stop_wanted : callable
+        Asked now and then; true ends the work.
+
+    Returns
+    -------
+    float32 array, shape (n, 2)
+        ``round((end_s - start_s) * rate_hz)`` samples within -1..1.
+
+    Raises
+    ------
+    FileError
+        The recording cannot be read.
+    Cancelled
+    """
+    if project.audio is not None:
+        recording = decode(project.audio.path, lambda share: progress(0.9 * share), stop_wanted)
+        mix = Mix([recording_track(recording, project.audio.offset_s)])
+    else:
+        mix = _synthesised(project, start_s, end_s, progress, stop_wanted)
+    start, count = round(start_s * RATE_HZ), max(round((end_s - start_s) * RATE_HZ), 0)
+    block = mix.read(start, count)
+    if rate_hz != RATE_HZ and count:
+        block = soxr.resample(block, RATE_HZ, rate_hz)
+    wanted = max(round((end_s - start_s) * rate_hz), 0)
+    result = np.zeros((wanted, 2), np.float32)
+    result[: len(block)] = np.clip(block[:wanted], -1.0, 1.0)
+    progress(1.0)
+    return result
+
+
+def _synthesised(
+    project: Project,
+    start_s: float,
+    end_s: float,
+    progress: Callable[[float], None],
+    stop_wanted: Callable[[], bool],
+) -> Mix:
+    """The players' phrases that sound within a span."""
+    synthesiser = Synthesiser()
+    wanted = [
+        (player.id, phrase)
+        for player in project.players
+        for phrase in player_phrases(project, player)
+        if phrase.start < end_s * RATE_HZ and phrase.end > start_s * RATE_HZ
+    ]
+    pieces: dict[str, list[Piece]] = {}
+    for index, (player_id, phrase) in enumerate(wanted):
+        if stop_wanted():
+            raise Cancelled("work.stopped")
+        pieces.setdefault(player_id, []).append(synthesiser.render(phrase))
+        progress(index / len(wanted))
+    return Mix(player_tracks(project, pieces))

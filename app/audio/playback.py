@@ -13,9 +13,9 @@ from PySide6.QtCore import QByteArray, QIODevice, QObject, Qt, QTimer, Signal, S
 from PySide6.QtMultimedia import QAudioDevice, QAudioFormat, QAudioSink, QMediaDevices, QtAudio
 
 from app.audio.clock import DeviceClock
-from app.audio.mix import RATE_HZ, Block, Mix
 from app.audio.reader import Mark, Reader
 from app.audio.sink import BUFFER_S, SilentSink, Sink
+from app.audio.track import RATE_HZ, Block, Mix
 
 _FEED_MS: Final = 10
 _GRAIN_S: Final = 0.09
@@ -265,12 +265,16 @@ class SystemDevices(QObject):
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
-        self._media = QMediaDevices(self)
-        self._last = QMediaDevices.defaultAudioOutput().id()
-        self._media.audioOutputsChanged.connect(self._outputs_changed)
+        self._media: QMediaDevices | None = None
+        self._last = QByteArray()
 
     def open(self) -> Sink | None:
         """The device that the system plays on."""
+        if self._media is None:
+            # Made when sound is wanted for the first time: the window is up sooner.
+            self._media = QMediaDevices(self)
+            self._last = QMediaDevices.defaultAudioOutput().id()
+            self._media.audioOutputsChanged.connect(self._outputs_changed)
         device = QMediaDevices.defaultAudioOutput()
         if device.isNull():
             return None

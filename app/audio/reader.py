@@ -6,8 +6,8 @@ from typing import Final
 
 import numpy as np
 
-from app.audio.mix import RATE_HZ, Block, Mix
 from app.audio.stretch import HOP, Stretch
+from app.audio.track import RATE_HZ, Block, Mix
 
 Mark = tuple[int, float, float]
 """(sample of the output, second of the performance that it is of, seconds of the performance per second heard)."""

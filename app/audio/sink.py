@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Final, Protocol
 
-from app.audio.mix import RATE_HZ, Block
+from app.audio.track import RATE_HZ, Block
 
 BUFFER_S: Final = 0.2
 """Sound that waits in the device: long enough for a busy window, short enough for the hand."""

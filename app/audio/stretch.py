@@ -13,7 +13,7 @@ from typing import Final
 import numpy as np
 import numpy.typing as npt
 
-from app.audio.mix import RATE_HZ, Block
+from app.audio.track import RATE_HZ, Block
 
 HOP: Final = round(0.03 * RATE_HZ)
 """Samples that a step makes."""

@@ -23,7 +23,7 @@ import mido
 import numpy as np
 import soundfile
 
-from app.audio.mix import RATE_HZ, Piece, Samples
+from app.audio.track import RATE_HZ, Piece, Samples
 from app.performance.loudness import speaking_curve
 from app.score.model import ControllerCurve, Note, Part
 from app.score.tempo import TempoMap
@@ -51,13 +51,14 @@ class Phrase:
 
     Attributes
     ----------
-    start : int
-        Performance time in samples.
+    start, end : int
+        Performance time in samples; the end is where the last tail has died away.
     midi : bytes
         A MIDI file that begins there; equal bytes sound equal.
     """
 
     start: int
+    end: int
     midi: bytes
 
 
@@ -194,7 +195,7 @@ def _phrase(
     file.tracks.append(track)
     out = io.BytesIO()
     file.save(file=out)
-    return Phrase(start, out.getvalue())
+    return Phrase(start, start + before + round(_TAIL_S * RATE_HZ), out.getvalue())
 
 
 def _control(controller: int, value: float) -> mido.Message:

@@ -5,6 +5,10 @@ from __future__ import annotations
 from typing import Final
 
 TEMPLATES: Final[dict[str, str]] = {
+    # The recording
+    "edit.estimate_offset": "estimated offset of the recording",
+    "edit.fit_tempo": "offset and tempo fitted to the recording",
+    "edit.remove_audio": "remove the recording",
     # Events of the plan
     "edit.move_events": "move {count} events",
     "edit.resize_events": "resize {count} events",

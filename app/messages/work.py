@@ -14,4 +14,7 @@ TEMPLATES: Final[dict[str, str]] = {
     "work.reimport": "reading the MIDI file again",
     "work.export": "writing the files",
     "work.playblast": "making the film",
+    "work.synthesise": "making the sound",
+    "work.read_recording": "reading {file}",
+    "work.estimate_offset": "finding the recording's offset",
 }

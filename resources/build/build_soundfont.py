@@ -25,6 +25,8 @@ from instrument_maps.vocabulary import vocabulary
 OUT = Path(__file__).parents[1] / "soundfont" / "winds.sf2"
 MOST_RATE_HZ = 22050.0
 LONGEST_S = 1.25
+ATTACK_SHARE, MOST_CUT_S = 0.25, 0.08
+"""A tone begins where it has this share of its loudness; more than this is never cut."""
 ALIASES = {62: 61, 63: 61}
 """Synthetic brass is played by the brass section."""
 
@@ -159,7 +161,23 @@ def _sample(font: Font, number: int, offsets: dict[int, int]) -> Sample:
     loop_end = min(loop_end, end)
     audio = font.audio[start:end].astype(np.float64) / 32768.0
     sample = Sample(_name(name), audio, (loop_start - start, loop_end - start), float(rate_hz), pitch, cents)
-    return _resampled(_shortened(sample))
+    return _resampled(_shortened(_begun(sample)))
+
+
+def _begun(sample: Sample) -> Sample:
+    """A tone without what precedes its attack: it sounds when it is played, for the picture's sake."""
+    window = max(round(0.006 * sample.rate_hz), 1)
+    power = np.convolve(sample.audio[: round(0.6 * sample.rate_hz)] ** 2, np.ones(window) / window)
+    steady = np.median(power[round(0.2 * sample.rate_hz) :]) if len(power) > 0.3 * sample.rate_hz else power.max()
+    rises = np.flatnonzero(power >= ATTACK_SHARE**2 * steady)
+    cut = max(int(rises[0]) - window, 0) if len(rises) else 0
+    cut = min(cut, round(MOST_CUT_S * sample.rate_hz), max(sample.loop[0] - 1, 0))
+    if cut == 0:
+        return sample
+    audio = sample.audio[cut:].copy()
+    fade = round(0.003 * sample.rate_hz)
+    audio[:fade] *= np.linspace(0.0, 1.0, fade)
+    return replace(sample, audio=audio, loop=(sample.loop[0] - cut, sample.loop[1] - cut))
 
 
 def _shortened(sample: Sample) -> Sample:

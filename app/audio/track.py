@@ -1,0 +1,104 @@
+"""Sound on the performance's time line: pieces of sound, tracks of pieces, and their mix."""
+
+from __future__ import annotations
+
+from bisect import bisect_left, bisect_right
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Final, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+Samples: TypeAlias = npt.NDArray[np.int16]
+Block: TypeAlias = npt.NDArray[np.float32]
+
+RATE_HZ: Final = 48000
+"""Everything is mixed at this rate; a device that has another gets it resampled."""
+_FULL_SCALE: Final = 1.0 / 32768.0
+_KNEE: Final = 0.8
+"""Louder samples are bent below full scale instead of being cut off."""
+
+
+@dataclass(frozen=True, eq=False)
+class Piece:
+    """A stretch of sound.
+
+    Attributes
+    ----------
+    start : int
+        Performance time of its first sample, in samples; may be negative.
+    samples : int16 array, shape (n,) or (n, 2)
+    """
+
+    start: int
+    samples: Samples
+
+
+class Track:
+    """Pieces with one loudness and place; they may overlap.
+
+    Parameters
+    ----------
+    pieces : iterable of Piece
+    left, right : float
+        Gains of the two channels.
+    """
+
+    def __init__(self, pieces: Iterable[Piece], left: float = 1.0, right: float = 1.0) -> None:
+        self.pieces = tuple(sorted(pieces, key=lambda piece: piece.start))
+        self.gains = np.array([left, right], np.float32) * np.float32(_FULL_SCALE)
+
+    @cached_property
+    def _starts(self) -> list[int]:
+        return [piece.start for piece in self.pieces]
+
+    @cached_property
+    def _longest(self) -> int:
+        return max((len(piece.samples) for piece in self.pieces), default=0)
+
+    @property
+    def end(self) -> int:
+        """Where the last piece ends, in samples; 0 without pieces."""
+        return max((piece.start + len(piece.samples) for piece in self.pieces), default=0)
+
+    def add_to(self, out: Block, start: int) -> None:
+        """Add what sounds from ``start`` on to a block."""
+        end = start + len(out)
+        first = bisect_left(self._starts, start - self._longest)
+        for piece in self.pieces[first : bisect_right(self._starts, end)]:
+            begin, stop = max(piece.start, start), min(piece.start + len(piece.samples), end)
+            if begin < stop:
+                part = piece.samples[begin - piece.start : stop - piece.start]
+                out[begin - start : stop - start] += (part if part.ndim == 2 else part[:, None]) * self.gains
+
+
+class Mix:
+    """What is heard: the sum of tracks. Immutable, so that a player may read it while another is made."""
+
+    def __init__(self, tracks: Iterable[Track] = ()) -> None:
+        self.tracks = tuple(tracks)
+
+    def read(self, start: int, count: int) -> Block:
+        """Sound from a sample on.
+
+        Returns
+        -------
+        float32 array, shape (count, 2)
+            Within -1..1.
+        """
+        out = np.zeros((count, 2), np.float32)
+        for track in self.tracks:
+            track.add_to(out, start)
+        return softened(out)
+
+
+def softened(block: Block) -> Block:
+    """A block whose peaks are bent below full scale; quieter ones stay as they are."""
+    size = np.abs(block)
+    if block.size == 0 or size.max() <= _KNEE:
+        return block
+    room = np.float32(1.0 - _KNEE)
+    bent = np.float32(_KNEE) + room * np.tanh((size - np.float32(_KNEE)) / room)
+    return np.where(size > _KNEE, np.copysign(bent, block), block).astype(np.float32)

@@ -1,0 +1,352 @@
+"""Playing: from here, in a loop, step by step; how it is heard; where the recording stands."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import ceil, floor
+from typing import TYPE_CHECKING
+
+from app.errors import Message
+from app.project.edit.piece import set_audio
+from app.shell.action import QT_TRANSLATE_NOOP, Action
+from app.shell.sound import sound_of
+from widgets.common.session import Session
+
+if TYPE_CHECKING:
+    from widgets.common.listening import Source
+
+_NEAR_S = 1e-4
+"""Two moments that are the same moment."""
+
+
+def toggle(session: Session) -> None:
+    """Play from here, or stop."""
+    if session.playback is None:
+        return
+    if session.playback.is_playing:
+        session.playback.stop()
+    else:
+        session.playback.play(session.playhead_s)
+
+
+def play_bar(session: Session) -> None:
+    """Play from the beginning of the bar."""
+    if session.playback is not None:
+        start_s = _bar_s(session, _bar(session))
+        session.set_playhead(start_s)
+        session.playback.play(start_s)
+
+
+def stop(session: Session) -> None:
+    """Stop, and go back to where playing began to make sense: the loop's start, or stay."""
+    if session.playback is None:
+        return
+    if session.playback.is_playing:
+        session.playback.stop()
+    elif session.loop_s is not None and session.playhead_s != session.loop_s[0]:
+        _go(session, session.loop_s[0])
+    else:
+        to_start(session)
+
+
+def to_start(session: Session) -> None:
+    """Go to the beginning of the performance."""
+    _go(session, session.performance.time_frame.first_frame_s)
+
+
+def to_end(session: Session) -> None:
+    """Go to the end of the last note."""
+    score = session.project.score
+    _go(session, score.tempo_map.seconds(float(score.end_tick)))
+
+
+def toggle_loop(session: Session) -> None:
+    """Play what is selected over and over: the range, the notes, else the bar; or no longer."""
+    span = _selected_s(session)
+    if session.loop_s is not None and (span is None or span == session.loop_s):
+        session.set_loop(None)
+        return
+    if span is None:
+        bar = _bar(session)
+        span = (_bar_s(session, bar), _bar_s(session, bar + 1))
+    session.set_loop(span)
+
+
+def frame_back(session: Session) -> None:
+    """Go to the frame before."""
+    _go_frames(session, -1)
+
+
+def frame_on(session: Session) -> None:
+    """Go to the next frame."""
+    _go_frames(session, 1)
+
+
+def note_back(session: Session) -> None:
+    """Go to where the note before begins, of the player in front."""
+    onsets = [onset_s for onset_s in _onsets_s(session) if onset_s < session.playhead_s - _NEAR_S]
+    if onsets:
+        _go(session, onsets[-1])
+
+
+def note_on(session: Session) -> None:
+    """Go to where the next note begins, of the player in front."""
+    onsets = [onset_s for onset_s in _onsets_s(session) if onset_s > session.playhead_s + _NEAR_S]
+    if onsets:
+        _go(session, onsets[0])
+
+
+def bar_back(session: Session) -> None:
+    """Go to the beginning of the bar, from there to the one before."""
+    bar = _bar(session)
+    start_s = _bar_s(session, bar)
+    _go(session, start_s if session.playhead_s > start_s + _NEAR_S else _bar_s(session, bar - 1))
+
+
+def bar_on(session: Session) -> None:
+    """Go to the next bar."""
+    _go(session, _bar_s(session, _bar(session) + 1))
+
+
+def toggle_click(session: Session) -> None:
+    """Hear the beats, or not."""
+    session.listening.set(click=not session.listening.click)
+
+
+def toggle_scrub(session: Session) -> None:
+    """Hear the moment that the playhead is moved to, or not."""
+    session.listening.set(scrub_sound=not session.listening.scrub_sound)
+
+
+def toggle_follow(session: Session) -> None:
+    """Let the timeline follow the playhead, or not."""
+    session.set_follow(not session.follow)
+
+
+def estimate_offset(session: Session) -> None:
+    """Find where the recording stands."""
+    sound = sound_of(session)
+    if sound is not None:
+        sound.estimate()
+
+
+def fit_tempo(session: Session) -> None:
+    """Find where the recording stands, and how much faster it is; the score takes its tempo."""
+    sound = sound_of(session)
+    if sound is not None:
+        sound.estimate(with_tempo=True)
+
+
+def remove_recording(session: Session) -> None:
+    """Let the synthesiser play instead of the recording."""
+    session.attempt(Message("edit.remove_audio"), lambda project: set_audio(project, None))
+
+
+def _speed(percent: int) -> Action:
+    def run(session: Session) -> None:
+        session.listening.set(speed=percent / 100)
+
+    return Action(
+        f"play.speed_{percent}",
+        f"{percent} %",
+        run,
+        "Play/Speed",
+        checked=lambda session: round(100 * session.listening.speed) == percent,
+    )
+
+
+def _source(source: Source, text: str) -> Action:
+    def run(session: Session) -> None:
+        session.listening.set(source=source)
+
+    return Action(
+        f"play.source_{source}",
+        text,
+        run,
+        "Play/Sound",
+        enabled=_has_recording,
+        checked=lambda session: _has_recording(session) and session.listening.source == source,
+    )
+
+
+def _can_play(session: Session) -> bool:
+    return session.playback is not None
+
+
+def _has_recording(session: Session) -> bool:
+    return session.project.audio is not None
+
+
+def _has_notes(session: Session) -> bool:
+    player = session.player
+    return player is not None and bool(session.project.part(player).notes)
+
+
+def _recording_ready(session: Session) -> bool:
+    return session.listening.waveform is not None and session.project.score.end_tick > 0
+
+
+def _go(session: Session, time_s: float) -> None:
+    session.set_playhead(time_s)
+    session.reveal(time_s)
+
+
+def _go_frames(session: Session, count: int) -> None:
+    """To the frame's own moment: from between two frames to the nearer one in that direction."""
+    fps = float(session.project.fps)
+    frame = session.playhead_s * fps
+    near = round(frame)
+    if abs(frame - near) < _NEAR_S * fps:
+        frame = near
+    target = floor(frame) + count if count > 0 else ceil(frame) + count
+    _go(session, target / fps)
+
+
+def _bar(session: Session) -> int:
+    score = session.project.score
+    # A moment that was reached by its bar line is in that bar, however it was rounded.
+    return score.bar_of_tick(floor(score.tempo_map.ticks(session.playhead_s + _NEAR_S)))
+
+
+def _bar_s(session: Session, bar: int) -> float:
+    score = session.project.score
+    return score.tempo_map.seconds(float(score.tick_of_bar(bar)))
+
+
+def _onsets_s(session: Session) -> list[float]:
+    player = session.player
+    if player is None:
+        return []
+    seconds: Callable[[float], float] = session.project.score.tempo_map.seconds
+    return sorted({seconds(float(note.onset_tick)) for note in session.project.part(player).notes})
+
+
+def _selected_s(session: Session) -> tuple[float, float] | None:
+    """From the first to the last of what is selected."""
+    selection, project = session.selection, session.project
+    seconds = project.score.tempo_map.seconds
+    if selection.span is not None:
+        return seconds(float(selection.span[0])), seconds(float(selection.span[1]))
+    notes = [note for part in project.score.parts for note in part.notes if note.id in selection.notes]
+    if not notes:
+        return None
+    return (
+        seconds(float(min(note.onset_tick for note in notes))),
+        seconds(float(max(note.end_tick for note in notes))),
+    )
+
+
+ACTIONS: tuple[Action, ...] = (
+    Action(
+        "play.toggle",
+        QT_TRANSLATE_NOOP("Action", "Play or Stop Here"),
+        toggle,
+        "Play",
+        "Space",
+        enabled=_can_play,
+        icon="play",
+    ),
+    Action(
+        "play.bar",
+        QT_TRANSLATE_NOOP("Action", "Play from Start of Bar"),
+        play_bar,
+        "Play",
+        "Return;Enter",
+        enabled=_can_play,
+        icon="play",
+    ),
+    Action("play.stop", QT_TRANSLATE_NOOP("Action", "Stop"), stop, "Play", enabled=_can_play, icon="stop"),
+    Action(
+        "play.loop",
+        QT_TRANSLATE_NOOP("Action", "Loop the Selection"),
+        toggle_loop,
+        "Play",
+        "L",
+        checked=lambda session: session.loop_s is not None,
+        icon="loop",
+    ),
+    Action("play.to_start", QT_TRANSLATE_NOOP("Action", "To Start"), to_start, "Play/Go", "Home", icon="to_start"),
+    Action("play.to_end", QT_TRANSLATE_NOOP("Action", "To End"), to_end, "Play/Go", "End", icon="to_end"),
+    Action(
+        "play.frame_back",
+        QT_TRANSLATE_NOOP("Action", "Previous Frame"),
+        frame_back,
+        "Play/Go",
+        ",",
+        icon="previous_frame",
+    ),
+    Action("play.frame_on", QT_TRANSLATE_NOOP("Action", "Next Frame"), frame_on, "Play/Go", ".", icon="next_frame"),
+    Action(
+        "play.note_back",
+        QT_TRANSLATE_NOOP("Action", "Previous Note"),
+        note_back,
+        "Play/Go",
+        "Alt+,",
+        enabled=_has_notes,
+        icon="previous_note",
+    ),
+    Action(
+        "play.note_on",
+        QT_TRANSLATE_NOOP("Action", "Next Note"),
+        note_on,
+        "Play/Go",
+        "Alt+.",
+        enabled=_has_notes,
+        icon="next_note",
+    ),
+    Action("play.bar_back", QT_TRANSLATE_NOOP("Action", "Previous Bar"), bar_back, "Play/Go", "PgUp"),
+    Action("play.bar_on", QT_TRANSLATE_NOOP("Action", "Next Bar"), bar_on, "Play/Go", "PgDown"),
+    *(_speed(percent) for percent in (25, 50, 75, 100, 150, 200)),
+    _source("recording", QT_TRANSLATE_NOOP("Action", "Recording")),
+    _source("synthesiser", QT_TRANSLATE_NOOP("Action", "Synthesiser")),
+    _source("both", QT_TRANSLATE_NOOP("Action", "Recording and Synthesiser")),
+    Action(
+        "play.click",
+        QT_TRANSLATE_NOOP("Action", "Metronome"),
+        toggle_click,
+        "Play",
+        "Shift+C",
+        checked=lambda session: session.listening.click,
+        icon="metronome",
+    ),
+    Action(
+        "play.scrub",
+        QT_TRANSLATE_NOOP("Action", "Hear the Playhead Being Moved"),
+        toggle_scrub,
+        "Play",
+        checked=lambda session: session.listening.scrub_sound,
+        icon="sound",
+    ),
+    Action(
+        "play.follow",
+        QT_TRANSLATE_NOOP("Action", "Follow the Playhead"),
+        toggle_follow,
+        "Play",
+        checked=lambda session: session.follow,
+        icon="follow",
+    ),
+    Action(
+        "play.estimate_offset",
+        QT_TRANSLATE_NOOP("Action", "Estimate the Recording's Offset"),
+        estimate_offset,
+        "Play/Recording",
+        enabled=_recording_ready,
+        icon="offset",
+    ),
+    Action(
+        "play.fit_tempo",
+        QT_TRANSLATE_NOOP("Action", "Fit the Tempo to the Recording"),
+        fit_tempo,
+        "Play/Recording",
+        enabled=_recording_ready,
+        icon="tempo",
+    ),
+    Action(
+        "play.remove_recording",
+        QT_TRANSLATE_NOOP("Action", "Remove the Recording"),
+        remove_recording,
+        "Play/Recording",
+        enabled=_has_recording,
+        icon="remove",
+    ),
+)

@@ -1,0 +1,345 @@
+"""What is heard follows the project: recording, players and metronome are kept ready and given to the playback.
+
+While it plays, the playhead follows the sound.
+"""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+from PySide6.QtCore import QObject, Qt, QTimer
+
+from app.audio.click import click_track
+from app.audio.decode import Recording, decode
+from app.audio.mix import player_phrases, player_tracks, recording_track
+from app.audio.offset import Estimate, estimate_offset
+from app.audio.peaks import Peaks
+from app.audio.playback import Playback
+from app.audio.synth import Phrase, Synthesiser
+from app.audio.track import RATE_HZ, Mix, Track
+from app.errors import AppError, Cancelled, MapError, Message
+from app.project.document import Change
+from app.project.edit.piece import set_offset
+from app.project.edit.tempo import scale_tempo
+from app.project.model import Player, Project
+from widgets.common.session import Session, Severity
+from widgets.common.tasks import Progress, StopWanted
+
+_FRAME_MS = 16
+_SETTLE_MS = 120
+"""Rendering waits until a drag rests for so long."""
+_LOOK_MS = 250
+"""How often what was rendered meanwhile is added to what is heard."""
+_BREATHE_S = 0.003
+"""Between phrases the window has its turn: the synthesiser lets no other Python run."""
+SURE = 0.5
+"""An offset that was estimated with less confidence is not taken by itself."""
+SAME_TEMPO = 0.002
+"""Tempi that differ by less are the same: it is 6 ms in 3 s."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Made:
+    """A player's phrases, and what they were made from."""
+
+    sources: tuple[object, ...]
+    phrases: tuple[Phrase, ...]
+
+    def of(self, sources: tuple[object, ...]) -> bool:
+        """Whether they are up to date: compared by identity, as values are."""
+        return all(one is other for one, other in zip(self.sources, sources, strict=True))
+
+
+class Sound(QObject):
+    """The editor's sound.
+
+    Parameters
+    ----------
+    session : Session
+        Gets the playback, and becomes the parent.
+    playback : Playback, optional
+        One on the system's device, if None.
+    """
+
+    def __init__(self, session: Session, playback: Playback | None = None) -> None:
+        super().__init__(session)
+        self.setObjectName("sound")
+        self._session = session
+        self.playback = playback if playback is not None else Playback(parent=self)
+        session.playback = self.playback
+        self._synthesiser = Synthesiser()
+        self._made: dict[str, _Made] = {}
+        self._recording: Recording | None = None
+        self._reading = ""
+        self._estimated: set[str] = set()
+        self._click: tuple[tuple[object, ...], Track] | None = None
+        self._own_move = False
+        self._told_silent = False
+        self._frame_timer = self._timer(_FRAME_MS, self._follow_sound, precise=True)
+        self._settle_timer = self._timer(_SETTLE_MS, self._render, once=True)
+        self._look_timer = self._timer(_LOOK_MS, self._look)
+        session.changed.connect(self._changed)
+        session.playhead_changed.connect(self._playhead_moved)
+        session.loop_changed.connect(lambda: self.playback.set_loop(session.loop_s))
+        session.listening.changed.connect(self._listening_changed)
+        self.playback.playing_changed.connect(self._playing_changed)
+        self.playback.silent_changed.connect(self._silent_changed)
+        self._listening_changed()
+        self._take(session.project)
+
+    @property
+    def recording(self) -> Recording | None:
+        """The project's recording, once it is read."""
+        return self._recording
+
+    # The playhead
+
+    def _follow_sound(self) -> None:
+        self._own_move = True
+        try:
+            self._session.set_playhead(self.playback.position_s())
+        finally:
+            self._own_move = False
+
+    def _playhead_moved(self, playhead_s: float) -> None:
+        if self._own_move:
+            return
+        if self._session.listening.scrub_sound:
+            self.playback.scrub(playhead_s)
+        else:
+            self.playback.seek(playhead_s)
+
+    def _playing_changed(self, playing: bool) -> None:
+        if playing:
+            self._frame_timer.start()
+        else:
+            self._frame_timer.stop()
+        self._follow_sound()
+        self._session.set_playing(playing)
+
+    def _silent_changed(self, silent: bool) -> None:
+        self._session.listening.set(silent=silent)
+        if silent and not self._told_silent:
+            self._told_silent = True
+            self._session.notice(Message("audio.no_device"), Severity.WARNING)
+
+    # What is heard
+
+    def _changed(self, change: Change) -> None:
+        if change.opened:
+            self.playback.stop()
+            self._made.clear()
+            self._estimated.clear()
+            if change.after.audio is not None:
+                # An offset that a project brings along is the person's.
+                self._estimated.add(change.after.audio.path)
+        self._take(change.after)
+
+    def _listening_changed(self) -> None:
+        listening = self._session.listening
+        self.playback.set_speed(listening.speed)
+        self.playback.set_volume(listening.volume)
+        self._take(self._session.project)
+
+    def _take(self, project: Project) -> None:
+        """Let this project be heard."""
+        frame = self._session.performance.time_frame
+        score = project.score
+        end_s = max(score.tempo_map.seconds(float(score.sounding_end_tick)), frame.end_s)
+        self.playback.set_span(frame.first_frame_s, end_s)
+        path = project.audio.path if project.audio is not None else ""
+        if path != (self._recording.path if self._recording is not None else "") and path != self._reading:
+            self._read(path)
+        if self._synthesiser_heard(project) and self._outdated(project):
+            self._settle_timer.start()
+        self._set_mix()
+
+    def _synthesiser_heard(self, project: Project) -> bool:
+        return project.audio is None or self._session.listening.source != "recording"
+
+    def _set_mix(self) -> None:
+        session = self._session
+        project, listening = session.project, session.listening
+        tracks: list[Track] = []
+        if project.audio is not None and self._recording is not None and listening.source != "synthesiser":
+            tracks.append(recording_track(self._recording, project.audio.offset_s))
+        if self._synthesiser_heard(project):
+            pieces = {
+                player.id: [piece for phrase in made.phrases if (piece := self._synthesiser.ready(phrase)) is not None]
+                for player in project.players
+                if (made := self._made.get(player.id)) is not None
+            }
+            tracks.extend(player_tracks(project, pieces))
+        if listening.click:
+            tracks.append(self._clicks(project))
+        self.playback.set_mix(Mix(tracks))
+
+    def _clicks(self, project: Project) -> Track:
+        score, frame = project.score, self._session.performance.time_frame
+        sources = (score.tempo_map, score.metres, score.pickup_ticks, project.felt_beat_ticks)
+        key = (*sources, frame.first_frame_s, frame.end_s)
+        if self._click is None or self._click[0] != key:
+            self._click = (key, click_track(project, frame.first_frame_s, frame.end_s))
+        return self._click[1]
+
+    # The synthesiser
+
+    def _sources(self, project: Project, player: Player) -> tuple[object, ...]:
+        return (project.part(player), project.score.tempo_map, player.instrument_id)
+
+    def _outdated(self, project: Project) -> bool:
+        return any(
+            (made := self._made.get(player.id)) is None or not made.of(self._sources(project, player))
+            for player in project.players
+        )
+
+    def _render(self) -> None:
+        """Make what is missing, what is heard next first."""
+        project, from_s = self._session.project, self._session.playhead_s
+        made, synthesiser = self._made, self._synthesiser
+
+        def work(progress: Progress, stop_wanted: StopWanted) -> None:
+            for player in project.players:
+                sources = self._sources(project, player)
+                if (old := made.get(player.id)) is None or not old.of(sources):
+                    try:
+                        made[player.id] = _Made(sources, player_phrases(project, player))
+                    except MapError:
+                        made[player.id] = _Made(sources, ())
+                if stop_wanted():
+                    raise Cancelled("work.stopped")
+            everything = [phrase for player in project.players for phrase in made[player.id].phrases]
+            synthesiser.forget(everything)
+            missing = [phrase for phrase in everything if synthesiser.ready(phrase) is None]
+            missing.sort(key=lambda phrase: (phrase.end < from_s * RATE_HZ, phrase.start))
+            for index, phrase in enumerate(missing):
+                if stop_wanted():
+                    raise Cancelled("work.stopped")
+                synthesiser.render(phrase)
+                progress((index + 1) / len(missing))
+                time.sleep(_BREATHE_S)
+
+        self._look_timer.start()
+        self._session.tasks.run(Message("work.synthesise"), work, lambda _: self._look(), key="synthesise")
+
+    def _look(self) -> None:
+        """Add what is ready to what is heard."""
+        project = self._session.project
+        phrases = [
+            phrase for player in project.players if (made := self._made.get(player.id)) for phrase in made.phrases
+        ]
+        ready = sum(self._synthesiser.ready(phrase) is not None for phrase in phrases)
+        done = ready == len(phrases) and not self._outdated(project)
+        if done or not self._synthesiser_heard(project):
+            self._look_timer.stop()
+        self._session.listening.set(ready=1.0 if done else ready / max(len(phrases), 1))
+        self._set_mix()
+
+    # The recording
+
+    def _read(self, path: str) -> None:
+        self._recording = None
+        self._reading = path
+        self._session.listening.set_waveform(None)
+        if not path:
+            return
+
+        def work(progress: Progress, stop_wanted: StopWanted) -> tuple[Recording, Peaks]:
+            recording = decode(path, progress, stop_wanted)
+            return recording, Peaks(recording.samples, RATE_HZ)
+
+        def done(result: tuple[Recording, Peaks]) -> None:
+            audio = self._session.project.audio
+            if audio is None or audio.path != path:
+                return
+            self._recording, waveform = result
+            self._reading = ""
+            for warning in self._recording.warnings:
+                self._session.notice(warning, Severity.WARNING)
+            self._session.listening.set_waveform(waveform)
+            self._set_mix()
+            if path not in self._estimated and self._session.project.score.end_tick:
+                self.estimate(unasked=True)
+
+        def failed(error: AppError) -> None:
+            # It stays the one that was read last, so that it is not tried again at every edit.
+            self._session.notice(error.message, Severity.ERROR)
+
+        # Later: whoever adds a recording is still being told of it.
+        QTimer.singleShot(
+            0,
+            self,
+            lambda: self._session.tasks.run(
+                Message("work.read_recording", {"file": Path(path).name}), work, done, failed, key="recording"
+            ),
+        )
+
+    def estimate(self, unasked: bool = False, with_tempo: bool = False) -> None:
+        """Find the recording's offset from what is heard in it; set it as an edit.
+
+        Parameters
+        ----------
+        unasked : bool
+            The recording was just added: an uncertain offset is told, but not taken.
+        with_tempo : bool
+            Fit the score's tempo to the recording's as well.
+        """
+        recording, project = self._recording, self._session.project
+        if recording is None or project.audio is None:
+            return
+        self._estimated.add(recording.path)
+
+        def work(progress: Progress, stop_wanted: StopWanted) -> Estimate:
+            return estimate_offset(recording.samples, RATE_HZ, project.score, progress, stop_wanted)
+
+        def done(estimate: Estimate) -> None:
+            audio = self._session.project.audio
+            if audio is None or audio.path != recording.path:
+                return
+            self._take_estimate(estimate, unasked, with_tempo)
+
+        self._session.tasks.run(Message("work.estimate_offset"), work, done, key="estimate")
+
+    def _take_estimate(self, estimate: Estimate, unasked: bool, with_tempo: bool) -> None:
+        session = self._session
+        percent = round(100 * estimate.confidence)
+        if estimate.confidence < SURE and (unasked or with_tempo):
+            session.notice(Message("audio.not_recognised", {"percent": percent}), Severity.WARNING)
+            return
+        other_tempo = abs(estimate.tempo_ratio - 1.0) > SAME_TEMPO
+        if other_tempo and with_tempo:
+            name = Message("edit.fit_tempo")
+            session.attempt(
+                name,
+                lambda project: scale_tempo(
+                    set_offset(project, estimate.offset_s, estimate.confidence), estimate.tempo_ratio
+                ),
+            )
+        else:
+            session.attempt(
+                Message("edit.estimate_offset"),
+                lambda project: set_offset(project, estimate.offset_s, estimate.confidence),
+            )
+        tempo_percent = 100 * (estimate.tempo_ratio - 1.0)
+        arguments = {"offset_s": estimate.offset_s, "percent": percent, "tempo_percent": tempo_percent}
+        id = "audio.offset_found"
+        if other_tempo:
+            id = "audio.tempo_fitted" if with_tempo else "audio.other_tempo"
+        severity = Severity.INFORMATION if estimate.confidence >= SURE else Severity.WARNING
+        session.notice(Message(id, dict(arguments)), severity)
+
+    def _timer(self, interval_ms: int, slot: object, once: bool = False, precise: bool = False) -> QTimer:
+        timer = QTimer(self)
+        timer.setInterval(interval_ms)
+        timer.setSingleShot(once)
+        if precise:
+            timer.setTimerType(Qt.TimerType.PreciseTimer)
+        timer.timeout.connect(slot)
+        return timer
+
+
+def sound_of(session: Session) -> Sound | None:
+    """The sound of a session; None where nothing is heard."""
+    return session.findChild(Sound, "sound", Qt.FindChildOption.FindDirectChildrenOnly)
