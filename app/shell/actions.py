@@ -30,6 +30,7 @@ SUBJECTS: Final = (
     "playback",
     "generate",
     "problems",
+    "exchange",
     "application",
 )
 """Modules of `app.shell.commands`, in the order in which their rows stand in a menu."""
@@ -162,11 +163,12 @@ class ActionTable(QObject):
         action.triggered.connect(partial(self._run, row))
         return action
 
-    def _run(self, row: Action, checked: bool) -> None:
+    def _run(self, row: Action, *_told: bool) -> None:
         if row.checked is None:
             row.run(self.session)
         else:
-            row.run(self.session, checked)
+            # PySide tells a partial of a method nothing of the state.
+            row.run(self.session, self.actions[row.id].isChecked())
         self.refresh_soon()
 
     def attach(self, context: str, widget: QWidget) -> None:
