@@ -1,0 +1,284 @@
+"""Breaths, cues, gestures and expressions by mouse and keys, judged by the project."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import pytest
+from PySide6.QtCore import QPointF, Qt
+from PySide6.QtTest import QTest
+from pytestqt.qtbot import QtBot
+
+from app.errors import Message
+from app.plan.corrections import (
+    AddExpression,
+    AddGesture,
+    ChangeExpression,
+    ChangeGesture,
+    RemoveEvent,
+    SetBreath,
+    SetCue,
+)
+from app.project.edit import events as edit
+from tests.gui.timeline.lane_hands import (
+    ALT,
+    CTRL,
+    LEFT,
+    click,
+    double_click,
+    drag,
+    front_plan,
+    middle,
+    move_to,
+    region_of,
+    shown_panel,
+    viewport,
+)
+from widgets.common.selection import EventKey, Selection
+from widgets.common.session import Session
+from widgets.timeline.lanes.acting import ActingLane
+from widgets.timeline.lanes.breath import BreathLane
+from widgets.timeline.panel import TimelinePanel
+
+
+@pytest.fixture
+def panel(session: Session, qtbot: QtBot) -> TimelinePanel:
+    result = shown_panel(session)
+    qtbot.addWidget(result)
+    result.axis.show(-3.0, 27.0)
+    return result
+
+
+def breath_lane(panel: TimelinePanel) -> BreathLane:
+    lane = panel.lanes["breath"]
+    assert isinstance(lane, BreathLane)
+    return lane
+
+
+def acting_lane(panel: TimelinePanel) -> ActingLane:
+    lane = panel.lanes["acting"]
+    assert isinstance(lane, ActingLane)
+    return lane
+
+
+def corrections(session: Session) -> tuple[object, ...]:
+    assert session.player is not None
+    return session.project.corrections.get(session.player.id, ())
+
+
+def second_breath(session: Session) -> str:
+    """The second breath that rests give and the picture shows."""
+    return [event.id for event in front_plan(session).breaths if event.kind == "breath"][2]
+
+
+def test_a_click_selects_and_ctrl_adds(panel: TimelinePanel, session: Session) -> None:
+    lane = breath_lane(panel)
+    first, second = [event.id for event in front_plan(session).breaths if event.kind == "breath"][1:3]
+    player = front_plan(session).player_id
+    click(lane, middle(lane, first))
+    assert session.selection.events == {EventKey(player, first)}
+    click(lane, middle(lane, second), CTRL)
+    assert session.selection.events == {EventKey(player, first), EventKey(player, second)}
+    click(lane, QPointF(lane.axis.x_px(8.0), 4.0))
+    assert not session.selection.events
+
+
+def test_a_breath_is_dragged_in_one_step_and_its_key_follows(panel: TimelinePanel, session: Session) -> None:
+    lane, breath = breath_lane(panel), second_breath(session)
+    before = region_of(lane, breath)
+    drag(lane, middle(lane, breath), dx=-30, modifiers=ALT)
+    (correction,) = corrections(session)
+    assert isinstance(correction, SetBreath)
+    assert len(session.document.done) == 1
+    (key,) = session.selection.events
+    after = region_of(lane, key.event_id)
+    assert after.start_s == pytest.approx(before.start_s - 30 / lane.axis.px_per_s, abs=0.02)
+    assert after.end_tick - after.start_tick == before.end_tick - before.start_tick
+    assert after.by_hand
+    session.document.undo()
+    assert region_of(lane, breath) == before
+
+
+def test_a_drag_back_to_its_start_is_no_step(panel: TimelinePanel, session: Session) -> None:
+    lane, breath = breath_lane(panel), second_breath(session)
+    project = session.project
+    place = middle(lane, breath)
+    drag(lane, place, dx=40, modifiers=ALT, release=False)
+    assert session.project is not project
+    move_to(viewport(lane), place, ALT)
+    QTest.mouseRelease(viewport(lane), LEFT, ALT, place)
+    assert session.project is project
+    assert not session.document.done
+
+
+def test_escape_takes_a_drag_back(panel: TimelinePanel, session: Session) -> None:
+    lane, breath = breath_lane(panel), second_breath(session)
+    project = session.project
+    drag(lane, middle(lane, breath), dx=50, release=False)
+    assert session.project is not project
+    QTest.keyClick(viewport(lane), Qt.Key.Key_Escape)
+    assert session.project is project
+    assert not session.document.done
+    assert session.selection.events == {EventKey(front_plan(session).player_id, breath)}
+
+
+def test_dragging_up_and_down_changes_the_depth(panel: TimelinePanel, session: Session) -> None:
+    lane, breath = breath_lane(panel), second_breath(session)
+    before = region_of(lane, breath).amount
+    drag(lane, middle(lane, breath), dy=lane.box(region_of(lane, breath)).height() * 0.2)
+    (correction,) = corrections(session)
+    assert isinstance(correction, SetBreath)
+    assert correction.depth == pytest.approx(before - 0.2, abs=0.05)
+    assert len(session.document.done) == 1
+
+
+def test_an_edge_resizes_and_snaps(panel: TimelinePanel, session: Session) -> None:
+    panel.axis.show(20.0, 26.0)
+    lane = breath_lane(panel)
+    breath = next(
+        region.event_id
+        for region in lane.regions
+        if region.kind == "breath" and region.start_s > 21.0 and lane.box(region).width() > 40
+    )
+    before = region_of(lane, breath)
+    box = lane.box(before)
+    drag(lane, QPointF(box.left() + 2, box.center().y()), dx=-60)
+    after = region_of(lane, breath)
+    assert after.end_tick == before.end_tick
+    assert after.start_tick < before.start_tick
+    assert after.start_tick == session.grid.snap(session.project.score, after.start_tick)
+
+
+def test_a_double_click_adds_a_breath_and_delete_forgets_it(panel: TimelinePanel, session: Session) -> None:
+    lane = breath_lane(panel)
+    notes = session.project.part(session.player).notes if session.player else ()
+    taken = {event.id for event in front_plan(session).breaths}
+    note = next(note for note in notes[2:] if f"breath:{note.id}" not in taken)
+    at_s = session.project.score.tempo_map.seconds(float(note.onset_tick)) - 0.05
+    double_click(lane, QPointF(lane.axis.x_px(at_s), 3.0))
+    (correction,) = corrections(session)
+    assert isinstance(correction, SetBreath)
+    assert (correction.note_id, correction.added) == (note.id, True)
+    assert session.selection.events == {EventKey(front_plan(session).player_id, f"breath:{note.id}")}
+
+
+def test_a_removed_breath_leaves_a_mark_that_brings_it_back(panel: TimelinePanel, session: Session) -> None:
+    lane, breath = breath_lane(panel), second_breath(session)
+    plan = front_plan(session)
+    session.attempt(Message("edit.remove_events", {"count": 1}), lambda p: edit.remove(p, plan, (breath,)))
+    mark = region_of(lane, breath)
+    assert mark.removed
+    assert isinstance(corrections(session)[0], RemoveEvent)
+    click(lane, lane.box(mark).center())
+    assert session.selection.events == {mark.key}
+
+
+def test_several_selected_move_together(panel: TimelinePanel, session: Session) -> None:
+    lane = acting_lane(panel)
+    sways = [event for event in front_plan(session).gestures if event.kind == "sway"][3:6]
+    player = front_plan(session).player_id
+    session.select(Selection(events=frozenset(EventKey(player, event.id) for event in sways)))
+    drag(lane, middle(lane, sways[1].id), dx=25, modifiers=ALT)
+    changed = {item.event_id: item for item in corrections(session) if isinstance(item, ChangeGesture)}
+    assert set(changed) == {event.id for event in sways}
+    moved = {changed[event.id].start_tick - event.start_tick for event in sways}  # type: ignore[operator]
+    assert len(moved) == 1
+    assert moved.pop() > 0
+    assert len(session.document.done) == 1
+
+
+def test_a_gestures_amount_is_signed(panel: TimelinePanel, session: Session) -> None:
+    lane = acting_lane(panel)
+    shift = next(event for event in front_plan(session).gestures if event.kind == "weight_shift" and event.start_s > 0)
+    height = lane.row_box(region_of(lane, shift.id).row)[1]
+    drag(lane, middle(lane, shift.id), dy=-height * 0.5 if shift.amount < 0 else height * 0.5)
+    (change,) = corrections(session)
+    assert isinstance(change, ChangeGesture)
+    assert change.amount == pytest.approx(shift.amount + (1.0 if shift.amount < 0 else -1.0), abs=0.12)
+
+
+def test_an_expression_is_added_faded_and_made_weaker(panel: TimelinePanel, session: Session) -> None:
+    lane = acting_lane(panel)
+    player = front_plan(session).player_id
+    session.attempt(
+        Message("edit.add_expression"),
+        lambda p: edit.add_expression(p, player, "smile", 4 * 960, 10 * 960, 1.0, 0.3, 0.3).project,
+    )
+    name = "expression:own-1"
+    click(lane, middle(lane, name))
+    region = region_of(lane, name)
+    _, (_, fade_out) = lane.fade_handles(region, lane.box(region))
+    drag(lane, fade_out, dx=-30)
+    (added,) = corrections(session)
+    assert isinstance(added, AddExpression)
+    assert added.fade_out_s == pytest.approx(0.3 + 30 / lane.axis.px_per_s, abs=0.03)
+    drag(lane, middle(lane, name), dy=lane.row_box(region.row)[1] * 0.5)
+    (added,) = corrections(session)
+    assert isinstance(added, AddExpression)
+    assert 0.3 < added.strength < 0.7
+
+
+def test_another_expression_from_the_menu(panel: TimelinePanel, session: Session) -> None:
+    lane = acting_lane(panel)
+    brows = next(region for region in lane.regions if region.event_id.startswith("expression:brows_up"))
+    panel.axis.show(brows.start_s - 2.0, brows.end_s + 2.0)
+    menu = lane.context_menu(lane.mouse_at(lane.box(brows).center()))
+    assert menu is not None
+    other = next(action.menu() for action in menu.actions() if action.menu() is not None)
+    assert {action.text() for action in other.actions()} >= {"Smile", "Strained", "Brows up"}  # type: ignore[union-attr]
+    next(action for action in other.actions() if action.text() == "Smile").trigger()  # type: ignore[union-attr]
+    (change,) = corrections(session)
+    assert isinstance(change, ChangeExpression)
+    assert change.expression == "smile"
+
+
+def test_a_cue_snaps_to_an_entry(panel: TimelinePanel, session: Session) -> None:
+    lane = acting_lane(panel)
+    cue = front_plan(session).cues[0]
+    notes = session.project.part(session.player).notes if session.player else ()
+    target = notes[2]
+    seconds = session.project.score.tempo_map.seconds
+    dx = (seconds(float(target.onset_tick)) - cue.end_s) * lane.axis.px_per_s + 4
+    box = lane.box(region_of(lane, cue.id))
+    drag(lane, QPointF(box.center().x(), box.bottom() - 3), dx=dx)
+    (correction,) = corrections(session)
+    assert isinstance(correction, SetCue)
+    assert correction.note_id == target.id
+    assert session.selection.events == {EventKey(front_plan(session).player_id, f"cue:{target.id}")}
+
+
+def test_a_double_click_in_a_gestures_row_adds_one(panel: TimelinePanel, session: Session) -> None:
+    lane = acting_lane(panel)
+    row = next(first + count - 1 for kind, first, count in lane.groups if kind == "lower_instrument")
+    top, height = lane.row_box(row)
+    double_click(lane, QPointF(lane.axis.x_px(5.0), top + height / 2))
+    (added,) = corrections(session)
+    assert isinstance(added, AddGesture)
+    assert (added.kind, added.amount) == ("lower_instrument", 1.0)
+
+
+def test_regions_of_one_kind_never_lie_over_one_another(panel: TimelinePanel, session: Session) -> None:
+    lane = acting_lane(panel)
+    player = front_plan(session).player_id
+    for start in (0, 480, 960, 2400):
+        session.attempt(
+            Message("edit.add_gesture"),
+            lambda p, start=start: edit.add_gesture(p, player, "bell_height", start, start + 1500, 0.5).project,  # type: ignore[misc]
+        )
+    by_row: dict[int, list[tuple[int, int]]] = {}
+    for region in lane.regions:
+        if not region.removed and region.event_id != "expression:neutral":
+            by_row.setdefault(region.row, []).append((region.start_tick, region.end_tick))
+    for spans in by_row.values():
+        spans.sort()
+        assert all(before[1] <= after[0] for before, after in pairwise(spans))
+
+
+def test_a_lasso_selects_what_it_meets(panel: TimelinePanel, session: Session) -> None:
+    lane = breath_lane(panel)
+    boxes = {region.event_id: lane.box(region) for region in lane.regions if region.start_s > 0 and region.end_s < 20}
+    left = min(box.left() for box in boxes.values()) - 12
+    right = max(box.right() for box in boxes.values()) + 4
+    drag(lane, QPointF(left, 3.0), dx=right - left, dy=lane.plot.height() - 6)
+    assert {key.event_id for key in session.selection.events} == set(boxes)
+    assert not session.document.done
