@@ -30,11 +30,12 @@ import numpy as np
 
 from app.errors import Argument, Message
 from app.plan.corrections import BY_HAND, Correction, SetBreath, removed_ids, without_removed
-from app.plan.line import IntArray, LineTimes, Piece
+from app.plan.line import IntArray, LineTimes, Piece, Seeds
 from app.plan.lungs import EPSILON, air_used_s, catch_lengths_s, catch_places, drawn, levels
 from app.plan.model import BreathEvent, FloatArray, Note, PlayerParameters, Problem, TimeFrame
 
 LEAST_DEPTH = 0.3
+NOBODY = Seeds()
 
 
 class BreathPlan(msgspec.Struct, frozen=True):
@@ -65,7 +66,7 @@ def plan_breaths(
     frame: TimeFrame,
     corrections: tuple[Correction, ...] = (),
     taken: frozenset[str] = frozenset(),
-    seed: tuple[str | int, ...] = (),
+    seeds: Seeds = NOBODY,
 ) -> BreathPlan:
     """Place every breath of a line.
 
@@ -73,7 +74,7 @@ def plan_breaths(
     ----------
     taken : frozenset of str
         Notes before which other players of the same part take catch breaths.
-    seed : tuple
+    seeds : Seeds
         What tells this player from others where places are equally good.
     """
     if not notes:
@@ -91,7 +92,7 @@ def plan_breaths(
         if event.kind == "breath":
             refill[index_of[_note_id(event)]] = max(0.0, drawn(event.end_s - event.start_s) * _full(event))
     level = levels(air_used_s(times), parameters.lung_s, refill)
-    catches = catch_places(notes, times, piece, parameters, refill, level, removed, taken, seed)
+    catches = catch_places(notes, times, piece, parameters, refill, level, removed, taken, seeds)
     length_s = catch_lengths_s(times)
     breaths = np.flatnonzero(refill > 0.0)
     caught = [

@@ -176,6 +176,17 @@ class PoseCorrection(_Correction, frozen=True, tag="pose"):
     fade_out_ticks: int = 0
 
 
+class Vary(_Correction, frozen=True, tag="vary"):
+    """Let the player's chances fall differently from one tick to another: another performance of these bars. Where the
+    generator leaves nothing to chance nothing changes. ``name`` tells one from another; of several that overlap the
+    last counts."""
+
+    name: str
+    start_tick: int
+    end_tick: int
+    seed: int
+
+
 Correction: TypeAlias = (
     PinFingering
     | RemoveEvent
@@ -187,6 +198,7 @@ Correction: TypeAlias = (
     | ChangeExpression
     | AddExpression
     | PoseCorrection
+    | Vary
 )
 
 E = TypeVar("E", BreathEvent, CueEvent, GestureEvent, ExpressionEvent)
@@ -231,7 +243,7 @@ def _is_empty(item: Correction) -> bool:
         return item.start_offset_tick >= item.end_offset_tick
     if isinstance(item, SetCue):
         return item.beats <= 0.0
-    if isinstance(item, AddGesture | AddExpression | ChangeGesture | ChangeExpression | PoseCorrection):
+    if isinstance(item, AddGesture | AddExpression | ChangeGesture | ChangeExpression | PoseCorrection | Vary):
         return item.start_tick is not None and item.end_tick is not None and item.start_tick >= item.end_tick
     return False
 
@@ -245,7 +257,7 @@ def anchor(item: Correction) -> str:
     """What a correction is tied to: a note, an event, or the name the animator gave."""
     if isinstance(item, PinFingering | SetBreath | SetCue | SetEmbouchure):
         return item.note_id
-    if isinstance(item, AddGesture | AddExpression | PoseCorrection):
+    if isinstance(item, AddGesture | AddExpression | PoseCorrection | Vary):
         return item.name
     return item.event_id
 

@@ -22,6 +22,7 @@ from app.plan.corrections import (
     SetBreath,
     SetCue,
     SetEmbouchure,
+    Vary,
     correct_embouchures,
     correct_expressions,
     correct_gestures,
@@ -33,7 +34,7 @@ from app.plan.embouchure import plan_embouchures, plan_tongues
 from app.plan.expression import plan_expressions
 from app.plan.fingering import plan_fingerings
 from app.plan.gesture import plan_gestures
-from app.plan.line import Line, LineTimes, Piece, line_times
+from app.plan.line import Line, LineTimes, Piece, Seeds, line_times
 from app.plan.memo import Memo
 from app.plan.model import Clock, CueEvent, PlayerPlan, Problem, TimeFrame
 from app.plan.pose import plan_poses
@@ -219,7 +220,8 @@ def _plan_line(given: _Given, memo: Memo) -> tuple[PlayerPlan, frozenset[tuple[i
     piece, line, times, frame = given.piece, given.line, given.times, given.frame
     notes, instrument, parameters = line.notes, line.instrument_map, line.parameters
     corrections, clock = line.corrections, piece.clock
-    seeds = (given.seed, parameters.seed, line.player_id)
+    varied = tuple((item.start_tick, item.end_tick, item.seed) for item in corrections if isinstance(item, Vary))
+    seeds = Seeds((given.seed, parameters.seed, line.player_id), varied)
     sound = (notes, times)
 
     def of(*kinds: type[Correction]) -> tuple[Correction, ...]:

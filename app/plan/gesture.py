@@ -25,7 +25,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from app.errors import Message
-from app.plan.line import LineTimes, Piece, chance
+from app.plan.line import LineTimes, Piece, Seeds
 from app.plan.model import BreathEvent, CueEvent, FloatArray, GestureEvent, Note, TimeFrame
 
 SWING_S = 1.1
@@ -55,49 +55,47 @@ def plan_gestures(
     frame: TimeFrame,
     breaths: tuple[BreathEvent, ...],
     cues: tuple[CueEvent, ...],
-    seed: tuple[str | int, ...],
+    seeds: Seeds,
     swing_at_s: float,
 ) -> tuple[GestureEvent, ...]:
     """All gestures of one player, ordered by start.
 
     Parameters
     ----------
-    seed : tuple
-        Player and seeds; the score position is added.
+    seeds : Seeds
+        The player's.
     swing_at_s : float
         Where the piece's tempo is taken to choose how many beats a swing has: the same for all players.
     """
     lowered = lowered_spans(notes, times, piece, frame, breaths, cues)
     events = [
-        *sways(times, piece, frame, seed, swing_at_s),
-        *weight_shifts(piece, frame, seed),
+        *sways(times, piece, frame, seeds, swing_at_s),
+        *weight_shifts(piece, frame, seeds),
         *bell_heights(notes, times, piece),
         *lowered,
     ]
     return tuple(sorted(events, key=lambda event: (event.start_s, event.id)))
 
 
-def sways(
-    times: LineTimes, piece: Piece, frame: TimeFrame, seed: tuple[str | int, ...], swing_at_s: float
-) -> list[GestureEvent]:
+def sways(times: LineTimes, piece: Piece, frame: TimeFrame, seeds: Seeds, swing_at_s: float) -> list[GestureEvent]:
     """Half swings from beat to beat, left and right in turn, each of its own size; small where the player rests."""
     clock, beat = piece.clock, piece.beat_ticks
     at_tick = clock.ticks(swing_at_s)
     beat_s = clock.seconds(at_tick + beat) - clock.seconds(at_tick)
     beats = min((1, 2, 4, 8), key=lambda count: abs(np.log(count * beat_s / SWING_S)))
-    if chance(*seed, "swing") < 0.3 and beats * beat_s < 1.5 * SWING_S:
+    if seeds.chance("swing") < 0.3 and beats * beat_s < 1.5 * SWING_S:
         # Some players take the tempo in longer swings than others.
         beats *= 2
     first_tick, last_tick = int(clock.ticks(frame.first_frame_s)), int(np.ceil(clock.ticks(frame.end_s)))
     margin = 2 * beats * beat
     every = piece.beats(first_tick - margin, last_tick + margin)
     # Counted from the piece's beginning, so that a longer pre-roll or a note added at the end changes nothing.
-    phase = (int(np.searchsorted(every, 0)) + int(chance(*seed, "phase") * beats)) % beats
+    phase = (int(np.searchsorted(every, 0)) + int(seeds.chance("phase") * beats)) % beats
     ticks = every[phase::beats]
     origin = int(np.searchsorted(ticks, 0))
     seconds = clock.seconds(ticks.astype(np.float64))
     playing = _sounding_share(times, seconds)
-    flip = 1.0 if chance(*seed, "side") < 0.5 else -1.0
+    flip = 1.0 if seeds.chance("side") < 0.5 else -1.0
     reason = Message("gesture.sway", {"beats": beats, "beat_s": round(beat_s, 3)})
     events = []
     for index in range(len(ticks) - 1):
@@ -106,8 +104,8 @@ def sways(
             continue
         tick = int(ticks[index])
         side = flip if (index - origin) % 2 == 0 else -flip
-        size = 0.3 + 0.7 * chance(*seed, "sway", tick)
-        if chance(*seed, "sway held", tick) < 0.12:
+        size = 0.3 + 0.7 * seeds.chance_at("sway", tick)
+        if seeds.chance_at("sway held", tick) < 0.12:
             side, size = -side, 0.5 * size
         amount = side * size * (_RESTING + (1.0 - _RESTING) * float(playing[index]))
         events.append(
@@ -127,7 +125,7 @@ def _sounding_share(times: LineTimes, edges_s: FloatArray) -> FloatArray:
     return np.clip(share, 0.0, 1.0)
 
 
-def weight_shifts(piece: Piece, frame: TimeFrame, seed: tuple[str | int, ...]) -> list[GestureEvent]:
+def weight_shifts(piece: Piece, frame: TimeFrame, seeds: Seeds) -> list[GestureEvent]:
     """Shifts of weight at arbitrary times (T7), about every `SHIFT_MEAN_S`: bar by bar a player shifts or not."""
     clock = piece.clock
     first_tick, last_tick = int(clock.ticks(frame.first_frame_s)), int(np.ceil(clock.ticks(frame.end_s)))
@@ -137,9 +135,9 @@ def weight_shifts(piece: Piece, frame: TimeFrame, seed: tuple[str | int, ...]) -
     starts: list[tuple[int, float]] = []
     for index in range(len(bars)):
         tick, length_s = int(bars[index]), float(seconds[index + 1] - seconds[index])
-        if chance(*seed, "shift", tick) >= min(length_s / SHIFT_MEAN_S, 0.9):
+        if seeds.chance_at("shift", tick) >= min(length_s / SHIFT_MEAN_S, 0.9):
             continue
-        at = tick + int(chance(*seed, "shift at", tick) * (int(edges[index + 1]) - tick))
+        at = tick + int(seeds.chance_at("shift at", tick) * (int(edges[index + 1]) - tick))
         at_s = clock.seconds(float(at))
         if at_s >= frame.first_frame_s and (not starts or at_s - starts[-1][1] >= SHIFT_LEAST_S):
             starts.append((at, at_s))
@@ -147,7 +145,7 @@ def weight_shifts(piece: Piece, frame: TimeFrame, seed: tuple[str | int, ...]) -
     for (tick, start_s), (end_tick, end_s) in zip(starts, [*starts, (last_tick, frame.end_s)][1:], strict=True):
         if end_s <= start_s:
             continue
-        amount = 2.0 * chance(*seed, "shift to", tick) - 1.0
+        amount = 2.0 * seeds.chance_at("shift to", tick) - 1.0
         amount = float(np.copysign(0.25 + 0.75 * abs(amount), amount))
         reason = Message("gesture.weight_shift", {"side": "left" if amount > 0.0 else "right"})
         events.append(

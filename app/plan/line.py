@@ -173,6 +173,32 @@ def line_times(line: Line, clock: Clock) -> LineTimes:
     )
 
 
+class Seeds(msgspec.Struct, frozen=True):
+    """What one player's chances are drawn from.
+
+    Attributes
+    ----------
+    names : tuple of str or int
+        Seeds, and who it is.
+    varied : tuple of (start_tick, end_tick, seed)
+        Where chances fall differently; of several the last counts.
+    """
+
+    names: tuple[str | int, ...] = ()
+    varied: tuple[tuple[int, int, int], ...] = ()
+
+    def chance(self, *purpose: str | int) -> float:
+        """A number in [0, 1) for a purpose that belongs to no place of the score."""
+        return chance(*self.names, *purpose)
+
+    def chance_at(self, purpose: str, tick: int) -> float:
+        """A number in [0, 1) for a purpose at a place of the score."""
+        for start_tick, end_tick, seed in reversed(self.varied):
+            if start_tick <= tick < end_tick:
+                return chance(*self.names, "varied", seed, purpose, tick)
+        return chance(*self.names, purpose, tick)
+
+
 def chance(*parts: str | int) -> float:
     """A number in [0, 1) that depends on nothing but its arguments: the same seed, player and score position give the
     same number on every machine and in every run."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from app.plan.line import MEZZOFORTE, IntArray, LineTimes, Piece, chance
+from app.plan.line import MEZZOFORTE, IntArray, LineTimes, Piece, Seeds
 from app.plan.model import FloatArray, Note, PlayerParameters
 
 FULL_BREATH_S = 0.5
@@ -79,7 +79,7 @@ def catch_places(
     level: FloatArray,
     removed: frozenset[str],
     taken: frozenset[str],
-    seed: tuple[str | int, ...],
+    seeds: Seeds,
 ) -> list[int]:
     """Indices of the notes before which a catch breath is needed.
 
@@ -112,7 +112,7 @@ def catch_places(
             index for index in range(start + 1, end) if open_[index] and f"breath:{notes[index].id}" not in removed
         ]
         if places:
-            cost = _place_costs(notes, times, piece, bars, around, places, taken, seed)
+            cost = _place_costs(notes, times, piece, bars, around, places, taken, seeds)
             result += _cheapest_chain(used, places, cost, length_s, start, end, float(level[start]), lung_s)
     return result
 
@@ -165,7 +165,7 @@ def _place_costs(
     around: FloatArray,
     places: list[int],
     taken: frozenset[str],
-    seed: tuple[str | int, ...],
+    seeds: Seeds,
 ) -> FloatArray:
     at = np.array(places)
     duration = times.duration_s
@@ -178,7 +178,7 @@ def _place_costs(
     good += SILENCE * (times.silence_tick[at] > 0)
     good += SLURRED * times.overlaps_next[at - 1]
     good += CLIPPED * (_gap_s(times)[at] + CATCH_NOTE_SHARE * duration[at - 1] < CATCH_MIN_S)
-    good += np.array([JITTER * chance(*seed, "catch", int(tick)) for tick in onset])
+    good += np.array([JITTER * seeds.chance_at("catch", int(tick)) for tick in onset])
     good -= TAKEN_COST * np.array([notes[index].id in taken for index in places])
     return np.asarray(PLACE_COST - good, dtype=np.float64)
 

@@ -28,16 +28,16 @@ BELL_UP = {"bell": 0.30, "neck": 0.45, "trunk": 0.25}
 BELL_LEFT = {"bell": 0.4, "neck": 0.4, "trunk": 0.2}
 """... and one that goes to a side too; the shares make the whole angle."""
 
-BELL_ROOM = 0.42
+BELL_ROOM = 0.36
 """Share of a carriage's range up and down that the animator may use beside the melody: the more an instrument turns
 about the rim's centre, the further the rim is off the upper lip in breaths."""
 
 HANDS_FOLLOW_DEG: dict[PoseTarget, dict[str, tuple[float, float]]] = {
-    "head": {"up_deg": (-25.0, 18.0), "left_deg": (-22.0, 22.0), "roll_deg": (-20.0, 20.0)},
-    "torso": {"up_deg": (-45.0, 20.0), "left_deg": (-25.0, 25.0), "roll_deg": (-30.0, 30.0)},
+    "head": {"up_deg": (-25.0, 12.0), "left_deg": (-22.0, 16.0), "roll_deg": (-20.0, 15.0)},
+    "torso": {"up_deg": (-45.0, 20.0), "left_deg": (-25.0, 20.0), "roll_deg": (-10.0, 20.0)},
 }
-"""Where head and trunk go the instrument goes: so far both hands were measured to keep hold of it, in every place of a
-slide."""
+"""Where head and trunk go the instrument goes: so far both hands were measured to keep hold of it, also in the farthest
+place of a slide, which is what makes the two sides differ."""
 ELBOW_DEG = (-25.0, 45.0)
 """How far an elbow goes towards the ribs and away from them, about the line from shoulder to wrist."""
 GENTLE_RAD_S2 = 40.0
@@ -104,7 +104,9 @@ def pose_limits(
     posture = body.postures[parameters.posture]
     limits, still = body.limits, posture.spine_deg
     shares = NECK_SHARES if target in ("head", "bell") else TRUNK_SHARES
-    flexion, sideways, twist = [], [], []
+    flexion: list[tuple[float, ...]] = []
+    sideways: list[tuple[float, ...]] = []
+    twist: list[tuple[float, ...]] = []
     for joint, share in shares.items():
         low, high = limits[joint].flexion_deg
         flexion.append(((still.get(joint, 0.0) - high) / share, (still.get(joint, 0.0) - low) / share))

@@ -16,6 +16,7 @@ from app.plan.corrections import (
     SetBreath,
     SetCue,
     SetEmbouchure,
+    Vary,
 )
 from app.plan.model import BreathEvent, CueEvent, EmbouchureEvent, Event, ExpressionEvent, GestureEvent, PoseEvent
 from app.plan.model import FingeringEvent as Fingered
@@ -96,5 +97,7 @@ def correction_title(item: Correction) -> str:
             return kind_name("expression")
         case AddExpression():
             return expression_name(item.expression)
+        case Vary():
+            return QCoreApplication.translate("Inspector", "Other chances")
         case PoseCorrection():
             return QCoreApplication.translate("Inspector", "Pose: {name}").format(name=pose_name(item.target))

@@ -30,6 +30,7 @@ from app.plan.corrections import (
     SetBreath,
     SetCue,
     SetEmbouchure,
+    Vary,
 )
 from app.plan.cue import LEAD_BEATS
 from app.plan.model import BreathEvent, CueEvent, Event, ExpressionEvent, GestureEvent, PlayerPlan, PoseEvent
@@ -76,6 +77,8 @@ def event_id_of(correction: Correction) -> str:
             return f"expression:{correction.name}"
         case PoseCorrection():
             return f"pose:{correction.name}"
+        case Vary():
+            return f"vary:{correction.name}"
         case _:
             return correction.event_id
 
