@@ -67,8 +67,7 @@ def slider(panel: PlayersPanel, name: str) -> NumberSlider:
 
 def type_into(control: NumberSlider, text: str) -> None:
     control.type_value()
-    field = control.findChild(QLineEdit, "number_field")
-    assert field is not None
+    field = control.findChildren(QLineEdit, "number_field")[-1]
     QTest.keyClicks(field, text)
     QTest.keyClick(field, Qt.Key.Key_Return)
 

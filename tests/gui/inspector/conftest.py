@@ -1,0 +1,38 @@
+"""An inspector whose session plans at once after every edit, as the shell does."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from pytestqt.qtbot import QtBot
+
+from app.performance.ensemble import Performance
+from app.project import presets
+from app.project.document import Change
+from widgets.common.session import Session
+from widgets.inspector.panel import InspectorPanel
+
+
+@pytest.fixture
+def planned(session: Session) -> Session:
+    def follow(change: Change) -> None:
+        performance = Performance(change.after, session.performance)
+        performance.prepare()
+        session.set_performance(performance)
+
+    session.performance.prepare()
+    session.changed.connect(follow)
+    return session
+
+
+@pytest.fixture
+def panel(planned: Session, qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> InspectorPanel:
+    monkeypatch.setattr(presets, "expression_folder", lambda: tmp_path / "expressions")
+    made = InspectorPanel(planned)
+    qtbot.addWidget(made)
+    made.resize(320, 1000)
+    made.show()
+    qtbot.waitExposed(made)
+    made.activateWindow()
+    return made
