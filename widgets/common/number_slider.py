@@ -332,13 +332,14 @@ class NumberSlider(QWidget):
         painter.fillPath(shape, QColor(tokens.raised if hovered else tokens.sunken))
         painter.save()
         painter.setClipPath(shape)
-        if self._slides and not self._mixed and self.isEnabled():
-            fill = QColor(tokens.accent)
-            fill.setAlphaF(0.42 if hovered else 0.30)
+        if self._slides and not self._mixed:
+            fill = QColor(tokens.accent if self.isEnabled() else tokens.line)
+            if self.isEnabled():
+                fill.setAlphaF(0.42 if hovered else 0.30)
             edge = box.left() + self._share(self._value) * box.width()
             left, right = sorted((box.left() + self._share(0.0) * box.width(), edge))
             painter.fillRect(QRectF(left, box.top(), right - left, box.height()), fill)
-            mark = QColor(tokens.accent)
+            mark = QColor(tokens.accent if self.isEnabled() else tokens.line_strong)
             # The words run over it.
             mark.setAlphaF(1.0 if hovered else 0.7)
             painter.fillRect(QRectF(min(edge, box.right() - 2) - 1, box.top(), 2, box.height()), mark)

@@ -142,7 +142,7 @@ class Section(QWidget):
         outer.setSpacing(0)
         outer.addWidget(self.header)
         outer.addWidget(self._content)
-        self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Maximum)
+        self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
         self.header.toggled.connect(self._content.setVisible)
 
     @property
