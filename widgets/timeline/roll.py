@@ -126,12 +126,12 @@ class PianoRoll(Lane):
         """The notes of the players behind."""
         if self._ghosts is Ghosts.ALONE:
             return []
-        front = self.session.player
-        return [
-            (self.table(player), self.session.colour(player))
-            for player in self.session.project.players
-            if player is not front
-        ]
+        project, front = self.session.project, self.session.player
+        # Players of one part are seen once, in the colour of the first.
+        behind = {player.part_id: player for player in reversed(project.players)}
+        if front is not None:
+            behind.pop(front.part_id, None)
+        return [(self.table(player), self.session.colour(player)) for player in behind.values()]
 
     @property
     def playable(self) -> tuple[int, int] | None:
