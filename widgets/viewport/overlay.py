@@ -165,33 +165,42 @@ def _paint_handles(painter: QPainter, marks: Marks, camera: Camera, size: tuple[
         painter.setPen(Qt.PenStyle.NoPen)
         painter.drawEllipse(at, 3.0, 3.0)
         if grasped and marks.reading:
-            _pill(painter, marks.reading, at + QPointF(0.0, -HANDLE_RADIUS_PX - 14.0), tokens, tokens.accent, size)
+            box = _pill_box(painter, marks.reading, at + QPointF(0.0, -HANDLE_RADIUS_PX - 14.0), True, size)
+            _paint_pill(painter, marks.reading, box, tokens, tokens.accent)
 
 
 def _paint_names(
     painter: QPainter, names: Sequence[Name], camera: Camera, size: tuple[float, float], tokens: Tokens
 ) -> None:
     places, depths = camera.project(np.array([name.at_m for name in names]), *size)
-    # From the farthest to the nearest, so that near names lie over far ones.
-    for index in np.argsort(-depths):
-        name, place = names[int(index)], places[int(index)]
+    taken: list[QRectF] = []
+    # The selected players first, then who is near; a name that would cover another is left out.
+    for index in sorted(range(len(names)), key=lambda index: (not names[index].in_front, depths[index])):
+        name, place = names[index], places[index]
         if depths[index] <= 0.0 or not (-50.0 < place[0] < size[0] + 50.0 and 0.0 < place[1] < size[1]):
             continue
-        _pill(painter, name.text, QPointF(*place), tokens, name.color if name.in_front else "", size)
+        box = _pill_box(painter, name.text, QPointF(*place), name.in_front, size)
+        if not name.in_front and any(box.intersects(other) for other in taken):
+            continue
+        taken.append(box)
+        _paint_pill(painter, name.text, box, tokens, name.color if name.in_front else "")
 
 
-def _pill(painter: QPainter, text: str, at: QPointF, tokens: Tokens, color: str, size: tuple[float, float]) -> None:
-    """A short text on a rounded plate, kept within the picture."""
-    font = _font(painter, 9.0, bold=bool(color))
-    painter.setFont(font)
-    metrics = QFontMetricsF(font)
+def _pill_box(painter: QPainter, text: str, at: QPointF, bold: bool, size: tuple[float, float]) -> QRectF:
+    """Where a short text goes, kept within the picture."""
+    metrics = QFontMetricsF(_font(painter, 9.0, bold))
     width, height = metrics.horizontalAdvance(text) + 14.0, metrics.height() + 4.0
     left = min(max(at.x() - width / 2.0, 4.0), max(size[0] - width - 4.0, 4.0))
     top = min(max(at.y() - height / 2.0, 4.0), max(size[1] - height - 4.0, 4.0))
-    box = QRectF(left, top, width, height)
+    return QRectF(left, top, width, height)
+
+
+def _paint_pill(painter: QPainter, text: str, box: QRectF, tokens: Tokens, color: str) -> None:
+    """A short text on a rounded plate, with a rim where it has a colour."""
+    painter.setFont(_font(painter, 9.0, bold=bool(color)))
     painter.setBrush(_faded(tokens.sunken, 0.72))
     painter.setPen(QPen(QColor(color), 1.2) if color else Qt.PenStyle.NoPen)
-    painter.drawRoundedRect(box, height / 2.0, height / 2.0)
+    painter.drawRoundedRect(box, box.height() / 2.0, box.height() / 2.0)
     painter.setPen(QColor(tokens.text if color else tokens.text_dim))
     painter.drawText(box, Qt.AlignmentFlag.AlignCenter, text)
 

@@ -120,7 +120,8 @@ varying float v_solid;
 
 // A room to mirror: dark floor, bright ceiling, a large soft window before and one behind.
 vec3 room(vec3 d, float blur) {
-    vec3 c = mix(vec3(0.07, 0.065, 0.06), vec3(0.34, 0.35, 0.37), smoothstep(-0.12 - blur, 0.14 + blur, d.y));
+    vec3 below = mix(vec3(0.055, 0.05, 0.047), vec3(0.24, 0.225, 0.21), smoothstep(-0.1, -0.95, d.y));
+    vec3 c = mix(below, vec3(0.34, 0.35, 0.37), smoothstep(-0.12 - blur, 0.14 + blur, d.y));
     c = mix(c, vec3(0.72, 0.74, 0.78), smoothstep(0.25 - 0.6 * blur, 0.95, d.y));
     float window = smoothstep(0.74 - 0.5 * blur, 0.86 + 0.2 * blur, dot(d, u_key));
     float back = smoothstep(0.80 - 0.5 * blur, 0.92 + 0.2 * blur, dot(d, normalize(vec3(0.75, 0.35, -0.55))));
@@ -170,6 +171,10 @@ void main() {
     float shine = (power + 2.0) * 0.06 * pow(max(dot(n, h), 0.0), power);
     vec3 result = albedo * light * (1.0 - v_metallic);
     result += (1.0 - v_metallic) * fresnel * min(shine, 14.0) * max(dot(n, u_key), 0.0) * v_open.y;
+    // What is wet or polished catches the fill too: eyes look alive from wherever they are seen.
+    float wet = 1.0 - smoothstep(0.12, 0.34, rough);
+    float glint = pow(max(dot(n, normalize(u_fill + to_eye)), 0.0), 420.0);
+    result += (1.0 - v_metallic) * wet * glint * vec3(0.42, 0.44, 0.47);
     vec3 mirrored = room(reflect(-to_eye, n), rough * 0.55);
     result += mix((1.0 - rough) * 0.55, 1.0, v_metallic) * fresnel * mirrored * mix(0.5, 1.0, low);
 
