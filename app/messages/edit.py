@@ -37,6 +37,15 @@ TEMPLATES: Final[dict[str, str]] = {
     "edit.no_such_fingering": "{label} is no fingering of this note; there are: {known}",
     "problems.none": "there are no problems",
     "edit.no_note_to_cue": "there is no note after this place to give a cue to",
+    # Generating
+    "edit.vary_everyone": "another performance by everyone",
+    "edit.vary_players": "another performance by players: {count}",
+    "edit.vary_span": "another performance of some bars",
+    "edit.unvary_span": "some bars as at first",
+    "generate.kept": "performed anew; corrections kept: {kept}",
+    "generate.kept_and_lost": (
+        "performed anew; corrections kept: {kept}; without a place now, kept all the same: {lost}"
+    ),
     # Poses
     "edit.hold_bell": "hold the bell differently",
     "edit.hold_head": "hold the head differently",

@@ -58,7 +58,8 @@ def test_motion_is_made_by_itself_and_again_where_an_edit_touched_it(
     assert generator.ready_share < 1.0
     qtbot.waitUntil(lambda: generator.ready_share == 1.0, timeout=60_000)
     after = generator.live.pose(player.id, at_s)
-    assert before is not None and after is not None
+    assert before is not None
+    assert after is not None
     assert after.morphs != before.morphs
     assert generator.live.pose(player.id, at_s + 20.0).morphs == other.morphs  # type: ignore[union-attr]
 
@@ -126,7 +127,9 @@ def test_a_piece_that_cannot_be_played_is_told_and_the_last_performance_stays(
     before, score = session.performance, session.project.score
     slow = msgspec.structs.replace(
         score.tempo_map,
-        changes=tuple(msgspec.structs.replace(change, microseconds_per_quarter=1e9) for change in score.tempo_map.changes),
+        changes=tuple(
+            msgspec.structs.replace(change, microseconds_per_quarter=1e9) for change in score.tempo_map.changes
+        ),
     )
     session.apply(EDIT, replace(session.project, score=msgspec.structs.replace(score, tempo_map=slow)))
     assert [(message.id, severity) for message, severity in told] == [("piece.too_long", Severity.ERROR)]

@@ -1,0 +1,84 @@
+"""Another performance of the same plan: new seeds for everyone, some players or some bars. Corrections stay."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+import msgspec
+
+from app.plan.corrections import Correction, Vary
+from app.plan.line import chance
+from app.project.edit.corrections import put, take_back
+from app.project.model import Player, Project
+
+NAME = "varied-"
+
+
+def vary_everyone(project: Project) -> Project:
+    """Another performance by all."""
+    return replace(project, seed=_next_seed("everyone", project.seed))
+
+
+def vary_players(project: Project, player_ids: Iterable[str]) -> Project:
+    """Another performance by some; the others play as they did."""
+    chosen = frozenset(player_ids)
+
+    def varied(player: Player) -> Player:
+        seed = _next_seed(player.id, player.parameters.seed)
+        return msgspec.structs.replace(player, parameters=msgspec.structs.replace(player.parameters, seed=seed))
+
+    return replace(
+        project, players=tuple(varied(player) if player.id in chosen else player for player in project.players)
+    )
+
+
+def vary_span(project: Project, player_ids: Iterable[str], start_tick: int, end_tick: int) -> Project:
+    """Another performance by some from one tick to another; again the same span, again another one."""
+    for player_id in player_ids:
+        said = variations(project, player_id)
+        same = [item for item in said if (item.start_tick, item.end_tick) == (start_tick, end_tick)]
+        if same:
+            seed, name = _next_seed(player_id, same[-1].seed), same[-1].name
+        else:
+            names = {item.name for item in said}
+            name = next(name for number in range(1, len(names) + 2) if (name := f"{NAME}{number}") not in names)
+            seed = _next_seed(player_id, len(said))
+        project = put(project, player_id, [Vary(name, start_tick, end_tick, seed)])
+    return project
+
+
+def unvary_span(project: Project, player_ids: Iterable[str], start_tick: int, end_tick: int) -> Project:
+    """The first performance again in every variation that reaches into a span."""
+    for player_id in player_ids:
+        there = variations(project, player_id, start_tick, end_tick)
+        if there:
+            project = take_back(project, player_id, there)
+    return project
+
+
+def variations(
+    project: Project, player_id: str, start_tick: int | None = None, end_tick: int | None = None
+) -> tuple[Vary, ...]:
+    """A player's variations, of the whole piece or those that reach into a span."""
+    return tuple(
+        item
+        for item in project.corrections.get(player_id, ())
+        if isinstance(item, Vary)
+        and (end_tick is None or item.start_tick < end_tick)
+        and (start_tick is None or start_tick < item.end_tick)
+    )
+
+
+def by_hand(project: Project, player_ids: Iterable[str]) -> tuple[Correction, ...]:
+    """What was corrected of some players, variations aside."""
+    return tuple(
+        item
+        for player_id in player_ids
+        for item in project.corrections.get(player_id, ())
+        if not isinstance(item, Vary)
+    )
+
+
+def _next_seed(name: str, seed: int) -> int:
+    return int(chance("another", name, seed) * 2**31)

@@ -1,0 +1,135 @@
+"""Commands of generating: it runs by itself after every edit; these ask for another performance of the same plan."""
+
+from __future__ import annotations
+
+from app.errors import Message
+from app.project.edit import generation
+from app.shell.action import QT_TRANSLATE_NOOP, Action
+from widgets.common.session import Session
+
+LOST = "correction.orphaned"
+
+
+def vary_everyone(session: Session) -> None:
+    """Let everyone perform anew; what was corrected by hand stays."""
+    if session.attempt(Message("edit.vary_everyone"), generation.vary_everyone):
+        _tell(session, tuple(player.id for player in session.project.players))
+
+
+def vary_players(session: Session) -> None:
+    """Let the selected players perform anew; what was corrected by hand stays."""
+    chosen = session.players
+    name = Message("edit.vary_players", {"count": len(chosen)})
+    if session.attempt(name, lambda project: generation.vary_players(project, chosen)):
+        _tell(session, chosen)
+
+
+def vary_bars(session: Session) -> None:
+    """Let the selected players perform the selected bars anew; what was corrected by hand stays."""
+    chosen, span = session.players, _span(session)
+    if span is None:
+        return
+    if session.attempt(
+        Message("edit.vary_span"), lambda project: generation.vary_span(project, chosen, span[0], span[1])
+    ):
+        _tell(session, chosen)
+
+
+def unvary_bars(session: Session) -> None:
+    """Let the selected players perform the selected bars as at first."""
+    chosen, span = session.players, _span(session)
+    if span is not None:
+        session.attempt(
+            Message("edit.unvary_span"), lambda project: generation.unvary_span(project, chosen, span[0], span[1])
+        )
+
+
+def _span(session: Session) -> tuple[int, int] | None:
+    """The selected ticks, or those that the selected notes take."""
+    selection = session.selection
+    if selection.span is not None:
+        return selection.span
+    notes = [note for part in session.project.score.parts for note in part.notes if note.id in selection.notes]
+    if not notes:
+        return None
+    return min(note.onset_tick for note in notes), max(note.end_tick for note in notes)
+
+
+def _tell(session: Session, player_ids: tuple[str, ...]) -> None:
+    """Say how many corrections are kept, as soon as the new plans are there."""
+
+    def say() -> None:
+        performance, project = session.performance, session.project
+        if performance.project is not project:
+            return
+        if waiting:
+            session.performance_changed.disconnect(say)
+        known = [player_id for player_id in player_ids if any(player.id == player_id for player in project.players)]
+        lost = sum(
+            problem.message.id == LOST
+            for player_id in known
+            for problem in performance.plan(project.player(player_id)).problems
+        )
+        kept = len(generation.by_hand(project, known)) - lost
+        rule = "generate.kept_and_lost" if lost else "generate.kept"
+        session.notice(Message(rule, {"kept": kept, "lost": lost} if lost else {"kept": kept}))
+
+    waiting = session.performance.project is not session.project
+    if waiting:
+        session.performance_changed.connect(say)
+    else:
+        say()
+
+
+def _has_everyone(session: Session) -> bool:
+    return bool(session.project.players)
+
+
+def _has_players(session: Session) -> bool:
+    return bool(session.players)
+
+
+def _has_bars(session: Session) -> bool:
+    return bool(session.players) and (session.selection.span is not None or bool(session.selection.notes))
+
+
+def _has_varied_bars(session: Session) -> bool:
+    span = _span(session) if _has_bars(session) else None
+    return span is not None and any(
+        generation.variations(session.project, player_id, span[0], span[1]) for player_id in session.players
+    )
+
+
+ACTIONS: tuple[Action, ...] = (
+    Action(
+        "generate.everyone",
+        QT_TRANSLATE_NOOP("Action", "Another Performance by Everyone"),
+        vary_everyone,
+        "Generate",
+        "Ctrl+Alt+G",
+        enabled=_has_everyone,
+    ),
+    Action(
+        "generate.players",
+        QT_TRANSLATE_NOOP("Action", "Another Performance by the Selected Players"),
+        vary_players,
+        "Generate",
+        "Ctrl+Shift+G",
+        enabled=_has_players,
+    ),
+    Action(
+        "generate.bars",
+        QT_TRANSLATE_NOOP("Action", "Another Performance of the Selected Bars"),
+        vary_bars,
+        "Generate",
+        "Ctrl+G",
+        enabled=_has_bars,
+    ),
+    Action(
+        "generate.bars_back",
+        QT_TRANSLATE_NOOP("Action", "Selected Bars as at First"),
+        unvary_bars,
+        "Generate",
+        enabled=_has_varied_bars,
+    ),
+)
