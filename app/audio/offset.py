@@ -1,9 +1,9 @@
 """Where a recording stands against the score: from what sounds (chroma) and when tones begin (onsets).
 
 The recording may begin earlier or later than the score, end elsewhere, be tuned differently, and be a few per cent
-faster or slower. Features are librosa's (McFee et al., "librosa: Audio and music signal analysis in Python", SciPy 2015);
-what the score should sound like is made from its notes. The chroma of both is correlated at every offset for a grid of
-tempi; the best places are then made exact by letting the expected onsets lie on the recording's.
+faster or slower. Features are librosa's (McFee et al., "librosa: Audio and music signal analysis in Python", SciPy
+2015); what the score should sound like is made from its notes. The chroma of both is correlated at every offset for a
+grid of tempi; the best places are then made exact by letting the expected onsets lie on the recording's.
 """
 
 from __future__ import annotations

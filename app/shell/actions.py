@@ -30,7 +30,6 @@ SUBJECTS: Final = (
     "playback",
     "generate",
     "problems",
-    "exchange",
     "application",
 )
 """Modules of `app.shell.commands`, in the order in which their rows stand in a menu."""
@@ -49,6 +48,11 @@ MENUS: Final = {
     "Gesture": QT_TRANSLATE_NOOP("Menu", "Add a Gesture"),
     "Select": QT_TRANSLATE_NOOP("Menu", "Select"),
     "Tool": QT_TRANSLATE_NOOP("Menu", "Tool"),
+    "Players": QT_TRANSLATE_NOOP("Menu", "Players"),
+    "Go": QT_TRANSLATE_NOOP("Menu", "Go"),
+    "Recording": QT_TRANSLATE_NOOP("Menu", "Recording"),
+    "Sound": QT_TRANSLATE_NOOP("Menu", "Sound"),
+    "Speed": QT_TRANSLATE_NOOP("Menu", "Speed"),
     "Viewport": QT_TRANSLATE_NOOP("Menu", "Viewport"),
     "Panels": QT_TRANSLATE_NOOP("Menu", "Panels"),
     "Theme": QT_TRANSLATE_NOOP("Menu", "Theme"),

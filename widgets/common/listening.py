@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Final, Literal
 
 from PySide6.QtCore import QObject, Signal
 
 from app.audio.peaks import Peaks
 
 Source = Literal["recording", "synthesiser", "both"]
+SOURCES: Final[tuple[Source, ...]] = ("recording", "synthesiser", "both")
 
 LEAST_SPEED, MOST_SPEED = 0.25, 2.0
 

@@ -1,0 +1,295 @@
+"""The transport: play, stop, loop; where the playhead is; how it is heard; what edits snap to."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from math import floor
+
+from PySide6.QtCore import QEvent, QSize, Qt
+from PySide6.QtGui import QAction, QResizeEvent, QShowEvent
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy, QToolButton, QWidget
+
+from app.project.document import Change
+from app.project.grid import Grid
+from widgets.common.combo import Combo, Option
+from widgets.common.icons import icon, pixmap
+from widgets.common.listening import LEAST_SPEED, MOST_SPEED, SOURCES
+from widgets.common.musical_time import metre_at
+from widgets.common.number_slider import NumberSlider
+from widgets.common.session import Session
+from widgets.common.tokens import LEAST_TARGET_PX
+from widgets.transport.fields import BarsField, ClockField, FramesField
+
+BUTTONS = (
+    ("play.to_start", "to_start"),
+    ("play.toggle", "play"),
+    ("play.stop", "stop"),
+    ("play.loop", "loop"),
+)
+"""Actions by id, and their icons."""
+TOGGLES = (("play.click", "metronome"), ("play.follow", "follow"))
+
+_LENGTHS = (1, 2, 4, 8, 16, 32)
+_KINDS = (("", Fraction(1)), ("T", Fraction(2, 3)), (".", Fraction(3, 2)))
+GRIDS: dict[str, Fraction] = {
+    f"1/{length}{sign}": Fraction(4, length) * factor
+    for sign, factor in _KINDS
+    for length in _LENGTHS[2 if sign else 0 :]
+}
+"""Steps of the grid in quarters: straight, triplets, dotted."""
+_ROOMY_PX = 1250
+"""With less room the hint is a picture alone."""
+
+
+class TransportBar(QWidget):
+    """The bar under the menu.
+
+    Parameters
+    ----------
+    session : Session
+        Its actions are what the buttons do, so that menu, keys and buttons cannot differ.
+    """
+
+    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setObjectName("transport")
+        self._session = session
+        self.buttons = {id: self._button(id) for id, _ in (*BUTTONS, *TOGGLES)}
+        self.snap_button = self._tool("snap_on")
+        self.bars, self.clock, self.frames = BarsField(session), ClockField(session), FramesField(session)
+        self.tempo = QLabel()
+        self.speed = NumberSlider(
+            session, 100 * LEAST_SPEED, 100 * MOST_SPEED, default=100.0, step=5.0, decimals=0, parent=self
+        )
+        self.volume = NumberSlider(session, 0.0, 100.0, default=80.0, step=5.0, decimals=0, parent=self)
+        self.source, self.snap = Combo(), Combo()
+        self.silent_sign, self.silent_text = QLabel(), QLabel()
+        self._name()
+        self._build()
+        self._connect()
+        self._dress()
+        self.retranslate()
+        self._show_playhead(session.playhead_s)
+        self._show_state()
+
+    # Building
+
+    def _button(self, action_id: str) -> QToolButton:
+        button = self._tool(action_id.replace(".", "_"))
+        button.clicked.connect(lambda: self._trigger(action_id))
+        return button
+
+    def _tool(self, name: str) -> QToolButton:
+        button = QToolButton(self)
+        button.setObjectName(name)
+        button.setAutoRaise(True)
+        button.setMinimumSize(QSize(28, 28))
+        button.setIconSize(QSize(18, 18))
+        button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        return button
+
+    def _name(self) -> None:
+        names = {self.tempo: "tempo", self.speed: "speed", self.volume: "volume", self.source: "sound_source"}
+        names |= {self.snap: "snap", self.silent_sign: "silent_sign", self.silent_text: "silent_text"}
+        for widget, name in names.items():
+            widget.setObjectName(name)
+        for button in (*(self.buttons[id] for id in ("play.loop", "play.click", "play.follow")), self.snap_button):
+            button.setCheckable(True)
+
+    def _build(self) -> None:
+        row = QHBoxLayout(self)
+        row.setContentsMargins(4, 1, 4, 1)
+        row.setSpacing(3)
+        for id, _ in BUTTONS:
+            row.addWidget(self.buttons[id])
+        row.addSpacing(6)
+        for field, least_px, most_px in ((self.bars, 78, 112), (self.clock, 84, 112), (self.frames, 66, 92)):
+            field.setMinimumWidth(least_px)
+            field.setMaximumWidth(most_px)
+            row.addWidget(field, 3)
+        self.tempo.setMinimumWidth(92)
+        self.tempo.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        row.addWidget(self.tempo)
+        row.addSpacing(6)
+        row.addWidget(self.buttons["play.click"])
+        for slider, least_px, most_px in ((self.volume, 92, 150), (self.speed, 92, 150)):
+            slider.setMinimumWidth(least_px)
+            slider.setMaximumWidth(most_px)
+            row.addWidget(slider, 3)
+        for combo, least_px, most_px in ((self.source, 108, 190), (self.snap, 66, 90)):
+            combo.setMinimumWidth(least_px)
+            combo.setMaximumWidth(most_px)
+            combo.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
+        row.addWidget(self.source, 2)
+        row.addSpacing(6)
+        row.addWidget(self.snap_button)
+        row.addWidget(self.snap, 1)
+        row.addSpacing(6)
+        row.addWidget(self.buttons["play.follow"])
+        row.addStretch(1)
+        row.addWidget(self.silent_sign)
+        row.addWidget(self.silent_text)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+
+    def _connect(self) -> None:
+        session, listening = self._session, self._session.listening
+        session.playhead_changed.connect(self._show_playhead)
+        session.changed.connect(self._project_changed)
+        session.playing_changed.connect(self._show_state)
+        session.loop_changed.connect(self._show_state)
+        session.grid_changed.connect(self._show_state)
+        session.follow_changed.connect(self._show_state)
+        session.theme_changed.connect(self._dress)
+        listening.changed.connect(self._show_state)
+        self.bars.changed.connect(lambda tick, _: self._go(session.project.score.tempo_map.seconds(tick)))
+        self.clock.changed.connect(lambda time_s, _: self._go(time_s))
+        self.frames.changed.connect(lambda frame, _: self._go(frame / float(session.project.fps)))
+        self.speed.changed.connect(lambda percent, _: listening.set(speed=percent / 100))
+        self.volume.changed.connect(lambda percent, _: listening.set(volume=percent / 100))
+        self.source.chosen.connect(self._choose_source)
+        self.snap.chosen.connect(self._choose_snap)
+        self.snap_button.clicked.connect(self._toggle_snap)
+
+    # What the person does
+
+    def _trigger(self, action_id: str) -> None:
+        action = self._session.actions.get(action_id)
+        if action is not None:
+            action.trigger()
+        # A toggle that did nothing must not look as if it had.
+        self._show_state()
+
+    def _go(self, time_s: float) -> None:
+        self._session.set_playhead(time_s)
+        self._session.reveal(time_s)
+
+    def _choose_source(self, source: str) -> None:
+        for known in SOURCES:
+            if known == source:
+                self._session.listening.set(source=known)
+
+    def _choose_snap(self, name: str) -> None:
+        self._session.set_grid(Grid(GRIDS[name]))
+
+    def _toggle_snap(self, on: bool) -> None:
+        self._session.set_grid(Grid(self._session.grid.quarters, on))
+
+    # What is shown
+
+    def _project_changed(self, change: Change) -> None:
+        before, after = change.before, change.after
+        if change.opened or before.audio is not after.audio:
+            self._show_state()
+        if change.opened or before.score is not after.score or before.fps != after.fps:
+            self._show_playhead(self._session.playhead_s)
+
+    def _show_playhead(self, playhead_s: float) -> None:
+        project = self._session.project
+        score = project.score
+        tick = floor(score.tempo_map.ticks(playhead_s) + 1e-6)
+        frames = playhead_s * float(project.fps)
+        self.bars.show_value(float(tick), by_hand=False)
+        self.clock.show_value(playhead_s, by_hand=False)
+        # The frame that is on the screen: the one that began last.
+        self.frames.show_value(float(floor(frames + 1e-6)), by_hand=False)
+        metre = metre_at(score, max(tick, 0))
+        bpm = next((bpm for at, bpm in reversed(score.tempo_map.bpm) if at <= tick), score.tempo_map.bpm[0][1])
+        text = f"♩= {bpm:.1f}".removesuffix(".0") + f"   {metre.numerator}/{metre.denominator}"
+        if text != self.tempo.text():
+            self.tempo.setText(text)
+
+    def _show_state(self) -> None:
+        session, listening = self._session, self._session.listening
+        tokens = session.tokens
+        self.buttons["play.loop"].setChecked(session.loop_s is not None)
+        self.buttons["play.click"].setChecked(listening.click)
+        self.buttons["play.follow"].setChecked(session.follow)
+        self.buttons["play.toggle"].setIcon(icon("pause" if session.playing else "play", tokens))
+        self.speed.show_value(round(100 * listening.speed, 3), by_hand=listening.speed != 1.0)
+        self.volume.show_value(round(100 * listening.volume, 3), by_hand=False)
+        self.source.setVisible(session.project.audio is not None)
+        self.source.show_option(listening.source)
+        self.snap_button.setChecked(session.grid.enabled)
+        quarters = session.grid.quarters
+        self.snap.show_option(next((name for name, step in GRIDS.items() if step == quarters), None))
+        self.silent_sign.setVisible(listening.silent)
+        self.silent_text.setVisible(listening.silent and self.width() >= _ROOMY_PX)
+
+    def _dress(self) -> None:
+        tokens = self._session.tokens
+        for id, name in (*BUTTONS, *TOGGLES):
+            self.buttons[id].setIcon(icon(name, tokens))
+        self.snap_button.setIcon(icon("snap", tokens))
+        ratio = self.devicePixelRatioF()
+        self.silent_sign.setPixmap(pixmap("mute", 18, tokens.warning, ratio))
+        self.silent_text.setStyleSheet(f"color: {tokens.warning};")
+        self.tempo.setStyleSheet(f"color: {tokens.text_dim};")
+        self._show_state()
+
+    def retranslate(self) -> None:
+        """Set every text anew."""
+        tips = {
+            "play.to_start": self.tr("To the start"),
+            "play.toggle": self.tr("Play, or stop here"),
+            "play.stop": self.tr("Stop; once more: to the start of the loop or the piece"),
+            "play.loop": self.tr("Loop the selection, else the bar"),
+            "play.click": self.tr("Metronome"),
+            "play.follow": self.tr("The timeline follows the playhead"),
+        }
+        for id, tip in tips.items():
+            self._tip(self.buttons[id], tip, self._session.actions.get(id))
+        self.bars.set_texts("", "", self.tr("Bar, beat, ticks. Click to type, drag to move"))
+        self.bars.setAccessibleName(self.tr("Bar, beat, ticks"))
+        self.clock.set_texts("", "", self.tr("Minutes and seconds. Click to type, drag to move"))
+        self.clock.setAccessibleName(self.tr("Seconds"))
+        self.frames.set_texts(self.tr("f", "frame"), "", self.tr("Frame. Click to type, drag to step"))
+        self.frames.setAccessibleName(self.tr("Frame"))
+        self.tempo.setToolTip(self.tr("Tempo and metre at the playhead; the ruler edits them"))
+        self.volume.set_texts(self.tr("Volume"), "%", self.tr("Volume. Double-click: 80 %"))
+        self.speed.set_texts(self.tr("Speed"), "%", self.tr("Speed; the pitch stays. Double-click: 100 %"))
+        self.source.setToolTip(self.tr("What is heard"))
+        self.source.setAccessibleName(self.tr("What is heard"))
+        self.source.set_options(
+            (
+                Option("recording", self.tr("Recording")),
+                Option("synthesiser", self.tr("Synthesiser")),
+                Option("both", self.tr("Both")),
+            )
+        )
+        snap_tip = self.tr("Edits snap to the grid; Alt suspends it")
+        self.snap_button.setToolTip(snap_tip)
+        self.snap_button.setAccessibleName(snap_tip)
+        self.snap.setToolTip(self.tr("Step of the grid: note values, triplets (T), dotted (.)"))
+        self.snap.setAccessibleName(self.tr("Step of the grid"))
+        self.snap.set_options([Option(name, name) for name in GRIDS])
+        hint = self.tr("There is no audio device: it plays silently, in time. Connect one and play again.")
+        self.silent_text.setText(self.tr("No audio device: silent"))
+        for label in (self.silent_sign, self.silent_text):
+            label.setToolTip(hint)
+            label.setAccessibleName(hint)
+        self._show_state()
+
+    @staticmethod
+    def _tip(button: QToolButton, text: str, action: QAction | None) -> None:
+        keys = action.shortcut().toString() if action is not None else ""
+        button.setToolTip(f"{text} ({keys})" if keys else text)
+        button.setAccessibleName(text)
+
+    # Qt's own names
+
+    def changeEvent(self, event: QEvent) -> None:
+        if event.type() == QEvent.Type.LanguageChange:
+            self.retranslate()
+        super().changeEvent(event)
+
+    def showEvent(self, event: QShowEvent) -> None:
+        # The table of actions may be filled after the bar is made.
+        self.retranslate()
+        super().showEvent(event)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        self._show_state()
+
+    def minimumSizeHint(self) -> QSize:
+        return QSize(super().minimumSizeHint().width(), LEAST_TARGET_PX + 8)

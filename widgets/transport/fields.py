@@ -1,0 +1,79 @@
+"""The moment shown, written in three ways; each is typed, dragged and copied."""
+
+from __future__ import annotations
+
+import math
+import re
+import unicodedata
+
+from app.score.model import Score
+from widgets.common.musical_time import beat_ticks, tick_of_place
+from widgets.common.number_slider import NumberSlider
+from widgets.common.session import Session
+
+_CLOCK = re.compile(r"^\s*(-?)(?:(?:(\d+)\s*:\s*)?(\d+)\s*:\s*)?(\d+(?:\.\d*)?|\.\d+)\s*$")
+MOST_S = 12 * 3600.0
+"""Beyond any performance: typed times are kept below it."""
+
+
+def bars_text(score: Score, tick: int) -> str:
+    """``"12|3|240"``: bar, beat, ticks; always all three, so that they stand still while it plays."""
+    bar = score.bar_of_tick(tick)
+    beat, rest = divmod(tick - score.tick_of_bar(bar), beat_ticks(score, tick))
+    return f"{bar}|{beat + 1}|{rest:03d}".replace("-", "−")
+
+
+def clock_text(time_s: float) -> str:
+    """``"00:19.250"``: minutes and seconds, hours where there are any."""
+    milliseconds = round(abs(time_s) * 1000)
+    minutes, rest = divmod(milliseconds, 60_000)
+    hours, minutes = divmod(minutes, 60)
+    sign = "−" if time_s < 0 and milliseconds else ""
+    hour_text = f"{hours}:" if hours else ""
+    return f"{sign}{hour_text}{minutes:02d}:{rest / 1000:06.3f}"
+
+
+def clock_seconds(text: str) -> float | None:
+    """What such a text, or a plain number of seconds, means."""
+    plain = unicodedata.normalize("NFKC", text).replace("−", "-").replace(",", ".").strip().removesuffix("s")
+    match = _CLOCK.match(plain)
+    if match is None:
+        return None
+    sign, hours, minutes, seconds = match.groups()
+    time_s = int(hours or 0) * 3600 + int(minutes or 0) * 60 + float(seconds)
+    if not math.isfinite(time_s) or time_s > MOST_S:
+        return None
+    return -time_s if sign else time_s
+
+
+class BarsField(NumberSlider):
+    """Bar, beat and ticks of the playhead; a drag steps by the grid."""
+
+    def __init__(self, session: Session) -> None:
+        super().__init__(session, -1e7, 1e9, default=0.0, step=1.0, decimals=0, slides=False)
+        self.setObjectName("bars_field")
+        self.set_wording(
+            lambda tick: bars_text(session.project.score, round(tick)),
+            lambda text: _float(tick_of_place(session.project.score, text)),
+        )
+
+
+class ClockField(NumberSlider):
+    """Minutes and seconds of the playhead."""
+
+    def __init__(self, session: Session) -> None:
+        super().__init__(session, -MOST_S, MOST_S, default=0.0, step=0.1, decimals=3, slides=False)
+        self.setObjectName("clock_field")
+        self.set_wording(clock_text, clock_seconds)
+
+
+class FramesField(NumberSlider):
+    """The frame of the playhead."""
+
+    def __init__(self, session: Session) -> None:
+        super().__init__(session, -1e7, 1e8, default=0.0, step=1.0, decimals=0, slides=False)
+        self.setObjectName("frames_field")
+
+
+def _float(value: int | None) -> float | None:
+    return None if value is None else float(value)
