@@ -1,0 +1,313 @@
+"""The keys of the timeline that are about events: pressed, and judged by the project."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication, QMenu
+from pytestqt.qtbot import QtBot
+
+from app.errors import Message
+from app.plan.corrections import AddExpression, AddGesture, PinFingering, RemoveEvent, SetBreath, SetCue
+from app.plan.model import Problem
+from app.project.edit import events as edit
+from app.score.model import Note
+from app.shell.actions import ActionTable
+from app.shell.commands import edit as undoing
+from app.shell.commands import events, fingerings, problems
+from app.shell.settings import Settings
+from tests.gui.timeline.lane_hands import front_plan, shown_panel
+from widgets.common.selection import EventKey, Selection
+from widgets.common.session import Session
+from widgets.timeline.panel import TimelinePanel
+
+
+@pytest.fixture
+def panel(session: Session, qtbot: QtBot, tmp_path: Path) -> Iterator[TimelinePanel]:
+    result = shown_panel(session)
+    qtbot.addWidget(result)
+    all_rows = [*undoing.ACTIONS, *events.ACTIONS, *fingerings.ACTIONS, *problems.ACTIONS]
+    table = ActionTable(session, Settings(tmp_path / "editor.ini"), all_rows)
+    table.attach("timeline", result)
+    table.refresh()
+    result.activateWindow()
+    qtbot.waitUntil(result.isActiveWindow)
+    result.lanes["fingering"].plot.setFocus()
+    yield result
+    table.deleteLater()
+
+
+def press(panel: TimelinePanel, key: Qt.Key, modifiers: Qt.KeyboardModifier = Qt.KeyboardModifier.NoModifier) -> None:
+    """A key while the keyboard is in the timeline."""
+    QApplication.processEvents()
+    QTest.keyClick(panel.lanes["fingering"].plot, key, modifiers)
+    QApplication.processEvents()
+
+
+def corrections(session: Session) -> tuple[object, ...]:
+    assert session.player is not None
+    return session.project.corrections.get(session.player.id, ())
+
+
+def notes(session: Session) -> tuple[Note, ...]:
+    assert session.player is not None
+    return session.project.part(session.player).notes
+
+
+def note_with(session: Session, *labels: str) -> Note:
+    """A note that can be played with these fingerings."""
+    assert session.player is not None
+    instrument = session.performance.instrument(session.player)
+    return next(
+        note
+        for note in notes(session)
+        if set(labels) <= {fingering.label for fingering in instrument.fingerings_for(note.pitch)}
+    )
+
+
+def choose(session: Session, *chosen: Note) -> None:
+    session.select(Selection(notes=frozenset(note.id for note in chosen)))
+
+
+# Adding
+
+
+def test_b_adds_a_breath_before_the_selected_note(panel: TimelinePanel, session: Session) -> None:
+    taken = {event.id for event in front_plan(session).breaths}
+    note = next(note for note in notes(session)[2:] if f"breath:{note.id}" not in taken)
+    choose(session, note)
+    press(panel, Qt.Key.Key_B)
+    (item,) = corrections(session)
+    assert isinstance(item, SetBreath)
+    assert item.note_id == note.id
+    assert session.selection == Selection(
+        events=frozenset({EventKey(front_plan(session).player_id, f"breath:{note.id}")})
+    )
+
+
+def test_b_adds_a_breath_at_the_playhead(panel: TimelinePanel, session: Session) -> None:
+    taken = {event.id for event in front_plan(session).breaths}
+    note = next(note for note in notes(session)[2:] if f"breath:{note.id}" not in taken)
+    session.set_playhead(session.project.score.tempo_map.seconds(float(note.onset_tick)) - 0.02)
+    press(panel, Qt.Key.Key_B)
+    (item,) = corrections(session)
+    assert isinstance(item, SetBreath)
+    assert item.note_id == note.id
+
+
+def test_c_adds_a_cue(panel: TimelinePanel, session: Session) -> None:
+    note = notes(session)[8]
+    choose(session, note)
+    press(panel, Qt.Key.Key_C)
+    (item,) = corrections(session)
+    assert isinstance(item, SetCue)
+    assert (item.note_id, item.added) == (note.id, True)
+
+
+def popup() -> QMenu:
+    menu = QApplication.activePopupWidget()
+    assert isinstance(menu, QMenu)
+    return menu
+
+
+def test_g_offers_gestures_over_the_selection(panel: TimelinePanel, session: Session) -> None:
+    chosen = notes(session)[4:7]
+    choose(session, *chosen)
+    press(panel, Qt.Key.Key_G)
+    menu = popup()
+    next(action for action in menu.actions() if action.objectName() == "gesture.bell_height").trigger()
+    menu.close()
+    (item,) = corrections(session)
+    assert isinstance(item, AddGesture)
+    assert (item.kind, item.start_tick, item.end_tick) == ("bell_height", chosen[0].onset_tick, chosen[-1].end_tick)
+
+
+def test_x_offers_expressions(panel: TimelinePanel, session: Session) -> None:
+    session.select(Selection(span=(960, 2880)))
+    press(panel, Qt.Key.Key_X)
+    menu = popup()
+    next(action for action in menu.actions() if action.objectName() == "expression_strained").trigger()
+    menu.close()
+    (item,) = corrections(session)
+    assert isinstance(item, AddExpression)
+    assert (item.expression, item.start_tick, item.end_tick) == ("strained", 960, 2880)
+
+
+def test_at_the_end_the_person_is_told_why_not(panel: TimelinePanel, session: Session) -> None:
+    told: list[Message] = []
+    session.noticed.connect(lambda message, severity: told.append(message))
+    session.set_playhead(session.performance.time_frame.end_s)
+    press(panel, Qt.Key.Key_B)
+    assert [message.id for message in told] == ["edit.no_note_to_breathe_for"]
+    assert not session.document.done
+
+
+# Fingerings
+
+
+def test_digits_typed_together_are_one_fingering_and_one_step(panel: TimelinePanel, session: Session) -> None:
+    note = note_with(session, "0", "13")
+    choose(session, note)
+    press(panel, Qt.Key.Key_1)
+    press(panel, Qt.Key.Key_3)
+    assert corrections(session) == (PinFingering(note.id, "13"),)
+    assert len(session.document.done) == 1
+    assert next(e for e in front_plan(session).fingerings if e.note_id == note.id).label == "13"
+
+
+def test_a_first_digit_that_is_a_fingering_is_pinned_at_once(session: Session) -> None:
+    assert session.performance.plans is not None
+    note = note_with(session, "12", "3")
+    choose(session, note)
+    fingerings.type_fingering(session, "3", now_s=10.0)
+    assert corrections(session) == (PinFingering(note.id, "3"),)
+    fingerings.type_fingering(session, "2", now_s=12.0)
+    assert corrections(session) == (PinFingering(note.id, "3"),)
+    fingerings.type_fingering(session, "1", now_s=12.3)
+    assert corrections(session) == (PinFingering(note.id, "12"),)
+    assert len(session.document.done) == 2
+
+
+def test_a_slide_with_a_trigger_is_typed_too(session: Session) -> None:
+    slide_player = next(
+        player
+        for player in session.project.players
+        if any(control.label == "T" for control in session.performance.instrument(player).controls)
+    )
+    session.set_players((slide_player.id,))
+    assert session.performance.plans is not None
+    note = note_with(session, "T3")
+    choose(session, note)
+    fingerings.type_fingering(session, "T", now_s=1.0)
+    fingerings.type_fingering(session, "3", now_s=1.2)
+    assert corrections(session) == (PinFingering(note.id, "T3"),)
+
+
+def test_what_is_no_fingering_is_said(session: Session) -> None:
+    assert session.performance.plans is not None
+    told: list[Message] = []
+    session.noticed.connect(lambda message, severity: told.append(message))
+    choose(session, note_with(session, "0", "13"))
+    fingerings.type_fingering(session, "7", now_s=1.0)
+    assert [message.id for message in told] == ["edit.no_such_fingering"]
+    assert not session.document.done
+
+
+def test_f_cycles_the_alternates_and_backspace_returns(panel: TimelinePanel, session: Session) -> None:
+    note = note_with(session, "0", "13")
+    choose(session, note)
+    first = next(e for e in front_plan(session).fingerings if e.note_id == note.id).label
+    press(panel, Qt.Key.Key_F)
+    assert isinstance(corrections(session)[0], PinFingering)
+    assert next(e for e in front_plan(session).fingerings if e.note_id == note.id).label != first
+    press(panel, Qt.Key.Key_Backspace)
+    assert corrections(session) == ()
+    assert next(e for e in front_plan(session).fingerings if e.note_id == note.id).label == first
+
+
+# Taking away
+
+
+def test_delete_removes_events_and_backspace_brings_them_back(panel: TimelinePanel, session: Session) -> None:
+    plan = front_plan(session)
+    breath = [event for event in plan.breaths if event.kind == "breath"][2]
+    key = EventKey(plan.player_id, breath.id)
+    session.select(Selection(events=frozenset({key})))
+    press(panel, Qt.Key.Key_Delete)
+    (item,) = corrections(session)
+    assert isinstance(item, RemoveEvent)
+    assert breath.id not in edit.events_of(front_plan(session))
+    assert not session.selection
+    session.select(Selection(events=frozenset({key})))
+    press(panel, Qt.Key.Key_Backspace)
+    assert corrections(session) == ()
+
+
+def test_delete_erases_selected_notes(panel: TimelinePanel, session: Session) -> None:
+    gone = notes(session)[3]
+    choose(session, gone)
+    press(panel, Qt.Key.Key_Delete)
+    assert gone.id not in {note.id for note in notes(session)}
+    session.document.undo()
+    assert gone in notes(session)
+
+
+def test_all_corrections_of_a_player_are_reverted_in_one_step(panel: TimelinePanel, session: Session) -> None:
+    choose(session, *notes(session)[5:8])
+    session.actions["gesture.sway"].trigger()
+    choose(session, notes(session)[9])
+    session.actions["events.cue"].trigger()
+    assert len(corrections(session)) == 2
+    QApplication.processEvents()
+    session.actions["events.give_back_player"].trigger()
+    assert corrections(session) == ()
+    session.document.undo()
+    assert len(corrections(session)) == 2
+
+
+def test_a_preparation_is_turned_off_and_on(panel: TimelinePanel, session: Session) -> None:
+    plan = front_plan(session)
+    prepared = next(event for event in plan.breaths if event.kind == "preparation")
+    breath = prepared.id.replace("preparation", "breath")
+    session.select(Selection(events=frozenset({EventKey(plan.player_id, breath)})))
+    press(panel, Qt.Key.Key_B, Qt.KeyboardModifier.ShiftModifier)
+    assert prepared.id not in edit.events_of(front_plan(session))
+    press(panel, Qt.Key.Key_B, Qt.KeyboardModifier.ShiftModifier)
+    assert corrections(session) == ()
+
+
+# Problems
+
+
+def test_f8_walks_through_the_problems_of_all_players(panel: TimelinePanel, session: Session) -> None:
+    # A pinned fingering that does not exist is a problem of that note.
+    wanted = []
+    for player in session.project.players[1:3]:
+        note = session.project.part(player).notes[4]
+        wanted.append((player.id, note.id))
+        session.attempt(
+            Message("edit.pin_fingerings", {"count": 1}),
+            lambda project, player=player, note=note: edit.pin_fingerings(project, player.id, {note.id: "99"}),  # type: ignore[misc]
+        )
+    all_of_them = problems.problems(session)
+    assert {(player, problem.note_id) for player, problem in all_of_them} >= set(wanted)
+    revealed: list[float] = []
+    session.revealed.connect(revealed.append)
+    session.set_playhead(-100.0)
+    visited: list[Problem] = []
+    QApplication.processEvents()
+    for player_id, problem in all_of_them:
+        session.actions["problems.next"].trigger()
+        assert session.players[0] == player_id
+        if problem.note_id is not None:
+            assert session.selection.notes == {problem.note_id}
+        visited.append(problem)
+    assert revealed == [problem.start_s for problem in visited]
+    session.actions["problems.next"].trigger()
+    assert session.players[0] == all_of_them[0][0]
+    session.actions["problems.previous"].trigger()
+    assert session.players[0] == all_of_them[-1][0]
+
+
+def test_without_problems_it_says_so(session: Session) -> None:
+    assert session.performance.plans is not None
+    told: list[Message] = []
+    session.noticed.connect(lambda message, severity: told.append(message))
+    if not problems.problems(session):
+        problems.go_to_problem(session, 1)
+        assert [message.id for message in told] == ["problems.none"]
+
+
+def test_rows_that_make_no_sense_now_are_off(panel: TimelinePanel, session: Session) -> None:
+    QApplication.processEvents()
+    assert not session.actions["fingering.cycle"].isEnabled()
+    assert not session.actions["edit.delete"].isEnabled()
+    assert not session.actions["events.give_back"].isEnabled()
+    choose(session, notes(session)[0])
+    QApplication.processEvents()
+    assert session.actions["fingering.cycle"].isEnabled()
+    assert not session.actions["events.give_back"].isEnabled()
