@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import msgspec
-from PySide6.QtCore import QEvent, Qt
+import shiboken6
+from PySide6.QtCore import QCoreApplication, QEvent, Qt
 from PySide6.QtWidgets import QCheckBox, QGridLayout, QHBoxLayout, QLabel, QLineEdit, QToolButton, QVBoxLayout, QWidget
 
 from app.errors import AppError, Message
@@ -344,7 +345,9 @@ class ExpressionMaker(QWidget):
         self._preview()
 
     def hideEvent(self, event: QEvent) -> None:
-        self._session.set_preview_morphs(None)
+        # A window that the program's end takes down hides what is in it after everything else is gone.
+        if not QCoreApplication.closingDown() and shiboken6.isValid(self._session):
+            self._session.set_preview_morphs(None)
 
     def changeEvent(self, event: QEvent) -> None:
         if event.type() == QEvent.Type.LanguageChange:
