@@ -33,7 +33,8 @@ EDGE_PX = 6.0
 """So near to a note's end a press takes hold of the end."""
 SLACK_PX = 3.0
 LEAST_ROWS, MOST_ROWS = 10.0, 128.0
-USUAL_ROWS = 28.0
+USUAL_ROWS = 30.0
+USUAL_ROW_PX = 8.0
 ROWS_A_NOTCH = 3.0
 ZOOM_A_NOTCH = 1.18
 FIRST_VELOCITY = 80
@@ -190,7 +191,7 @@ class PianoRoll(Lane):
             low, high = float(self.playable[0]), float(self.playable[1])
         else:
             low, high = 53.0, 77.0
-        rows = max(high - low + 5.0, USUAL_ROWS)
+        rows = max(high - low + 4.0, min(USUAL_ROWS, self.plot_rect.height() / USUAL_ROW_PX))
         self._show_pitches((low + high) / 2 - rows / 2, rows)
 
     def scroll_pitch(self, notches: float) -> None:

@@ -38,6 +38,7 @@ from widgets.timeline.lines import Lines, visible_lines
 MARKS_PX = 22
 SCALE_PX = 24
 HEAD_PX = 6.0
+HEAD_HEIGHT_PX = 9.0
 GRIP_PX = 5.0
 """So near to an edge of the loop, or to the playhead, a press takes hold of it."""
 LEAST_LABEL_PX = 64.0
@@ -171,37 +172,47 @@ class Ruler(QWidget):
     # Drawing
 
     def _lay_marks(self, metrics: QFontMetricsF) -> None:
-        """Where the marks stand: metres before tempi, none over another."""
+        """Where the marks stand: metres before tempi, none over another. What holds at the left edge stays in view."""
         score = self.session.project.score
         found = [(metre.tick, 0, "metre", f"{metre.numerator}/{metre.denominator}") for metre in score.metres]
         found += [(tick, 1, "tempo", f"♩={bpm:.4g}") for tick, bpm in score.tempo_map.bpm]
+        places = [(self._x(self._seconds_of(tick)), kind, tick, text) for tick, _, kind, text in sorted(found)]
+        held = {kind: (tick, text) for x, kind, tick, text in places if x < GUTTER_PX}
         self._marks = []
         free_px = float(GUTTER_PX)
-        for tick, _, kind, text in sorted(found):
-            x = self._x(self._seconds_of(tick))
+        inside = [place for place in places if GUTTER_PX <= place[0] <= self.width()]
+        room_px = min((place[0] for place in inside), default=float(self.width()))
+        for kind in ("metre", "tempo"):
+            if kind in held:
+                tick, text = held[kind]
+                width = metrics.horizontalAdvance(text) + 12.0
+                if free_px + width <= room_px:
+                    self._marks.append(Mark(kind, tick, text, QRectF(free_px, 1.0, width, MARKS_PX - 3.0)))
+                    free_px += width + 2.0
+        for x, kind, tick, text in inside:
             width = metrics.horizontalAdvance(text) + 12.0
-            if x > self.width():
-                break
-            # The mark that holds at the left edge stays in view only if it begins there or later.
-            if x + width < GUTTER_PX or (x < free_px - 1 and not (self._marks and self._marks[-1].tick == tick)):
-                continue
-            x = max(x, free_px)
-            self._marks.append(Mark(kind, tick, text, QRectF(x, 1.0, width, MARKS_PX - 3.0)))
-            free_px = x + width + 2.0
+            beside = bool(self._marks) and self._marks[-1].tick == tick
+            if x >= free_px - 1 or beside:
+                x = max(x, free_px)
+                self._marks.append(Mark(kind, tick, text, QRectF(x, 1.0, width, MARKS_PX - 3.0)))
+                free_px = x + width + 2.0
 
     def _paint_marks(self, painter: QPainter) -> None:
         tokens = self.session.tokens
         self._lay_marks(QFontMetricsF(self.font()))
         for mark in self._marks:
-            held = mark is self._mark or (self._mark is not None and (mark.kind, mark.tick) == self._held_mark)
+            held = (mark.kind, mark.tick) == self._held_mark
+            x = self._x(self._seconds_of(mark.tick))
             painter.setPen(Qt.PenStyle.NoPen)
             painter.setBrush(QColor(tokens.accent if held else tokens.raised))
             painter.drawRoundedRect(mark.rect, 3.0, 3.0)
-            painter.setPen(QColor(tokens.accent_text if held else tokens.text))
+            # What began before the left edge is said more quietly.
+            quiet = tokens.text_dim if x < GUTTER_PX else tokens.text
+            painter.setPen(QColor(tokens.accent_text if held else quiet))
             painter.drawText(mark.rect, int(Qt.AlignmentFlag.AlignCenter), mark.text)
-            x = self._x(self._seconds_of(mark.tick))
-            painter.setPen(QPen(QColor(tokens.text_dim), 1.0))
-            painter.drawLine(QPointF(int(x) + 0.5, MARKS_PX - 3), QPointF(int(x) + 0.5, MARKS_PX + 3))
+            if x >= GUTTER_PX:
+                painter.setPen(QPen(QColor(tokens.text_dim), 1.0))
+                painter.drawLine(QPointF(int(x) + 0.5, MARKS_PX - 3), QPointF(int(x) + 0.5, MARKS_PX + 3))
 
     @property
     def _held_mark(self) -> tuple[str, int] | None:
@@ -405,7 +416,8 @@ class Ruler(QWidget):
             return "mark"
         if place.y() < MARKS_PX:
             return "seek"
-        if abs(place.x() - self._x(self.session.playhead_s)) <= GRIP_PX:
+        on_head = place.y() >= self.height() - HEAD_HEIGHT_PX
+        if on_head and abs(place.x() - self._x(self.session.playhead_s)) <= GRIP_PX:
             return "playhead"
         if self.session.loop_s is not None:
             for name, seconds in zip(("loop_start", "loop_end"), self.session.loop_s, strict=True):
@@ -470,7 +482,13 @@ class Ruler(QWidget):
         painter.setBrush(QColor(tokens.accent))
         bottom = float(self.height())
         painter.drawPolygon(
-            QPolygonF([QPointF(x - HEAD_PX, bottom - 9), QPointF(x + HEAD_PX, bottom - 9), QPointF(x, bottom)])
+            QPolygonF(
+                [
+                    QPointF(x - HEAD_PX, bottom - HEAD_HEIGHT_PX),
+                    QPointF(x + HEAD_PX, bottom - HEAD_HEIGHT_PX),
+                    QPointF(x, bottom),
+                ]
+            )
         )
         painter.setClipping(False)
         painter.setPen(QPen(QColor(tokens.line_strong), 1.0))
@@ -520,7 +538,7 @@ class Ruler(QWidget):
         elif event.button() == Qt.MouseButton.LeftButton and self._held:
             if self._held == "mark":
                 self.session.document.end_gesture()
-            elif self._held == "seek" and not self._dragged and self.session.selection.span is not None:
+            elif not self._dragged and self._held in ("seek", "playhead") and self.session.selection.span is not None:
                 self.session.select(Selection(self.session.selection.notes, self.session.selection.events))
             self._held, self._pressed, self._mark = "", None, None
             self.update()

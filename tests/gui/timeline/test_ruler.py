@@ -1,0 +1,194 @@
+"""The ruler by mouse and keys."""
+
+from __future__ import annotations
+
+import pytest
+from PySide6.QtCore import QPointF, Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication, QLineEdit, QMenu
+
+from tests.gui.timeline.conftest import TPQ, Stage
+from tests.gui.timeline.hand import ALT, CTRL, Hand, Place
+from widgets.timeline.lane import GUTTER_PX
+from widgets.timeline.ruler import MARKS_PX, Ruler, clock
+
+BAR = 4 * TPQ
+
+
+def ruler_of(stage: Stage) -> Ruler:
+    return stage.panel.ruler
+
+
+def place(stage: Stage, tick: float, y: float = MARKS_PX + 8) -> Place:
+    seconds = stage.session.project.score.tempo_map.seconds(float(tick))
+    return GUTTER_PX + stage.panel.axis.x_px(seconds), y
+
+
+def on_mark(stage: Stage, kind: str, tick: int) -> Place:
+    stage.panel.ruler.repaint()
+    mark = next(mark for mark in ruler_of(stage)._marks if (mark.kind, mark.tick) == (kind, tick))
+    return mark.rect.center().x(), mark.rect.center().y()
+
+
+def type_into(stage: Stage, text: str, key: Qt.Key = Qt.Key.Key_Return) -> None:
+    editor = stage.panel.ruler.findChild(QLineEdit, "mark_editor")
+    assert editor is not None
+    assert editor.isVisible()
+    editor.selectAll()
+    QTest.keyClicks(editor, text)
+    QTest.keyClick(editor, key)
+    assert not editor.isVisible()
+
+
+def choose(menu: QMenu, text: str) -> None:
+    next(action for action in menu.actions() if action.text() == text).trigger()
+    QApplication.processEvents()
+
+
+def test_a_click_seeks(stage: Stage) -> None:
+    sought: list[float] = []
+    stage.panel.sought.connect(sought.append)
+    Hand(ruler_of(stage)).click(place(stage, 3 * TPQ))
+    assert sought == [pytest.approx(1.5, abs=0.02)]
+    assert stage.session.playhead_s == sought[0]
+    assert stage.session.selection.span is None
+
+
+def test_a_drag_selects_a_range_on_the_grid(stage: Stage) -> None:
+    hand = Hand(ruler_of(stage))
+    hand.drag(place(stage, 2.02 * TPQ), place(stage, 4.9 * TPQ))
+    assert stage.session.selection.span == (2 * TPQ, 5 * TPQ)
+    hand.drag(place(stage, 6 * TPQ), place(stage, 4.03 * TPQ), ALT)
+    span = stage.session.selection.span
+    assert span is not None
+    assert span[0] != 4 * TPQ
+    assert abs(span[0] - 4.03 * TPQ) < 4
+    hand.click(place(stage, 6 * TPQ))
+    assert stage.session.selection.span is None
+
+
+def test_the_playhead_is_scrubbed(stage: Stage) -> None:
+    stage.session.set_playhead(1.0)
+    Hand(ruler_of(stage)).drag(place(stage, 2 * TPQ + 2, 42), place(stage, 5 * TPQ, 42))
+    assert stage.session.playhead_s == pytest.approx(2.5, abs=0.01)
+    assert stage.session.selection.span is None
+
+
+def test_edges_of_the_loop_are_dragged(stage: Stage) -> None:
+    stage.session.set_loop((1.0, 2.0))
+    hand = Hand(ruler_of(stage))
+    hand.drag(place(stage, 4 * TPQ - 3), place(stage, 6.03 * TPQ))
+    assert stage.session.loop_s == (1.0, 3.0)
+    hand.drag(place(stage, 2 * TPQ + 3), place(stage, 3 * TPQ))
+    assert stage.session.loop_s == (1.5, 3.0)
+    hand.drag(place(stage, 3 * TPQ), place(stage, 8 * TPQ))
+    assert stage.session.loop_s is not None
+    assert stage.session.loop_s[0] < 3.0
+
+
+def test_a_double_click_fits(stage: Stage) -> None:
+    Hand(ruler_of(stage)).double_click(place(stage, 3 * TPQ))
+    axis = stage.panel.axis
+    assert (axis.start_s, axis.end_s) == axis.limits_s
+
+
+def test_wheels_scroll_and_zoom(stage: Stage) -> None:
+    axis = stage.panel.axis
+    start, at = axis.start_s, axis.seconds(300 - GUTTER_PX)
+    hand = Hand(ruler_of(stage))
+    hand.wheel((300.0, 30.0), 2, CTRL)
+    assert axis.seconds(300 - GUTTER_PX) == pytest.approx(at)
+    assert axis.start_s > start
+    start = axis.start_s
+    hand.wheel((300.0, 30.0), -1)
+    assert axis.start_s > start
+
+
+def test_a_tempo_is_typed(stage: Stage) -> None:
+    Hand(ruler_of(stage)).double_click(on_mark(stage, "tempo", 0))
+    type_into(stage, "96")
+    assert stage.session.project.score.tempo_map.bpm == ((0, pytest.approx(96.0)),)
+    assert stage.steps == ["edit.set_tempo"]
+    Hand(ruler_of(stage)).double_click(on_mark(stage, "tempo", 0))
+    type_into(stage, "50", Qt.Key.Key_Escape)
+    assert stage.steps == ["edit.set_tempo"]
+
+
+def test_an_impossible_tempo_is_refused_in_words(stage: Stage) -> None:
+    said: list[str] = []
+    stage.session.noticed.connect(lambda message, severity: said.append(message.id))
+    Hand(ruler_of(stage)).double_click(on_mark(stage, "tempo", 0))
+    type_into(stage, "fast")
+    assert said == ["tempo.outside"]
+    assert stage.steps == []
+
+
+def test_a_tempo_is_added_dragged_and_removed(stage: Stage) -> None:
+    ruler = ruler_of(stage)
+    choose(ruler.context_menu(QPointF(*place(stage, 4.02 * TPQ))), "Add Tempo Here")
+    type_into(stage, "90")
+    tempo = stage.session.project.score.tempo_map
+    assert tempo.bpm == ((0, pytest.approx(120.0)), (BAR, pytest.approx(90.0)))
+    start = on_mark(stage, "tempo", BAR)
+    hand = Hand(ruler)
+    hand.press(start)
+    hand.move((place(stage, 5 * TPQ)[0], start[1]))
+    hand.move((place(stage, 6 * TPQ)[0], start[1]))
+    hand.release((place(stage, 6 * TPQ)[0], start[1]))
+    moved = [tick for tick, _ in stage.session.project.score.tempo_map.bpm]
+    assert len(moved) == 2
+    assert moved[1] > BAR
+    assert moved[1] % (TPQ // 4) == 0
+    assert stage.steps == ["edit.set_tempo", "edit.move_tempo"]
+    x, y = on_mark(stage, "tempo", moved[1])
+    choose(ruler.context_menu(QPointF(x, y)), "Remove Tempo")
+    assert len(stage.session.project.score.tempo_map.bpm) == 1
+
+
+def test_a_dragged_tempo_comes_back_with_escape(stage: Stage) -> None:
+    ruler = ruler_of(stage)
+    choose(ruler.context_menu(QPointF(*place(stage, 4 * TPQ))), "Add Tempo Here")
+    type_into(stage, "90")
+    before = stage.session.project
+    start = on_mark(stage, "tempo", BAR)
+    hand = Hand(ruler)
+    hand.press(start)
+    hand.move((start[0] + 90, start[1]))
+    assert stage.session.project is not before
+    QTest.keyClick(ruler, Qt.Key.Key_Escape)
+    hand.release((start[0] + 90, start[1]))
+    assert stage.session.project is before
+    assert stage.steps == ["edit.set_tempo"]
+
+
+def test_a_metre_is_added_at_a_bar_and_removed(stage: Stage) -> None:
+    ruler = ruler_of(stage)
+    choose(ruler.context_menu(QPointF(*place(stage, 6 * TPQ))), "Add Metre at This Bar")
+    type_into(stage, "3/4")
+    metres = [(metre.tick, metre.numerator) for metre in stage.session.project.score.metres]
+    assert metres == [(0, 4), (BAR, 3)]
+    x, y = on_mark(stage, "metre", BAR)
+    choose(ruler.context_menu(QPointF(x, y)), "Remove Metre")
+    assert len(stage.session.project.score.metres) == 1
+
+
+def test_a_bar_is_selected_from_the_menu(stage: Stage) -> None:
+    choose(ruler_of(stage).context_menu(QPointF(*place(stage, 6 * TPQ))), "Select This Bar")
+    assert stage.session.selection.span == (BAR, 2 * BAR)
+
+
+def test_the_unit_is_chosen_on_the_ruler(stage: Stage) -> None:
+    ruler = ruler_of(stage)
+    menu = ruler.unit_button.menu()
+    for index, display in enumerate(("bars", "seconds", "frames")):
+        menu.actions()[index].trigger()
+        assert stage.session.time_display == display
+        assert ruler.unit_button.text() == menu.actions()[index].text()
+
+
+@pytest.mark.parametrize(
+    ("seconds", "decimals", "text"),
+    [(0.0, 0, "0:00"), (-1.5, 1, "-0:01.5"), (59.996, 2, "1:00.00"), (3725.0, 0, "1:02:05"), (-0.001, 1, "0:00.0")],
+)
+def test_clock(seconds: float, decimals: int, text: str) -> None:
+    assert clock(seconds, decimals) == text
