@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Literal, cast
 
 import msgspec
@@ -15,6 +16,7 @@ from app.plan.corrections import Correction, PoseCorrection
 from app.plan.model import PoseTarget
 from app.project.edit import corrections as edit
 from app.project.model import Project
+from app.rig.model import InstrumentModel
 from instrument_maps.model import ROOT
 from widgets.viewport.camera import Camera
 from widgets.viewport.cast import Stage
@@ -67,7 +69,7 @@ def handles(stage: Stage, row: int) -> tuple[Handle, ...]:
     left, up, ahead = frame[:, 0], frame[:, 1], frame[:, 2]
     kit = stage.members[row].kit
     held = stage.node_matrix(row)
-    bell_m = held[:, :3] @ _bell(stage, row) + held[:, 3]
+    bell_m = held[:, :3] @ _bell(kit.instrument) + held[:, 3]
     rim_m = held[:, :3] @ np.asarray(kit.map.mouthpiece.position_m) + held[:, 3]
     head = stage.joints[row, kit.character.skeleton.index("head")]
     brow_m = head[:, :3] @ np.array([0.0, 0.11, 0.11]) + head[:, 3]
@@ -110,11 +112,11 @@ def _elbow(stage: Stage, row: int, target: PoseTarget, outwards: Floats, up: Flo
     return Handle(target, elbow, (("up_deg", swing),), ())
 
 
-def _bell(stage: Stage, row: int) -> Floats:
+@lru_cache(maxsize=64)
+def _bell(model: InstrumentModel) -> Floats:
     """The far end of what does not move in the instrument, in its frame: for most, the middle of the bell."""
-    kit = stage.members[row].kit
-    root = kit.instrument.node_names.index(ROOT)
-    places = np.concatenate([mesh.positions_m[mesh.joints[:, 0] == root] for mesh in kit.instrument.meshes])
+    root = model.node_names.index(ROOT)
+    places = np.concatenate([mesh.positions_m[mesh.joints[:, 0] == root] for mesh in model.meshes])
     far = places[:, 2] > places[:, 2].max() - 0.01
     end: Floats = places[far].astype(np.float64).mean(axis=0)
     return end

@@ -60,6 +60,7 @@ class Header(QWidget):
         self._folded.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         self._folded.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
         self._folded.hide()
+        self._note_text = ""
         self._note = QLabel(self)
         self._note.setObjectName("viewport_note")
         self._note.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
@@ -96,8 +97,10 @@ class Header(QWidget):
         self.refresh()
 
     def set_note(self, text: str) -> None:
-        """Say something between the buttons, e.g. how far a pose reaches."""
-        self._note.setText(text)
+        """Say something between the buttons, as far as there is room."""
+        self._note_text = text
+        self._note.setToolTip(text)
+        self._fold()
 
     def refresh(self) -> None:
         """Check what is on."""
@@ -188,6 +191,11 @@ class Header(QWidget):
         fits = self.width() >= self._segments.sizeHint().width() + others + 24
         self._segments.setVisible(fits)
         self._folded.setVisible(not fits)
+        views = self._segments if fits else self._folded
+        room = self.width() - views.sizeHint().width() - others - 36
+        text = self._note.fontMetrics().elidedText(self._note_text, Qt.TextElideMode.ElideRight, max(room, 0))
+        # A few signs of a sentence help nobody.
+        self._note.setText(text if len(text) > 12 or text == self._note_text else "")
 
     def minimumSizeHint(self) -> QSize:
         """Narrow enough for the folded header."""

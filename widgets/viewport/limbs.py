@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 import numpy.typing as npt
@@ -47,6 +48,7 @@ class _Anatomy:
     radii_m: Floats
 
 
+@lru_cache(maxsize=16)
 def _anatomy(skeleton: Skeleton) -> _Anatomy:
     rest = rest_positions(skeleton)
     names = skeleton.names
@@ -70,10 +72,18 @@ def _anatomy(skeleton: Skeleton) -> _Anatomy:
     return _Anatomy(np.array(joints, np.intp), np.array(offsets, np.float64), np.array(radii, np.float64))
 
 
-def instrument_capsule(model: InstrumentModel) -> tuple[Floats, Floats, float]:
-    """The capsule along the longest side of a model's bounds: both ends in its frame, and the radius."""
+@lru_cache(maxsize=64)
+def model_bounds(model: InstrumentModel) -> tuple[Floats, Floats]:
+    """The box around a model at rest, in its frame."""
     low = np.min([mesh.positions_m.min(axis=0) for mesh in model.meshes], axis=0).astype(np.float64)
     high = np.max([mesh.positions_m.max(axis=0) for mesh in model.meshes], axis=0).astype(np.float64)
+    return low, high
+
+
+@lru_cache(maxsize=64)
+def instrument_capsule(model: InstrumentModel) -> tuple[Floats, Floats, float]:
+    """The capsule along the longest side of a model's bounds: both ends in its frame, and the radius."""
+    low, high = model_bounds(model)
     size, middle = high - low, (low + high) / 2.0
     longest = int(np.argmax(size))
     across = np.delete(size, longest)
@@ -93,13 +103,7 @@ class Limbs:
 
     def __init__(self, stage: Stage) -> None:
         self._stage = stage
-        kept: dict[int, _Anatomy] = {}
-        anatomies = []
-        for member in stage.members:
-            skeleton = member.kit.character.skeleton
-            if id(skeleton) not in kept:
-                kept[id(skeleton)] = _anatomy(skeleton)
-            anatomies.append(kept[id(skeleton)])
+        anatomies = [_anatomy(member.kit.character.skeleton) for member in stage.members]
         self._joints = np.array([anatomy.joints for anatomy in anatomies], np.intp)
         self._offsets = np.array([anatomy.offsets_m for anatomy in anatomies])
         self._radii = np.array([anatomy.radii_m for anatomy in anatomies])

@@ -75,6 +75,13 @@ def shapes_of(stage: Stage, before: Shapes | None = None) -> Shapes:
     return Shapes(characters, instruments, stool(stage.seat_bone, height_m))
 
 
+def _looks_same(one: Stage, other: Stage) -> bool:
+    return len(one.members) == len(other.members) and all(
+        own.kit is its.kit and (own.seat_m is None) == (its.seat_m is None)
+        for own, its in zip(one.members, other.members, strict=True)
+    )
+
+
 class _Solid:
     """A geometry on the graphics card."""
 
@@ -122,7 +129,12 @@ class Renderer:
 
     def set_stage(self, stage: Stage, shapes: Shapes) -> None:
         """Draw this stage from now on."""
+        same = self._stage is not None and shapes is self._shapes and _looks_same(stage, self._stage)
         self._stage, self._shapes = stage, shapes
+        if same:
+            # The same players at other places: what is on the card stays.
+            self._limbs = Limbs(stage)
+            return
         alive = {
             id(level) for levels in (*shapes.characters.values(), *shapes.instruments.values()) for level in levels
         } | {id(shapes.stool)}

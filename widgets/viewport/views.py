@@ -12,6 +12,7 @@ import numpy.typing as npt
 from widgets.common.viewport_state import View
 from widgets.viewport.camera import Camera, frame
 from widgets.viewport.cast import Stage
+from widgets.viewport.limbs import model_bounds
 
 Floats = npt.NDArray[np.float64]
 
@@ -109,8 +110,7 @@ def bounds(stage: Stage, rows: Sequence[int]) -> tuple[Floats, Floats]:
     for row in rows:
         kit = stage.members[row].kit
         points.append(stage.joints[row, 1 : len(kit.character.skeleton.names), :, 3])
-        low = np.min([mesh.positions_m.min(axis=0) for mesh in kit.instrument.meshes], axis=0)
-        high = np.max([mesh.positions_m.max(axis=0) for mesh in kit.instrument.meshes], axis=0)
+        low, high = model_bounds(kit.instrument)
         corners = np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
         held = stage.node_matrix(row)
         points.append(corners @ held[:, :3].T + held[:, 3])
