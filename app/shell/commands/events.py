@@ -28,9 +28,9 @@ from app.project.edit.notes import erase
 from app.project.model import Project
 from app.shell.action import QT_TRANSLATE_NOOP, Action
 from app.shell.commands.chosen import events_by_player, notes_by_player, plan_of
+from widgets.common.event_names import expression_name
 from widgets.common.selection import EventKey, Selection
 from widgets.common.session import Session
-from widgets.timeline.lanes.names import expression_name
 
 NEW_BEATS = 2
 """Length of an added gesture or expression at the playhead."""

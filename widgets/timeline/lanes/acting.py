@@ -22,13 +22,13 @@ from app.project.edit.events import (
     set_expression,
 )
 from app.project.model import Project
+from widgets.common.event_names import expression_name, kind_name, pose_name
 from widgets.common.selection import EventKey, Selection
 from widgets.common.session import Session
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.lane import LaneMouse
 from widgets.timeline.lanes.drawing import draw_mark, draw_path, draw_rects, draw_text, polygon, shade
 from widgets.timeline.lanes.geometry import Floats, packed_rows
-from widgets.timeline.lanes.names import expression_name, kind_name, pose_name
 from widgets.timeline.lanes.regions import HANDLE_PX, Region, RegionLane
 from widgets.timeline.lanes.row_names import RowNames
 

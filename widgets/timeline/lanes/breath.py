@@ -10,12 +10,12 @@ from app.errors import Message
 from app.plan.model import PlayerPlan
 from app.project.edit.events import add_breath, toggle_preparation
 from app.project.model import Project
+from widgets.common.event_names import kind_name
 from widgets.common.selection import EventKey, Selection
 from widgets.common.session import Session
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.lane import LaneMouse
 from widgets.timeline.lanes.drawing import draw_mark, draw_text, shade
-from widgets.timeline.lanes.names import kind_name
 from widgets.timeline.lanes.problems import ProblemMarks
 from widgets.timeline.lanes.regions import Region, RegionLane
 
