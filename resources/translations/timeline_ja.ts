@@ -1,0 +1,391 @@
+<?xml version="1.0" encoding="utf-8"?>
+<!DOCTYPE TS>
+<TS version="2.1" language="ja" sourcelanguage="en">
+<context>
+    <name>ActingLane</name>
+    <message>
+        <source>Acting</source>
+        <translation>演技</translation>
+    </message>
+    <message>
+        <source>Drag to move, up and down for the strength, an edge to resize, a corner for a fade; double-click adds</source>
+        <translation>ドラッグで移動、上下で強さ、端で長さ、角でフェードを変更します。ダブルクリックで追加します</translation>
+    </message>
+    <message>
+        <source>Pose</source>
+        <translation>ポーズ</translation>
+    </message>
+    <message>
+        <source>Another expression</source>
+        <translation>別の表情にする</translation>
+    </message>
+    <message>
+        <source>Add an expression here</source>
+        <translation>ここに表情を追加</translation>
+    </message>
+    <message>
+        <source>Add a gesture here</source>
+        <translation>ここにジェスチャーを追加</translation>
+    </message>
+    <message>
+        <source>Add a cue here</source>
+        <translation>ここに合図を追加</translation>
+    </message>
+</context>
+<context>
+    <name>Alternates</name>
+    <message>
+        <source>trill</source>
+        <translation>トリル</translation>
+    </message>
+    <message>
+        <source>fast</source>
+        <translation>速い音形</translation>
+    </message>
+    <message>
+        <source>raised</source>
+        <translation>高め</translation>
+    </message>
+    <message>
+        <source>alternate</source>
+        <translation>替え指</translation>
+    </message>
+    <message>
+        <source>Choice {rank}</source>
+        <translation>第 {rank} 候補</translation>
+    </message>
+    <message>
+        <source>Generated</source>
+        <translation>自動に戻す</translation>
+    </message>
+    <message>
+        <source>Back to the generator&apos;s choice</source>
+        <translation>自動生成の運指に戻します</translation>
+    </message>
+</context>
+<context>
+    <name>BreathLane</name>
+    <message>
+        <source>Breath</source>
+        <translation>ブレス</translation>
+    </message>
+    <message>
+        <source>Drag to move, up and down for the depth, an edge to resize; double-click adds one</source>
+        <translation>ドラッグで移動、上下で深さ、端で長さを変更します。ダブルクリックで追加します</translation>
+    </message>
+    <message>
+        <source>depth {depth:.2f}, {seconds:.2f} s</source>
+        <translation>深さ {depth:.2f}、{seconds:.2f} 秒</translation>
+    </message>
+    <message>
+        <source>Add a breath here</source>
+        <translation>ここにブレスを追加</translation>
+    </message>
+    <message>
+        <source>Prepared</source>
+        <translation>予備動作あり</translation>
+    </message>
+</context>
+<context>
+    <name>CurvesLane</name>
+    <message>
+        <source>Curves</source>
+        <translation>カーブ</translation>
+    </message>
+    <message>
+        <source>Drag a note&apos;s value up or down; Shift for fine steps</source>
+        <translation>音符の値を上下にドラッグします。Shift で細かく動かせます</translation>
+    </message>
+    <message>
+        <source>The curve that is edited or shown in front</source>
+        <translation>編集する、または手前に表示するカーブ</translation>
+    </message>
+    <message>
+        <source>Curve</source>
+        <translation>カーブ</translation>
+    </message>
+    <message>
+        <source>Lip tension</source>
+        <translation>唇の緊張</translation>
+    </message>
+    <message>
+        <source>Effort</source>
+        <translation>力み</translation>
+    </message>
+    <message>
+        <source>Air</source>
+        <translation>息の量</translation>
+    </message>
+    <message>
+        <source>Breath controller</source>
+        <translation>ブレス (CC2)</translation>
+    </message>
+    <message>
+        <source>Volume</source>
+        <translation>ボリューム</translation>
+    </message>
+    <message>
+        <source>Expression</source>
+        <translation>エクスプレッション</translation>
+    </message>
+    <message>
+        <source>Aftertouch</source>
+        <translation>アフタータッチ</translation>
+    </message>
+    <message>
+        <source>Pitch bend</source>
+        <translation>ピッチベンド</translation>
+    </message>
+</context>
+<context>
+    <name>FingeringLane</name>
+    <message>
+        <source>Fingering</source>
+        <translation>運指</translation>
+    </message>
+    <message>
+        <source>Click a note to see its alternates; type a fingering to pin it</source>
+        <translation>音符をクリックすると替え指が出ます。運指を入力すると固定されます</translation>
+    </message>
+</context>
+<context>
+    <name>PianoRoll</name>
+    <message>
+        <source>{pitch}: click to select all its notes</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Velocity {velocity}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Notes</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Notes of the player in front; the others behind</source>
+        <translation type="unfinished"></translation>
+    </message>
+</context>
+<context>
+    <name>ProblemsLane</name>
+    <message>
+        <source>Problems</source>
+        <translation>問題</translation>
+    </message>
+    <message>
+        <source>What the player in front cannot do as it stands; F8 goes to the next</source>
+        <translation>手前の奏者がこのままではできないこと。F8 で次へ進みます</translation>
+    </message>
+</context>
+<context>
+    <name>QuantisePopover</name>
+    <message>
+        <source>Grid</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Strength</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Beginnings</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Ends</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Quantise</source>
+        <translation type="unfinished"></translation>
+    </message>
+</context>
+<context>
+    <name>RegionLane</name>
+    <message>
+        <source>deleted by hand</source>
+        <translation>手作業で削除</translation>
+    </message>
+</context>
+<context>
+    <name>Ruler</name>
+    <message>
+        <source>Bars</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Seconds</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Frames</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>What the ruler counts</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Tempo in quarters per minute; Enter takes it, Escape leaves it</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Metre, e.g. 6/8; Enter takes it, Escape leaves it</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Change Tempo</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Change Metre</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Remove Tempo</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Remove Metre</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Add Tempo Here</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Add Metre at This Bar</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Select This Bar</source>
+        <translation type="unfinished"></translation>
+    </message>
+</context>
+<context>
+    <name>TimelinePanel</name>
+    <message>
+        <source>Lanes</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Which lanes are shown, and in which order</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Zoom out (Ctrl+wheel)</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Zoom in (Ctrl+wheel)</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Show the whole piece (double-click the ruler)</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Unfold All</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Fold All</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Move Up</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Move Down</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Unfold</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Fold</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Hide</source>
+        <translation type="unfinished"></translation>
+    </message>
+</context>
+<context>
+    <name>ToolBar</name>
+    <message>
+        <source>Select: click, drag a frame, drag notes and their ends</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Draw: drag out a new note</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Erase: drag over notes</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Split: click where the note shall be cut</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Others as Ghosts</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>All Players</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Only This Player</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>How the other players&apos; notes are seen</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The player in front</source>
+        <translation type="unfinished"></translation>
+    </message>
+</context>
+<context>
+    <name>WaveformLane</name>
+    <message>
+        <source>Recording</source>
+        <translation>録音</translation>
+    </message>
+    <message>
+        <source>Drag to move it against the score, with Shift finely; double-click types</source>
+        <translation>ドラッグで楽譜に対してずらします（Shift で細かく）。ダブルクリックで数値を入力します</translation>
+    </message>
+    <message>
+        <source>Offset in seconds</source>
+        <translation>オフセット（秒）</translation>
+    </message>
+    <message>
+        <source>Drop a recording here. Until then the synthesiser plays the score.</source>
+        <translation>ここに録音をドロップしてください。それまではシンセサイザーが楽譜を鳴らします。</translation>
+    </message>
+    <message>
+        <source>offset {offset} s · the recording is not read yet</source>
+        <translation>オフセット {offset} 秒 · 録音を読み込み中</translation>
+    </message>
+    <message>
+        <source>offset {offset} s</source>
+        <translation>オフセット {offset} 秒</translation>
+    </message>
+    <message>
+        <source>offset {offset} s (estimated, {confidence:.2f})</source>
+        <translation>オフセット {offset} 秒（推定、信頼度 {confidence:.2f}）</translation>
+    </message>
+    <message>
+        <source>Type the offset...</source>
+        <translation>オフセットを入力...</translation>
+    </message>
+</context>
+</TS>
