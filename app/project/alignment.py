@@ -24,7 +24,11 @@ Ints = npt.NDArray[np.int64]
 SAME_QUARTERS = 1 / 16
 """Onsets this close are one: another resolution rounds, and people nudge."""
 SWITCH_COST = 3.0
-"""Of another distance in time, in notes not found."""
+"""Of another distance in time, in notes not found ..."""
+JUMP_COST = 0.05
+"""... and of every note that is passed over or played twice by it, ..."""
+MOST_JUMP_COST = 6.0
+"""... up to this: many bars may be put in at once."""
 GAP_COST = 0.7
 """Of a note that has no partner; two are a little dearer than a changed pitch or a moved onset, cheaper than both."""
 PITCH_COST = 1.0
@@ -179,13 +183,19 @@ def _anchors(old: Line, new: Line, distances: Floats, transposition: int) -> lis
     partners, away = zip(*(_partners(old, new, distance, transposition) for distance in distances), strict=True)
     found = np.array(partners)
     costs = np.where(found >= 0, 0.2 * np.array(away) / SAME_QUARTERS, 1.0)
-    chosen = _held(costs)
+    # Of two readings alike in all else, that in which less moved.
+    costs += 1e-4 * np.minimum(np.abs(distances), 100.0)[:, None]
+    density = len(old) / max(float(old.onsets[-1] - old.onsets[0]), 1.0)
+    jumps = np.abs(np.subtract.outer(distances, distances)) * density
+    changes = SWITCH_COST + np.minimum(JUMP_COST * jumps, MOST_JUMP_COST)
+    np.fill_diagonal(changes, 0.0)
+    chosen = _held(costs, changes)
     pairs = [(index, int(found[state, index])) for index, state in enumerate(chosen) if found[state, index] >= 0]
     return _ascending(pairs)
 
 
-def _held(costs: Floats) -> Ints:
-    """For every column the row of a cheapest path through them, on which to change the row costs `SWITCH_COST`."""
+def _held(costs: Floats, changes: Floats) -> Ints:
+    """For every column the row of a cheapest path through them; to go from row a to b costs ``changes[a, b]``."""
     states, count = costs.shape
     if states == 1:
         return np.zeros(count, np.int64)
@@ -193,10 +203,10 @@ def _held(costs: Floats) -> Ints:
     came = np.empty((count, states), np.int64)
     own = np.arange(states)
     for index in range(1, count):
-        best = int(np.argmin(total))
-        changed = total[best] + SWITCH_COST
-        came[index] = np.where(changed < total, best, own)
-        total = np.minimum(total, changed) + costs[:, index]
+        ways = total[:, None] + changes
+        best = ways.argmin(axis=0)
+        came[index] = best
+        total = ways[best, own] + costs[:, index]
     path = np.empty(count, np.int64)
     path[-1] = np.argmin(total)
     for index in range(count - 1, 0, -1):

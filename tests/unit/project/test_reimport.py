@@ -1,0 +1,304 @@
+"""What reading a changed MIDI file again keeps, brings and leaves behind."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import replace
+from pathlib import Path
+
+import msgspec
+import pytest
+
+from app.errors import UsageError
+from app.plan.corrections import (
+    AddGesture,
+    ChangeExpression,
+    ChangeGesture,
+    Correction,
+    PinFingering,
+    PoseCorrection,
+    RemoveEvent,
+    SetBreath,
+    SetCue,
+)
+from app.project.edit.corrections import put
+from app.project.edit.notes import add_note
+from app.project.edit.players import add_player, remove_players, set_parameters
+from app.project.model import Project, map_choices, project_from_score
+from app.project.reimport import orphaned, reattached, reimport
+from app.score.model import Note, Part, Score
+from app.score.read import read_midi
+from app.score.tempo import TempoMap
+from instrument_maps.load import bundled_maps
+from tests.unit.project.pieces import small_project
+
+MAPS = bundled_maps()
+MIDI = Path(__file__).parents[2] / "data" / "midi"
+LUTKIN = MIDI / "ensemble" / "brass_quartet_lutkin_2tpt_tbn_tuba.mid"
+BAR = 1920
+
+
+def read(path: Path) -> Project:
+    return project_from_score(read_midi(path, maps=map_choices(MAPS.values())), MAPS)
+
+
+def from_file(score: Score, **changes: object) -> Score:
+    """As a file would bring it: ids counted anew."""
+    parts = tuple(
+        msgspec.structs.replace(
+            part,
+            id=f"{track}.1.1",
+            track=track,
+            notes=tuple(
+                msgspec.structs.replace(note, id=f"{track}:{number}") for number, note in enumerate(part.notes, 1)
+            ),
+        )
+        for track, part in enumerate(score.parts, 1)
+    )
+    return msgspec.structs.replace(score, **{"parts": parts, **changes})
+
+
+def with_notes(score: Score, index: int, notes: list[Note]) -> Score:
+    parts = list(score.parts)
+    ordered = tuple(sorted(notes, key=lambda note: (note.onset_tick, note.pitch)))
+    parts[index] = msgspec.structs.replace(parts[index], notes=ordered)
+    return msgspec.structs.replace(score, parts=tuple(parts))
+
+
+def later(notes: tuple[Note, ...], from_tick: int, by_tick: int) -> list[Note]:
+    return [
+        msgspec.structs.replace(note, onset_tick=note.onset_tick + by_tick * (note.onset_tick >= from_tick))
+        for note in notes
+    ]
+
+
+def corrections_of(project: Project, player: str, kind: type[Correction]) -> list[Correction]:
+    return [item for item in project.corrections.get(player, ()) if isinstance(item, kind)]
+
+
+def test_the_same_file_changes_nothing() -> None:
+    project = put(read(LUTKIN), read(LUTKIN).players[0].id, [PinFingering("1:1", "1")])
+    result = reimport(project, from_file(project.score, parts=project.score.parts), MAPS)
+    assert result.project is project
+    assert (result.added, result.removed, result.new_players, result.gone_players) == ((), (), (), ())
+
+
+def test_inserted_bars_carry_everything_along() -> None:
+    project = put(
+        small_project(),
+        "1.1.1",
+        [
+            PinFingering("1:4", "1"),
+            SetBreath("1:4", -120, -10),
+            RemoveEvent("breath:1:3", "1:3"),
+            AddGesture("mine", "bell_height", 960, 1440, 0.5),
+            ChangeGesture("sway:@960", 960, 1200, 0.5),
+            ChangeExpression("expression:strained:1:4", strength=0.5),
+            AddGesture("early", "sway", 0, 480, 0.5),
+            PoseCorrection("pose", "head", 960, 1440, 5.0, fade_in_ticks=240),
+            SetCue("@960", 1.0),
+        ],
+    )
+    score = project.score
+    for index in range(2):
+        score = with_notes(score, index, later(score.parts[index].notes, 960, BAR))
+    result = reimport(project, from_file(score), MAPS)
+    assert [part.kept for part in result.parts] == [4, 4]
+    assert result.orphans == ()
+    assert set(result.project.corrections["1.1.1"]) == {
+        PinFingering("1:4", "1"),
+        SetBreath("1:4", -120, -10),
+        RemoveEvent("breath:1:3", "1:3"),
+        AddGesture("mine", "bell_height", 960 + BAR, 1440 + BAR, 0.5),
+        ChangeGesture(f"sway:@{960 + BAR}", 960 + BAR, 1200 + BAR, 0.5),
+        ChangeExpression("expression:strained:1:4", strength=0.5),
+        AddGesture("early", "sway", 0, 480, 0.5),
+        PoseCorrection("pose", "head", 960 + BAR, 1440 + BAR, 5.0, fade_in_ticks=240),
+        SetCue(f"@{960 + BAR}", 1.0),
+    }
+
+
+def test_a_region_across_inserted_bars_grows_and_across_cut_bars_shrinks() -> None:
+    project = put(small_project(), "1.1.1", [AddGesture("mine", "sway", 480, 1440, 0.5)])
+    score = project.score
+    notes = later(score.parts[0].notes, 960, BAR)
+    grown = reimport(project, from_file(with_notes(score, 0, notes)), MAPS)
+    assert corrections_of(grown.project, "1.1.1", AddGesture) == [AddGesture("mine", "sway", 480, 1440 + BAR, 0.5)]
+    back = reimport(grown.project, from_file(score), MAPS)
+    assert back.project.corrections == project.corrections
+
+
+def test_another_resolution_scales_ticks_and_lengths() -> None:
+    project = put(small_project(), "1.1.1", [SetBreath("1:2", -120, -24), AddGesture("mine", "sway", 0, 480, 0.5)])
+    score = project.score
+    parts = tuple(
+        msgspec.structs.replace(
+            part,
+            notes=tuple(
+                msgspec.structs.replace(note, onset_tick=note.onset_tick // 5, duration_tick=note.duration_tick // 5)
+                for note in part.notes
+            ),
+        )
+        for part in score.parts
+    )
+    smaller = msgspec.structs.replace(score, ticks_per_quarter=96, tempo_map=TempoMap(96), parts=parts)
+    result = reimport(project, from_file(smaller), MAPS)
+    assert result.removed == ()
+    assert result.project.corrections["1.1.1"] == (SetBreath("1:2", -24, -5), AddGesture("mine", "sway", 0, 96, 0.5))
+
+
+def test_a_note_that_is_gone_leaves_its_corrections_and_they_find_another() -> None:
+    project = put(
+        small_project(), "1.1.1", [SetBreath("1:2", -100, -10), RemoveEvent("breath:1:2", "1:2"), SetCue("1:1")]
+    )
+    gone = with_notes(project.score, 0, [note for note in project.score.parts[0].notes if note.id != "1:2"])
+    result = reimport(project, from_file(gone), MAPS)
+    assert result.removed == ("1:2",)
+    assert {orphan.correction for orphan in result.orphans} == {
+        SetBreath("1:2", -100, -10),
+        RemoveEvent("breath:1:2", "1:2"),
+    }
+    assert result.project.corrections == project.corrections
+    after = reattached(result.project, "1.1.1", SetBreath("1:2", -100, -10), "1:3")
+    after = reattached(after, "1.1.1", RemoveEvent("breath:1:2", "1:2"), "1:4")
+    assert orphaned(after) == ()
+    assert set(after.corrections["1.1.1"]) == {
+        SetBreath("1:3", -100, -10),
+        RemoveEvent("breath:1:4", "1:4"),
+        SetCue("1:1"),
+    }
+    with pytest.raises(UsageError, match=r"reimport\.not_played"):
+        reattached(after, "1.1.1", SetCue("1:1"), "2:1")
+    with pytest.raises(UsageError, match=r"reimport\.no_note"):
+        reattached(after, "1.1.1", AddGesture("x", "sway", 0, 1, 1.0), "1:1")
+
+
+def test_new_notes_never_take_an_id_that_something_waits_for() -> None:
+    project = put(small_project(), "1.1.1", [PinFingering("1:2", "1"), PinFingering("f:7", "1")])
+    notes = [note for note in project.score.parts[0].notes if note.id != "1:2"]
+    notes.append(Note("x", 3000, 480, 100, 80))
+    result = reimport(project, from_file(with_notes(project.score, 0, notes)), MAPS)
+    assert result.added == ("f:8",)
+    assert "1:2" not in {note.id for part in result.project.score.parts for note in part.notes}
+
+
+def test_parts_are_known_by_what_they_play_not_by_where_they_stand() -> None:
+    project = read(LUTKIN)
+    project = set_parameters(project, [project.players[0].id], amplitude=0.9)
+    turned = msgspec.structs.replace(project.score, parts=tuple(reversed(project.score.parts)))
+    renamed = from_file(
+        msgspec.structs.replace(
+            turned,
+            parts=tuple(msgspec.structs.replace(part, name=f"Stimme {n}") for n, part in enumerate(turned.parts)),
+        )
+    )
+    result = reimport(project, renamed, MAPS)
+    assert result.new_players == result.gone_players == ()
+    assert {player.id: player.part_id for player in result.project.players} == {
+        player.id: player.part_id for player in project.players
+    }
+    for part in project.score.parts:
+        after = next(other for other in result.project.score.parts if other.id == part.id)
+        assert after.notes == part.notes
+    assert result.project.player(project.players[0].id).parameters.amplitude == 0.9
+
+
+def test_parts_that_play_the_same_are_known_by_their_names() -> None:
+    small = small_project()
+    first = small.score.parts[0]
+    twin = msgspec.structs.replace(
+        first,
+        id="3.1.1",
+        name="cornet",
+        track=3,
+        notes=tuple(msgspec.structs.replace(note, id=f"3{note.id[1:]}") for note in first.notes),
+    )
+    project = project_from_score(msgspec.structs.replace(small.score, parts=(first, twin)), MAPS)
+    turned = msgspec.structs.replace(project.score, parts=(twin, first))
+    result = reimport(project, from_file(turned), MAPS)
+    assert [(part.id, part.name) for part in result.project.score.parts] == [("3.1.1", "cornet"), ("1.1.1", "trumpet")]
+
+
+def test_a_new_part_gets_a_player_and_one_that_is_gone_takes_its_player_along() -> None:
+    project = put(small_project(), "2.1.1", [PinFingering("2:1", "1")])
+    melody = tuple(Note(f"9:{n}", n * 240, 240, 80 - 3 * n, 90) for n in range(1, 9))
+    new = Part("9.1.1", "Trumpet", 9, 0, 9, None, "Flugelhorn", "trumpet_Bb", melody)
+    result = reimport(project, from_file(msgspec.structs.replace(project.score, parts=(new,))), MAPS)
+    # The trombone has a correction: it stays, with nothing to play. The trumpet leaves.
+    (fresh,) = result.new_players
+    assert result.gone_players == ("1.1.1",)
+    assert result.idle_players == ("2.1.1",)
+    after = result.project
+    assert [player.id for player in after.players] == ["2.1.1", fresh]
+    assert after.part(after.player("2.1.1")).notes == ()
+    assert after.player(fresh).instrument_id == "trumpet_Bb"
+    assert after.player(fresh).name == "Trumpet"
+    assert [note.pitch for note in after.part(after.player(fresh)).notes] == [note.pitch for note in melody]
+    assert after.corrections == project.corrections
+    assert len(result.orphans) == 1
+
+
+def test_who_was_sent_away_stays_away() -> None:
+    project = remove_players(small_project(), ["2.1.1"])
+    result = reimport(project, from_file(small_project().score), MAPS)
+    assert [player.id for player in result.project.players] == ["1.1.1"]
+
+
+def test_what_was_drawn_here_stays_where_there_is_room() -> None:
+    project, kept = add_note(small_project(), "1.1.1", 1920, 480, 70, 80)
+    project, covered = add_note(project, "1.1.1", 2400, 480, 71, 80)
+    project, player = add_player(project, MAPS["trumpet_Bb"], MAPS, "Mine")
+    part = project.player(player).part_id
+    project, own = add_note(project, part, 960, 480, 72, 80)
+    project = put(project, "1.1.1", [PinFingering(kept, "1")])
+    score = small_project().score
+    trumpet = [*later(score.parts[0].notes, 0, BAR), Note("x", 2700 + BAR, 500, 60, 80)]
+    trombone = later(score.parts[1].notes, 0, BAR)
+    result = reimport(project, from_file(with_notes(with_notes(score, 0, trumpet), 1, trombone)), MAPS)
+    onsets = {note.id: note.onset_tick for part in result.project.score.parts for note in part.notes}
+    assert onsets[kept] == 1920 + BAR
+    assert onsets[own] == 960 + BAR
+    assert covered not in onsets
+    assert result.removed == (covered,)
+    assert result.project.player(player).name == "Mine"
+    assert result.orphans == ()
+
+
+def test_title_source_and_tempo() -> None:
+    project = small_project()
+    score = from_file(msgspec.structs.replace(project.score, title="other", tempo_map=TempoMap(480, ())))
+    result = reimport(project, score, MAPS, source="/music/new.mid")
+    assert result.project.score.title == project.score.title
+    assert result.project.source == "/music/new.mid"
+    assert result.project.score.tempo_map is score.tempo_map
+
+
+def test_twenty_thousand_notes() -> None:
+    long = read(MIDI / "awkward" / "long_14662notes_rossini_overture.mid")
+    end = -(-long.score.end_tick // BAR) * BAR
+    times = -(-20_000 // sum(len(part.notes) for part in long.score.parts))
+    parts = tuple(
+        msgspec.structs.replace(
+            part,
+            notes=tuple(
+                msgspec.structs.replace(note, id=f"{note.id}{time:02}", onset_tick=note.onset_tick + time * end)
+                for time in range(times)
+                for note in part.notes
+            ),
+        )
+        for part in long.score.parts
+    )
+    project = replace(long, score=msgspec.structs.replace(long.score, parts=parts))
+    edited = tuple(
+        msgspec.structs.replace(
+            part, notes=tuple(later(tuple(n for i, n in enumerate(part.notes) if i % 50), 7 * end // 2, BAR))
+        )
+        for part in parts
+    )
+    new = from_file(msgspec.structs.replace(long.score, parts=edited))
+    begin = time.process_time()
+    result = reimport(project, new, MAPS)
+    print(f"{sum(len(part.notes) for part in parts)} notes in {time.process_time() - begin:.2f} s")
+    survivors = {note.id for part in edited for note in part.notes}
+    kept = {note.id for part in result.project.score.parts for note in part.notes}
+    assert survivors <= kept
