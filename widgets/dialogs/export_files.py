@@ -243,7 +243,7 @@ class ExportDialog(QDialog):
         self._progress.show()
         self._show.hide()
         self._enable(False)
-        # Worded here: the worker touches nothing of Qt.
+        self.retranslate()
         request = self._request()
 
         def work(progress: Progress, stop_wanted: StopWanted) -> Report:
@@ -258,7 +258,6 @@ class ExportDialog(QDialog):
                 raise
 
         self._session.tasks.run(Message("work.export"), work, self._done, self._failed, key="export")
-        self.retranslate()
 
     def _done(self, report: Report) -> None:
         self._finish()

@@ -175,9 +175,9 @@ class PlayblastDialog(QDialog):
             finally:
                 self._ended.emit()
 
-        self._session.tasks.run(Message("work.playblast"), work, self._done, self._failed, key="playblast")
-        self._timer.start()
         self.retranslate()
+        self._timer.start()
+        self._session.tasks.run(Message("work.playblast"), work, self._done, self._failed, key="playblast")
 
     def _draw(self) -> None:
         """Draw the next picture, if the encoder has room for it."""

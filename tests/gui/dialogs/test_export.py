@@ -1,0 +1,124 @@
+"""The export dialog by mouse and keys; the files are those that the command line writes."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QCheckBox, QComboBox, QLabel, QPushButton, QSpinBox
+from pytestqt.qtbot import QtBot
+
+from app.export.run import Request, export
+from app.messages import text
+from app.performance.ensemble import Performance
+from app.performance.span import bars_span
+from app.shell.tasks import ThreadTasks
+from tests.gui.conftest import quartet_project
+from widgets.common.session import Session
+from widgets.dialogs.export_files import ExportDialog
+
+
+@pytest.fixture
+def dialog(session: Session, qtbot: QtBot, tmp_path: Path) -> ExportDialog:
+    dialog = ExportDialog(session, tmp_path / "out", "quartet.mid", "Suisou test")
+    dialog.show()
+    return dialog
+
+
+def one_player_two_bars(dialog: ExportDialog) -> None:
+    for row in range(1, dialog._players.count()):
+        dialog._players.item(row).setCheckState(Qt.CheckState.Unchecked)
+    bvh_only(dialog)
+    box = dialog.findChild(QComboBox, "export_range")
+    assert box is not None
+    QTest.keyClick(box, Qt.Key.Key_Down)
+    last = dialog.findChild(QSpinBox, "export_last_bar")
+    assert last is not None
+    last.setFocus()
+    last.selectAll()
+    QTest.keyClicks(last, "2")
+    QTest.keyClick(last, Qt.Key.Key_Tab)
+    rate = dialog.findChild(QComboBox, "export_rate")
+    assert rate is not None
+    QTest.keyClick(rate, Qt.Key.Key_Home)
+    assert rate.currentData() == "24"
+
+
+def bvh_only(dialog: ExportDialog) -> None:
+    box = dialog.findChild(QCheckBox, "export_fbx")
+    assert box is not None
+    QTest.mouseClick(box, Qt.MouseButton.LeftButton)
+
+
+def start(dialog: ExportDialog) -> None:
+    QTest.mouseClick(dialog.findChild(QPushButton, "export_start"), Qt.MouseButton.LeftButton)
+
+
+def test_it_writes_what_the_command_line_writes(dialog: ExportDialog, session: Session, tmp_path: Path) -> None:
+    one_player_two_bars(dialog)
+    start(dialog)
+    performance = Performance(session.project)
+    fps = Fraction(24)
+    request = Request(
+        performance=performance,
+        players=session.project.players[:1],
+        folder=tmp_path / "expected",
+        formats=frozenset(("bvh",)),
+        span=bars_span(performance, fps, (1, 2), session.project.preroll_beats),
+        bars=(1, 2),
+        source="quartet.mid",
+        creator="Suisou test",
+    )
+    export(request, text)
+    expected = {path.name: path.read_bytes() for path in (tmp_path / "expected").iterdir()}
+    assert {path.name: path.read_bytes() for path in (tmp_path / "out").iterdir()} == expected
+    show = dialog.findChild(QPushButton, "export_show_folder")
+    assert show is not None
+    assert show.isVisible()
+
+
+def test_it_says_what_will_be_replaced_and_what_is_missing(dialog: ExportDialog, tmp_path: Path) -> None:
+    outcome = dialog.findChild(QLabel, "export_outcome")
+    button = dialog.findChild(QPushButton, "export_start")
+    assert outcome is not None
+    assert button is not None
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / "report.json").write_text("{}")
+    bvh_only(dialog)
+    assert "report.json" in outcome.text()
+    box = dialog.findChild(QCheckBox, "export_bvh")
+    assert box is not None
+    QTest.mouseClick(box, Qt.MouseButton.LeftButton)
+    assert not button.isEnabled()
+    QTest.mouseClick(box, Qt.MouseButton.LeftButton)
+    assert button.isEnabled()
+    QTest.mouseClick(dialog.findChild(QPushButton, "export_everybody"), Qt.MouseButton.LeftButton)
+    assert dialog.player_ids == ()
+    assert not button.isEnabled()
+
+
+def test_a_folder_that_cannot_be_is_told_and_nothing_is_written(dialog: ExportDialog, tmp_path: Path) -> None:
+    one_player_two_bars(dialog)
+    (tmp_path / "out").write_text("a file")
+    start(dialog)
+    outcome = dialog.findChild(QLabel, "export_outcome")
+    assert outcome is not None
+    assert "out" in outcome.text()
+    assert (tmp_path / "out").read_text() == "a file"
+
+
+def test_cancelled_it_leaves_nothing(qt_app: object, qtbot: QtBot, tmp_path: Path) -> None:
+    session = Session(quartet_project(), ThreadTasks())
+    dialog = ExportDialog(session, tmp_path / "out", "quartet.mid", "Suisou test")
+    dialog.show()
+    start(dialog)
+    button = dialog.findChild(QPushButton, "export_start")
+    assert button is not None
+    assert not button.isEnabled()
+    QTest.mouseClick(dialog.findChild(QPushButton, "export_close"), Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(button.isEnabled, timeout=30_000)
+    assert dialog.isVisible()
+    qtbot.waitUntil(lambda: not (tmp_path / "out").exists(), timeout=30_000)

@@ -1,0 +1,99 @@
+"""The import dialog by mouse and keys."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication, QCheckBox, QComboBox, QLabel, QLineEdit, QListWidget, QPushButton
+from pytestqt.qtbot import QtBot
+
+from app.project.importing import import_project, usual_rows
+from app.project.model import map_choices, project_from_score
+from app.score.read import read_contents, read_midi
+from instrument_maps.load import bundled_maps
+from widgets.common.tokens import DARK
+from widgets.dialogs.import_midi import ImportDialog
+
+LUTKIN = Path(__file__).parents[2] / "data" / "midi" / "ensemble" / "brass_quartet_lutkin_2tpt_tbn_tuba.mid"
+MAPS = bundled_maps()
+
+
+@pytest.fixture
+def dialog(qt_app: QApplication, qtbot: QtBot) -> ImportDialog:
+    dialog = ImportDialog(read_contents(LUTKIN), MAPS, str(LUTKIN), DARK)
+    qtbot.addWidget(dialog)
+    dialog.show()
+    return dialog
+
+
+def choose(dialog: ImportDialog, name: str, data: object) -> None:
+    box = dialog.findChild(QComboBox, name)
+    assert box is not None
+    box.setFocus()
+    index = box.findData(data)
+    assert index >= 0
+    QTest.keyClick(box, Qt.Key.Key_Home)
+    for _ in range(index):
+        QTest.keyClick(box, Qt.Key.Key_Down)
+    assert box.currentIndex() == index
+
+
+def test_untouched_it_is_what_the_command_line_does(dialog: ImportDialog) -> None:
+    score = read_midi(LUTKIN, maps=map_choices(MAPS.values()))
+    usual = project_from_score(score, MAPS)
+    project = dialog.project()
+    assert project.players == usual.players
+    assert project.score == usual.score
+    assert project.source == str(LUTKIN)
+
+
+def test_a_track_nobody_plays_is_ticked_and_given_an_instrument_and_a_character(dialog: ImportDialog) -> None:
+    box = dialog.findChild(QCheckBox, "play_3")
+    assert box is not None
+    assert not box.isChecked()
+    QTest.mouseClick(box, Qt.MouseButton.LeftButton)
+    trombone = next(id_ for id_, table in MAPS.items() if "trombone" in table.plays)
+    choose(dialog, "instrument_3", trombone)
+    choose(dialog, "character_3", "woman_adult")
+    name = dialog.findChild(QLineEdit, "name_3")
+    assert name is not None
+    name.selectAll()
+    QTest.keyClicks(name, "Bass")
+    bass = dialog.project().players[-1]
+    assert (bass.name, bass.instrument_id, bass.character_id) == ("Bass", trombone, "woman_adult")
+    summary = dialog.findChild(QLabel, "import_summary")
+    assert summary is not None
+    assert "4" in summary.text()
+
+
+def test_what_is_left_out_says_why(dialog: ImportDialog) -> None:
+    told = dialog.findChild(QListWidget, "import_warnings")
+    assert told is not None
+    assert any("tuba" in told.item(row).text().lower() for row in range(told.count()))
+
+
+def test_tracks_are_merged_and_taken_apart(dialog: ImportDialog) -> None:
+    table = dialog._table
+    table.selectRow(0)
+    table.selectionModel().select(
+        table.model().index(1, 0),
+        table.selectionModel().SelectionFlag.Select | table.selectionModel().SelectionFlag.Rows,
+    )
+    QTest.mouseClick(dialog.findChild(QPushButton, "merge"), Qt.MouseButton.LeftButton)
+    assert [row.wish.streams for row in dialog.rows] == [(0, 1), (2,), (3,)]
+    choose(dialog, "split_0", False)
+    assert len(dialog.project().players) == 2
+    table.selectRow(0)
+    QTest.mouseClick(dialog.findChild(QPushButton, "separate"), Qt.MouseButton.LeftButton)
+    assert [row.wish.streams for row in dialog.rows] == [(0,), (1,), (2,), (3,)]
+
+
+def test_usual_rows_without_any_wish_are_an_empty_stage() -> None:
+    contents = read_contents(LUTKIN)
+    rows = [type(row)(row.wish, wanted=False) for row in usual_rows(contents, MAPS)]
+    project = import_project(contents, rows, MAPS)
+    assert project.players == ()
+    assert project.score.tempo_map == contents.tempo_map

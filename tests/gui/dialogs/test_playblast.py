@@ -1,0 +1,72 @@
+"""The playblast dialog: pictures come in order, the film is whole or not there."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QComboBox, QLabel, QPushButton
+from pytestqt.qtbot import QtBot
+
+from app.shell.tasks import ThreadTasks
+from tests.gui.conftest import quartet_project
+from widgets.common.session import Session
+from widgets.common.viewport_state import View
+from widgets.dialogs.playblast import PlayblastDialog
+
+
+@pytest.fixture
+def threaded(qt_app: object) -> Session:
+    session = Session(quartet_project(), ThreadTasks())
+    session.set_loop((2.0, 2.5))
+    return session
+
+
+def film(session: Session, path: Path, times: list[float]) -> PlayblastDialog:
+    def render(width: int, height: int, time_s: float, view: View | None) -> np.ndarray:
+        times.append(time_s)
+        return np.zeros((height, width, 4), np.uint8)
+
+    def sound(start_s: float, end_s: float, rate: int) -> np.ndarray:
+        return np.zeros((round((end_s - start_s) * rate), 2), np.float32)
+
+    dialog = PlayblastDialog(session, render, sound, path)
+    dialog.show()
+    box = dialog.findChild(QComboBox, "playblast_range")
+    assert box is not None
+    QTest.keyClick(box, Qt.Key.Key_Down)
+    return dialog
+
+
+def press(dialog: PlayblastDialog, name: str) -> None:
+    QTest.mouseClick(dialog.findChild(QPushButton, name), Qt.MouseButton.LeftButton)
+
+
+def test_the_loop_becomes_a_film(threaded: Session, qtbot: QtBot, tmp_path: Path) -> None:
+    times: list[float] = []
+    path = tmp_path / "film.mp4"
+    dialog = film(threaded, path, times)
+    with qtbot.waitSignal(dialog.filmed, timeout=20_000):
+        press(dialog, "playblast_start")
+    assert path.read_bytes()[4:8] == b"ftyp"
+    assert len(times) in (15, 16)
+    assert np.allclose(np.diff(times), 1 / 30)
+    assert times[0] == pytest.approx(2.0, abs=1 / 30)
+    state = dialog.findChild(QLabel, "playblast_state")
+    assert state is not None
+    assert "film.mp4" in state.text()
+
+
+def test_cancelled_it_leaves_nothing(threaded: Session, qtbot: QtBot, tmp_path: Path) -> None:
+    threaded.set_loop((2.0, 40.0))
+    dialog = film(threaded, tmp_path / "film.mp4", [])
+    press(dialog, "playblast_start")
+    QTest.qWait(50)
+    press(dialog, "playblast_close")
+    button = dialog.findChild(QPushButton, "playblast_start")
+    assert button is not None
+    qtbot.waitUntil(button.isEnabled, timeout=20_000)
+    qtbot.waitUntil(lambda: list(tmp_path.iterdir()) == [], timeout=20_000)
