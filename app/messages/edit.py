@@ -84,6 +84,7 @@ TEMPLATES: Final[dict[str, str]] = {
     "edit.place_players": "place players: {count}",
     "edit.arrange_players": "automatic arc",
     "edit.apply_preset": "preset {preset} for players: {count}",
+    "preset.saved": "the preset {name} is saved",
     "player.too_many": "a project can have {most} players",
     "player.no_name": "a name must have at least one sign that can be seen",
     "edit.reimport": "re-import the MIDI file",

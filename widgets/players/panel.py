@@ -28,6 +28,7 @@ from widgets.common.session import Session
 from widgets.players.newcomers import add_player, duplicate_players
 from widgets.players.parameters import ParameterSections
 from widgets.players.player_list import PlayerList, Row
+from widgets.players.preset_section import PresetSection
 from widgets.players.stage_section import StageSection
 
 MENU = (
@@ -68,6 +69,7 @@ class PlayersPanel(QWidget):
         self._empty.setMargin(16)
         self._parameters = ParameterSections(session)
         self._stage = StageSection(session)
+        self._presets = PresetSection(session)
         self._variety = Section(session, "players_variety")
         self._spread = NumberSlider(session, 0.0, 1.0, default=session.variety, step=0.05)
         self._spread.setObjectName("spread")
@@ -110,7 +112,7 @@ class PlayersPanel(QWidget):
         lower_layout = QVBoxLayout(lower)
         lower_layout.setContentsMargins(0, 0, 0, 0)
         lower_layout.setSpacing(0)
-        for part in (self._parameters, self._variety, self._stage):
+        for part in (self._parameters, self._stage, self._variety, self._presets):
             lower_layout.addWidget(part)
         lower_layout.addStretch(1)
         scroll = QScrollArea()

@@ -1,0 +1,56 @@
+"""Presets by mouse and keys."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QLineEdit, QToolButton
+from pytestqt.qtbot import QtBot
+
+from app.project import presets
+from app.project.edit.players import set_parameters
+from widgets.common.combo import Combo
+from widgets.common.section import Section
+from widgets.common.session import Session
+from widgets.players.panel import PlayersPanel
+
+
+def test_a_preset_is_saved_applied_and_deleted(
+    session: Session, qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(presets, "preset_folder", lambda: tmp_path / "presets")
+    panel = PlayersPanel(session)
+    qtbot.addWidget(panel)
+    panel.resize(300, 1400)
+    panel.show()
+
+    def click(name: str) -> None:
+        button = panel.findChild(QToolButton, name)
+        assert button is not None
+        QTest.mouseClick(button, Qt.MouseButton.LeftButton)
+
+    section = panel.findChild(Section, "players_presets")
+    assert section is not None
+    QTest.mouseClick(section.header, Qt.MouseButton.LeftButton)
+    first, second, third, _ = (player.id for player in session.project.players)
+    session.document.open(set_parameters(session.project, (first,), amplitude=0.2, sway=1.7, posture="seated"))
+    field, combo = panel.findChild(QLineEdit, "preset_name"), panel.findChild(Combo, "preset_choice")
+    assert field is not None
+    assert combo is not None
+    QTest.keyClicks(field, "Calm / seated")
+    QTest.keyClick(field, Qt.Key.Key_Return)
+    assert combo.shown == "Calm / seated"
+    session.set_players((second, third))
+    seeds = [player.parameters.seed for player in session.project.players]
+    click("preset_apply")
+    for id in (second, third):
+        parameters = session.project.player(id).parameters
+        assert (parameters.amplitude, parameters.sway, parameters.posture) == (0.2, 1.7, "seated")
+    assert [player.parameters.seed for player in session.project.players] == seeds
+    assert len(session.document.done) == 1
+    click("preset_delete")
+    assert not presets.presets(tmp_path / "presets").items
+    assert combo.shown is None
