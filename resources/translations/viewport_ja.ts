@@ -95,6 +95,10 @@
             <source>Show beside the players</source>
             <translation>重ねて表示するもの</translation>
         </message>
+        <message>
+            <source>The viewport alone on the whole screen, or not</source>
+            <translation>ビューポートだけを全画面に表示（もう一度で戻す）</translation>
+        </message>
     </context>
     <context>
         <name>ViewportPanel</name>

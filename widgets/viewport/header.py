@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import partial
 
 from PySide6.QtCore import QEvent, QSize, Qt
-from PySide6.QtGui import QAction, QActionGroup, QResizeEvent
+from PySide6.QtGui import QAction, QActionGroup, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import QButtonGroup, QHBoxLayout, QLabel, QMenu, QSizePolicy, QToolButton, QWidget
 
 from widgets.common.icons import icon
@@ -19,6 +19,8 @@ _SHOWN_ICONS: dict[Shown, str] = {
     "contacts": "contacts",
     "wireframe": "wireframe",
 }
+FULL_SCREEN = "application.full_screen"
+"""The shell's: only a window can fill the screen."""
 
 
 class Header(QWidget):
@@ -81,6 +83,8 @@ class Header(QWidget):
         self._show = self._button("viewport_show")
         self._show.setMenu(self._show_menu)
         self._show.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
+        self._full = self._button("viewport_full_screen")
+        self._full.clicked.connect(self._toggle_full_screen)
         layout = QHBoxLayout(self)
         layout.setContentsMargins(6, 2, 6, 2)
         layout.setSpacing(4)
@@ -90,6 +94,7 @@ class Header(QWidget):
         layout.addWidget(self._pose)
         layout.addWidget(self._frame)
         layout.addWidget(self._show)
+        layout.addWidget(self._full)
         session.viewport.changed.connect(self.refresh)
         session.theme_changed.connect(self._dress)
         self._dress()
@@ -152,7 +157,8 @@ class Header(QWidget):
         )
         self._frame.setToolTip(self._tip(self.tr("Frame the selected players"), "viewport.frame"))
         self._show.setToolTip(self.tr("Show beside the players"))
-        for control in (self._pose, self._frame, self._show, self._folded):
+        self._full.setToolTip(self._tip(self.tr("The viewport alone on the whole screen, or not"), FULL_SCREEN))
+        for control in (self._pose, self._frame, self._show, self._full, self._folded):
             control.setAccessibleName(control.toolTip())
         self._fold()
 
@@ -161,6 +167,9 @@ class Header(QWidget):
         action = self._session.actions.get(action_id)
         shortcut = action.shortcut().toString() if action is not None else ""
         return f"{text} ({shortcut})" if shortcut else text
+
+    def _toggle_full_screen(self) -> None:
+        self._session.actions[FULL_SCREEN].trigger()
 
     def _choose_view(self, view: View) -> None:
         self._session.viewport.set_view(view)
@@ -181,13 +190,14 @@ class Header(QWidget):
         self._pose.setIcon(icon("pose", tokens))
         self._frame.setIcon(icon("frame", tokens))
         self._show.setIcon(icon("eye", tokens))
+        self._full.setIcon(icon("full_screen", tokens))
         for what, row in self._show_rows.items():
             row.setIcon(icon(_SHOWN_ICONS[what], tokens))
         self._note.setStyleSheet(f"color: {tokens.text_dim};")
 
     def _fold(self) -> None:
         """Seven buttons where they fit, else one with a menu."""
-        others = sum(button.sizeHint().width() + 4 for button in (self._pose, self._frame, self._show))
+        others = sum(button.sizeHint().width() + 4 for button in (self._pose, self._frame, self._show, self._full))
         fits = self.width() >= self._segments.sizeHint().width() + others + 24
         self._segments.setVisible(fits)
         self._folded.setVisible(not fits)
@@ -199,8 +209,14 @@ class Header(QWidget):
 
     def minimumSizeHint(self) -> QSize:
         """Narrow enough for the folded header."""
-        others = (self._folded, self._pose, self._frame, self._show)
+        others = (self._folded, self._pose, self._frame, self._show, self._full)
         return QSize(sum(button.sizeHint().width() + 4 for button in others) + 16, super().minimumSizeHint().height())
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """The shell's actions are known by now: their shortcuts are told, and the screen can be filled."""
+        self._full.setVisible(FULL_SCREEN in self._session.actions)
+        self.retranslate()
+        super().showEvent(event)
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Fold or unfold the views."""
