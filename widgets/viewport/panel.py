@@ -27,7 +27,7 @@ from widgets.viewport.limbs import Limbs, hit
 from widgets.viewport.look import look_of, rgb
 from widgets.viewport.overlay import Marks, Name, handle_at, over_head_m, paint
 from widgets.viewport.pose_tool import PoseTool
-from widgets.viewport.poses import Posed, Poses
+from widgets.viewport.poses import Posed, Poses, same
 from widgets.viewport.renderer import Emphasis
 from widgets.viewport.views import bounds, in_the_way, tracked, view_camera
 
@@ -66,10 +66,12 @@ class ViewportPanel(QWidget):
         self._camera = Camera()
         self._flight: tuple[Camera, Camera, float] | None = None
         self._shown_view: View = "ensemble"
-        self._framed_once = False
+        self._touched = False
+        """Whether the camera stands where a person moved it; else it is the view's own."""
         self._shift_m = np.zeros(3)
         self._last_frame_s = perf_counter()
         self._settle_until_s = 0.0
+        self._missing = False
         self._hovered: int | None = None
         self._tool = PoseTool(session)
         self._press: QPointF | None = None
@@ -100,7 +102,7 @@ class ViewportPanel(QWidget):
         self._ticker.timeout.connect(self._tick)
         self._waiter = QTimer(self)
         self._waiter.setInterval(WAIT_MS)
-        self._waiter.timeout.connect(self.refresh)
+        self._waiter.timeout.connect(self.poses_changed)
 
         session.changed.connect(self._project_changed)
         session.performance_changed.connect(self._performance_changed)
@@ -139,11 +141,20 @@ class ViewportPanel(QWidget):
     def set_poses(self, poses: Poses) -> None:
         """Take poses from there from now on."""
         self._poses = poses
-        self.poses_changed()
+        self.refresh()
 
     def poses_changed(self) -> None:
-        """Motion has been made or made anew."""
-        self.refresh()
+        """Motion has been made or made anew; what is not at the playhead does not matter here."""
+        if self._loaded is None or self._canvas is None:
+            return
+        stage, time_s = self._loaded.stage, self._session.playhead_s
+        for row, member in enumerate(stage.members):
+            pose = self._poses.pose(member.player_id, time_s)
+            # A pose that is not there yet leaves the one before it.
+            if pose is not None and not same(pose, stage.poses[row]):
+                self.refresh()
+                return
+        self._wait()
 
     def player_at(self, x_px: float, y_px: float) -> str | None:
         """Id of the player under a point of the picture."""
@@ -317,11 +328,15 @@ class ViewportPanel(QWidget):
         self.refresh()
 
     def _take(self, stage: Stage, poses: dict[str, Posed | None]) -> None:
+        before = int(stage.shown.sum())
         stage.pose(poses)
-        if not self._framed_once and stage.shown.any():
-            self._framed_once = bool(stage.shown.all())
-            self._camera = self._camera_of(self._shown_view)
-            self._flight = None
+        if int(stage.shown.sum()) != before:
+            self._place_camera()
+
+    def _place_camera(self) -> None:
+        """Where the view puts it, unless a person has moved it."""
+        if not self._touched and self._loaded is not None and self._loaded.stage.shown.any():
+            self._camera, self._flight = self._camera_of(self._shown_view), None
 
     def refresh(self) -> None:
         """Show the pose at the playhead."""
@@ -331,15 +346,19 @@ class ViewportPanel(QWidget):
         time_s = self._session.playhead_s
         poses = {member.player_id: self._poses.pose(member.player_id, time_s) for member in loaded.stage.members}
         self._take(loaded.stage, poses)
-        missing = any(pose is None for pose in poses.values())
-        waiting = missing or perf_counter() < self._settle_until_s
+        self._missing = any(pose is None for pose in poses.values())
+        self._wait()
+        self._follow()
+        self._update()
+
+    def _wait(self) -> None:
+        """Look again soon, as long as poses are missing or may still change after an edit."""
+        waiting = self._missing or perf_counter() < self._settle_until_s
         if waiting != self._waiter.isActive():
             if waiting:
                 self._waiter.start()
             else:
                 self._waiter.stop()
-        self._follow()
-        self._update()
 
     def _follow(self) -> None:
         """Let a close-up follow its player."""
@@ -384,7 +403,7 @@ class ViewportPanel(QWidget):
 
     def _project_changed(self, change: Change) -> None:
         if change.opened:
-            self._framed_once = False
+            self._touched = False
             self._tool.release()
         if cast_key(change.before) != cast_key(change.after) or change.opened:
             self._load()
@@ -408,6 +427,7 @@ class ViewportPanel(QWidget):
 
     def _view_asked(self) -> None:
         self._shown_view = self._session.viewport.view
+        self._touched = False
         self._shift_m = np.zeros(3)
         self.set_camera(self._camera_of(self._shown_view))
 
@@ -420,6 +440,7 @@ class ViewportPanel(QWidget):
         rows = [row for row in self._rows() if stage.shown[row]] if selected else everyone
         if rows:
             self._shown_view = "ensemble"
+            self._touched = True
             self.set_camera(frame(self.camera, *bounds(stage, rows), self._aspect()))
 
     def _camera_of(self, view: View) -> Camera:
@@ -533,6 +554,7 @@ class ViewportPanel(QWidget):
         elif kind == QEvent.Type.Leave:
             self._hover(None)
         elif kind == QEvent.Type.Resize and self._overlay is not None:
+            self._place_camera()
             self._overlay.fit()
         return super().eventFilter(watched, event)
 
@@ -571,11 +593,14 @@ class ViewportPanel(QWidget):
             self.refresh()
         elif event.buttons() & Qt.MouseButton.MiddleButton or (event.buttons() & Qt.MouseButton.LeftButton and shift):
             before = np.asarray(self._camera.target_m)
+            self._touched = True
             self._camera = pan(self._camera, step.x(), step.y(), self._size()[1])
             self._shift_m = self._shift_m + np.asarray(self._camera.target_m) - before
         elif event.buttons() & Qt.MouseButton.LeftButton:
+            self._touched = True
             self._camera = orbit(self._camera, step.x(), step.y())
         elif event.buttons() & Qt.MouseButton.RightButton:
+            self._touched = True
             self._camera = dolly(self._camera, -step.y() / 40.0)
         self._update()
         return True
@@ -604,6 +629,7 @@ class ViewportPanel(QWidget):
 
     def _wheeled(self, event: QWheelEvent) -> bool:
         steps = event.angleDelta().y() / 120.0 if event.angleDelta().y() else event.pixelDelta().y() / 60.0
+        self._touched = True
         self.set_camera(dolly(self._camera, steps), at_once=True)
         return True
 

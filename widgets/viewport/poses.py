@@ -39,6 +39,20 @@ class Posed(Protocol):
         """Rotation of the instrument (4,), xyzw."""
 
 
+def same(one: Posed | None, other: Posed | None) -> bool:
+    """Whether two poses look the same."""
+    if one is None or other is None or one is other:
+        return one is other
+    return (
+        one.controls == other.controls
+        and one.morphs == other.morphs
+        and np.array_equal(one.instrument_position_m, other.instrument_position_m)
+        and np.array_equal(one.instrument_rotation, other.instrument_rotation)
+        and np.array_equal(one.hips_m, other.hips_m)
+        and np.array_equal(one.rotations, other.rotations)
+    )
+
+
 class Poses(Protocol):
     """Poses by player and time."""
 
