@@ -276,7 +276,9 @@ def prepare(session: Session) -> None:
 
 
 def _kind(kind: GestureKind, text: str) -> Action:
-    return Action(f"gesture.{kind}", text, lambda session: gesture(session, kind), "Edit/Events/Gesture", enabled=_has_player)
+    return Action(
+        f"gesture.{kind}", text, lambda session: gesture(session, kind), "Edit/Events/Gesture", enabled=_has_player
+    )
 
 
 ACTIONS: tuple[Action, ...] = (

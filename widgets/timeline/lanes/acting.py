@@ -27,7 +27,7 @@ from widgets.common.selection import EventKey, Selection
 from widgets.common.session import Session
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.lane import LaneMouse
-from widgets.timeline.lanes.drawing import draw_mark, draw_path, draw_rects, draw_text, polygon, shade
+from widgets.timeline.lanes.drawing import draw_columns, draw_mark, draw_path, draw_rects, draw_text, polygon, shade
 from widgets.timeline.lanes.geometry import Floats, packed_rows
 from widgets.timeline.lanes.regions import HANDLE_PX, Region, RegionLane
 from widgets.timeline.lanes.row_names import RowNames
@@ -47,6 +47,8 @@ BASE = "expression:neutral"
 """The face beneath all others, as long as the piece: a thin line at the foot of its row."""
 BASE_PX = 5.0
 NEW_BEATS = 2
+LEAST_SHAPE_PX = 6.0
+"""Something narrower is a bar: nobody sees its fades."""
 CUE_REACH_PX = 10.0
 """A cue that is dragged this close to an entry belongs to it."""
 
@@ -113,6 +115,12 @@ class ActingLane(RegionLane):
         self._strips = {kind: _strip(result, kind, first[kind]) for kind in STRIPS}
         return result + removed, row
 
+    def shown_beside(self, plan: PlayerPlan | None) -> tuple[object, ...]:
+        if plan is None:
+            return ()
+        plans = self.session.performance.plans
+        return (self.session.project.players, *(other.cues for other in plans.values() if other is not plan))
+
     def _guests(self, plan: PlayerPlan) -> list[Region]:
         """The cues that other players give."""
         performance, project = self.session.performance, self.session.project
@@ -174,6 +182,8 @@ class ActingLane(RegionLane):
             painter.drawLine(QPointF(exposed.left(), middle), QPointF(exposed.right(), middle))
             if kind == "sway":
                 self._paint_sway(painter, x0, x1, middle - y, shade(colour, 170))
+            elif len(x0) > exposed.width():
+                draw_columns(painter, exposed, x0, x1, middle - y, middle, shade(colour, 90))
             else:
                 draw_rects(painter, x0, np.minimum(middle, middle - y), np.maximum(x1 - x0 - 1.0, 1.0),
                            np.maximum(np.abs(y), 1.0), shade(colour, 90))  # fmt: skip
@@ -181,6 +191,9 @@ class ActingLane(RegionLane):
     def _paint_sway(self, painter: QPainter, x0: Floats, x1: Floats, y: Floats, colour: QColor) -> None:
         """From side to side, at rest where it turns."""
         if not len(x0):
+            return
+        if len(x0) > self.plot_rect.width() / 3:
+            draw_columns(painter, self.plot_rect, x0, x1, y, None, colour)
             return
         painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
         before = np.concatenate((y[:1], y[:-1]))
@@ -235,6 +248,10 @@ class ActingLane(RegionLane):
     def _paint_span(self, painter: QPainter, region: Region, box: QRectF, colour: str, selected: bool) -> None:
         """A trapezoid as high as it is strong, with its fades as slopes."""
         tokens, scale = self.session.tokens, self.axis.px_per_s
+        if box.width() < LEAST_SHAPE_PX:
+            top = box.bottom() - max(box.height() * region.amount, 3.0)
+            painter.fillRect(QRectF(QPointF(box.left(), top), box.bottomRight()), shade(colour, 140))
+            return
         if region.event_id == BASE:
             painter.fillRect(box.adjusted(0.0, 1.0, 0.0, 0.0), shade(colour, 190 if selected else 60))
             return
@@ -374,13 +391,12 @@ class ActingLane(RegionLane):
 
 
 def _in_row(region: Region, row: int) -> Region:
-    # Copying thousands of regions field by field would be felt: a region that was just made may be filled in.
-    object.__setattr__(region, "row", row)
+    region.row = row
     return region
 
 
 def _in_guest(region: Region) -> Region:
-    object.__setattr__(region, "guest", True)
+    region.guest = True
     return region
 
 

@@ -23,6 +23,10 @@ PREPARATION_SHARE = 0.45
 """Height of a preparation, of the lane."""
 
 
+LEAST_SHAPE_PX = 6.0
+"""Something narrower is a bar."""
+
+
 class BreathLane(RegionLane):
     """Breaths as hills as high as they are deep, rising to the onset they serve; preparations as low slopes."""
 
@@ -60,6 +64,11 @@ class BreathLane(RegionLane):
             return
         colour = tokens.accent if selected else self.session.colour(player)
         breath = region.kind == "breath"
+        if box.width() < LEAST_SHAPE_PX and not selected:
+            high = box.height() * (region.amount if breath else PREPARATION_SHARE * region.amount)
+            bar = QRectF(box.left(), box.bottom() - high, box.width(), high)
+            painter.fillRect(bar, QColor(tokens.by_hand) if region.by_hand else shade(colour, 130))
+            return
         height = box.height() * (region.amount if breath else PREPARATION_SHARE * region.amount)
         top, left, right, bottom = box.bottom() - height, box.left(), box.right(), box.bottom()
         if breath:

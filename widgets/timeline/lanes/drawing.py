@@ -85,12 +85,25 @@ def draw_lines(painter: QPainter, x0: Floats, y0: Floats, x1: Floats, y1: Floats
 
 def draw_path(painter: QPainter, points: Floats, pen: QPen) -> None:
     """Joined points (N, 2) of pixels; NaN breaks the line."""
-    good = np.isfinite(points[:, 1])
-    edges = np.flatnonzero(np.diff(np.concatenate(([0], good.astype(np.int8), [0]))))
-    painter.setPen(pen)
-    painter.setBrush(Qt.BrushStyle.NoBrush)
-    for start, end in zip(edges[0::2].tolist(), edges[1::2].tolist(), strict=True):
-        painter.drawPolyline(polygon(points[start:end]))
+    before, after = points[:-1], points[1:]
+    both = np.isfinite(before[:, 1]) & np.isfinite(after[:, 1])
+    before, after = before[both], after[both]
+    draw_lines(painter, before[:, 0], before[:, 1], after[:, 0], after[:, 1], pen)
+
+
+def draw_columns(
+    painter: QPainter, room: QRectF, left: Floats, right: Floats, y: Floats, base: float | None, colour: QColor
+) -> None:
+    """Many narrow steps as one line a column of pixels, from the least to the greatest ``y`` there (and ``base``)."""
+    first = int(np.floor(room.left()))
+    count = int(np.ceil(room.right())) - first
+    column = np.clip(np.floor((left + right) / 2.0).astype(np.int64) - first, 0, count - 1)
+    starts = np.flatnonzero(np.diff(column, prepend=-1))
+    top, bottom = np.minimum.reduceat(y, starts), np.maximum.reduceat(y, starts)
+    if base is not None:
+        top, bottom = np.minimum(top, base), np.maximum(bottom, base)
+    x: Floats = column[starts].astype(np.float64) + first + 0.5
+    draw_lines(painter, x, top, x, np.maximum(bottom, top + 1.0), QPen(colour, 1.0))
 
 
 def polygon(points: Floats) -> QPolygonF:

@@ -38,6 +38,8 @@ LABEL_PX = 16.0
 LEAST_LABEL_PX = 9.0
 MOST_BAR_PX = 26.0
 """However high the lane, bars stay thin enough to be read together."""
+SMALL_BAR_PX = 13.0
+"""A trigger beside a slide leaves the slide the room it needs."""
 CHIPS_DELAY_PX = 3.0
 
 
@@ -243,7 +245,8 @@ class FingeringLane(Lane):
     def bar_box(self, row: int) -> tuple[float, float]:
         """Top and height of the bar of a pressable control."""
         room = (self.plot_rect.height() - LABEL_PX - 4.0) * self._bars_share
-        height = min(room / max(len(self._pressable), 1), MOST_BAR_PX)
+        most = MOST_BAR_PX if not self._slides else SMALL_BAR_PX
+        height = min(room / max(len(self._pressable), 1), most)
         return 2.0 + row * height, height
 
     @property

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import msgspec
 import numpy as np
+from msgspec.structs import replace
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QAction, QColor, QPainter, QPen
 from PySide6.QtWidgets import QMenu, QWidget
@@ -35,9 +36,8 @@ GLYPH_PX = 12.0
 """Width of the mark of a removed event, which has no length."""
 
 
-@dataclass(frozen=True)
-class Region:
-    """An event as a lane shows it.
+class Region(msgspec.Struct):
+    """An event as a lane shows it; only the lane that makes it sets its row.
 
     Attributes
     ----------
@@ -123,10 +123,21 @@ class _Regions(LaneItem):
                 draw_mark(painter, lane.session.tokens, box.left() + 3.0, box.center().y() - MARK_PX / 2, removed=True)
             else:
                 lane.paint_region(painter, region, box, region.key in selected or lane.is_preview(region))
+        self._paint_thumb(painter)
         if lane.lasso is not None:
             painter.setPen(QPen(QColor(lane.session.tokens.accent), 1.0, Qt.PenStyle.DashLine))
             painter.setBrush(shade(lane.session.tokens.accent, 30))
             painter.drawRect(lane.lasso)
+
+    def _paint_thumb(self, painter: QPainter) -> None:
+        """At the right edge: which of the rows are in sight, where they are not all."""
+        lane, room = self._regions, self.lane.plot_rect
+        first, height = lane.row_box(0)
+        content = height * lane.rows
+        if content <= room.height() + 1.0:
+            return
+        thumb = QRectF(room.right() - 5.0, -first / content * room.height(), 4.0, room.height() ** 2 / content)
+        painter.fillRect(thumb, QColor(lane.session.tokens.line_strong))
 
 
 class RegionLane(Lane):
@@ -137,7 +148,10 @@ class RegionLane(Lane):
     def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
         super().__init__(session, axis, parent)
         self._shown: list[Region] = []
-        self._spans = Spans(np.empty(0), np.empty(0))
+        self._by_key: dict[EventKey, Region] = {}
+        self._spans = _spans(())
+        self._single: list[Region] = []
+        self._single_spans = _spans(())
         self._row_count = 1
         self._scrolled_px = 0.0
         self._made_for: tuple[object, ...] = ()
@@ -153,6 +167,10 @@ class RegionLane(Lane):
     def make_regions(self, plan: PlayerPlan) -> tuple[list[Region], int]:
         """The regions of the player in front, in any order, and how many rows there are."""
         raise NotImplementedError
+
+    def shown_beside(self, plan: PlayerPlan | None) -> tuple[object, ...]:
+        """What else than the plan the regions are made from, compared by identity."""
+        return ()
 
     def paint_region(self, painter: QPainter, region: Region, box: QRectF, selected: bool) -> None:
         """Draw one region in its box."""
@@ -225,17 +243,16 @@ class RegionLane(Lane):
         """The regions to draw one by one, the selected last."""
         axis, selected = self.axis, self.session.selection.events
         margin_s = GLYPH_PX / axis.px_per_s
-        found = self._spans.between(axis.seconds(left_px) - margin_s, axis.seconds(right_px) + margin_s)
-        later = []
+        found = self._single_spans.between(axis.seconds(left_px) - margin_s, axis.seconds(right_px) + margin_s)
         for index in found.tolist():
-            region = self._shown[index]
-            if region.key in self._preview or region.key in self._hidden:
-                continue
-            if region.key in selected:
-                later.append(region)
-            elif not self.is_calm(region):
+            region = self._single[index]
+            key = region.key
+            if key not in selected and key not in self._preview and key not in self._hidden:
                 yield region
-        yield from later
+        for key in selected:
+            region_ = self._by_key.get(key)
+            if region_ is not None and key not in self._preview and key not in self._hidden:
+                yield region_
         yield from self._preview.values()
 
     def region_at(self, mouse: LaneMouse) -> tuple[Region | None, str]:
@@ -285,23 +302,26 @@ class RegionLane(Lane):
         player = self.session.player
         plan = self.plan_of(player) if player is not None else None
         project = self.session.project
-        if plan is None and player is not None and self._made_for and self._made_for[1] == player.id:
+        if plan is None and player is not None and self._made_for and self._made_for[-2] == player.id:
             # New plans are on their way: what is shown stays until they are there.
             return
-        corrections = project.corrections.get(player.id) if player is not None else None
-        made_for = (plan, player.id if player else None, self.session.performance, corrections)
-        if len(made_for) == len(self._made_for) and all(a is b for a, b in zip(made_for, self._made_for, strict=True)):
-            return
-        self._made_for = made_for
+        corrections = project.corrections.get(player.id, ()) if player is not None else ()
+        removed = tuple(item.event_id for item in corrections if isinstance(item, RemoveEvent))
         if self._drag is None or self.session.performance.project is project:
             self._end_preview()
+        made_for = (plan, *self.shown_beside(plan), player.id if player is not None else None, removed)
+        same = len(made_for) == len(self._made_for) and made_for[-2:] == self._made_for[-2:]
+        if same and all(one is other for one, other in zip(made_for[:-2], self._made_for[:-2], strict=True)):
+            self.update_items()
+            return
+        self._made_for = made_for
         regions, self._row_count = self.make_regions(plan) if plan is not None else ([], 1)
         regions.sort(key=lambda region: (region.start_s, region.end_s, region.event_id))
         self._shown = regions
-        self._spans = Spans(
-            np.array([region.start_s for region in regions], np.float64),
-            np.array([region.end_s for region in regions], np.float64),
-        )
+        self._by_key = {region.key: region for region in regions}
+        self._spans = _spans(regions)
+        self._single = [region for region in regions if region.removed or not self.is_calm(region)]
+        self._single_spans = _spans(self._single)
         self._hovered = None
         self.regions_refreshed()
         self.update_items()
@@ -599,6 +619,13 @@ class RegionLane(Lane):
 
     def _snap(self, tick: float, mouse: LaneMouse) -> int:
         return round(tick) if mouse.alt else self.session.grid.snap(self.session.project.score, tick)
+
+
+def _spans(regions: Sequence[Region]) -> Spans:
+    return Spans(
+        np.array([region.start_s for region in regions], np.float64),
+        np.array([region.end_s for region in regions], np.float64),
+    )
 
 
 def _place_of(event_id: str, onsets: dict[str, int]) -> int | None:
