@@ -13,6 +13,9 @@ _AVERAGED: Final = 150
 """Observations in the average: long against the jitter, short against the drift of two crystals."""
 _JUMP_S: Final = 0.04
 """A difference that has moved by more is no jitter: the device stood still, or was suspended."""
+_SHIFT_S: Final = 0.01
+_SHIFTED: Final = 8
+"""So many observations in a row, all off by more to the same side, are no jitter either."""
 _AHEAD_S: Final = 0.03
 """The time is never further ahead of what the device has said."""
 
@@ -31,6 +34,8 @@ class DeviceClock:
         self._processed_s = 0.0
         self._offset_s: float | None = None
         self._count = 0
+        self._off = 0
+        """Observations in a row that were off; positive and negative by their side."""
         self._time_s = 0.0
 
     def observe(self, processed_s: float) -> None:
@@ -40,11 +45,14 @@ class DeviceClock:
         moved_first = self._processed_s == 0.0
         self._processed_s = processed_s
         offset_s = processed_s - self._now()
-        if self._offset_s is None or moved_first or abs(offset_s - self._offset_s) > _JUMP_S:
-            self._offset_s, self._count = offset_s, 1
+        away_s = offset_s - self._offset_s if self._offset_s is not None else 0.0
+        side = (away_s > _SHIFT_S) - (away_s < -_SHIFT_S)
+        self._off = self._off + side if side and side * self._off >= 0 else side
+        if self._offset_s is None or moved_first or abs(away_s) > _JUMP_S or abs(self._off) >= _SHIFTED:
+            self._offset_s, self._count, self._off = offset_s, 1, 0
             return
         self._count = min(self._count + 1, _AVERAGED)
-        self._offset_s += (offset_s - self._offset_s) / self._count
+        self._offset_s += away_s / self._count
 
     def time_s(self) -> float:
         """What is heard now; never goes back, and stands until the device begins to play."""

@@ -31,6 +31,8 @@ _CHROMA_HOP: Final = 2048
 _CHROMA_S: Final = _CHROMA_HOP / _RATE_HZ
 _ONSET_HOP: Final = 220
 _ONSET_S: Final = _ONSET_HOP / _RATE_HZ
+_LEAST_SAMPLES: Final = _RATE_HZ
+"""Shorter recordings are filled up with silence: the frames of the features are longer."""
 _HARMONICS: Final = ((0, 1.0), (7, 0.25), (4, 0.08))
 """Pitch classes above a note's own that its overtones sound in (the third and the fifth harmonic), and how loud."""
 _CANDIDATES: Final = 3
@@ -139,6 +141,7 @@ def _heard(samples: Samples, rate_hz: int, progress: Callable[[float], None]) ->
     import librosa  # heavy: compiles on its first use, and only here
 
     sound = soxr.resample(samples.astype(np.float32).mean(axis=1) / 32768.0, rate_hz, _RATE_HZ)
+    sound = np.pad(sound, (0, max(_LEAST_SAMPLES - len(sound), 0)))
     progress(0.2)
     sounding = np.flatnonzero(np.abs(sound) > 1e-3)
     middle = int(sounding[len(sounding) // 2]) if len(sounding) else 0

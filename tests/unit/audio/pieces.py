@@ -1,0 +1,59 @@
+"""Small scores and sounds that the tests of sound share."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+
+import msgspec
+import numpy as np
+
+from app.audio.track import RATE_HZ, Piece, Samples, Track
+from app.project.model import Project, map_choices, project_from_score
+from app.score.model import Metre, Note, Part, Score
+from app.score.read import read_midi
+from app.score.tempo import TempoMap
+from instrument_maps.load import bundled_maps
+
+EXAMPLE = Path(__file__).parents[3] / "resources" / "examples" / "quartet.mid"
+
+
+@cache
+def quartet() -> Project:
+    """The bundled quartet."""
+    maps = bundled_maps()
+    return project_from_score(read_midi(EXAMPLE, maps=map_choices(maps.values())), maps)
+
+
+def melody(*notes: tuple[int, int, int], program: int | None = 56, **more: object) -> Part:
+    """A part of (onset, duration, pitch) in ticks of 480 a quarter."""
+    made = tuple(Note(f"1:{i}", on, length, pitch, 90) for i, (on, length, pitch) in enumerate(notes, 1))
+    part = Part("1.1.1", "Trumpet", 0, 0, 0, program, "trumpet", "trumpet_Bb", made)
+    return msgspec.structs.replace(part, **more)
+
+
+def piece(*parts: Part, metres: tuple[Metre, ...] = (Metre(0, 4, 4),), pickup_ticks: int = 0) -> Project:
+    """A piece at 120 quarters a minute."""
+    numbered = tuple(msgspec.structs.replace(part, id=f"{i}.1.1") for i, part in enumerate(parts, 1))
+    score = Score("", 480, TempoMap(480), metres, pickup_ticks, numbered)
+    return project_from_score(score, bundled_maps())
+
+
+def with_players(project: Project, **changes: dict[str, object]) -> Project:
+    """Players by their number (``p0=...``) with other fields."""
+    players = list(project.players)
+    for key, fields in changes.items():
+        players[int(key[1:])] = msgspec.structs.replace(players[int(key[1:])], **fields)
+    return replace(project, players=tuple(players))
+
+
+def ramp_track(seconds: float = 20.0, start_s: float = 0.0) -> Track:
+    """Every sample says its own time: amplitude rises by 1000 a second."""
+    samples: Samples = np.round(np.arange(round(seconds * RATE_HZ)) / RATE_HZ * 1000).astype(np.int16)
+    return Track([Piece(round(start_s * RATE_HZ), samples)])
+
+
+def times_s(block: np.ndarray) -> np.ndarray:
+    """What such samples say."""
+    return block[:, 0] * 32768 / 1000

@@ -1,0 +1,149 @@
+"""Recordings that are fine, and those that are not."""
+
+from __future__ import annotations
+
+import struct
+from pathlib import Path
+
+import numpy as np
+import pytest
+import soundfile
+
+from app.audio.decode import MOST_HOURS, decode
+from app.audio.track import RATE_HZ
+from app.errors import Cancelled, FileError
+from app.messages import error_text, text
+
+
+def tone(rate_hz: int, seconds: float = 1.0, channels: int = 2) -> np.ndarray:
+    times_s = np.arange(round(rate_hz * seconds)) / rate_hz
+    return np.repeat(0.5 * np.sin(2 * np.pi * 440.0 * times_s)[:, None], channels, axis=1).astype(np.float32)
+
+
+@pytest.mark.parametrize(
+    ("suffix", "subtype"), [("wav", "PCM_16"), ("wav", "FLOAT"), ("flac", "PCM_24"), ("ogg", "VORBIS"), ("mp3", None)]
+)
+@pytest.mark.parametrize("rate_hz", [22050, 44100, 48000])
+def test_every_kind_at_every_rate_is_the_same_tone(
+    tmp_path: Path, suffix: str, subtype: str | None, rate_hz: int
+) -> None:
+    path = tmp_path / f"録音 a.{suffix}"
+    soundfile.write(path, tone(rate_hz), rate_hz, subtype=subtype)
+    shares: list[float] = []
+    recording = decode(str(path), shares.append)
+    assert recording.samples.dtype == np.int16
+    assert recording.samples.shape[1] == 2
+    # MP3 pads its ends.
+    assert recording.duration_s == pytest.approx(1.0, abs=0.06 if suffix == "mp3" else 0.001)
+    assert not recording.warnings
+    assert shares == sorted(shares)
+    assert shares[-1] == 1.0
+    middle = recording.samples[RATE_HZ // 4 : 3 * RATE_HZ // 4, 0] / 32767
+    spectrum = np.abs(np.fft.rfft(middle * np.hanning(len(middle))))
+    assert spectrum.argmax() * RATE_HZ / len(middle) == pytest.approx(440.0, abs=2.0)
+    assert np.sqrt((middle**2).mean()) == pytest.approx(0.5 / np.sqrt(2), rel=0.03)
+
+
+def test_resampling_keeps_the_moment(tmp_path: Path) -> None:
+    sound = np.zeros((44100, 1), np.float32)
+    sound[22050] = 1.0
+    soundfile.write(tmp_path / "click.wav", sound, 44100)
+    samples = decode(str(tmp_path / "click.wav")).samples[:, 0].astype(np.int32)
+    assert int(np.abs(samples).argmax()) == pytest.approx(RATE_HZ // 2, abs=1)
+
+
+def test_one_channel_and_many(tmp_path: Path) -> None:
+    soundfile.write(tmp_path / "mono.wav", tone(RATE_HZ, channels=1), RATE_HZ)
+    mono = decode(str(tmp_path / "mono.wav")).samples
+    assert (mono[:, 0] == mono[:, 1]).all()
+    surround = np.zeros((RATE_HZ, 6), np.float32)
+    surround[:, 2] = 0.6
+    soundfile.write(tmp_path / "surround.wav", surround, RATE_HZ)
+    assert (decode(str(tmp_path / "surround.wav")).samples > 1000).all()
+
+
+def test_not_a_number_is_silence(tmp_path: Path) -> None:
+    sound = tone(RATE_HZ)
+    sound[100:200] = np.nan
+    sound[300] = np.inf
+    soundfile.write(tmp_path / "nan.wav", sound, RATE_HZ, subtype="FLOAT")
+    samples = decode(str(tmp_path / "nan.wav")).samples
+    assert (samples[100:200] == 0).all()
+    assert samples[300, 0] == 32767
+
+
+@pytest.mark.parametrize("content", [b"", b"RIFF", b"not sound at all" * 50, b"MThd\0\0\0\6\0\1\0\1\1\xe0"])
+def test_what_is_no_sound_is_refused_by_name(tmp_path: Path, content: bytes) -> None:
+    path = tmp_path / "thing.wav"
+    path.write_bytes(content)
+    with pytest.raises(FileError) as error:
+        decode(str(path))
+    assert error.value.message.arguments["file"] == str(path)
+    assert "thing.wav" in error_text(error.value)
+
+
+def test_a_missing_file_and_a_folder(tmp_path: Path) -> None:
+    for path in (tmp_path / "none.wav", tmp_path):
+        with pytest.raises(FileError, match="cannot_read"):
+            decode(str(path))
+    with pytest.raises(FileError):
+        decode("nul\0byte.wav")
+
+
+def test_no_samples(tmp_path: Path) -> None:
+    soundfile.write(tmp_path / "empty.wav", np.zeros((0, 2), np.float32), RATE_HZ)
+    with pytest.raises(FileError, match=r"audio\.empty"):
+        decode(str(tmp_path / "empty.wav"))
+
+
+def test_a_truncated_file_gives_what_there_is(tmp_path: Path) -> None:
+    for suffix in ("wav", "flac", "ogg", "mp3"):
+        path = tmp_path / f"cut.{suffix}"
+        soundfile.write(path, tone(RATE_HZ, 6.0), RATE_HZ)
+        whole = path.read_bytes()
+        path.write_bytes(whole[: len(whole) * 2 // 3])
+        try:
+            recording = decode(str(path))
+        except FileError:
+            continue
+        assert 0.5 < recording.duration_s < 5.5
+        assert all("cut" in text(warning) for warning in recording.warnings)
+
+
+def test_a_header_that_lies_about_its_length_fills_no_memory(tmp_path: Path) -> None:
+    path = tmp_path / "lies.wav"
+    soundfile.write(path, tone(RATE_HZ, 0.5), RATE_HZ)
+    data = bytearray(path.read_bytes())
+    at = data.index(b"data")
+    data[4:8] = struct.pack("<I", 0xFFFFFFF0)
+    data[at + 4 : at + 8] = struct.pack("<I", 0xFFFFFF00)
+    path.write_bytes(data)
+    assert decode(str(path)).duration_s < 1.0
+
+
+def test_impossible_rates_are_refused(tmp_path: Path) -> None:
+    path = tmp_path / "slow.wav"
+    soundfile.write(path, tone(RATE_HZ, 0.1), 10)
+    with pytest.raises(FileError, match=r"audio\.unusable"):
+        decode(str(path))
+
+
+def test_too_long_is_refused_before_it_is_read_whole(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("app.audio.decode.MOST_HOURS", 1 / 3600)
+    soundfile.write(tmp_path / "long.wav", tone(RATE_HZ, 3.0), RATE_HZ)
+    with pytest.raises(FileError, match=r"audio\.too_long"):
+        decode(str(tmp_path / "long.wav"))
+    assert MOST_HOURS >= 1
+
+
+def test_it_can_be_stopped(tmp_path: Path) -> None:
+    soundfile.write(tmp_path / "long.wav", tone(RATE_HZ, 5.0), RATE_HZ)
+    asked: list[bool] = []
+
+    def stop_wanted() -> bool:
+        asked.append(True)
+        return len(asked) > 1
+
+    with pytest.raises(Cancelled):
+        decode(str(tmp_path / "long.wav"), stop_wanted=stop_wanted)
+    assert len(asked) == 2
