@@ -8,6 +8,10 @@ import numpy as np
 import numpy.typing as npt
 from PySide6.QtCore import QObject, Signal
 
+from app.project.grid import Grid
+from app.score.model import Score
+from widgets.timeline.lines import LineCache, Lines
+
 Floats = npt.NDArray[np.float64]
 
 LEAST_SPAN_S = 0.05
@@ -34,6 +38,7 @@ class TimeAxis(QObject):
         self._limits_s = (0.0, 60.0)
         self._start_s, self._end_s = self._limits_s
         self._width_px = 800
+        self._line_cache = LineCache()
 
     @property
     def start_s(self) -> float:
@@ -76,6 +81,10 @@ class TimeAxis(QObject):
     def seconds(self, x_px: float) -> float:
         """The time at a place."""
         return self._start_s + x_px / self.px_per_s
+
+    def lines(self, score: Score, grid: Grid) -> Lines:
+        """Bars, beats and grid lines of the visible range."""
+        return self._line_cache.get(score, grid, self._start_s, self._end_s, self.px_per_s)
 
     def set_limits(self, start_s: float, end_s: float) -> None:
         """Change what can be scrolled to; the visible range moves only where it must."""

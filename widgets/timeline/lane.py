@@ -8,8 +8,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
 import pyqtgraph as pg
-from PySide6.QtCore import QEvent, QPoint, QPointF, QRectF, QSize, Qt, QTimer, Signal
+from pyqtgraph.Qt.internals import PrimitiveArray
+from PySide6.QtCore import QEvent, QLineF, QPoint, QPointF, QRectF, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import (
     QColor,
     QContextMenuEvent,
@@ -37,7 +39,7 @@ from app.project.document import Change
 from app.project.model import Player
 from widgets.common.session import Session
 from widgets.timeline.axis import TimeAxis
-from widgets.timeline.lines import Lines, visible_lines
+from widgets.timeline.lines import Lines
 
 GUTTER_PX = 132
 """Width of the header of every lane."""
@@ -120,10 +122,13 @@ class LaneItem(pg.GraphicsObject):  # type: ignore[misc]
 class _Background(LaneItem):
     """Lines of bars, beats and the grid; the loop and the selected span as shades."""
 
+    def __init__(self, lane: Lane) -> None:
+        super().__init__(lane, -100.0)
+        self._array = PrimitiveArray(QLineF, 4)
+
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
         lane = self.lane
         tokens, axis, session = lane.session.tokens, lane.axis, lane.session
-        top, height = exposed.top(), exposed.height()
         span = session.selection.span
         if span is not None:
             tempo = session.project.score.tempo_map
@@ -138,11 +143,16 @@ class _Background(LaneItem):
         ):
             shade = QColor(colour)
             shade.setAlpha(alpha)
-            painter.setPen(QPen(shade, 1.0))
-            for x in axis.x_px(seconds).tolist():
-                if exposed.left() - 1 <= x <= exposed.right() + 1:
-                    # Whole pixels and a half: a sharp line.
-                    painter.drawLine(QPointF(int(x) + 0.5, top), QPointF(int(x) + 0.5, top + height))
+            x = axis.x_px(seconds)
+            # Whole pixels and a half: a sharp line.
+            x = np.floor(x[(x >= exposed.left() - 1) & (x <= exposed.right() + 1)]) + 0.5
+            if len(x):
+                self._array.resize(len(x))
+                memory = self._array.ndarray()
+                memory[:, 0] = memory[:, 2] = x
+                memory[:, 1], memory[:, 3] = exposed.top(), exposed.bottom()
+                painter.setPen(QPen(shade, 1.0))
+                painter.drawLines(*self._array.drawargs())
 
     def _shade(self, painter: QPainter, exposed: QRectF, start_s: float, end_s: float, colour: str) -> None:
         axis = self.lane.axis
@@ -247,7 +257,6 @@ class Lane(QWidget):
         self._button = Qt.MouseButton.NoButton
         self._panned_px: QPointF | None = None
         self._last: QMouseEvent | None = None
-        self._lines: tuple[tuple[object, ...], Lines] | None = None
 
         self.header = QWidget(self)
         self.header.setFixedWidth(GUTTER_PX)
@@ -289,7 +298,7 @@ class Lane(QWidget):
         self._autoscroll = QTimer(self)
         self._autoscroll.setInterval(AUTOSCROLL_MS)
         self._autoscroll.timeout.connect(self._scroll_past_the_edge)
-        self.background = _Background(self, -100.0)
+        self.background = _Background(self)
         axis.changed.connect(self._axis_changed)
         session.changed.connect(self._session_changed)
         session.performance_changed.connect(self.performance_changed)
@@ -375,6 +384,7 @@ class Lane(QWidget):
         if (bottom, top) != self._y_range:
             self._y_range = (bottom, top)
             self.view_box.setYRange(bottom, top, padding=0)
+            self.view_box.updateMatrix()
             self.update_items()
 
     def y_px(self, value: float) -> float:
@@ -394,17 +404,13 @@ class Lane(QWidget):
 
     def lines(self) -> Lines:
         """Bars, beats and grid lines of the visible range."""
-        axis, score, grid = self.axis, self.session.project.score, self.session.grid
-        key = (score, grid, axis.start_s, axis.end_s, axis.width_px)
-        if self._lines is None or any(a is not b and a != b for a, b in zip(self._lines[0][1:], key[1:], strict=True)):
-            self._lines = None
-        if self._lines is None or self._lines[0][0] is not score:
-            self._lines = (key, visible_lines(score, grid, axis.start_s, axis.end_s, axis.px_per_s))
-        return self._lines[1]
+        return self.axis.lines(self.session.project.score, self.session.grid)
 
     def update_items(self) -> None:
         """Draw everything anew."""
-        self.plot.viewport().update()
+        # Through the scene, which collects: told directly, a view is painted before other scenes have told theirs, and
+        # again afterwards.
+        self.background.update()
 
     @property
     def folded(self) -> bool:
@@ -560,6 +566,8 @@ class Lane(QWidget):
 
     def _axis_changed(self) -> None:
         self.view_box.setXRange(self.axis.start_s, self.axis.end_s, padding=0)
+        # Now: found out while painting it would have everything painted twice.
+        self.view_box.updateMatrix()
         self.axis_changed()
         self.update_items()
 

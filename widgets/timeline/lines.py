@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
 from itertools import pairwise
 
 import msgspec
@@ -37,6 +36,23 @@ class Lines(msgspec.Struct, frozen=True):
     step_s: Floats
 
 
+class LineCache:
+    """The visible lines, made once for the ruler and all lanes."""
+
+    def __init__(self) -> None:
+        self._score: Score | None = None
+        self._rest: tuple[Grid, float, float, float] | None = None
+        self._lines: Lines | None = None
+
+    def get(self, score: Score, grid: Grid, start_s: float, end_s: float, px_per_s: float) -> Lines:
+        """As `visible_lines`."""
+        rest = (grid, start_s, end_s, px_per_s)
+        if self._lines is None or self._score is not score or self._rest != rest:
+            self._score, self._rest = score, rest
+            self._lines = visible_lines(score, grid, start_s, end_s, px_per_s)
+        return self._lines
+
+
 def visible_lines(score: Score, grid: Grid, start_s: float, end_s: float, px_per_s: float) -> Lines:
     """The lines between two times at a zoom.
 
@@ -55,23 +71,25 @@ def visible_lines(score: Score, grid: Grid, start_s: float, end_s: float, px_per
     # Counted from bar 1: 1, 5, 9 ...
     bars = list(range(first - (first - 1) % every, last + 1, every))
     bar_ticks = [score.tick_of_bar(bar) for bar in bars]
-    beats: list[Fraction] = []
-    steps: list[Fraction] = []
+    beats: list[Floats] = []
+    steps: list[Floats] = []
     if every == 1:
-        for start, end in pairwise(bar_ticks):
-            seconds = tempo.seconds(float(end)) - tempo.seconds(float(start))
-            px_per_tick = seconds * px_per_s / max(end - start, 1)
-            beat = Fraction(4 * score.ticks_per_quarter, _denominator(score, start))
+        bar_s = tempo.seconds(np.array(bar_ticks, np.float64)).tolist()
+        for (start, end), (start_s, after_s) in zip(pairwise(bar_ticks), pairwise(bar_s), strict=True):
+            px_per_tick = (after_s - start_s) * px_per_s / max(end - start, 1)
+            beat = 4 * score.ticks_per_quarter / _denominator(score, start)
             if beat * px_per_tick >= LEAST_BEAT_PX:
-                beats.extend(_between(start, end, beat))
-            step = grid.quarters * score.ticks_per_quarter
+                beats.append(_between(start, end, beat))
+            step = float(grid.quarters * score.ticks_per_quarter)
             if grid.enabled and step < beat and step * px_per_tick >= LEAST_STEP_PX:
-                steps.extend(_between(start, end, step))
+                lines = _between(start, end, step)
+                in_beats = (lines - start) / beat
+                steps.append(lines[np.abs(in_beats - np.round(in_beats)) > 1e-6])
     return Lines(
         tuple(bars),
         tempo.seconds(np.array(bar_ticks, np.float64)),
-        tempo.seconds(np.array(beats, np.float64)),
-        tempo.seconds(np.array(sorted(set(steps) - set(beats)), np.float64)),
+        tempo.seconds(np.concatenate(beats or [np.empty(0)])),
+        tempo.seconds(np.concatenate(steps or [np.empty(0)])),
     )
 
 
@@ -95,7 +113,7 @@ def _denominator(score: Score, tick: int) -> int:
     return metre.denominator
 
 
-def _between(start: int, end: int, step: Fraction) -> list[Fraction]:
+def _between(start: int, end: int, step: float) -> Floats:
     """The lines strictly inside a bar."""
-    count = -((start - end) // step)
-    return [start + index * step for index in range(1, int(count))]
+    count = int(np.ceil((end - start) / step - 1e-9))
+    return start + step * np.arange(1, count)

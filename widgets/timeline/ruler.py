@@ -33,7 +33,7 @@ from widgets.common.session import Session, TimeDisplay
 from widgets.common.tokens import LEAST_TEXT_PT
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.lane import GUTTER_PX, PAN_A_STEP, ZOOM_A_STEP
-from widgets.timeline.lines import Lines, visible_lines
+from widgets.timeline.lines import Lines
 
 MARKS_PX = 22
 SCALE_PX = 24
@@ -221,13 +221,7 @@ class Ruler(QWidget):
     def _paint_scale(self, painter: QPainter, exposed: QRectF) -> None:
         tokens = self.session.tokens
         bottom = float(self.height())
-        lines = visible_lines(
-            self.session.project.score,
-            self.session.grid,
-            self.axis.start_s,
-            self.axis.end_s,
-            self.axis.px_per_s,
-        )
+        lines = self.axis.lines(self.session.project.score, self.session.grid)
         display = self.session.time_display
         labels = self._bar_labels(lines) if display == "bars" else self._clock_labels(display)
         painter.setPen(QPen(QColor(tokens.line_strong), 1.0))
