@@ -1,0 +1,79 @@
+"""What is made from the performance before an edit equals what is made from nothing."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import numpy as np
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from app.errors import AppError
+from app.performance.ensemble import Performance
+from app.performance.live import LiveMotion
+from app.performance.motion import player_motion
+from app.performance.span import FrameSpan
+from app.project.model import Project
+from tests.property.performance.edits import edits, piece
+
+CALM = settings(deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large])
+
+
+@given(st.data())
+@settings(CALM, max_examples=60)
+def test_plans_after_edits_are_those_of_a_fresh_performance(data: st.DataObject) -> None:
+    project = piece()
+    performance = Performance(project)
+    for _ in range(data.draw(st.integers(1, 6))):
+        project = data.draw(edits(project))
+        performance = Performance(project, performance)
+        if data.draw(st.booleans()):
+            performance.prepare()
+    fresh = Performance(project)
+    assert performance.plans == fresh.plans
+    assert performance.time_frame == fresh.time_frame
+    assert performance.piece == fresh.piece
+    assert performance.lines == fresh.lines
+
+
+@given(st.data())
+@settings(CALM, max_examples=25)
+def test_the_motion_shown_after_edits_is_that_of_the_newest_performance(data: st.DataObject) -> None:
+    project = piece()
+    performance = Performance(project)
+    live = LiveMotion(performance)
+    for _ in range(data.draw(st.integers(1, 4))):
+        for _ in range(data.draw(st.sampled_from([0, 3, 1000]))):
+            if not live.work():
+                break
+        project = data.draw(edits(project))
+        performance = Performance(project, performance)
+        live.show(performance)
+    while live.work():
+        pass
+    assert live.ready_share == 1.0
+    fresh = Performance(project)
+    for player in project.players:
+        _judge(live, fresh, project, player.id)
+
+
+def _judge(live: LiveMotion, fresh: Performance, project: Project, player_id: str) -> None:
+    fps, player = project.fps, project.player(player_id)
+    frame = fresh.time_frame
+    count = int((frame.end_s - frame.first_frame_s) * fps)
+    try:
+        whole = player_motion(fresh, player, FrameSpan(fps, 0, count, frame.first_frame_s))
+    except AppError as error:
+        assert live.pose(player_id, 0.0) is None
+        assert live.error(player_id) == error.message
+        return
+    for index in range(0, count, 7):
+        pose = live.pose(player_id, float(frame.first_frame_s + index / Fraction(fps)))
+        assert pose is not None
+        assert np.array_equal(pose.rotations, whole.rotations[index])
+        assert np.array_equal(pose.hips_m, whole.hips_m[index])
+        assert np.array_equal(pose.instrument_position_m, whole.instrument_position_m[index])
+        assert np.array_equal(pose.instrument_rotation, whole.instrument_rotation[index])
+        for name, values in whole.morphs.items():
+            assert pose.morphs.get(name, 0.0) == float(values[index])
+        assert pose.controls == {name: float(values[index]) for name, values in whole.controls.items()}
