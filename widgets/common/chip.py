@@ -58,6 +58,14 @@ class Chip(QAbstractButton):
         """Whether it is marked as the generator's choice."""
         return self._outlined
 
+    def show_state(self, checked: bool, by_hand: bool, outlined: bool) -> None:
+        """Show whether it is chosen, by whom, and whether the generator chose it."""
+        self.setChecked(checked)
+        if (by_hand, outlined) != (self._by_hand, self._outlined):
+            self._by_hand, self._outlined = by_hand, outlined
+            self.updateGeometry()
+        self.update()
+
     def _note_font(self) -> QFont:
         font = QFont(self.font())
         font.setPointSizeF(max(font.pointSizeF() - 1.0, 9.0))

@@ -117,6 +117,7 @@ class NumberSlider(QWidget):
         self._press_value = 0.0
         self._drag_x, self._drag_value = 0.0, 0.0
         self._dragging = False
+        self._after_drag: tuple[float, bool] | None = None
         self._field: QLineEdit | None = None
         self._wheel_rest = QTimer(self)
         self._wheel_rest.setSingleShot(True)
@@ -165,9 +166,14 @@ class NumberSlider(QWidget):
         by_hand : bool, optional
             Whether it is marked as made by hand; None: wherever it is not the default.
         """
-        self._value, self._mixed, self._by_hand = value, mixed, by_hand
         if default is not None:
             self._default = default
+        self._by_hand = by_hand
+        if self._dragging:
+            # What is shown follows the hand; what came of it is shown when the hand lets go.
+            self._after_drag = (value, mixed)
+        else:
+            self._value, self._mixed = value, mixed
         self.update()
 
     def set_range(self, minimum: float, maximum: float) -> None:
@@ -261,6 +267,9 @@ class NumberSlider(QWidget):
 
     def _end(self) -> None:
         self._wheel_rest.stop()
+        if self._after_drag is not None:
+            (self._value, self._mixed), self._after_drag = self._after_drag, None
+            self.update()
         if self._token is not None:
             self._token = None
             self.released.emit()
@@ -281,7 +290,7 @@ class NumberSlider(QWidget):
 
     def _cancel_drag(self) -> None:
         if self._dragging:
-            self._dragging = False
+            self._dragging, self._after_drag = False, None
             self._want(self._press_value, self._token)
         self._press = None
         self._end()

@@ -50,6 +50,8 @@ class NoteSection(QWidget):
         self._diagram = FingeringDiagram(session)
         self._diagram.setObjectName("fingering_diagram")
         self._chips = FlowLayout()
+        self._chip_labels: tuple[tuple[str, str], ...] = ()
+        self._chip_of: dict[str, Chip] = {}
         self._fingering_title, self._lips_title = QLabel(), QLabel()
         self._why, self._problems = QLabel(), QLabel()
         self._fingering_by_hand, self._lips_by_hand = ByHandLine(session), ByHandLine(session)
@@ -197,22 +199,23 @@ class NoteSection(QWidget):
     def _make_chips(
         self, fingerings: tuple[Fingering, ...], event: FingeringEvent, made: FingeringEvent | None
     ) -> None:
-        self._chips.clear()
+        labels = tuple((fingering.label, _cents_text(fingering.cents)) for fingering in fingerings)
+        if labels != self._chip_labels:
+            # The same chips stay, so that the keyboard stays where it is.
+            self._chip_labels = labels
+            self._chips.clear()
+            self._chip_of = {label: Chip(self._session, label, cents) for label, cents in labels}
+            for label, chip in self._chip_of.items():
+                chip.setObjectName(f"chip_{label}")
+                chip.clicked.connect(lambda _=False, label=label: self._pin(label))
+                self._chips.addWidget(chip)
         for fingering in fingerings:
-            note = f"{fingering.cents:+.0f}".replace("-", "−") + "¢" if round(fingering.cents) else ""
             chosen = fingering.label == event.label
-            chip = Chip(
-                self._session,
-                fingering.label,
-                note,
-                by_hand=chosen and event.corrected,
-                outlined=made is not None and fingering.label == made.label,
+            chip = self._chip_of[fingering.label]
+            chip.show_state(
+                chosen, chosen and event.corrected, outlined=made is not None and fingering.label == made.label
             )
-            chip.setObjectName(f"chip_{fingering.label}")
-            chip.setChecked(chosen)
             chip.setToolTip(self._chip_tip(fingering, made))
-            chip.clicked.connect(lambda _=False, label=fingering.label: self._pin(label))
-            self._chips.addWidget(chip)
 
     def _chip_tip(self, fingering: Fingering, made: FingeringEvent | None) -> str:
         tags = {
@@ -401,6 +404,11 @@ class NoteSection(QWidget):
         if event.type() == QEvent.Type.LanguageChange:
             self.retranslate()
         super().changeEvent(event)
+
+
+def _cents_text(cents: float) -> str:
+    """``"+12¢"``; empty where a fingering is in tune."""
+    return f"{cents:+.0f}¢".replace("-", "−") if round(cents) else ""
 
 
 def _instrument(player: Player | None) -> InstrumentMap | None:

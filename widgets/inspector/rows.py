@@ -90,9 +90,9 @@ class _LineDelegate(QStyledItemDelegate):
     # Qt's own names
 
     def sizeHint(self, option: QStyleOptionViewItem, index: AnyIndex) -> QSize:
-        height = QFontMetricsF(self._view.font()).height() + 10
+        height = _line_px(self._view.font()) + 8
         if self._view.has_details:
-            height += QFontMetricsF(self._small()).height() * 2
+            height += 2 * _line_px(self._small())
         return QSize(100, max(26, round(height)))
 
     def paint(self, painter: QPainter, option: QStyleOptionViewItem, index: AnyIndex) -> None:
@@ -125,7 +125,7 @@ class _LineDelegate(QStyledItemDelegate):
         colours = {"warning": tokens.warning, "by_hand": tokens.by_hand, "faint": tokens.text_dim}
         font, small = QFont(self._view.font()), self._small()
         font.setBold(line.tone == "current")
-        first = round(QFontMetricsF(font).height()) + 2
+        first = round(_line_px(font))
         if not self._view.has_details:
             first = room.height()
         upper = QRect(room.left(), room.top(), room.width(), first)
@@ -200,6 +200,12 @@ class LineList(QListView):
             self.deleted.emit()
         else:
             super().keyPressEvent(event)
+
+
+def _line_px(font: QFont) -> float:
+    """Height of a line whatever it is written in: the signs of a fallback font may be taller."""
+    metrics = QFontMetricsF(font)
+    return max(metrics.height(), metrics.boundingRect("漢あÁgj").height() + 1.0)
 
 
 def _two_lines(metrics: QFontMetricsF, text: str, width_px: int) -> str:

@@ -14,6 +14,9 @@ MOST_NOTES = 500
 """Of a larger selection so many are looked at: whether values differ is known by then."""
 
 
+_OF_NOTES = ("fingering:", "embouchure:")
+
+
 @dataclass(frozen=True)
 class SelectedNotes:
     """The selected notes of the player that matters most: in front, else the first who plays some of them.
@@ -58,7 +61,10 @@ class NoteFinder:
 
 def selected_notes(session: Session, finder: NoteFinder) -> SelectedNotes | None:
     """See `SelectedNotes`; None where no note is selected."""
-    project, ids = session.project, session.selection.notes
+    project, selection = session.project, session.selection
+    # A fingering or an embouchure is a note's.
+    of_notes = {key.event_id.partition(":")[2] for key in selection.events if key.event_id.startswith(_OF_NOTES)}
+    ids = selection.notes | of_notes
     found = [place for note_id in ids if (place := finder.find(project, note_id)) is not None]
     if not found:
         return None

@@ -202,8 +202,8 @@ class PlayersPanel(QWidget):
             self._tools[name].setEnabled(bool(chosen))
         self._throw.setEnabled(bool(everyone))
         self._reset.setEnabled(bool(chosen))
-        several = len(chosen) > 1
-        self._throw.setText(self.tr("Randomise selected") if several else self.tr("Randomise all"))
+        whom = self.tr("selected players") if len(chosen) > 1 else self.tr("all players")
+        self._variety.header.set_texts(self.tr("Variety"), whom)
 
     # Editing
 
@@ -297,12 +297,12 @@ class PlayersPanel(QWidget):
         self._tools["duplicate"].setToolTip(self.tr("Duplicate: somebody else plays the same part"))
         self._tools["remove"].setToolTip(self.tr("Remove the selected players"))
         self._empty.setText(self.tr("Nobody plays yet. Add a player with ＋, or drag a MIDI file onto the window."))
-        self._variety.header.set_texts(self.tr("Variety"))
         self._spread.set_texts(
             self.tr("Spread"),
             "",
             self.tr("How far apart the players become: 0 all the same, 1 as different as is sensible"),
         )
+        self._throw.setText(self.tr("Randomise"))
         self._throw.setToolTip(
             self.tr(
                 "Amplitude, sway, weight shift, bell height, lungs, embouchure and seed by chance, around their average"

@@ -203,7 +203,7 @@ class ParameterSections(QWidget):
 
     def retranslate(self) -> None:
         """Set every text in the language of the editor."""
-        titles = (self.tr("Player"), self.tr("Motion"), self.tr("Breath"), self.tr("Face and cues"))
+        titles = (self.tr("Player"), self.tr("Motion"), self.tr("Breath"), self.tr("Face"))
         for section, title in zip(self._sections.values(), titles, strict=True):
             section.header.set_texts(title)
         texts = {

@@ -6,7 +6,7 @@ import math
 
 import msgspec
 from PySide6.QtCore import QEvent
-from PySide6.QtWidgets import QHBoxLayout, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QGridLayout, QToolButton, QVBoxLayout, QWidget
 
 from app.errors import Message
 from app.project.casting import StagePosition
@@ -36,22 +36,22 @@ class StageSection(QWidget):
         self._section.header.add_button(self._snap)
         self._section.header.add_button(self._arc)
         self._numbers = {
-            name: NumberSlider(session, -reach, reach, decimals=decimals, step=step, slides=False)
-            for name, reach, decimals, step in (
-                ("x_m", FARTHEST_M, 2, 0.05),
-                ("z_m", FARTHEST_M, 2, 0.05),
-                ("turn_rad", 180.0, 0, 1.0),
+            name: NumberSlider(session, -reach, reach, decimals=decimals, step=step, slides=slides)
+            for name, reach, decimals, step, slides in (
+                ("x_m", FARTHEST_M, 2, 0.05, False),
+                ("z_m", FARTHEST_M, 2, 0.05, False),
+                ("turn_rad", 180.0, 0, 5.0, True),
             )
         }
-        line = QHBoxLayout()
-        line.setSpacing(4)
-        for name, number in self._numbers.items():
+        grid = QGridLayout()
+        grid.setSpacing(4)
+        for place, (name, number) in enumerate(self._numbers.items()):
             number.setObjectName(f"stage_{name}")
             number.changed.connect(lambda value, token, name=name: self._set(name, value, token))
             number.released.connect(session.document.end_gesture)
-            line.addWidget(number, 1)
+            grid.addWidget(number, place // 2, place % 2, 1, 1 + place // 2)
         self._section.body.addWidget(self.view)
-        self._section.body.addLayout(line)
+        self._section.body.addLayout(grid)
         outer = QVBoxLayout(self)
         outer.setContentsMargins(0, 0, 0, 0)
         outer.addWidget(self._section)
@@ -111,7 +111,11 @@ class StageSection(QWidget):
         tips = {
             "x_m": (self.tr("X"), metres, self.tr("To the right as the audience sees it, from the middle")),
             "z_m": (self.tr("Z"), metres, self.tr("Towards the audience, from the middle")),
-            "turn_rad": (self.tr("↻"), "°", self.tr("Turn: 0 faces the audience")),
+            "turn_rad": (
+                self.tr("Turn"),
+                "°",
+                self.tr("0 faces the audience, positive turns to the right as the audience sees it"),
+            ),
         }
         for name, (label, unit, tip) in tips.items():
             self._numbers[name].set_texts(label, unit, tip)

@@ -15,7 +15,7 @@ from app.score.model import Note
 from instrument_maps.load import find_map
 from tests.gui.inspector.hands import child, click, drag, number, type_into
 from widgets.common.chip import Chip
-from widgets.common.selection import Selection
+from widgets.common.selection import EventKey, Selection
 from widgets.common.session import Session
 from widgets.inspector.by_hand import ByHandLine
 from widgets.inspector.fingering_diagram import FingeringDiagram, slide_slots
@@ -160,6 +160,14 @@ def test_written_pitch_and_other_octaves_are_read_as_shown(panel: InspectorPanel
     assert number(panel, "note_pitch").value_text() == "Re4"
     type_into(number(panel, "note_pitch"), "mi♭4")
     assert note_now(planned, note.id).pitch == 73
+
+
+def test_an_embouchure_that_is_selected_shows_its_note(panel: InspectorPanel, planned: Session) -> None:
+    player = planned.project.players[1]
+    note = planned.project.part(player).notes[3]
+    planned.select(Selection(events=frozenset((EventKey(player.id, f"embouchure:{note.id}"),))))
+    type_into(number(panel, "embouchure_effort"), "0.7")
+    assert corrections(planned, player) == (SetEmbouchure(note.id, effort=0.7),)
 
 
 def test_pitches_are_read(planned: Session) -> None:
