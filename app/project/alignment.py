@@ -25,10 +25,10 @@ SAME_QUARTERS = 1 / 16
 """Onsets this close are one: another resolution rounds, and people nudge."""
 SWITCH_COST = 3.0
 """Of another distance in time, in notes not found ..."""
-JUMP_COST = 0.05
-"""... and of every note that is passed over or played twice by it, ..."""
-MOST_JUMP_COST = 6.0
-"""... up to this: many bars may be put in at once."""
+SKIP_COST, MOST_SKIP_COST = 0.05, 6.0
+"""... and of every note that it passes over, up to a most: many bars may be put in at once; ..."""
+AGAIN_COST, MOST_AGAIN_COST = 0.5, 12.0
+"""... of every note that it finds twice, where nothing was cut before."""
 GAP_COST = 0.7
 """Of a note that has no partner; two are a little dearer than a changed pitch or a moved onset, cheaper than both."""
 PITCH_COST = 1.0
@@ -186,8 +186,12 @@ def _anchors(old: Line, new: Line, distances: Floats, transposition: int) -> lis
     # Of two readings alike in all else, that in which less moved.
     costs += 1e-4 * np.minimum(np.abs(distances), 100.0)[:, None]
     density = len(old) / max(float(old.onsets[-1] - old.onsets[0]), 1.0)
-    jumps = np.abs(np.subtract.outer(distances, distances)) * density
-    changes = SWITCH_COST + np.minimum(JUMP_COST * jumps, MOST_JUMP_COST)
+    skipped = (distances[None, :] - distances[:, None]) * density
+    changes = SWITCH_COST + np.where(
+        skipped > 0.0,
+        np.minimum(SKIP_COST * skipped, MOST_SKIP_COST),
+        np.minimum(-AGAIN_COST * skipped, MOST_AGAIN_COST),
+    )
     np.fill_diagonal(changes, 0.0)
     chosen = _held(costs, changes)
     pairs = [(index, int(found[state, index])) for index, state in enumerate(chosen) if found[state, index] >= 0]

@@ -26,7 +26,7 @@ from instrument_maps.load import bundled_maps
 MIDI = Path(__file__).parents[2] / "data" / "midi"
 FILES = [
     MIDI / "ensemble" / f"{name}.mid"
-    for name in ("brass_quartet_lutkin_2tpt_tbn_tuba", "brass_quintet_pezel_sonata21", "concert_band_hall_tenth_regime",
+    for name in ("brass_quartet_lutkin_2tpt_tbn_tuba", "brass_quintet_pezel_sonata21", "concert_band_hall_tenth_regiment_march",
                  "cornets_sackbuts_speer_sonata", "oboe_bassoon_devienne_sonata2")
 ]  # fmt: skip
 MAPS = bundled_maps()
@@ -63,7 +63,7 @@ def assert_in_order(pairs: list[tuple[int, int]]) -> None:
 @given(
     arrays(np.float64, st.tuples(st.integers(1, 9), st.integers(1, 9)), elements=st.floats(0.0, 2.0, width=32)),
 )
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=200, deadline=None)
 def test_pairs_are_the_cheapest_there_are(costs: np.ndarray) -> None:
     pairs = cheapest(costs)
     assert_in_order(pairs)
@@ -80,7 +80,7 @@ lines = st.lists(st.tuples(st.integers(0, 24), st.integers(58, 63)), max_size=14
 
 
 @given(lines, lines)
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=200, deadline=None)
 def test_any_two_lines(old: list[Note], new: list[Note]) -> None:
     one, other = Line.of(old, QUARTER), Line.of(new, QUARTER)
     pairs = [(int(first), int(second)) for first, second in align(one, other)]
@@ -91,7 +91,7 @@ def test_any_two_lines(old: list[Note], new: list[Note]) -> None:
 
 
 @given(lines, st.data())
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=200, deadline=None)
 def test_taking_out_or_putting_in_costs_no_more_than_it_must(whole: list[Note], data: st.DataObject) -> None:
     some = [note for note in whole if data.draw(st.booleans())]
     for old, new in ((whole, some), (some, whole)):
@@ -138,13 +138,18 @@ def melodies(draw: st.DrawFn) -> list[Note]:
 
 
 @given(melodies().flatmap(lambda notes: st.tuples(st.just(notes), changes(notes))))
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=200, deadline=None)
 def test_survivors_are_found(case: tuple[list[Note], tuple[list[Note], set[str]]]) -> None:
     old, (new, survivors) = case
     pairs = align(Line.of(old, QUARTER), Line.of(new, QUARTER))
-    found = {new[int(other)].id for one, other in pairs if old[int(one)].id == new[int(other)].id}
-    # Bars put in or cut within a repetition may belong to either side of it: there a few notes can be meant either way.
-    assert len(survivors - found) <= max(2, len(old) // 8)
+    # As many are found as there are, whatever the music ...
+    assert len(pairs) >= len(survivors) - max(2, len(old) // 8)
+    figures = [(note.pitch, note.duration_tick) for note in old]
+    trios = list(zip(figures, figures[1:], figures[2:], strict=False))
+    if len(set(trios)) == len(trios):
+        # ... and where no figure comes twice, the right ones; a note beside a seam may have another's pitch by chance.
+        found = {new[int(other)].id for one, other in pairs if old[int(one)].id == new[int(other)].id}
+        assert len(survivors - found) <= 2
 
 
 @cache
