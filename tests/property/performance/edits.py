@@ -139,8 +139,8 @@ def edits(draw: st.DrawFn, project: Project) -> Project:
     if kind == "parameter":
         name, value = draw(
             st.sampled_from(
-                [("amplitude", 0.9), ("lung_s", 4.0), ("breath_min_beats", 0.1), ("embouchure_tension", 1.3), ("seed", 9),
-                 ("cue_leader", True), ("cue_leader", False), ("posture", "seated"), ("sway", 0.2)]
+                [("amplitude", 0.9), ("lung_s", 4.0), ("breath_min_beats", 0.1), ("embouchure_tension", 1.3),
+                 ("seed", 9), ("cue_leader", True), ("cue_leader", False), ("posture", "seated"), ("sway", 0.2)]
             )
         )  # fmt: skip
         return _with_player(project, player, parameters=msgspec.structs.replace(player.parameters, **{name: value}))
