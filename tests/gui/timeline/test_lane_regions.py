@@ -282,3 +282,49 @@ def test_a_lasso_selects_what_it_meets(panel: TimelinePanel, session: Session) -
     drag(lane, QPointF(left, 3.0), dx=right - left, dy=lane.plot.height() - 6)
     assert {key.event_id for key in session.selection.events} == set(boxes)
     assert not session.document.done
+
+
+def test_a_number_is_typed_for_all_selected(panel: TimelinePanel, session: Session) -> None:
+    lane = breath_lane(panel)
+    plan = front_plan(session)
+    first, second = [event.id for event in plan.breaths if event.kind == "breath"][1:3]
+    session.select(Selection(events=frozenset({EventKey(plan.player_id, first), EventKey(plan.player_id, second)})))
+    lane.plot.setFocus()
+    QTest.keyClick(lane.plot, Qt.Key.Key_Return)
+    assert lane.number.isVisible()
+    QTest.keyClicks(lane.number, "0.4")
+    QTest.keyClick(lane.number, Qt.Key.Key_Return)
+    assert not lane.number.isVisible()
+    assert [item.depth for item in corrections(session) if isinstance(item, SetBreath)] == [0.4, 0.4]
+    assert len(session.document.done) == 1
+
+
+def test_a_double_click_on_a_region_types_its_amount(panel: TimelinePanel, session: Session) -> None:
+    lane = acting_lane(panel)
+    shift = next(event for event in front_plan(session).gestures if event.kind == "weight_shift" and event.start_s > 0)
+    double_click(lane, middle(lane, shift.id))
+    QTest.keyClicks(lane.number, "-0.33")
+    QTest.keyClick(lane.number, Qt.Key.Key_Return)
+    (change,) = corrections(session)
+    assert isinstance(change, ChangeGesture)
+    assert change.amount == -0.33
+    double_click(lane, middle(lane, shift.id))
+    QTest.keyClicks(lane.number, "0.9")
+    QTest.keyClick(lane.number, Qt.Key.Key_Escape)
+    assert corrections(session) == (change,)
+
+
+def test_the_keyboard_reaches_every_region_and_its_amount(panel: TimelinePanel, session: Session) -> None:
+    lane = breath_lane(panel)
+    session.set_playhead(front_plan(session).breaths[1].start_s)
+    QTest.keyClick(lane.plot, Qt.Key.Key_Right, ALT)
+    (key,) = session.selection.events
+    assert key.event_id == front_plan(session).breaths[1].id
+    QTest.keyClick(lane.plot, Qt.Key.Key_Right, ALT)
+    (key,) = session.selection.events
+    assert key.event_id == front_plan(session).breaths[2].id
+    before = region_of(lane, key.event_id).amount
+    QTest.keyClick(lane.plot, Qt.Key.Key_Down)
+    assert region_of(lane, key.event_id).amount == pytest.approx(before - 0.05)
+    QTest.keyClick(lane.plot, Qt.Key.Key_Up, Qt.KeyboardModifier.ShiftModifier)
+    assert region_of(lane, key.event_id).amount == pytest.approx(before - 0.04)

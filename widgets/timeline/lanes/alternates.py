@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from PySide6.QtCore import QEvent, QObject, QPoint, QSize, Qt
 from PySide6.QtGui import QKeyEvent, QMouseEvent
-from PySide6.QtWidgets import QApplication, QFrame, QHBoxLayout, QMenu, QPushButton, QWidget
+from PySide6.QtWidgets import QApplication, QFrame, QHBoxLayout, QMenu, QPushButton
 
 from app.errors import Message
 from app.plan.model import FingeringEvent
@@ -14,12 +14,13 @@ from widgets.common.chip import Chip
 from widgets.common.icons import icon
 from widgets.common.session import Session
 from widgets.common.tokens import LEAST_TARGET_PX
+from widgets.timeline.lane import Lane
 
 
 class Alternates(QFrame):
     """A row of chips in the window, without modality: it goes with the next press elsewhere, or Escape."""
 
-    def __init__(self, session: Session, lane: QWidget) -> None:
+    def __init__(self, session: Session, lane: Lane) -> None:
         super().__init__(lane)
         self.setObjectName("alternates")
         self.setFrameShape(QFrame.Shape.StyledPanel)
@@ -97,6 +98,13 @@ class Alternates(QFrame):
         if application is not None:
             application.installEventFilter(self)
 
+    def take_focus(self) -> None:
+        """Let the keyboard choose: Tab goes from chip to chip, Space takes one."""
+        chips = self.findChildren(Chip)
+        chosen = next((chip for chip in chips if chip.isChecked() and chip.isVisible()), None)
+        if chosen is not None:
+            chosen.setFocus(Qt.FocusReason.TabFocusReason)
+
     def choose(self, label: str) -> None:
         """Pin a fingering for every selected note that has one of this label, at least for the note shown."""
         if self.event_shown is None:
@@ -137,6 +145,8 @@ class Alternates(QFrame):
         application = QApplication.instance()
         if application is not None:
             application.removeEventFilter(self)
+        if self.isAncestorOf(QApplication.focusWidget() or self._lane):
+            self._lane.plot.setFocus()
         super().hideEvent(event)  # type: ignore[arg-type]
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:

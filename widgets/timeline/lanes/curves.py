@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
 from PySide6.QtCore import QRectF, Qt
-from PySide6.QtGui import QColor, QPainter, QPen
+from PySide6.QtGui import QColor, QKeyEvent, QPainter, QPen
 from PySide6.QtWidgets import QComboBox, QMenu, QWidget
 
 from app.errors import Message
@@ -23,6 +23,7 @@ from widgets.timeline.axis import TimeAxis
 from widgets.timeline.lane import Lane, LaneItem, LaneMouse
 from widgets.timeline.lanes.drawing import draw_lines, draw_mark, draw_path, draw_rects, draw_text, shade, small_font
 from widgets.timeline.lanes.geometry import Floats, Spans, Steps, step_path
+from widgets.timeline.lanes.number_field import NumberField
 
 LIPS = ("tension", "effort", "air")
 CONTROLLERS = ("breath", "expression", "volume", "aftertouch", "pitch_bend")
@@ -168,6 +169,7 @@ class CurvesLane(Lane):
         self.choice.activated.connect(self._chosen)
         self.controls.addWidget(self.choice)
         self.item = _Curves(self)
+        self.number = NumberField(self)
         self.refresh()
         self.retranslate()
 
@@ -306,6 +308,47 @@ class CurvesLane(Lane):
         drag, self._drag = self._drag, None
         if drag is not None and drag.moved:
             self.session.document.end_gesture()
+
+    def double_click(self, mouse: LaneMouse) -> None:
+        self._drag = None
+        event = self.event_at(mouse.time_s)
+        if event is not None and self.curve in LIPS:
+            self._type(event)
+
+    def _type(self, event: EmbouchureEvent) -> None:
+        left = self.axis.x_px(event.start_s)
+        middle = self.plot_rect.height() / 2
+        name = self.curve_name(self.curve)
+        self.number.open(QRectF(left, middle, 1.0, 1.0), self.value_of(event), 2, self._set_values, name)
+
+    def _set_values(self, value: float) -> None:
+        self._change_values(lambda _: value)
+
+    def _change_values(self, change: Callable[[EmbouchureEvent], float]) -> None:
+        """Give the chosen curve another value at all selected notes."""
+        if self.lips is None or self._plan is None or self.curve not in LIPS:
+            return
+        notes, player_id, curve = self.session.selection.notes, self._plan.player_id, self.curve
+        values = {item.note_id: change(item) for item in self.lips.events if item.note_id in notes}
+
+        def edit(project: Project) -> Project:
+            for note_id, value in values.items():
+                project = set_embouchure(project, player_id, (note_id,), **{curve: value})
+            return project
+
+        if values:
+            self.session.attempt(Message("edit.set_embouchure", {"count": len(values)}), edit)
+
+    def key(self, event: QKeyEvent) -> bool:
+        """Enter types the value of the selected notes."""
+        if self.lips is None:
+            return False
+        notes = self.session.selection.notes
+        chosen = [index for index, item in enumerate(self.lips.events) if item.note_id in notes]
+        if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter) and chosen and self.curve in LIPS:
+            self._type(self.lips.events[chosen[0]])
+            return True
+        return False
 
     def cancel(self) -> None:
         drag, self._drag = self._drag, None

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 from PySide6.QtCore import QPoint, QPointF, QRectF, Qt
-from PySide6.QtGui import QColor, QPainter, QPen
+from PySide6.QtGui import QColor, QKeyEvent, QPainter, QPen
 from PySide6.QtWidgets import QMenu, QWidget
 
 from app.plan.model import FingeringEvent, PlayerPlan
@@ -313,8 +313,33 @@ class FingeringLane(Lane):
         if start is None or mouse.ctrl or mouse.shift or abs(mouse.x_px - start.x_px) >= CHIPS_DELAY_PX:
             return
         event = self.event_at(start.time_s)
-        if event is not None and self._plan is not None:
+        if event is not None:
             self.session.select(Selection(notes=frozenset({event.note_id})))
+            self._show_alternates(event)
+
+    def key(self, event: QKeyEvent) -> bool:
+        """Alt and an arrow go to the neighbouring note, Enter shows its alternates."""
+        if self.data is None or not self.data.events:
+            return False
+        notes, events = self.session.selection.notes, self.data.events
+        chosen = [index for index, item in enumerate(events) if item.note_id in notes]
+        alt = bool(event.modifiers() & Qt.KeyboardModifier.AltModifier)
+        if alt and event.key() in (Qt.Key.Key_Left, Qt.Key.Key_Right):
+            step = 1 if event.key() == Qt.Key.Key_Right else -1
+            start = int(np.searchsorted(self.data.start_s, self.session.playhead_s))
+            index = (max(chosen) if step > 0 else min(chosen)) + step if chosen else start
+            found = events[min(max(index, 0), len(events) - 1)]
+            self.session.select(Selection(notes=frozenset({found.note_id})))
+            self.axis.reveal(found.start_s, found.end_s)
+            return True
+        if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter) and chosen:
+            self._show_alternates(events[chosen[0]])
+            self.alternates.take_focus()
+            return True
+        return False
+
+    def _show_alternates(self, event: FingeringEvent) -> None:
+        if self._plan is not None:
             x = min(max(self.axis.x_px(event.start_s), 0.0), self.plot_rect.width() - 60.0)
             self.alternates.show_for(self._plan.player_id, event, self.plot.mapTo(self.window(), QPoint(round(x), 0)))
 

@@ -10,7 +10,7 @@ import msgspec
 import numpy as np
 from msgspec.structs import replace
 from PySide6.QtCore import QPointF, QRectF, Qt
-from PySide6.QtGui import QAction, QColor, QPainter, QPen
+from PySide6.QtGui import QAction, QColor, QKeyEvent, QPainter, QPen
 from PySide6.QtWidgets import QMenu, QWidget
 
 from app.errors import Message
@@ -26,12 +26,15 @@ from widgets.timeline.axis import TimeAxis
 from widgets.timeline.lane import Lane, LaneItem, LaneMouse
 from widgets.timeline.lanes.drawing import MARK_PX, draw_mark, shade, small_font
 from widgets.timeline.lanes.geometry import Spans
+from widgets.timeline.lanes.number_field import NumberField
 
 EDGE_PX = 6.0
 HANDLE_PX = 5.0
 LEAST_REGION_PX = 3.0
 DRAG_PX = 3.0
 """The mouse moves this far before a press becomes a drag."""
+STEP, FINE_STEP = 0.05, 0.01
+"""What Up and Down add to an amount."""
 GLYPH_PX = 12.0
 """Width of the mark of a removed event, which has no length."""
 
@@ -160,6 +163,7 @@ class RegionLane(Lane):
         self._drag: _Drag | None = None
         self._hovered: Region | None = None
         self.regions_item = _Regions(self)
+        self.number = NumberField(self)
         self.refresh()
 
     # What sub-classes say
@@ -577,6 +581,70 @@ class RegionLane(Lane):
         self._drag = None
         if region is None:
             self.add_at(mouse)
+        elif not region.removed and not region.steady:
+            self.type_amount(region)
+
+    def type_amount(self, region: Region) -> None:
+        """Ask for the amount of a region; it becomes that of all selected ones."""
+        self.number.open(self.box(region), region.amount, 2, self._set_amounts, self.tr("How much"))
+
+    def _set_amounts(self, amount: float) -> None:
+        self._change_amounts(lambda _: amount)
+
+    def _change_amounts(self, change: Callable[[Region], float], token: object | None = None) -> None:
+        """Give all selected regions of the lane another amount."""
+        wanted: dict[str, dict[str, float]] = defaultdict(dict)
+        for key in self.session.selection.events:
+            region = self._by_key.get(key)
+            if region is not None and not region.removed and not region.steady:
+                wanted[key.player_id][key.event_id] = change(region)
+        plans = self.session.performance.plans if self.session.performance.planned else {}
+
+        def edit(project: Project) -> Project:
+            for player_id, amounts in wanted.items():
+                project = set_amounts(project, plans[player_id], amounts)
+            return project
+
+        if wanted and plans:
+            count = sum(map(len, wanted.values()))
+            self.session.attempt(Message("edit.set_event_amount", {"count": count}), edit, token)
+
+    def key(self, event: QKeyEvent) -> bool:
+        """Up and Down change the amount (with Shift finely), Enter types it, Alt and an arrow go to a neighbour."""
+        modifiers, key = event.modifiers(), event.key()
+        alt = bool(modifiers & Qt.KeyboardModifier.AltModifier)
+        chosen = [self._by_key[item] for item in self.session.selection.events if item in self._by_key]
+        if alt and key in (Qt.Key.Key_Left, Qt.Key.Key_Right):
+            self._go_on(chosen, 1 if key == Qt.Key.Key_Right else -1)
+            return True
+        if not chosen or alt:
+            return False
+        if key in (Qt.Key.Key_Up, Qt.Key.Key_Down):
+            step = FINE_STEP if modifiers & Qt.KeyboardModifier.ShiftModifier else STEP
+            if key == Qt.Key.Key_Down:
+                step = -step
+            self._change_amounts(lambda region: region.amount + step)
+            return True
+        if key in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
+            region = min(chosen, key=lambda item: item.start_s)
+            if not region.removed and not region.steady:
+                self.type_amount(region)
+            return True
+        return False
+
+    def _go_on(self, chosen: Sequence[Region], step: int) -> None:
+        """Select the neighbour of what is selected, else what is nearest to the playhead."""
+        own = [region for region in self._shown if not region.guest]
+        if not own:
+            return
+        if chosen:
+            index = own.index(max(chosen, key=lambda item: item.start_s * step)) + step
+        else:
+            at_s = self.session.playhead_s
+            index = min(range(len(own)), key=lambda place: abs(own[place].start_s - at_s))
+        region = own[min(max(index, 0), len(own) - 1)]
+        self.session.select(Selection(events=frozenset({region.key})))
+        self.axis.reveal(region.start_s, region.end_s)
 
     def hover(self, mouse: LaneMouse | None) -> None:
         region, zone = self.region_at(mouse) if mouse is not None else (None, "")

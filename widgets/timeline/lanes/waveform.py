@@ -6,19 +6,20 @@ from dataclasses import dataclass
 
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
-from PySide6.QtGui import QColor, QFontMetricsF, QKeyEvent, QPainter, QPen
-from PySide6.QtWidgets import QLineEdit, QMenu, QWidget
+from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPen
+from PySide6.QtWidgets import QMenu, QWidget
 
 from app.audio.peaks import Peaks
 from app.errors import Message
 from app.project.document import Change
 from app.project.edit.piece import set_offset
 from app.project.model import Project
-from widgets.common.numbers import number_from, number_text
+from widgets.common.numbers import number_text
 from widgets.common.session import Session
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.lane import Lane, LaneItem, LaneMouse
 from widgets.timeline.lanes.drawing import Floats, draw_lines, draw_text, shade, small_font
+from widgets.timeline.lanes.number_field import NumberField
 
 DRAG_PX = 3.0
 FINE = 0.1
@@ -75,17 +76,6 @@ class _Waveform(LaneItem):
         draw_lines(painter, x, top, x, bottom, QPen(shade(colour, 200), 1.0))
 
 
-class _Editor(QLineEdit):
-    """A field that Escape leaves as it was."""
-
-    def keyPressEvent(self, event: QKeyEvent) -> None:
-        if event.key() == Qt.Key.Key_Escape:
-            self.hide()
-            event.accept()
-        else:
-            super().keyPressEvent(event)
-
-
 class WaveformLane(Lane):
     """The recording. Dragging it moves it against the score; a double click on it types the offset."""
 
@@ -97,18 +87,13 @@ class WaveformLane(Lane):
         super().__init__(session, axis, parent)
         self._drag: _Drag | None = None
         self.waveform = _Waveform(self)
-        self.editor = _Editor(self.plot.viewport())
-        self.editor.setObjectName("offset_editor")
-        self.editor.hide()
-        self.editor.returnPressed.connect(self._typed)
-        self.editor.editingFinished.connect(self._left_editor)
+        self.editor = NumberField(self)
         session.listening.waveform_changed.connect(self.update_items)
         self.retranslate()
 
     def retranslate(self) -> None:
         self.title.setText(self.tr("Recording"))
         self.title.setToolTip(self.tr("Drag to move it against the score, with Shift finely; double-click types"))
-        self.editor.setAccessibleName(self.tr("Offset in seconds"))
         self.update_items()
 
     def empty_text(self) -> str:
@@ -141,7 +126,7 @@ class WaveformLane(Lane):
 
     def project_changed(self, change: Change) -> None:
         if change.opened or change.before.audio is not change.after.audio:
-            self.editor.hide()
+            self.editor.close_field()
             self.update_items()
 
     # The mouse
@@ -187,12 +172,7 @@ class WaveformLane(Lane):
         self._drag = None
         if audio is None:
             return
-        box = self.text_box()
-        self.editor.setText(number_text(audio.offset_s, DECIMALS))
-        self.editor.setGeometry(int(box.left()) - 2, 2, 120, max(self.editor.sizeHint().height(), 24))
-        self.editor.show()
-        self.editor.setFocus()
-        self.editor.selectAll()
+        self.editor.open(self.text_box(), audio.offset_s, DECIMALS, self._typed, self.tr("Offset in seconds"), "s")
 
     def hover(self, mouse: LaneMouse | None) -> None:
         if mouse is not None and self.session.project.audio is not None:
@@ -210,17 +190,7 @@ class WaveformLane(Lane):
                 menu.addAction(action)
         return menu
 
-    def _left_editor(self) -> None:
-        if not self.editor.hasFocus():
-            self.editor.hide()
-
-    def _typed(self) -> None:
-        value = number_from(self.editor.text(), "s")
-        if value is None:
-            self.editor.selectAll()
-            return
-        self.editor.hide()
-        self.plot.setFocus()
+    def _typed(self, offset_s: float) -> None:
         audio = self.session.project.audio
-        if audio is not None and round(value, DECIMALS) != round(audio.offset_s, DECIMALS):
-            self.session.attempt(Message("edit.set_offset"), lambda project: set_offset(project, value))
+        if audio is not None and round(offset_s, DECIMALS) != round(audio.offset_s, DECIMALS):
+            self.session.attempt(Message("edit.set_offset"), lambda project: set_offset(project, offset_s))

@@ -1,0 +1,93 @@
+"""A number typed in the lane itself."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from PySide6.QtCore import QRectF, Qt
+from PySide6.QtGui import QFocusEvent, QKeyEvent
+from PySide6.QtWidgets import QLineEdit
+
+from widgets.common.numbers import number_from, number_text
+from widgets.common.tokens import LEAST_TARGET_PX
+from widgets.timeline.lane import Lane
+
+WIDTH_PX = 84
+
+
+class NumberField(QLineEdit):
+    """A field over the plot: Enter takes the number, Escape or a press elsewhere leaves everything as it was.
+
+    Parameters
+    ----------
+    lane : Lane
+    """
+
+    def __init__(self, lane: Lane) -> None:
+        super().__init__(lane.plot.viewport())
+        self.setObjectName("number_field")
+        self._lane = lane
+        self._decimals = 2
+        self._unit = ""
+        self._take: Callable[[float], None] | None = None
+        self.returnPressed.connect(self._entered)
+        self.hide()
+
+    def open(
+        self, box: QRectF, value: float, decimals: int, take: Callable[[float], None], name: str, unit: str = ""
+    ) -> None:
+        """Ask for a number at a place of the plot.
+
+        Parameters
+        ----------
+        box : QRectF
+            What it belongs to.
+        take : callable
+            Gets the number.
+        name : str
+            For screen readers.
+        """
+        self._decimals, self._take, self._unit = decimals, take, unit
+        self.setAccessibleName(name)
+        self.setToolTip(name)
+        self.setText(number_text(value, decimals))
+        height = max(self.sizeHint().height(), LEAST_TARGET_PX)
+        room = self._lane.plot_rect
+        left = min(max(box.left(), 0.0), max(room.width() - WIDTH_PX, 0.0))
+        top = min(max(box.center().y() - height / 2, 0.0), max(room.height() - height, 0.0))
+        self.setGeometry(round(left), round(top), WIDTH_PX, height)
+        self.show()
+        self.raise_()
+        self.setFocus()
+        self.selectAll()
+
+    def close_field(self) -> None:
+        """Leave everything as it was."""
+        if self.isVisible():
+            self.hide()
+            self._lane.plot.setFocus()
+
+    def _entered(self) -> None:
+        value = number_from(self.text(), self._unit)
+        if value is None:
+            self.selectAll()
+            return
+        take = self._take
+        self.close_field()
+        if take is not None:
+            take(value)
+
+    # Qt overrides
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        if event.key() == Qt.Key.Key_Escape:
+            self.close_field()
+        else:
+            super().keyPressEvent(event)
+        # What a field has no use for must not reach the lane behind it.
+        event.accept()
+
+    def focusOutEvent(self, event: QFocusEvent) -> None:
+        super().focusOutEvent(event)
+        if event.reason() != Qt.FocusReason.PopupFocusReason:
+            self.hide()
