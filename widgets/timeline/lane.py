@@ -257,6 +257,7 @@ class Lane(QWidget):
         self._button = Qt.MouseButton.NoButton
         self._panned_px: QPointF | None = None
         self._last: QMouseEvent | None = None
+        self._span = session.selection.span
 
         self.header = QWidget(self)
         self.header.setFixedWidth(GUTTER_PX)
@@ -585,7 +586,9 @@ class Lane(QWidget):
         self.project_changed(change)
 
     def _selection_set(self) -> None:
-        self.background.update()
+        if self.session.selection.span != self._span:
+            self._span = self.session.selection.span
+            self.background.update()
         self.selection_changed()
 
     def _theme_set(self) -> None:

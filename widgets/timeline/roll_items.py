@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 from pyqtgraph.Qt.internals import PrimitiveArray
 from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
-from PySide6.QtGui import QBrush, QColor, QFontMetricsF, QPainter, QPen, QPolygonF, QStaticText
+from PySide6.QtGui import QBrush, QColor, QFontMetricsF, QImage, QPainter, QPen, QPolygonF, QStaticText
 
 from app.plan.model import PlayerPlan
 from widgets.common.pitch import BLACK
@@ -21,6 +21,9 @@ if TYPE_CHECKING:
 LEVELS = 4
 """Shades of velocity."""
 GHOST_ALPHA = 70
+MOST_RECTANGLES = 12000
+"""More notes behind than this, and the narrow ones become points of a picture: two to four times as fast."""
+NARROW_PX = 1.0
 LABEL_GAP_PX = 5.0
 INSIDE_PX = 15.0
 """In rows at least so high a label stands inside its note."""
@@ -77,12 +80,7 @@ class Notes(LaneItem):
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
         lane: PianoRoll = self.lane  # type: ignore[assignment]
         painter.setPen(Qt.PenStyle.NoPen)
-        for table, colour in lane.ghosts():
-            shade = QColor(colour)
-            shade.setAlpha(GHOST_ALPHA if lane.ghosted else 255)
-            self._draw(painter, table, lane.visible(table, exposed), shade)
-            if not lane.ghosted:
-                self._draw_selected(painter, table, exposed, colour)
+        self._draw_behind(painter, exposed)
         front = lane.front()
         if front is None:
             return
@@ -95,6 +93,23 @@ class Notes(LaneItem):
             shade = mixed(colour, ground, 0.55 * (LEVELS - 1 - number) / (LEVELS - 1))
             self._draw(painter, table, rows[level == number], shade)
         self._draw_selected(painter, table, exposed, colour)
+
+    def _draw_behind(self, painter: QPainter, exposed: QRectF) -> None:
+        """The other players' notes: as rectangles, or where there are very many narrow ones, as points of a picture."""
+        lane: PianoRoll = self.lane  # type: ignore[assignment]
+        behind = []
+        for table, colour in lane.ghosts():
+            shade = QColor(colour)
+            shade.setAlpha(GHOST_ALPHA if lane.ghosted else 255)
+            behind.append((table, lane.visible(table, exposed), shade, colour))
+        if sum(len(rows) for _, rows, _, _ in behind) > MOST_RECTANGLES:
+            picture = _Picture(lane)
+            behind = [(table, picture.draw(table, rows, shade), shade, colour) for table, rows, shade, colour in behind]
+            picture.show(painter)
+        for table, rows, shade, colour in behind:
+            self._draw(painter, table, rows, shade)
+            if not lane.ghosted:
+                self._draw_selected(painter, table, exposed, colour)
 
     def _draw_selected(self, painter: QPainter, table: NoteTable, exposed: QRectF, colour: str) -> None:
         lane: PianoRoll = self.lane  # type: ignore[assignment]
@@ -123,6 +138,38 @@ class Notes(LaneItem):
         memory[:, 3] = height
         painter.setBrush(QBrush(shade))
         painter.drawRects(*array.drawargs())
+
+
+class _Picture:
+    """Notes of a pixel's width, drawn as pixels: a column for each of the plot's, a row for each pitch."""
+
+    def __init__(self, lane: PianoRoll) -> None:
+        self._lane = lane
+        bottom, top = lane.y_range
+        self._low, self._high = int(np.floor(bottom)), int(np.ceil(top))
+        self._width = int(np.ceil(lane.plot_rect.width()))
+        self._pixels = np.zeros((self._high - self._low, self._width), np.uint32)
+
+    def draw(self, table: NoteTable, rows: Integers, shade: QColor) -> Integers:
+        """Draw the narrow ones of some notes; the places of those that are too wide come back."""
+        left, _, width, _ = self._lane.boxes(table, rows)
+        narrow = width <= NARROW_PX
+        x = left[narrow].astype(np.int64)
+        y = (self._high - 1 - table.pitch[rows[narrow]]).astype(np.int64)
+        # Premultiplied, as Qt draws it without a conversion.
+        alpha = shade.alpha()
+        red, green, blue = (round(part * alpha / 255) for part in (shade.red(), shade.green(), shade.blue()))
+        value = (alpha << 24) | (red << 16) | (green << 8) | blue
+        inside = (x >= 0) & (x < self._width)
+        self._pixels[y[inside], x[inside]] = value
+        return rows[~narrow]
+
+    def show(self, painter: QPainter) -> None:
+        """Put the picture onto the plot."""
+        lane = self._lane
+        height, width = self._pixels.shape
+        image = QImage(self._pixels.data, width, height, 4 * width, QImage.Format.Format_ARGB32_Premultiplied)
+        painter.drawImage(QRectF(0.0, lane.y_px(self._high), width, height * lane.row_px), image)
 
 
 class Labels(LaneItem):
