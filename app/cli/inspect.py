@@ -14,7 +14,7 @@ from app.cli.options import Commands, add_source_options, open_project
 from app.cli.summary import columns
 from app.messages import text
 from app.performance.ensemble import Performance
-from app.plan.model import BreathEvent, Clock, CueEvent, FingeringEvent, GestureEvent, Note
+from app.plan.model import BreathEvent, Clock, CueEvent, FingeringEvent, GestureEvent, Note, PoseEvent
 from app.project.model import Player
 from instrument_maps.model import InstrumentMap
 
@@ -89,6 +89,19 @@ def _player(performance: Performance, player: Player) -> Table:
             {"kind": event.kind, **span, "amount": event.amount, "reason": text(event.reason)}
             for event, span in zip(plan.gestures, _spans(plan.gestures, clock), strict=True)
         ],
+        "poses": [
+            {
+                "target": event.target,
+                **span,
+                "up_deg": event.up_deg,
+                "left_deg": event.left_deg,
+                "roll_deg": event.roll_deg,
+                "fade_in_s": event.fade_in_s,
+                "fade_out_s": event.fade_out_s,
+                "reason": text(event.reason),
+            }
+            for event, span in zip(plan.poses, _spans(plan.poses, clock), strict=True)
+        ],
     }
 
 
@@ -109,7 +122,7 @@ def _note(note: Note, fingering: FingeringEvent, instrument: InstrumentMap, cloc
     }
 
 
-def _spans(events: Sequence[BreathEvent | CueEvent | GestureEvent], clock: Clock) -> list[Table]:
+def _spans(events: Sequence[BreathEvent | CueEvent | GestureEvent | PoseEvent], clock: Clock) -> list[Table]:
     """When the events are, in seconds and in quarters."""
     seconds = np.array([(event.start_s, event.end_s) for event in events]).reshape(-1, 2)
     beats = clock.ticks(seconds) / clock.ticks_per_quarter

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+
 import msgspec
 import numpy as np
 import pytest
@@ -80,9 +82,7 @@ def test_bones_keep_their_length(target: PoseTarget, angle: str, value: float) -
         names = [f"{side}{part}" for part in ("UpperArm", "LowerArm", "Hand")]
         places = [position_m for position_m, _ in world(motion, *names)]
         at_rest = [rest[CHARACTER.skeleton.index(name)] for name in names]
-        for (a, b), (rest_a, rest_b) in zip(
-            zip(places, places[1:], strict=False), zip(at_rest, at_rest[1:], strict=False), strict=True
-        ):
+        for (a, b), (rest_a, rest_b) in zip(itertools.pairwise(places), itertools.pairwise(at_rest), strict=True):
             np.testing.assert_allclose(np.linalg.norm(b - a, axis=1), np.linalg.norm(rest_b - rest_a), atol=1e-5)
 
 
