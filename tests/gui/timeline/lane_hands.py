@@ -12,7 +12,8 @@ from app.plan.model import PlayerPlan
 from app.project.document import Change
 from widgets.common.session import Session
 from widgets.timeline.lane import Lane
-from widgets.timeline.lanes.regions import Region, RegionLane
+from widgets.timeline.lanes.region import Region
+from widgets.timeline.lanes.regions import RegionLane
 from widgets.timeline.panel import TimelinePanel
 
 LEFT = Qt.MouseButton.LeftButton

@@ -29,7 +29,8 @@ from widgets.timeline.axis import TimeAxis
 from widgets.timeline.lane import LaneMouse
 from widgets.timeline.lanes.drawing import draw_columns, draw_mark, draw_path, draw_rects, draw_text, polygon, shade
 from widgets.timeline.lanes.geometry import Floats, packed_rows
-from widgets.timeline.lanes.regions import HANDLE_PX, Region, RegionLane
+from widgets.timeline.lanes.region import Region
+from widgets.timeline.lanes.regions import HANDLE_PX, RegionLane
 from widgets.timeline.lanes.row_names import RowNames
 
 GROUPS: tuple[tuple[str, ...], ...] = (
@@ -292,7 +293,7 @@ class ActingLane(RegionLane):
             away_s = score.tempo_map.seconds(float(nearest)) - score.tempo_map.seconds(wanted)
             if abs(away_s) * self.axis.px_per_s <= CUE_REACH_PX:
                 return nearest - region.end_tick
-        return self._snap(wanted, mouse) - region.end_tick
+        return self.snap(wanted, mouse) - region.end_tick
 
     def group_at(self, y_px: float) -> str:
         """The kind whose rows are at a height."""
@@ -350,8 +351,8 @@ class ActingLane(RegionLane):
 
         self.session.attempt(Message("edit.set_expression"), edit)
 
-    def _span(self, mouse: LaneMouse) -> tuple[int, int]:
-        start = self._snap(mouse.tick, mouse)
+    def _new_span(self, mouse: LaneMouse) -> tuple[int, int]:
+        start = self.snap(mouse.tick, mouse)
         return start, start + NEW_BEATS * self.session.project.felt_beat_ticks
 
     def _add_cue(self, mouse: LaneMouse) -> None:
@@ -362,7 +363,7 @@ class ActingLane(RegionLane):
         self._add(
             Message("edit.add_expression"),
             lambda project, plan: add_expression(
-                project, plan.player_id, name, *self._span(mouse), 1.0, face.fade_in_s, face.fade_out_s
+                project, plan.player_id, name, *self._new_span(mouse), 1.0, face.fade_in_s, face.fade_out_s
             ),
         )
 
@@ -370,7 +371,7 @@ class ActingLane(RegionLane):
         amount = 1.0 if kind == "lower_instrument" else 0.5
         self._add(
             Message("edit.add_gesture"),
-            lambda project, plan: add_gesture(project, plan.player_id, kind, *self._span(mouse), amount),
+            lambda project, plan: add_gesture(project, plan.player_id, kind, *self._new_span(mouse), amount),
         )
 
     def _add(self, name: Message, edit: Callable[[Project, PlayerPlan], Edited]) -> None:

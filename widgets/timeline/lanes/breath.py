@@ -17,7 +17,8 @@ from widgets.timeline.axis import TimeAxis
 from widgets.timeline.lane import LaneMouse
 from widgets.timeline.lanes.drawing import draw_mark, draw_text, shade
 from widgets.timeline.lanes.problems import ProblemMarks
-from widgets.timeline.lanes.regions import Region, RegionLane
+from widgets.timeline.lanes.region import Region
+from widgets.timeline.lanes.regions import RegionLane
 
 PREPARATION_SHARE = 0.45
 """Height of a preparation, of the lane."""

@@ -4,10 +4,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
 
-import msgspec
-import numpy as np
 from msgspec.structs import replace
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QAction, QColor, QKeyEvent, QPainter, QPen
@@ -17,7 +14,7 @@ from app.errors import Message
 from app.plan.corrections import RemoveEvent
 from app.plan.model import PlayerPlan
 from app.project.document import Change
-from app.project.edit.events import Edited, move, resize, set_amounts, set_fades
+from app.project.edit.events import set_amounts
 from app.project.model import Project
 from widgets.common.selection import EventKey, Selection
 from widgets.common.session import Session
@@ -25,82 +22,17 @@ from widgets.common.text import message_text
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.lane import Lane, LaneItem, LaneMouse
 from widgets.timeline.lanes.drawing import MARK_PX, draw_mark, shade, small_font
-from widgets.timeline.lanes.geometry import Spans
 from widgets.timeline.lanes.number_field import NumberField
+from widgets.timeline.lanes.region import Region, place_of, spans_of
+from widgets.timeline.lanes.region_drag import RegionDrag
 
 EDGE_PX = 6.0
 HANDLE_PX = 5.0
 LEAST_REGION_PX = 3.0
-DRAG_PX = 3.0
-"""The mouse moves this far before a press becomes a drag."""
 STEP, FINE_STEP = 0.05, 0.01
 """What Up and Down add to an amount."""
 GLYPH_PX = 12.0
 """Width of the mark of a removed event, which has no length."""
-
-
-class Region(msgspec.Struct):
-    """An event as a lane shows it; only the lane that makes it sets its row.
-
-    Attributes
-    ----------
-    kind : str
-        The first part of the event's id.
-    row : int
-        Counted from the top.
-    amount : float
-        0..1, or -1..1 where it is ``signed``.
-    reason : Message or None
-    steady : bool
-        It has no amount that could be dragged.
-    guest : bool
-        It is another player's, shown because it matters here.
-    removed : bool
-        A person took it out: only its place is shown.
-    """
-
-    player_id: str
-    event_id: str
-    kind: str
-    start_tick: int
-    end_tick: int
-    start_s: float
-    end_s: float
-    row: int = 0
-    amount: float = 1.0
-    label: str = ""
-    reason: Message | None = None
-    by_hand: bool = False
-    signed: bool = False
-    steady: bool = False
-    fade_in_s: float = 0.0
-    fade_out_s: float = 0.0
-    fades: bool = False
-    peak_s: float = 0.0
-    guest: bool = False
-    removed: bool = False
-
-    @property
-    def key(self) -> EventKey:
-        """As the selection names it."""
-        return EventKey(self.player_id, self.event_id)
-
-
-@dataclass
-class _Drag:
-    """A press in the lane that may become a drag. ``mode`` is set once it moves far enough."""
-
-    region: Region | None
-    zone: str
-    at: LaneMouse
-    project: Project
-    plans: dict[str, PlayerPlan]
-    keys: tuple[EventKey, ...]
-    selection: Selection
-    shown: dict[EventKey, Region]
-    token: object
-    mode: str = ""
-    lasso: QRectF | None = None
 
 
 class _Regions(LaneItem):
@@ -152,15 +84,15 @@ class RegionLane(Lane):
         super().__init__(session, axis, parent)
         self._shown: list[Region] = []
         self._by_key: dict[EventKey, Region] = {}
-        self._spans = _spans(())
+        self._spans = spans_of(())
         self._single: list[Region] = []
-        self._single_spans = _spans(())
+        self._single_spans = spans_of(())
         self._row_count = 1
         self._scrolled_px = 0.0
         self._made_for: tuple[object, ...] = ()
         self._preview: dict[EventKey, Region] = {}
         self._hidden: frozenset[EventKey] = frozenset()
-        self._drag: _Drag | None = None
+        self._drag: RegionDrag | None = None
         self._hovered: Region | None = None
         self.regions_item = _Regions(self)
         self.number = NumberField(self)
@@ -195,7 +127,7 @@ class RegionLane(Lane):
 
     def snapped_move(self, region: Region, ticks: float, mouse: LaneMouse) -> int:
         """How far a region dragged by some ticks goes: its start falls on the grid."""
-        return self._snap(region.start_tick + ticks, mouse) - region.start_tick
+        return self.snap(region.start_tick + ticks, mouse) - region.start_tick
 
     # The regions
 
@@ -323,9 +255,9 @@ class RegionLane(Lane):
         regions.sort(key=lambda region: (region.start_s, region.end_s, region.event_id))
         self._shown = regions
         self._by_key = {region.key: region for region in regions}
-        self._spans = _spans(regions)
+        self._spans = spans_of(regions)
         self._single = [region for region in regions if region.removed or not self.is_calm(region)]
-        self._single_spans = _spans(self._single)
+        self._single_spans = spans_of(self._single)
         self._hovered = None
         self.regions_refreshed()
         self.update_items()
@@ -344,7 +276,7 @@ class RegionLane(Lane):
                 continue
             if not onsets:
                 onsets = {note.id: note.onset_tick for note in project.part(project.player(plan.player_id)).notes}
-            tick = _place_of(item.event_id, onsets)
+            tick = place_of(item.event_id, onsets)
             at_s = plan.time_frame.first_frame_s if tick is None else project.score.tempo_map.seconds(float(tick))
             tick = round(project.score.tempo_map.ticks(at_s))
             result.append(
@@ -375,158 +307,21 @@ class RegionLane(Lane):
 
     def press(self, mouse: LaneMouse) -> None:
         region, zone = self.region_at(mouse)
-        selection = self.session.selection
+        before = self.session.selection
         if region is not None:
             key = region.key
             if mouse.ctrl or mouse.shift:
-                events = selection.events ^ {key} if mouse.ctrl else selection.events | {key}
-                self.session.select(msgspec.structs.replace(selection, events=frozenset(events), span=None))
-            elif key not in selection.events:
+                events = before.events ^ {key} if mouse.ctrl else before.events | {key}
+                self.session.select(replace(before, events=frozenset(events), span=None))
+            elif key not in before.events:
                 self.session.select(Selection(events=frozenset({key})))
-        selected = self.session.selection.events
-        keys = tuple(sorted(selected)) if region is not None and region.key in selected else ()
-        performance = self.session.performance
-        plans = performance.plans if performance.planned else {}
-        shown = {region.key: region for region in self._shown if region.key in selected and not region.removed}
-        self._drag = _Drag(region, zone, mouse, self.session.project, plans, keys, selection, shown, object())
+        self._drag = RegionDrag(self, region, zone, mouse, before)
 
     def drag(self, mouse: LaneMouse) -> None:
-        drag = self._drag
-        if drag is None:
-            return
-        if not drag.mode:
-            across, along = abs(mouse.y_px - drag.at.y_px), abs(mouse.x_px - drag.at.x_px)
-            if max(across, along) < DRAG_PX:
-                return
-            drag.mode = self._mode(drag, across > along)
-        if drag.mode == "lasso":
-            drag.lasso = QRectF(QPointF(drag.at.x_px, drag.at.y_px), QPointF(mouse.x_px, mouse.y_px)).normalized()
-            self._lasso_select(drag)
+        if self._drag is not None:
+            self._drag.move_to(mouse)
+            self._preview, self._hidden = self._drag.preview, self._drag.hidden
             self.update_items()
-        elif drag.mode and drag.region is not None and drag.keys:
-            self._edit(drag, drag.region, mouse)
-
-    def _mode(self, drag: _Drag, across: bool) -> str:
-        region = drag.region
-        if region is None:
-            return "lasso"
-        if region.removed or not drag.plans:
-            return "none"
-        if drag.zone != "body":
-            return drag.zone
-        if across:
-            return "none" if region.steady else "amount"
-        return "move"
-
-    def _edit(self, drag: _Drag, region: Region, mouse: LaneMouse) -> None:
-        by_player: dict[str, list[str]] = defaultdict(list)
-        for key in drag.keys:
-            by_player[key.player_id].append(key.event_id)
-        count = len(drag.keys)
-        drag_s = mouse.time_s - drag.at.time_s
-        if drag.mode in ("move", "start", "end"):
-            ticks = mouse.tick - drag.at.tick
-            if drag.mode == "move":
-                moved = self.snapped_move(region, ticks, mouse)
-            elif drag.mode == "start":
-                moved = self._snap(region.start_tick + ticks, mouse) - region.start_tick
-                moved = min(moved, region.end_tick - region.start_tick - 1)
-            else:
-                moved = self._snap(region.end_tick + ticks, mouse) - region.end_tick
-                moved = max(moved, region.start_tick - region.end_tick + 1)
-            start, end = (0 if drag.mode == "end" else moved), (0 if drag.mode == "start" else moved)
-
-            def place(project: Project, plan: PlayerPlan, ids: Sequence[str]) -> Edited:
-                if start == end:
-                    return move(project, plan, ids, start)
-                return Edited(resize(project, plan, ids, start, end), tuple(ids))
-
-            name = Message("edit.move_events" if drag.mode == "move" else "edit.resize_events", {"count": count})
-            self._preview_shift(drag, start, end)
-            self._apply(drag, name, by_player, place)
-        elif drag.mode == "amount":
-            _, height = self.row_box(region.row)
-            change = (drag.at.y_px - mouse.y_px) / max(height - 2.0, 1.0) * (2.0 if region.signed else 1.0)
-            if mouse.shift:
-                change /= 5.0
-            amounts = self._amounts(drag, change)
-
-            def raise_(project: Project, plan: PlayerPlan, ids: Sequence[str]) -> Edited:
-                chosen = {
-                    event_id: amounts[EventKey(plan.player_id, event_id)]
-                    for event_id in ids
-                    if EventKey(plan.player_id, event_id) in amounts
-                }
-                return Edited(set_amounts(project, plan, chosen), tuple(ids))
-
-            self._apply(drag, Message("edit.set_event_amount", {"count": count}), by_player, raise_)
-        elif drag.mode in ("fade_in", "fade_out"):
-            length_s = region.end_s - region.start_s
-            into = min(max(region.fade_in_s + drag_s, 0.0), length_s) if drag.mode == "fade_in" else None
-            out = min(max(region.fade_out_s - drag_s, 0.0), length_s) if drag.mode == "fade_out" else None
-            shown = replace(
-                region,
-                by_hand=True,
-                fade_in_s=region.fade_in_s if into is None else into,
-                fade_out_s=region.fade_out_s if out is None else out,
-            )
-            self._preview = {region.key: shown}
-
-            def fade(project: Project, plan: PlayerPlan, ids: Sequence[str]) -> Edited:
-                return Edited(set_fades(project, plan, ids, into, out), tuple(ids))
-
-            self._apply(drag, Message("edit.set_fades"), by_player, fade)
-
-    def _amounts(self, drag: _Drag, change: float) -> dict[EventKey, float]:
-        """All selected events change by the same; the preview shows it before the plan does."""
-        result = {}
-        for region in drag.shown.values():
-            if not region.steady:
-                least = -1.0 if region.signed else 0.0
-                result[region.key] = round(min(max(region.amount + change, least), 1.0), 3)
-        self._preview = {key: replace(drag.shown[key], amount=amount, by_hand=True) for key, amount in result.items()}
-        return result
-
-    def _preview_shift(self, drag: _Drag, start: int, end: int) -> None:
-        seconds = self.session.project.score.tempo_map.seconds
-        preview = {}
-        for region in drag.shown.values():
-            first, last = region.start_tick + start, region.end_tick + end
-            last = max(last, first + 1)
-            start_s = seconds(float(first))
-            preview[region.key] = replace(
-                region,
-                start_tick=first,
-                end_tick=last,
-                start_s=start_s,
-                end_s=seconds(float(last)),
-                peak_s=region.peak_s + start_s - region.start_s,
-                by_hand=True,
-            )
-        self._preview = preview
-
-    def _apply(
-        self,
-        drag: _Drag,
-        name: Message,
-        by_player: dict[str, list[str]],
-        edit: Callable[[Project, PlayerPlan, Sequence[str]], Edited],
-    ) -> None:
-        """Edit from where the drag began, so that a drag back leaves nothing; the selection goes with new ids."""
-        keys: set[EventKey] = set()
-
-        def whole(_: Project) -> Project:
-            project = drag.project
-            for player_id, ids in by_player.items():
-                project, new_ids = edit(project, drag.plans[player_id], ids)
-                keys.update(EventKey(player_id, event_id) for event_id in new_ids)
-            return project
-
-        if self.session.attempt(name, whole, drag.token, self):
-            # An event that has come to another note has another id; it must not be drawn twice.
-            self._hidden = frozenset(keys)
-            self.session.select(Selection(events=frozenset(keys)))
-        self.update_items()
 
     def is_preview(self, region: Region) -> bool:
         """Whether it is a region in mid-drag, drawn before the plan shows it."""
@@ -540,41 +335,22 @@ class RegionLane(Lane):
         drag, self._drag = self._drag, None
         if drag is None:
             return
-        if not drag.mode:
-            self._clicked(drag, mouse)
-        elif drag.mode not in ("lasso", "none"):
+        if drag.edits:
             self.session.document.end_gesture()
+        elif not drag.mode and not (mouse.ctrl or mouse.shift):
+            # A press without a drag: on one of several selected it selects that one, on nothing it selects nothing.
+            region = drag.region
+            self.session.select(Selection(events=frozenset({region.key}) if region is not None else frozenset()))
         if self.session.performance.project is self.session.project:
             self._end_preview()
         self.update_items()
 
-    def _clicked(self, drag: _Drag, mouse: LaneMouse) -> None:
-        """A press without a drag: on one of several selected it selects that one, on nothing it selects nothing."""
-        if mouse.ctrl or mouse.shift:
-            return
-        if drag.region is not None:
-            self.session.select(Selection(events=frozenset({drag.region.key})))
-        else:
-            self.session.select(Selection())
-
     def cancel(self) -> None:
         drag, self._drag = self._drag, None
         self._end_preview()
-        if drag is not None and drag.mode == "lasso":
-            self.session.select(drag.selection)
-        elif drag is not None and drag.mode:
-            # Back to where it began is no step.
-            self.session.apply(Message("edit.move_events", {"count": 0}), drag.project, drag.token, self)
-            self.session.document.end_gesture()
-            self.session.select(Selection(events=frozenset(drag.keys)))
+        if drag is not None:
+            drag.cancel()
         self.update_items()
-
-    def _lasso_select(self, drag: _Drag) -> None:
-        assert drag.lasso is not None
-        inside = {region.key for region in self._shown if not region.guest and self.box(region).intersects(drag.lasso)}
-        if drag.at.ctrl or drag.at.shift:
-            inside |= drag.selection.events
-        self.session.select(msgspec.structs.replace(drag.selection, notes=frozenset(), events=frozenset(inside)))
 
     def double_click(self, mouse: LaneMouse) -> None:
         region, _ = self.region_at(mouse)
@@ -685,24 +461,6 @@ class RegionLane(Lane):
                     menu.addAction(action)
         return menu
 
-    def _snap(self, tick: float, mouse: LaneMouse) -> int:
+    def snap(self, tick: float, mouse: LaneMouse) -> int:
+        """The nearest line of the grid; the tick itself while Alt is held."""
         return round(tick) if mouse.alt else self.session.grid.snap(self.session.project.score, tick)
-
-
-def _spans(regions: Sequence[Region]) -> Spans:
-    return Spans(
-        np.array([region.start_s for region in regions], np.float64),
-        np.array([region.end_s for region in regions], np.float64),
-    )
-
-
-def _place_of(event_id: str, onsets: dict[str, int]) -> int | None:
-    """The tick that an event's id tells: of its note, or after an @."""
-    parts = event_id.split(":")
-    for first in range(1, len(parts)):
-        rest = ":".join(parts[first:])
-        if rest in onsets:
-            return onsets[rest]
-        if rest.startswith("@") and rest[1:].lstrip("-").isdecimal():
-            return int(rest[1:])
-    return None

@@ -1,0 +1,79 @@
+"""An event as a lane shows it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import msgspec
+import numpy as np
+
+from app.errors import Message
+from widgets.common.selection import EventKey
+from widgets.timeline.lanes.geometry import Spans
+
+
+class Region(msgspec.Struct):
+    """An event as a lane shows it; only the lane that makes it sets its row.
+
+    Attributes
+    ----------
+    kind : str
+        The first part of the event's id.
+    row : int
+        Counted from the top.
+    amount : float
+        0..1, or -1..1 where it is ``signed``.
+    reason : Message or None
+    steady : bool
+        It has no amount that could be dragged.
+    guest : bool
+        It is another player's, shown because it matters here.
+    removed : bool
+        A person took it out: only its place is shown.
+    """
+
+    player_id: str
+    event_id: str
+    kind: str
+    start_tick: int
+    end_tick: int
+    start_s: float
+    end_s: float
+    row: int = 0
+    amount: float = 1.0
+    label: str = ""
+    reason: Message | None = None
+    by_hand: bool = False
+    signed: bool = False
+    steady: bool = False
+    fade_in_s: float = 0.0
+    fade_out_s: float = 0.0
+    fades: bool = False
+    peak_s: float = 0.0
+    guest: bool = False
+    removed: bool = False
+
+    @property
+    def key(self) -> EventKey:
+        """As the selection names it."""
+        return EventKey(self.player_id, self.event_id)
+
+
+def spans_of(regions: Sequence[Region]) -> Spans:
+    """Where regions are, to be found by time."""
+    return Spans(
+        np.array([region.start_s for region in regions], np.float64),
+        np.array([region.end_s for region in regions], np.float64),
+    )
+
+
+def place_of(event_id: str, onsets: Mapping[str, int]) -> int | None:
+    """The tick that an event's id tells: of its note, or after an @."""
+    parts = event_id.split(":")
+    for first in range(1, len(parts)):
+        rest = ":".join(parts[first:])
+        if rest in onsets:
+            return onsets[rest]
+        if rest.startswith("@") and rest[1:].lstrip("-").isdecimal():
+            return int(rest[1:])
+    return None
