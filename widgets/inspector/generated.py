@@ -13,8 +13,8 @@ from app.project.model import Project
 from widgets.common.session import Session
 from widgets.common.tasks import Progress, StopWanted
 
-AT_ONCE_NOTES = 600
-"""So many notes are planned while a person does not notice."""
+AT_ONCE_NOTES = 3000
+"""So many notes are planned while a person hardly notices."""
 
 
 class Generated(QObject):
@@ -34,6 +34,7 @@ class Generated(QObject):
         self._player_id: str | None = None
         self._of: Performance | None = None
         self._plan: PlayerPlan | None = None
+        self._bare: Performance | None = None
         self._underway: tuple[Performance, str] | None = None
 
     def plan(self, player_id: str) -> PlayerPlan | None:
@@ -50,29 +51,33 @@ class Generated(QObject):
         return self._plan if self._of is performance and self._player_id == player_id else None
 
     def _make(self, performance: Performance, player_id: str) -> None:
-        bare = Performance(_without_corrections(performance.project, player_id), performance)
-        if len(performance.project.part(performance.project.player(player_id)).notes) <= AT_ONCE_NOTES:
+        # Most edits change nothing of what would be without corrections: what was made for it before serves again.
+        before = self._bare if self._bare is not None and self._player_id == player_id else performance
+        bare = Performance(_without_corrections(performance.project, player_id), before)
+        if bare.unplanned_notes <= AT_ONCE_NOTES:
             try:
-                self._keep(performance, player_id, bare.plans[player_id])
+                bare.prepare()
             except AppError:
-                self._keep(performance, player_id, None)
+                return
+            self._keep(performance, player_id, bare)
             return
         self._underway = (performance, player_id)
 
-        def work(progress: Progress, stop_wanted: StopWanted) -> PlayerPlan:
+        def work(progress: Progress, stop_wanted: StopWanted) -> Performance:
             bare.prepare(stop_wanted, progress)
-            return bare.plans[player_id]
+            return bare
 
-        def done(plan: PlayerPlan) -> None:
+        def done(made: Performance) -> None:
             self._underway = None
-            self._keep(performance, player_id, plan)
+            self._keep(performance, player_id, made)
             self.changed.emit()
 
         name = performance.project.player(player_id).name
         self._session.tasks.run(Message("work.compare", {"player": name}), work, done, key="compare")
 
-    def _keep(self, performance: Performance, player_id: str, plan: PlayerPlan | None) -> None:
-        self._of, self._player_id, self._plan = performance, player_id, plan
+    def _keep(self, performance: Performance, player_id: str, bare: Performance) -> None:
+        self._of, self._player_id, self._bare = performance, player_id, bare
+        self._plan = bare.plans[player_id]
 
 
 def _without_corrections(project: Project, player_id: str) -> Project:

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 from app.plan.model import FingeringEvent, PlayerPlan
 from app.project.edit.events import Placed, placed_events
-from app.project.model import Player, Project
-from app.score.model import Note
+from app.project.model import Player
+from app.score.model import Note, Part
 from widgets.common.session import Session
 
 MOST_NOTES = 500
@@ -45,18 +45,20 @@ class SelectedNotes:
 
 
 class NoteFinder:
-    """Notes by id, found again quickly while the score stays the same."""
+    """Notes of parts by id, found again quickly while a part stays the same."""
 
     def __init__(self) -> None:
-        self._parts: object = None
-        self._where: dict[str, tuple[str, Note]] = {}
+        self._known: dict[str, tuple[tuple[Note, ...], dict[str, Note]]] = {}
 
-    def find(self, project: Project, note_id: str) -> tuple[str, Note] | None:
-        """Part id and note."""
-        if self._parts is not project.score.parts:
-            self._parts = project.score.parts
-            self._where = {note.id: (part.id, note) for part in project.score.parts for note in part.notes}
-        return self._where.get(note_id)
+    def chosen(self, part: Part, ids: frozenset[str]) -> list[Note]:
+        """The notes of a part that have these ids."""
+        notes, by_id = self._known.get(part.id, ((), {}))
+        if notes is not part.notes:
+            by_id = {note.id: note for note in part.notes}
+            self._known[part.id] = (part.notes, by_id)
+        if len(ids) > len(by_id):
+            return [note for note in part.notes if note.id in ids]
+        return [by_id[note_id] for note_id in ids if note_id in by_id]
 
 
 def selected_notes(session: Session, finder: NoteFinder) -> SelectedNotes | None:
@@ -65,15 +67,19 @@ def selected_notes(session: Session, finder: NoteFinder) -> SelectedNotes | None
     # A fingering or an embouchure is a note's.
     of_notes = {key.event_id.partition(":")[2] for key in selection.events if key.event_id.startswith(_OF_NOTES)}
     ids = selection.notes | of_notes
-    found = [place for note_id in ids if (place := finder.find(project, note_id)) is not None]
-    if not found:
+    if not ids:
         return None
-    parts = {part_id for part_id, _ in found}
     front = [project.player(player_id) for player_id in session.players]
-    player = next((one for one in (*front, *project.players) if one.part_id in parts), None)
-    part_id = player.part_id if player is not None else found[0][0]
-    notes = sorted((note for part, note in found if part == part_id), key=lambda note: (note.onset_tick, -note.pitch))
-    return SelectedNotes(player, notes[0], tuple(notes[:MOST_NOTES]), ids)
+    owners = dict.fromkeys((*front, *project.players))
+    played = {player.part_id for player in owners}
+    seats: list[tuple[Player | None, Part]] = [(player, project.part(player)) for player in owners]
+    seats += [(None, part) for part in project.score.parts if part.id not in played]
+    for player, part in seats:
+        found = finder.chosen(part, ids)
+        if found:
+            notes = sorted(found, key=lambda note: (note.onset_tick, -note.pitch))
+            return SelectedNotes(player, notes[0], tuple(notes[:MOST_NOTES]), ids)
+    return None
 
 
 def selected_events(session: Session) -> tuple[PlayerPlan, tuple[Placed, ...]] | None:

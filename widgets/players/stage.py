@@ -238,6 +238,7 @@ class StageView(QWidget):
 
     def paintEvent(self, event: QPaintEvent) -> None:
         tokens, painter = self._session.tokens, QPainter(self)
+        held, self._view = self._view, self._frame()
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         shape = QPainterPath()
         box = QRectF(self.rect()).adjusted(0.75, 0.75, -0.75, -0.75)
@@ -251,6 +252,7 @@ class StageView(QWidget):
         for number, player in sorted(numbered, key=lambda item: item[1].id in self._session.players):
             self._paint_player(painter, number, player)
         painter.restore()
+        self._view = held
         painter.setBrush(Qt.BrushStyle.NoBrush)
         focused = self.hasFocus()
         painter.setPen(QPen(QColor(tokens.accent if focused else tokens.line), 1.5 if focused else 1.0))
