@@ -104,6 +104,13 @@ def _bar_step(score: Score, first: int, last: int, px_per_s: float) -> int:
     return every
 
 
+def beat_of_tick(score: Score, tick: float) -> str:
+    """The beat of its bar in which a tick lies, counted from 1: ``"3.5"``."""
+    start = score.tick_of_bar(score.bar_of_tick(int(tick // 1)))
+    beat = 1 + (tick - start) * _denominator(score, start) / (4 * score.ticks_per_quarter)
+    return f"{beat:.2f}".rstrip("0").rstrip(".")
+
+
 def _denominator(score: Score, tick: int) -> int:
     metre = score.metres[0]
     for candidate in score.metres:
@@ -116,4 +123,4 @@ def _denominator(score: Score, tick: int) -> int:
 def _between(start: int, end: int, step: float) -> Floats:
     """The lines strictly inside a bar."""
     count = int(np.ceil((end - start) / step - 1e-9))
-    return start + step * np.arange(1, count)
+    return start + step * np.arange(1, count, dtype=np.float64)

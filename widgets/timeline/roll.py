@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import numpy.typing as npt
-from PySide6.QtCore import QEvent, QLineF, QRectF, Qt
+from PySide6.QtCore import QEvent, QLineF, QRectF, Qt, Signal
 from PySide6.QtGui import QAction, QCursor, QFont, QResizeEvent
 from PySide6.QtWidgets import QMenu, QToolTip, QWidget
 
 from app.errors import Message
-from app.plan.model import PlayerPlan
 from app.project.document import Change
 from app.project.edit import notes
 from app.project.model import Player
@@ -23,9 +22,10 @@ from widgets.common.tokens import LEAST_TEXT_PT
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.keyboard import KEYBOARD_PX, Keyboard
 from widgets.timeline.lane import GUTTER_PX, Lane, LaneItem, LaneMouse
+from widgets.timeline.lines import beat_of_tick
 from widgets.timeline.note_table import Flags, Floats, NoteTable
 from widgets.timeline.roll_gestures import Draw, Erase, Gesture, LassoNotes, Move, Resize, Velocity
-from widgets.timeline.roll_items import Labels, Lasso, Notes, Rows
+from widgets.timeline.roll_items import Hint, Labels, Lasso, Notes, Rows
 
 Integers = npt.NDArray[np.int64]
 
@@ -57,6 +57,9 @@ MENU = (
 class PianoRoll(Lane):
     """The piano roll."""
 
+    told = Signal(str)
+    """What is under the mouse, for the tool bar."""
+
     id = "roll"
     preferred_height_px = 210
     least_height_px = 150
@@ -75,6 +78,7 @@ class PianoRoll(Lane):
         self.notes = Notes(self)
         self.labels = Labels(self)
         self.lasso = Lasso(self)
+        self.hint_item = Hint(self, 5.0)
         self._set_font()
         session.pitch_display.changed.connect(self.keyboard.update)
         self.fit_pitch()
@@ -133,6 +137,15 @@ class PianoRoll(Lane):
         if front is not None:
             behind.pop(front.part_id, None)
         return [(self.table(player), self.session.colour(player)) for player in behind.values()]
+
+    def hint(self) -> str:
+        """What to do where nothing is yet; empty where there are notes."""
+        front = self.front()
+        if front is None:
+            return self.tr("Nobody plays yet: open a MIDI file, or add a player.")
+        if len(front[0]):
+            return ""
+        return self.tr("No notes yet: take the pencil and draw, double-click, or paste.")
 
     @property
     def playable(self) -> tuple[int, int] | None:
@@ -351,8 +364,10 @@ class PianoRoll(Lane):
         self.keyboard.show_pitch(None if mouse is None else int(mouse.value // 1))
         if mouse is None:
             self.lasso.show(None)
+            self.told.emit("")
             return
         hit = self.note_at(mouse)
+        self._tell(mouse, hit)
         if self._tool is Tool.SPLIT:
             x = self.axis.x_px(self.session.project.score.tempo_map.seconds(float(mouse.snapped_tick)))
             top = self.y_px(int(mouse.value // 1) + 1)
@@ -410,9 +425,24 @@ class PianoRoll(Lane):
         place = front[0].index.get(note_id) if front is not None else None
         return front[0].part.notes[place] if front is not None and place is not None else None
 
-    def problems_at(self, note: Note, plan: PlayerPlan) -> str:
-        """What is wrong about a note, for a person."""
-        return "\n".join(message_text(problem.message) for problem in plan.problems if problem.note_id == note.id)
+    def _tell(self, mouse: LaneMouse, note: Note | None) -> None:
+        """Say what is under the mouse: place and pitch, or the note; problems of a note as a tool tip."""
+        score = self.session.project.score
+        tick = mouse.tick if note is None else note.onset_tick
+        bar = score.bar_of_tick(int(tick // 1))
+        beat = beat_of_tick(score, tick)
+        pitch = self.pitch_text(int(mouse.value // 1))
+        text = self.tr("{pitch} · bar {bar}, beat {beat}").format(pitch=pitch, bar=bar, beat=beat)
+        problems = ""
+        if note is not None:
+            text += self.tr(" · velocity {velocity}").format(velocity=note.velocity)
+            player = self.session.player
+            plan = self.plan_of(player) if player is not None else None
+            found = [problem for problem in plan.problems if problem.note_id == note.id] if plan is not None else []
+            problems = "\n".join(message_text(problem.message) for problem in found)
+        self.told.emit(text)
+        if self.plot.toolTip() != problems:
+            self.plot.setToolTip(problems)
 
     # When something changes
 

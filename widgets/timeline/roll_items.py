@@ -312,3 +312,15 @@ class Lasso(LaneItem):
         if self.cut is not None:
             painter.setPen(QPen(accent, 1.0, Qt.PenStyle.DashLine))
             painter.drawLine(self.cut)
+
+
+class Hint(LaneItem):
+    """What to do where nothing is yet."""
+
+    def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
+        lane: PianoRoll = self.lane  # type: ignore[assignment]
+        text = lane.hint()
+        if text:
+            painter.setFont(lane.font())
+            painter.setPen(QColor(lane.session.tokens.text_dim))
+            painter.drawText(lane.plot_rect, int(Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextWordWrap), text)

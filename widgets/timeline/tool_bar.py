@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from PySide6.QtCore import QEvent, QSize, Qt
 from PySide6.QtGui import QActionGroup, QColor, QIcon, QPalette, QPixmap
-from PySide6.QtWidgets import QButtonGroup, QComboBox, QHBoxLayout, QMenu, QSizePolicy, QToolButton, QWidget
+from PySide6.QtWidgets import QButtonGroup, QComboBox, QHBoxLayout, QLabel, QMenu, QSizePolicy, QToolButton, QWidget
 
 from app.project.document import Change
 from widgets.common.icons import icon
@@ -62,6 +62,12 @@ class ToolBar(QWidget):
         modes.triggered.connect(lambda action: self._choose_ghosts(action.data()))
         row.addWidget(self.ghosts_button)
         row.addStretch(1)
+        self.readout = QLabel(self)
+        self.readout.setObjectName("readout")
+        self.readout.setForegroundRole(QPalette.ColorRole.PlaceholderText)
+        row.addWidget(self.readout)
+        roll.told.connect(self._tell)
+        session.selection_changed.connect(self._count)
         session.changed.connect(self._session_changed)
         session.players_changed.connect(self._fill_players)
         session.theme_changed.connect(self._theme_set)
@@ -115,6 +121,17 @@ class ToolBar(QWidget):
         self._modes[mode].setChecked(True)
         self.ghosts_button.setText(self._modes[mode].text())
         self.ghosts_button.setIcon(icon(GHOST_ICONS[mode], self._session.tokens))
+
+    def _tell(self, text: str) -> None:
+        """Show what is under the mouse; nothing: how much is selected."""
+        if text:
+            self.readout.setText(text)
+        else:
+            self._count()
+
+    def _count(self) -> None:
+        count = len(self._session.selection.notes)
+        self.readout.setText(self.tr("Selected notes: {count}").format(count=count) if count else "")
 
     def _choose_tool(self, button: QToolButton) -> None:
         self._roll.set_tool(next(tool for tool, each in self.tools.items() if each is button))
