@@ -197,3 +197,7 @@ __all__ = [
     "model_path",
     "parse_map",
 ]
+
+
+# Worked out here, under the import's lock: two threads that use a type for the first time at once crash msgspec.
+msgspec.json.Decoder(InstrumentMap)

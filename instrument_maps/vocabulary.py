@@ -140,3 +140,7 @@ def vocabulary() -> Vocabulary:
     except (tomllib.TOMLDecodeError, msgspec.ValidationError) as error:
         raise MapError("vocabulary.invalid", file=PATH.name, detail=str(error)) from error
     return Vocabulary(table.instruments, PATH.name)
+
+
+# Worked out here, under the import's lock: two threads that use a type for the first time at once crash msgspec.
+msgspec.json.Decoder(_Table)

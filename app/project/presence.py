@@ -177,3 +177,7 @@ def remove(path: Path) -> None:
     """Take a file away if it is there and the system lets it go."""
     with contextlib.suppress(OSError):
         path.unlink(missing_ok=True)
+
+
+# Worked out here, under the import's lock: two threads that use a type for the first time at once crash msgspec.
+msgspec.json.Decoder(Note)

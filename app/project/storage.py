@@ -330,3 +330,8 @@ def _plain_number(value: Any) -> Any:
     if isinstance(value, np.generic):
         return value.item()
     raise TypeError(f"{type(value).__name__} cannot be kept in a file")
+
+
+# Worked out here, under the import's lock: two threads that use a type for the first time at once crash msgspec.
+for _type in (_Content, tuple[Correction, ...]):
+    msgspec.json.Decoder(_type)
