@@ -3,6 +3,7 @@
 Messages
 --------
 player.no_name(): a name must have at least one sign that can be seen.
+player.no_part(part): there is no part of this id.
 player.too_many(most): a project has no room for more players.
 """
 
@@ -17,8 +18,9 @@ import msgspec
 from app.errors import AppError
 from app.plan.model import PlayerParameters
 from app.project import limits
+from app.project.anchors import moved
 from app.project.casting import SPACING_M, StagePosition, amplitude, chance, player_seed, stage_arc
-from app.project.ids import fresh_part_ids, fresh_player_ids
+from app.project.ids import MADE_PART, fresh_note_ids, fresh_part_ids, fresh_player_ids
 from app.project.model import Player, Project, characters_for
 from app.project.names import clean_name
 from app.project.parameters import Value, bounds
@@ -188,24 +190,31 @@ def add_player(
 
 
 def duplicate_players(project: Project, player_ids: Sequence[str]) -> tuple[Project, tuple[str, ...]]:
-    """Let others play the same parts, with the same corrections but a seed of their own; their ids come with the
-    project. Each stands after the one they double."""
+    """Let others play the same, from a copy of the part and with the same corrections but a seed of their own; their
+    ids come with the project. Each stands after the one they double."""
     originals = [player for player in project.players if player.id in player_ids]
     new_ids = fresh_player_ids(project, len(originals))
+    part_ids = fresh_part_ids(project, len(originals))
+    note_ids = iter(fresh_note_ids(project, sum(len(project.part(player).notes) for player in originals)))
     names = [player.name for player in project.players]
     copies: dict[str, Player] = {}
-    for player, new_id in zip(originals, new_ids, strict=True):
+    parts: list[Part] = []
+    corrections = dict(project.corrections)
+    for player, new_id, part_id in zip(originals, new_ids, part_ids, strict=True):
         name = free_name(player.name, names)
         names.append(name)
         parameters = msgspec.structs.replace(player.parameters, seed=player_seed(project.seed, new_id), cue_leader=None)
         copies[player.id] = msgspec.structs.replace(
-            player, id=new_id, name=name, colour="", soloed=False, parameters=parameters
+            player, id=new_id, name=name, part_id=part_id, colour="", soloed=False, parameters=parameters
         )
-    corrections = dict(project.corrections)
-    for original, copy in copies.items():
-        if original in corrections:
-            corrections[copy.id] = corrections[original]
-    result = with_newcomers(replace(project, corrections=corrections), tuple(copies.values()))
+        part = project.part(player)
+        notes = tuple(msgspec.structs.replace(note, id=next(note_ids)) for note in part.notes)
+        parts.append(msgspec.structs.replace(part, id=part_id, name=name, notes=notes))
+        if player.id in corrections:
+            copied = {one.id: other.id for one, other in zip(part.notes, notes, strict=True)}
+            corrections[new_id] = tuple(moved(correction, copied) for correction in corrections[player.id])
+    score = msgspec.structs.replace(project.score, parts=(*project.score.parts, *parts))
+    result = with_newcomers(replace(project, score=score, corrections=corrections), tuple(copies.values()))
     order: list[Player] = []
     for player in result.players[: len(project.players)]:
         order.append(player)
@@ -216,14 +225,39 @@ def duplicate_players(project: Project, player_ids: Sequence[str]) -> tuple[Proj
     return (arrange(result) if on_arc else result), new_ids
 
 
+def assign_part(project: Project, player_id: str, part_id: str) -> Project:
+    """Let a player play another part. Corrections stay; those about notes of the part before do nothing until the
+    player has it again. KeyError where there is no such player.
+
+    Raises
+    ------
+    AppError
+        ``player.no_part`` (part): there is no such part.
+    """
+    if part_id not in {part.id for part in project.score.parts}:
+        raise AppError("player.no_part", part=part_id)
+    player = project.player(player_id)
+    former = player.part_id
+    result = change(project, (player_id,), part_id=part_id)
+    is_left = former not in {one.part_id for one in result.players} and not project.part(player).notes
+    if not is_left:
+        return result
+    parts = tuple(part for part in result.score.parts if part.id != former)
+    return replace(result, score=msgspec.structs.replace(result.score, parts=parts))
+
+
 def remove_players(project: Project, player_ids: Collection[str]) -> Project:
-    """Send players away, with their corrections. A part that nobody plays any more stays in the score while it has
-    notes, so that somebody else may be given it."""
+    """Send players away, with their corrections. A file's part that nobody plays any more stays in the score, so that
+    somebody else may be given it; one that is empty or was made here goes too."""
     on_arc = _on_arc(project)
     kept = tuple(player for player in project.players if player.id not in player_ids)
     played = {player.part_id for player in kept}
     left = {player.part_id for player in project.players if player.id in player_ids} - played
-    parts = tuple(part for part in project.score.parts if part.notes or part.id not in left)
+    parts = tuple(
+        part
+        for part in project.score.parts
+        if part.id not in left or (part.notes and not part.id.startswith(MADE_PART))
+    )
     result = replace(
         project,
         players=kept,

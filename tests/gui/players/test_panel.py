@@ -153,7 +153,8 @@ def test_add_duplicate_and_remove(panel: PlayersPanel, session: Session, qtbot: 
     assert session.players == (session.project.players[-1].id,)
     QTest.mouseClick(child(panel, QToolButton, "players_duplicate_button"), Qt.MouseButton.LeftButton)
     assert len(session.project.players) == 6
-    assert session.project.players[-1].part_id == session.project.players[-2].part_id
+    assert session.players == (session.project.players[-1].id,)
+    assert session.project.players[-1].instrument_id == session.project.players[-2].instrument_id
     QTest.mouseClick(child(panel, QToolButton, "players_remove_button"), Qt.MouseButton.LeftButton)
     assert len(session.project.players) == 5
     assert len(session.players) == 1

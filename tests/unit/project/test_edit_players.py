@@ -106,10 +106,29 @@ def test_a_double_plays_the_same_part_as_somebody_else(trio: Project) -> None:
     assert names(more) == ["First", "First 2", "Second", "Second 2", "Low"]
     double = more.players[1]
     assert ids == (double.id, more.players[3].id)
-    assert double.part_id == first.part_id
+    part, copy = more.part(first), more.part(double)
+    assert copy is not part
+    assert [(note.pitch, note.onset_tick) for note in copy.notes] == [
+        (note.pitch, note.onset_tick) for note in part.notes
+    ]
+    assert len({note.id for part in more.score.parts for note in part.notes}) == 5
     assert double.parameters.seed != first.parameters.seed
-    assert more.corrections[double.id] == pinned.corrections[first.id]
+    assert more.corrections[double.id] == (PinFingering(copy.notes[0].id, "13"),)
+    assert edit.remove_players(more, ids) == pinned
     assert tuple(one.stage for one in more.players) == stage_arc(5)
+
+
+def test_a_player_may_be_given_another_part(trio: Project) -> None:
+    first, second, _ = trio.players
+    given = edit.assign_part(trio, first.id, second.part_id)
+    assert given.part(given.player(first.id)) is trio.part(second)
+    assert len(given.score.parts) == 3
+    assert edit.assign_part(given, first.id, first.part_id) == trio
+    assert edit.assign_part(trio, first.id, first.part_id) is trio
+    more, new = edit.add_player(trio, MAPS[TRUMPET], MAPS, "New")
+    assert len(edit.assign_part(more, new, first.part_id).score.parts) == 3
+    with pytest.raises(AppError, match=r"player\.no_part"):
+        edit.assign_part(trio, first.id, "nowhere")
 
 
 def test_who_leaves_takes_the_corrections_along_but_not_the_music(trio: Project) -> None:
