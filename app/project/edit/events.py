@@ -30,19 +30,20 @@ from app.plan.corrections import (
     SetBreath,
     SetCue,
     SetEmbouchure,
-    Vary,
 )
 from app.plan.cue import LEAD_BEATS
-from app.plan.model import BreathEvent, CueEvent, Event, ExpressionEvent, GestureEvent, PlayerPlan, PoseEvent
+from app.plan.model import BreathEvent, CueEvent, ExpressionEvent, GestureEvent, PlayerPlan, PoseEvent
 from app.project.edit.corrections import put, take_back
+from app.project.edit.found_events import Placed as Placed
+from app.project.edit.found_events import corrections_of as corrections_of
+from app.project.edit.found_events import event_id_of as event_id_of
+from app.project.edit.found_events import events_of as events_of
+from app.project.edit.found_events import placed_events as placed_events
 from app.project.model import Project
 from app.score.model import Note
 
 GestureKind: TypeAlias = Literal["sway", "weight_shift", "bell_height", "lower_instrument"]
 BreathKind: TypeAlias = Literal["preparation", "breath"]
-Placed: TypeAlias = BreathEvent | CueEvent | GestureEvent | ExpressionEvent | PoseEvent
-"""What has a place that a person may change."""
-
 GESTURE_KINDS: tuple[GestureKind, ...] = ("sway", "weight_shift", "bell_height", "lower_instrument")
 CATCH_S = 0.3
 """A breath added where notes touch is this long."""
@@ -55,55 +56,6 @@ class Edited(NamedTuple):
 
     project: Project
     event_ids: tuple[str, ...]
-
-
-# Finding
-
-
-def event_id_of(correction: Correction) -> str:
-    """The id of the event that a correction is about, as a plan has it (or would have it, were it not removed)."""
-    match correction:
-        case PinFingering():
-            return f"fingering:{correction.note_id}"
-        case SetEmbouchure():
-            return f"embouchure:{correction.note_id}"
-        case SetBreath():
-            return f"{correction.kind}:{correction.note_id}"
-        case SetCue():
-            return f"cue:{correction.note_id}"
-        case AddGesture():
-            return f"{correction.kind}:{correction.name}"
-        case AddExpression():
-            return f"expression:{correction.name}"
-        case PoseCorrection():
-            return f"pose:{correction.name}"
-        case Vary():
-            return f"vary:{correction.name}"
-        case _:
-            return correction.event_id
-
-
-def corrections_of(project: Project, player_id: str, event_ids: Iterable[str]) -> tuple[Correction, ...]:
-    """What a person said about these events."""
-    wanted = frozenset(event_ids)
-    return tuple(item for item in project.corrections.get(player_id, ()) if event_id_of(item) in wanted)
-
-
-def events_of(plan: PlayerPlan) -> dict[str, Event]:
-    """Every event of a plan that a person may select, by id."""
-    groups: tuple[Sequence[Event], ...] = (
-        plan.fingerings, plan.breaths, plan.embouchures, plan.cues, plan.gestures, plan.expressions, plan.poses,
-    )  # fmt: skip
-    return {event.id: event for group in groups for event in group}
-
-
-def placed_events(plan: PlayerPlan, event_ids: Iterable[str]) -> list[Placed]:
-    """The events of these ids that have a place of their own, in the order of the ids."""
-    wanted = tuple(event_ids)
-    among = frozenset(wanted)
-    groups: tuple[Sequence[Placed], ...] = (plan.breaths, plan.cues, plan.gestures, plan.expressions, plan.poses)
-    found = {event.id: event for group in groups for event in group if event.id in among}
-    return [found[event_id] for event_id in wanted if event_id in found]
 
 
 # Changing

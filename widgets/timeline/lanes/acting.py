@@ -58,7 +58,7 @@ class ActingLane(RegionLane):
     """What body and face do beside playing."""
 
     id = "acting"
-    preferred_height_px = 150
+    preferred_height_px = 134
     least_height_px = 96
     least_row_px = 19.0
 

@@ -151,7 +151,7 @@ class CurvesLane(Lane):
     """Lips and dynamics. The chosen curve of the lips is dragged up and down, for all selected notes together."""
 
     id = "curves"
-    preferred_height_px = 72
+    preferred_height_px = 64
     least_height_px = 44
 
     def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:

@@ -80,7 +80,7 @@ class WaveformLane(Lane):
     """The recording. Dragging it moves it against the score; a double click on it types the offset."""
 
     id = "audio"
-    preferred_height_px = 60
+    preferred_height_px = 40
     least_height_px = 32
 
     def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
