@@ -176,10 +176,6 @@
             <translation>プレイヤーを追加</translation>
         </message>
         <message>
-            <source>Duplicate: somebody else plays the same part</source>
-            <translation>複製: 同じパートを吹く人を増やす</translation>
-        </message>
-        <message>
             <source>Remove the selected players</source>
             <translation>選択したプレイヤーを削除</translation>
         </message>
@@ -198,6 +194,10 @@
         <message>
             <source>all players</source>
             <translation>全員</translation>
+        </message>
+        <message>
+            <source>Duplicate: somebody else plays the same, from a copy of the part</source>
+            <translation>複製: 同じ内容のパートを吹く人を増やす</translation>
         </message>
         <message>
             <source>Spread</source>

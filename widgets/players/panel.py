@@ -294,7 +294,7 @@ class PlayersPanel(QWidget):
     def retranslate(self) -> None:
         """Set every text in the language of the editor."""
         self._tools["add"].setToolTip(self.tr("Add a player"))
-        self._tools["duplicate"].setToolTip(self.tr("Duplicate: somebody else plays the same part"))
+        self._tools["duplicate"].setToolTip(self.tr("Duplicate: somebody else plays the same, from a copy of the part"))
         self._tools["remove"].setToolTip(self.tr("Remove the selected players"))
         self._empty.setText(self.tr("Nobody plays yet. Add a player with ＋, or drag a MIDI file onto the window."))
         self._spread.set_texts(

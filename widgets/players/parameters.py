@@ -49,7 +49,8 @@ _SLIDERS = (
     _Slider("lung_s", "breath", 60.0, 20.0, 0.5, minimum=1.0, decimals=1),
     _Slider("embouchure_tension", "face", 2.0, 2.0, 0.05),
 )
-_SECTIONS = ("player", "motion", "breath", "face")
+_SECTIONS = ("motion", "breath", "face", "player")
+"""What is changed most stands first."""
 _LARGEST_SEED = 2**31 - 1
 
 
@@ -203,7 +204,7 @@ class ParameterSections(QWidget):
 
     def retranslate(self) -> None:
         """Set every text in the language of the editor."""
-        titles = (self.tr("Player"), self.tr("Motion"), self.tr("Breath"), self.tr("Face"))
+        titles = (self.tr("Motion"), self.tr("Breath"), self.tr("Face"), self.tr("Player"))
         for section, title in zip(self._sections.values(), titles, strict=True):
             section.header.set_texts(title)
         texts = {
