@@ -9,6 +9,7 @@ TEMPLATES: Final[dict[str, str]] = {
     "edit.estimate_offset": "estimated offset of the recording",
     "edit.fit_tempo": "offset and tempo fitted to the recording",
     "edit.remove_audio": "remove the recording",
+    "edit.set_audio": "another recording",
     # Events of the plan
     "edit.move_events": "move {count} events",
     "edit.resize_events": "resize {count} events",
@@ -87,5 +88,6 @@ TEMPLATES: Final[dict[str, str]] = {
     "preset.saved": "the preset {name} is saved",
     "player.too_many": "a project can have {most} players",
     "player.no_name": "a name must have at least one sign that can be seen",
+    "player.no_part": "there is no part {part}",
     "edit.reimport": "re-import the MIDI file",
 }
