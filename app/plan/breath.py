@@ -92,7 +92,7 @@ def plan_breaths(
         if event.kind == "breath":
             refill[index_of[_note_id(event)]] = max(0.0, drawn(event.end_s - event.start_s) * _full(event))
     level = levels(air_used_s(times), parameters.lung_s, refill)
-    catches = catch_places(notes, times, piece, parameters, refill, level, removed, taken, seeds)
+    catches = catch_places(notes, times, piece, parameters, refill, level, removed | hand_ids, taken, seeds)
     length_s = catch_lengths_s(times)
     breaths = np.flatnonzero(refill > 0.0)
     caught = [

@@ -137,6 +137,15 @@ def test_removing_a_rests_breath_can_call_for_a_catch_breath() -> None:
     assert all(event.id != "breath:1:13" for event in caught)
 
 
+def test_a_place_whose_breath_is_set_by_hand_gets_no_catch_breath_as_well() -> None:
+    notes = line_of(*((index * Q, Q, 65) for index in range(60)))
+    caught = next(event for event in plan(notes=notes).breaths if event.reason.id == "breath.catch")
+    note = caught.id.split(":", 1)[1]
+    # A breath without depth fills no lungs, so that the rules still look for a place.
+    made = plan(SetBreath(note, -Q // 4, depth=0.0), notes=notes).breaths
+    assert [event.depth for event in made if event.id == caught.id] == [0.0]
+
+
 @pytest.mark.parametrize(
     ("correction", "rule"),
     [
