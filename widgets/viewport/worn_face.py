@@ -1,0 +1,69 @@
+"""A face that is being made, worn by the player in front."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from widgets.common.session import Session
+from widgets.viewport.poses import Floats, Posed, Poses
+
+
+@dataclass(frozen=True, eq=False)
+class WornFace:
+    """A pose with another face."""
+
+    body: Posed
+    morphs: Mapping[str, float]
+
+    @property
+    def rotations(self) -> Floats:
+        """As the body's."""
+        return self.body.rotations
+
+    @property
+    def hips_m(self) -> Floats:
+        """As the body's."""
+        return self.body.hips_m
+
+    @property
+    def controls(self) -> Mapping[str, float]:
+        """As the body's."""
+        return self.body.controls
+
+    @property
+    def instrument_position_m(self) -> Floats:
+        """As the body's."""
+        return self.body.instrument_position_m
+
+    @property
+    def instrument_rotation(self) -> Floats:
+        """As the body's."""
+        return self.body.instrument_rotation
+
+
+class WornFaces:
+    """Poses, in which the player in front wears the session's `preview_morphs` while there are some.
+
+    Parameters
+    ----------
+    session : Session
+    poses : Poses
+    """
+
+    def __init__(self, session: Session, poses: Poses) -> None:
+        self._session, self._poses = session, poses
+
+    def pose(self, player_id: str, time_s: float) -> Posed | None:
+        """See `Poses.pose`."""
+        return self._worn(player_id, self._poses.pose(player_id, time_s))
+
+    def pose_now(self, player_id: str, time_s: float) -> Posed | None:
+        """See `Poses.pose_now`."""
+        return self._worn(player_id, self._poses.pose_now(player_id, time_s))
+
+    def _worn(self, player_id: str, pose: Posed | None) -> Posed | None:
+        morphs = self._session.preview_morphs
+        if pose is None or morphs is None or player_id != next(iter(self._session.players), None):
+            return pose
+        return WornFace(pose, morphs)
