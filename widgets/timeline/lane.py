@@ -581,8 +581,9 @@ class Lane(QWidget):
             self.axis.set_width(self.plot.width())
 
     def _session_changed(self, change: Change) -> None:
-        if change.opened or change.before.score is not change.after.score:
-            self.background.update()
+        before, after = change.before.score, change.after.score
+        if change.opened or before.tempo_map is not after.tempo_map or before.metres is not after.metres:
+            self.update_items()
         self.project_changed(change)
 
     def _selection_set(self) -> None:

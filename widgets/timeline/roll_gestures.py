@@ -78,7 +78,7 @@ class Gesture:
 
 
 class Move(Gesture):
-    """Drag notes in time and pitch; Shift keeps to one of them, Alt suspends the grid, Ctrl carries copies away."""
+    """Drag notes in time and pitch; Shift keeps to one of them, Alt suspends the grid."""
 
     def __init__(self, roll: PianoRoll, mouse: LaneMouse, note: Note, narrow: bool) -> None:
         super().__init__(roll, mouse)

@@ -108,8 +108,7 @@ class Notes(LaneItem):
             picture.show(painter)
         for table, rows, shade, colour in behind:
             self._draw(painter, table, rows, shade)
-            if not lane.ghosted:
-                self._draw_selected(painter, table, exposed, colour)
+            self._draw_selected(painter, table, exposed, colour)
 
     def _draw_selected(self, painter: QPainter, table: NoteTable, exposed: QRectF, colour: str) -> None:
         lane: PianoRoll = self.lane  # type: ignore[assignment]

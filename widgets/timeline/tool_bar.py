@@ -142,6 +142,8 @@ class ToolBar(QWidget):
 
     def _choose_player(self, index: int) -> None:
         self._session.set_players((self.player_box.itemData(index),))
+        # The arrows are for notes again.
+        self._roll.plot.setFocus()
 
     def _session_changed(self, change: Change) -> None:
         if change.opened or change.before.players is not change.after.players:

@@ -1,0 +1,155 @@
+"""The timeline's frame: lanes, tools, empty pieces, language and theme."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import msgspec
+import pytest
+from PySide6.QtCore import QPoint, Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication, QMenu
+from pytestqt.qtbot import QtBot
+
+from app.project.model import Project
+from app.score.model import Score
+from app.score.tempo import TempoMap
+from tests.gui.timeline.conftest import TPQ, Stage
+from tests.gui.timeline.hand import Hand
+from tests.support.tasks import ImmediateTasks
+from widgets.common.selection import Selection
+from widgets.common.session import Session
+from widgets.common.timeline_view import Ghosts, Tool
+from widgets.common.tokens import LIGHT
+from widgets.timeline.panel import TimelinePanel
+
+
+def menu_of(panel: TimelinePanel) -> QMenu:
+    found = [menu for menu in panel.findChildren(QMenu) if menu.isVisible()]
+    assert len(found) == 1
+    return found[0]
+
+
+def choose(menu: QMenu, text: str) -> None:
+    next(action for action in menu.actions() if action.text() == text).trigger()
+    menu.close()
+    QApplication.processEvents()
+
+
+def test_all_lanes_share_one_axis_and_one_width(stage: Stage) -> None:
+    widths = {lane.plot.width() for lane in stage.panel.lanes.values() if not lane.folded and lane.isVisible()}
+    assert widths == {stage.panel.axis.width_px}
+    stage.panel.axis.show(1.0, 2.0)
+    for lane in stage.panel.lanes.values():
+        assert lane.view_box.viewRange()[0] == pytest.approx([1.0, 2.0])
+
+
+def test_a_lane_folds_and_unfolds_by_its_button(stage: Stage) -> None:
+    lane = stage.roll
+    height = lane.height()
+    QTest.mouseClick(lane.fold_button, Qt.MouseButton.LeftButton)
+    QApplication.processEvents()
+    assert lane.folded
+    assert lane.height() < height
+    QTest.mouseClick(lane.fold_button, Qt.MouseButton.LeftButton)
+    assert not lane.folded
+
+
+def test_lanes_are_moved_and_hidden_from_their_header(stage: Stage) -> None:
+    panel = stage.panel
+    at = panel.stack.indexOf(stage.roll)
+    stage.roll.header.customContextMenuRequested.emit(QPoint(5, 5))
+    choose(menu_of(panel), "Move Down")
+    assert panel.stack.indexOf(stage.roll) == at + 1
+    stage.roll.header.customContextMenuRequested.emit(QPoint(5, 5))
+    choose(menu_of(panel), "Hide")
+    assert stage.roll.isHidden()
+    panel.lanes_button.menu().aboutToShow.emit()
+    choose(panel.lanes_button.menu(), "Notes")
+    assert not stage.roll.isHidden()
+
+
+def test_tools_and_the_player_in_front_are_chosen_above(stage: Stage) -> None:
+    bar = stage.panel.tool_bar
+    QTest.mouseClick(bar.tools[Tool.ERASE], Qt.MouseButton.LeftButton)
+    assert stage.panel.tool is Tool.ERASE
+    bar.player_box.setCurrentIndex(1)
+    bar.player_box.activated.emit(1)
+    assert stage.session.players == ("p2.1.1",)
+    stage.table.actions["timeline.alone"].trigger()
+    assert stage.panel.ghosts is Ghosts.ALONE
+    assert bar.ghosts_button.text() == "Only This Player"
+
+
+def test_the_scroll_bar_and_the_buttons_below(stage: Stage) -> None:
+    panel, axis = stage.panel, stage.panel.axis
+    span = axis.span_s
+    QTest.mouseClick(panel.zoom_buttons["zoom_in"], Qt.MouseButton.LeftButton)
+    assert axis.span_s == pytest.approx(span / 1.5)
+    QTest.mouseClick(panel.zoom_buttons["zoom_out"], Qt.MouseButton.LeftButton)
+    assert axis.span_s == pytest.approx(span)
+    panel.time_bar.setValue(panel.time_bar.maximum())
+    assert axis.end_s == pytest.approx(axis.limits_s[1], abs=0.002)
+    QTest.mouseClick(panel.zoom_buttons["fit"], Qt.MouseButton.LeftButton)
+    assert (axis.start_s, axis.end_s) == axis.limits_s
+    assert panel.time_bar.maximum() == 0
+
+
+def test_a_time_is_revealed(stage: Stage) -> None:
+    axis = stage.panel.axis
+    axis.show(0.0, 2.0)
+    stage.session.reveal(1.0)
+    assert axis.start_s == 0.0
+    stage.session.reveal(30.0)
+    assert axis.start_s < 30.0 < axis.end_s
+
+
+def test_pointing_at_a_note_says_what_it_is(stage: Stage) -> None:
+    stage.hand.move(stage.middle("1:5"))
+    assert stage.panel.tool_bar.readout.text() == "A4 · bar 2, beat 2 · velocity 80"
+    stage.session.pitch_display.set(written=True, middle_c_octave=3)
+    stage.hand.move(stage.middle("1:5"))
+    assert stage.panel.tool_bar.readout.text().startswith("B3")
+    stage.session.select(Selection(frozenset({"1:1", "1:2"})))
+    stage.roll.hover(None)
+    assert stage.panel.tool_bar.readout.text() == "Selected notes: 2"
+
+
+def test_a_piece_without_players_and_notes_says_what_to_do(qtbot: QtBot, qt_app: QApplication) -> None:
+    session = Session(Project(Score("", TPQ, TempoMap(TPQ)), ()), ImmediateTasks())
+    panel = TimelinePanel(session)
+    qtbot.addWidget(panel)
+    panel.resize(900, 400)
+    panel.show()
+    qtbot.waitExposed(panel)
+    assert panel.roll.hint()
+    panel.set_tool(Tool.DRAW)
+    hand = Hand(panel.roll.plot.viewport())
+    hand.drag((100.0, 40.0), (200.0, 60.0))
+    hand.double_click((150.0, 40.0))
+    panel.fit()
+    panel.zoom_to_selection()
+    panel.grab()
+    assert not session.document.done
+    session.deleteLater()
+
+
+def test_drawing_beyond_the_end_makes_room(stage: Stage) -> None:
+    project = stage.session.project
+    empty = tuple(msgspec.structs.replace(part, notes=()) for part in project.score.parts)
+    stage.session.document.open(replace(project, score=msgspec.structs.replace(project.score, parts=empty)))
+    before = stage.panel.axis.limits_s[1]
+    stage.panel.set_tool(Tool.DRAW)
+    stage.panel.axis.show(before - 6.0, before)
+    x = stage.roll.axis.x_px(before - 1.0)
+    stage.hand.drag((x, 60.0), (x + 30, 60.0))
+    assert len(stage.session.project.score.parts[0].notes) == 1
+    assert stage.panel.axis.limits_s[1] > before
+
+
+def test_another_theme_is_taken_at_once(stage: Stage) -> None:
+    before = stage.roll.plot.grab().toImage().pixelColor(3, 3)
+    stage.session.set_tokens(LIGHT)
+    QApplication.processEvents()
+    after = stage.roll.plot.grab().toImage().pixelColor(3, 3)
+    assert after.lightness() > before.lightness() + 100
