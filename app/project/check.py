@@ -182,8 +182,12 @@ def _plain_faults(place: str, value: Any) -> Iterator[Fault]:
         if len(value) > limits.MOST_ID:
             yield place, f"at most {limits.MOST_ID} characters"
     elif isinstance(value, int | float):
-        bound = limits.LAST_TICK if place.endswith("_tick") else limits.MOST_NUMBER
-        yield from _between(place, value, (-bound, bound))
+        if place.endswith(("_tick", "_ticks")):
+            yield from _between(place, value, (-limits.LAST_TICK, limits.LAST_TICK))
+        elif isinstance(value, float):
+            yield from _between(place, value, (-limits.MOST_NUMBER, limits.MOST_NUMBER))
+        elif abs(value) > limits.SEED[1]:
+            yield place, f"must be from {-limits.SEED[1]} to {limits.SEED[1]}"
     elif isinstance(value, tuple | list):
         for index, item in enumerate(value):
             yield from _plain_faults(f"{place}[{index}]", item)

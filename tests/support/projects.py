@@ -122,7 +122,7 @@ def corrections(draw: st.DrawFn) -> Correction:
     values = {}
     for field in msgspec.structs.fields(struct):
         if field.type in (int, int | None, "int", "int | None"):
-            values[field.name] = draw(ticks)
+            values[field.name] = draw(ticks if field.name.endswith(("tick", "ticks")) else st.integers(*limits.SEED))
         elif field.type in (float, float | None):
             values[field.name] = draw(st.floats(-1e6, 1e6))
         elif field.type in (str, str | None):

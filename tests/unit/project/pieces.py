@@ -16,6 +16,7 @@ from app.plan.corrections import (
     SetBreath,
     SetCue,
     SetEmbouchure,
+    Vary,
 )
 from app.plan.model import PlayerParameters
 from app.project.casting import stage_arc
@@ -83,6 +84,7 @@ def full_project(folder: str = "/music") -> Project:
             ChangeExpression("expression:neutral", "angry", 0, 100, 0.7),
             AddExpression("yours", "angry", 10, 20, 0.4, 0.1, 0.1),
             PoseCorrection("pose", "bell", 480, 960, 5.0, 1.0, -1.0, 120, 60),
+            Vary("varied-1", 0, 480, 2**62 + 1),
         ),
         trombone.id: (PinFingering("2:1", "1"),),
     }
