@@ -5,13 +5,13 @@ same edits give the same names. Whoever erases a note erases its corrections wit
 
 Messages
 --------
-notes.before_start(): a note would begin before the piece.
-notes.after_all_pieces(): a note would end later than a project can hold.
-notes.pitch_outside(pitch, low, high): there is no such pitch.
-notes.velocity_outside(velocity, low, high): there is no such velocity.
-notes.too_short(): a note would have no length.
-notes.nothing_to_split(): no chosen note sounds across that place.
-notes.nothing_to_join(): no two chosen notes follow one another at one pitch.
+note.before_start(): a note would begin before the piece.
+note.after_all_pieces(): a note would end later than a project can hold.
+note.pitch_outside(pitch, low, high): there is no such pitch.
+note.velocity_outside(velocity, low, high): there is no such velocity.
+note.too_short(): a note would have no length.
+note.nothing_to_split(): no chosen note sounds across that place.
+note.nothing_to_join(): no two chosen notes follow one another at one pitch.
 """
 
 from __future__ import annotations
@@ -116,7 +116,7 @@ def split(project: Project, note_ids: Collection[str], tick: int) -> tuple[Proje
                     note, id=next(ids), onset_tick=tick, duration_tick=note.end_tick - tick
                 )
     if not seconds:
-        raise AppError("notes.nothing_to_split")
+        raise AppError("note.nothing_to_split")
     project = _each(
         project, seconds.keys(), lambda note: msgspec.structs.replace(note, duration_tick=tick - note.onset_tick)
     )
@@ -135,7 +135,7 @@ def join(project: Project, note_ids: Collection[str]) -> Project:
                 longer[run[0].id] = max(note.end_tick for note in run)
                 absorbed.update(note.id for note in run[1:])
     if not absorbed:
-        raise AppError("notes.nothing_to_join")
+        raise AppError("note.nothing_to_join")
     return _each(
         erase(project, absorbed),
         longer.keys(),
@@ -294,15 +294,15 @@ def paste(project: Project, part_id: str, clip: Clip, at_tick: int) -> tuple[Pro
 
 def _checked(note: Note) -> Note:
     if note.onset_tick < 0:
-        raise AppError("notes.before_start")
+        raise AppError("note.before_start")
     if note.duration_tick < 1:
-        raise AppError("notes.too_short")
+        raise AppError("note.too_short")
     if note.end_tick > LAST_TICK:
-        raise AppError("notes.after_all_pieces")
+        raise AppError("note.after_all_pieces")
     if not LOW_PITCH <= note.pitch <= HIGH_PITCH:
-        raise AppError("notes.pitch_outside", pitch=note.pitch, low=LOW_PITCH, high=HIGH_PITCH)
+        raise AppError("note.pitch_outside", pitch=note.pitch, low=LOW_PITCH, high=HIGH_PITCH)
     if not LOW_VELOCITY <= note.velocity <= HIGH_VELOCITY:
-        raise AppError("notes.velocity_outside", velocity=note.velocity, low=LOW_VELOCITY, high=HIGH_VELOCITY)
+        raise AppError("note.velocity_outside", velocity=note.velocity, low=LOW_VELOCITY, high=HIGH_VELOCITY)
     return note
 
 

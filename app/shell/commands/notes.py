@@ -269,10 +269,10 @@ def paste(session: Session) -> None:
     clip = _clipboard()
     player = session.player
     if clip is None or not clip.lines:
-        session.notice(Message("notes.nothing_to_paste"), Severity.WARNING)
+        session.notice(Message("note.nothing_to_paste"), Severity.WARNING)
         return
     if player is None:
-        session.notice(Message("notes.nowhere_to_paste"), Severity.WARNING)
+        session.notice(Message("note.nowhere_to_paste"), Severity.WARNING)
         return
     count = sum(len(line.notes) for line in clip.lines)
     tick = max(_playhead_tick(session), 0)

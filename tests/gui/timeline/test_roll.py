@@ -314,7 +314,7 @@ def test_what_others_put_on_the_clipboard_is_refused_in_words(stage: Stage) -> N
     stage.session.noticed.connect(lambda message, severity: said.append(message.id))
     QGuiApplication.clipboard().setText("hello")
     stage.do("notes.paste")
-    assert said == ["notes.nothing_to_paste"]
+    assert said == ["note.nothing_to_paste"]
 
 
 def uneven(stage: Stage) -> None:
