@@ -340,6 +340,18 @@
             <translation>入り {place}、予備拍 {seconds} 秒</translation>
         </message>
         <message>
+            <source>tension</source>
+            <translation>張り</translation>
+        </message>
+        <message>
+            <source>effort</source>
+            <translation>力み</translation>
+        </message>
+        <message>
+            <source>air</source>
+            <translation>息</translation>
+        </message>
+        <message>
             <source>Fingering {label}</source>
             <translation>運指 {label}</translation>
         </message>

@@ -21,7 +21,7 @@ from widgets.common.session import Session
 from widgets.common.text import message_text
 from widgets.inspector.generated import Generated
 from widgets.inspector.rows import Line, LineList
-from widgets.inspector.words import correction_title, event_text
+from widgets.inspector.words import correction_title, embouchure_text, event_text
 
 LATE_TICK = 2**62
 
@@ -141,7 +141,7 @@ class CorrectionList(QWidget):
         if place.orphan:
             detail = self.tr("Lost its place: it does nothing. Select a note and re-attach it, or revert it.")
             return Line(place, title, "", detail, self._session.colour(player), "warning")
-        now, before = self._value(place, place.event), self._value(place, place.generated)
+        now, before = self._value(place.correction, place.event), self._value(place.correction, place.generated)
         if place.generated is None:
             detail = self.tr("added by hand: {yours}").format(yours=now) if now else self.tr("added by hand")
         else:
@@ -153,7 +153,9 @@ class CorrectionList(QWidget):
         where = place_text(score, tick) if tick != LATE_TICK else ""
         return Line(place, title, where, detail, self._session.colour(player), "by_hand")
 
-    def _value(self, place: Place, event: Event | None) -> str:
+    def _value(self, correction: Correction, event: Event | None) -> str:
+        if isinstance(correction, SetEmbouchure) and event is not None:
+            return embouchure_text(correction, event)
         return event_text(self._session.project.score, event)
 
     def _show_buttons(self, *_: object) -> None:

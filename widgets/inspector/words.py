@@ -72,6 +72,18 @@ def event_text(score: Score, event: Event | None) -> str:
             return ""
 
 
+def embouchure_text(correction: SetEmbouchure, event: Event) -> str:
+    """The values of an embouchure that were set by hand."""
+    names = {
+        "tension": QCoreApplication.translate("Inspector", "tension"),
+        "effort": QCoreApplication.translate("Inspector", "effort"),
+        "air": QCoreApplication.translate("Inspector", "air"),
+    }
+    return ", ".join(
+        f"{word} {getattr(event, name):.2f}" for name, word in names.items() if getattr(correction, name) is not None
+    )
+
+
 def correction_title(item: Correction) -> str:
     """What was done by hand."""
     match item:
