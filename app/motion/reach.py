@@ -89,13 +89,13 @@ def shoulder_distance_m(skeleton: Skeleton, side: Side, body: Trunk, target_m: F
     return float(_girdle(skeleton, side, body, target_m).distance_m(CLAVICLE_RAD)[0])
 
 
-def softly_over(x: FloatArray, ease: float) -> FloatArray:
+def softly_over(x: FloatArray, ease: FloatArray | float) -> FloatArray:
     """``max(x, 0)`` with a parabola between -ease and ease; exactly 0 below."""
     result: FloatArray = np.where(x >= ease, x, np.square(np.maximum(x + ease, 0.0)) / (4.0 * ease))
     return result
 
 
-def softly_capped(x: FloatArray, most: FloatArray | float, ease: float) -> FloatArray:
+def softly_capped(x: FloatArray, most: FloatArray | float, ease: FloatArray | float) -> FloatArray:
     """``min(x, most)``, rounded where it bends."""
     return most - softly_over(most - x, ease)
 

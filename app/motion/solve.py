@@ -189,8 +189,8 @@ def _helped(player: Player, curves: Curves, half: int) -> BodyMotion:
     asked = _eased(np.concatenate([part.turn_rad for part in parts]), half)
     turn = np.zeros(len(curves))
     if np.any(asked):
-        turn += softly_capped(np.maximum(asked, 0.0), most["right"], HELP_EASE_RAD)
-        turn -= softly_capped(np.maximum(-asked, 0.0), most["left"], HELP_EASE_RAD)
+        turn += _with_room(np.maximum(asked, 0.0), most["right"])
+        turn -= _with_room(np.maximum(-asked, 0.0), most["left"])
     short_m = _eased(np.concatenate([part.short_m for part in parts]), half)
     if np.any(short_m):
         draw = softly_capped(short_m / _drawn_m(player), 1.0, 0.1) * np.abs(turn) / np.maximum(np.abs(asked), 1e-6)
@@ -200,7 +200,7 @@ def _helped(player: Player, curves: Curves, half: int) -> BodyMotion:
     for side in parts[0].protraction_rad:
         needed = _eased(np.concatenate([part.protraction_rad[side] for part in parts]), swift)
         room = _held_back([part.most_protraction_rad[side] for part in parts], quick)
-        protraction[side] = softly_capped(needed, room, HELP_EASE_RAD) if np.any(needed) else needed
+        protraction[side] = _with_room(needed, room) if np.any(needed) else needed
     hips_turn = motion.hips_turn_rad + HIPS_TURN * turn
     return replace(motion, hips_turn_rad=hips_turn, turn_rad=turns, protraction_rad=protraction)
 
@@ -245,6 +245,13 @@ def _drawn_m(player: Player) -> float:
             distances_m.append(shoulder_distance_m(player.skeleton, hand.side, upper, target_m))
         nearer.append(float(distances_m[0] - distances_m[1]))
     return max([*nearer, LEAST_DRAWN_M])
+
+
+def _with_room(help_rad: FloatArray, most_rad: FloatArray) -> FloatArray:
+    """Help as far as there is room for it. No help stays none however little room there is: so it does not matter
+    which frames are made together."""
+    given = softly_capped(help_rad, most_rad, np.clip(most_rad, 1e-9, HELP_EASE_RAD))
+    return np.where(help_rad == 0.0, 0.0, given)
 
 
 def _held_back(parts: list[FloatArray], half: int) -> FloatArray:

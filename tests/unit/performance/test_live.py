@@ -1,0 +1,205 @@
+"""What is looked at is made first, memory stays within its bound, and a pose is there at once when it must be."""
+
+from __future__ import annotations
+
+import threading
+from dataclasses import replace
+from fractions import Fraction
+
+import msgspec
+import numpy as np
+import pytest
+
+from app.performance.ensemble import Performance
+from app.performance.live import LiveMotion
+from app.performance.motion import player_motion
+from app.performance.span import whole_span
+from app.plan.corrections import AddExpression
+from app.project.edit.corrections import put
+from tests.property.performance.edits import piece
+
+
+@pytest.fixture(scope="module")
+def performance() -> Performance:
+    return Performance(piece())
+
+
+def all_made(live: LiveMotion) -> int:
+    count = 0
+    while live.work():
+        count += 1
+    return count
+
+
+def test_what_is_looked_at_is_made_first(performance: Performance) -> None:
+    live = LiveMotion(performance)
+    first, second, third = (player.id for player in performance.project.players)
+    assert live.pose(first, 8.0) is None
+    live.want(8.0, 1.0, (second,))
+    assert live.work()
+    assert live.pose(second, 8.5) is not None
+    assert live.pose(first, 8.5) is None
+    for _ in range(4):
+        live.work()
+    assert live.pose(first, 8.5) is not None
+    assert live.pose(third, 8.5) is not None
+    assert live.pose(second, 0.0) is None
+    assert 0.0 < live.ready_share < 1.0
+
+
+def test_ready_spans_grow_together(performance: Performance) -> None:
+    live = LiveMotion(performance)
+    player = performance.project.players[0]
+    assert live.ready_spans(player.id) == ()
+    all_made(live)
+    frame = performance.time_frame
+    ((start_s, end_s),) = live.ready_spans(player.id)
+    assert start_s == frame.first_frame_s
+    assert end_s == pytest.approx(frame.end_s, abs=1.0 / 60.0)
+    assert live.ready_share == 1.0
+    assert live.ready_spans("nobody") == ()
+
+
+def test_a_pose_made_at_once_is_the_one_that_is_made_in_time(performance: Performance) -> None:
+    live = LiveMotion(performance)
+    for player in performance.project.players:
+        whole = player_motion(performance, player, whole_span(performance.time_frame, Fraction(60)))
+        for index in range(0, whole.frames, 41):
+            pose = live.pose_now(player.id, whole.first_frame_s + index / 60.0)
+            assert pose is not None
+            assert np.array_equal(pose.rotations, whole.rotations[index])
+            assert pose.morphs == {name: float(values[index]) for name, values in whole.morphs.items()}
+
+
+def test_between_two_frames_a_pose_is_between_them(performance: Performance) -> None:
+    live = LiveMotion(performance)
+    all_made(live)
+    player = performance.project.players[2].id
+    start_s = performance.time_frame.first_frame_s
+    before, middle, after = (live.pose(player, start_s + (900 + share) / 60.0) for share in (0.0, 0.5, 1.0))
+    assert before is not None
+    assert middle is not None
+    assert after is not None
+    np.testing.assert_allclose(middle.hips_m, (before.hips_m + after.hips_m) / 2.0, atol=1e-6)
+    np.testing.assert_allclose(np.linalg.norm(middle.rotations, axis=1), 1.0, atol=1e-6)
+    sign = np.sign(np.einsum("ji,ji->j", before.rotations, after.rotations))[:, None]
+    half = before.rotations + sign * after.rotations
+    half /= np.linalg.norm(half, axis=1, keepdims=True)
+    np.testing.assert_allclose(middle.rotations, half, atol=1e-5)
+
+
+def test_times_outside_the_performance_are_its_first_and_last_frame(performance: Performance) -> None:
+    live = LiveMotion(performance)
+    player, frame = performance.project.players[0].id, performance.time_frame
+    for asked_s, there_s in ((-99.0, frame.first_frame_s), (9e9, frame.end_s - 0.5 / 60.0)):
+        outside, inside = live.pose_now(player, asked_s), live.pose_now(player, there_s)
+        assert outside is not None
+        assert inside is not None
+        np.testing.assert_allclose(outside.rotations, inside.rotations, atol=1e-3)
+
+
+def test_memory_is_bounded_and_what_is_far_goes_first(performance: Performance) -> None:
+    whole = LiveMotion(performance)
+    all_made(whole)
+    budget = whole.bytes // 3
+    live = LiveMotion(performance, budget)
+    live.want(0.0, 2.0)
+    all_made(live)
+    player = performance.project.players[0].id
+    end_s = performance.time_frame.end_s - 1.0
+    assert live.bytes <= budget
+    assert live.ready_share > 0.8
+    assert live.pose(player, 0.5) is not None
+    assert live.pose(player, end_s) is None
+    live.want(end_s, 2.0)
+    all_made(live)
+    assert live.bytes <= budget
+    assert live.pose(player, end_s) is not None
+    assert live.pose(player, performance.time_frame.first_frame_s) is None
+
+
+def test_an_edit_leaves_what_it_did_not_touch_and_shows_the_old_until_the_new_is_there(
+    performance: Performance,
+) -> None:
+    live = LiveMotion(performance)
+    whole = all_made(live)
+    player = performance.project.players[0]
+    old = live.pose(player.id, 6.0)
+    project = put(performance.project, player.id, [AddExpression("x", "strained", 6 * 960, 7 * 960)])
+    live.show(Performance(project, performance))
+    shown = live.pose(player.id, 6.5)
+    assert shown is not None
+    now = live.pose_now(player.id, 6.5)
+    assert now is not None
+    assert now.morphs != shown.morphs
+    assert all_made(live) <= 3 < whole
+    made = live.pose(player.id, 6.5)
+    assert made is not None
+    assert made.morphs == now.morphs
+    assert old is not None
+    assert live.ready_share == 1.0
+
+
+def test_undone_edits_and_other_frame_rates(performance: Performance) -> None:
+    live = LiveMotion(performance)
+    all_made(live)
+    slower = replace(performance.project, fps=Fraction(24))
+    other = Performance(slower, performance)
+    live.show(other)
+    player = performance.project.players[0]
+    assert live.pose(player.id, 6.0) is None
+    all_made(live)
+    whole = player_motion(other, player, whole_span(other.time_frame, Fraction(24)))
+    pose = live.pose(player.id, whole.first_frame_s + 100 / 24.0)
+    assert pose is not None
+    assert np.array_equal(pose.rotations, whole.rotations[100])
+
+
+def test_a_player_who_came_or_went(performance: Performance) -> None:
+    live = LiveMotion(performance)
+    all_made(live)
+    first, *others = performance.project.players
+    fewer = Performance(replace(performance.project, players=tuple(others)), performance)
+    live.show(fewer)
+    assert live.pose(first.id, 6.0) is None
+    assert live.error(first.id) is None
+    twin = msgspec.structs.replace(first, id="twin", name="Twin")
+    live.show(Performance(replace(performance.project, players=(first, *others, twin)), fewer))
+    all_made(live)
+    assert live.pose("twin", 6.0) is not None
+    assert live.pose(first.id, 6.0) is not None
+
+
+def test_it_is_asked_while_it_works(performance: Performance) -> None:
+    live = LiveMotion(performance)
+    stop, faults = threading.Event(), list[BaseException]()
+
+    def work() -> None:
+        try:
+            while not stop.is_set():
+                live.work(stop.is_set)
+        except BaseException as fault:
+            faults.append(fault)
+
+    thread = threading.Thread(target=work)
+    thread.start()
+    player, before = performance.project.players[0], performance
+    for tick in range(0, 9600, 960):
+        project = put(before.project, player.id, [AddExpression("x", "smile", tick, tick + 480)])
+        before = Performance(project, before)
+        live.show(before)
+        live.want(tick / 960.0)
+        for time_s in np.linspace(-2.0, 12.0, 50):
+            live.pose(player.id, float(time_s))
+    stop.set()
+    thread.join()
+    assert not faults
+    all_made(live)
+    fresh = LiveMotion(Performance(before.project))
+    all_made(fresh)
+    for time_s in np.linspace(-2.0, 20.0, 70):
+        one, other = live.pose(player.id, float(time_s)), fresh.pose(player.id, float(time_s))
+        assert one is not None
+        assert other is not None
+        assert np.array_equal(one.rotations, other.rotations)
+        assert one.morphs == other.morphs
