@@ -21,6 +21,10 @@ Ints = npt.NDArray[np.int64]
 BODY_CELLS_M = (0.0, 0.0055, 0.02)
 """Vertices nearer to one another than this are one, by level of detail; 0: all are kept."""
 INSTRUMENT_CELLS_M = (0.0, 0.0035, 0.011)
+PLAIN_FACTOR, PLAIN_LEAST_M = 1.4, 0.08
+"""Cloth and hair may be so many times coarser than skin; what is thinner than this (eyes) may not."""
+THIN_SHARES = (0.0, 0.1, 0.34)
+"""What is thin (brows, eyes) is at most so coarse, by level, as a share of its smallest side."""
 LEVELS = len(BODY_CELLS_M)
 BONES_PER_VERTEX = 4
 
@@ -72,25 +76,29 @@ class Geometry:
     surface : (V,) SURFACE
         Bones as indices into a player's matrices; base colour (linear) with the roughness beside it; metallic.
     triangles : (T, 3) uint32
+        Those that are seen from one side only come first.
+    one_sided : int
+        How many these are.
     face : Face or None
     """
 
     shape: npt.NDArray[np.void]
     surface: npt.NDArray[np.void]
     triangles: npt.NDArray[np.uint32]
+    one_sided: int
     face: Face | None = None
 
 
 @lru_cache(maxsize=16)
 def character_levels(character: Character) -> tuple[Geometry, ...]:
     """All levels of detail of a character; the coarsest has no morphs."""
-    return _levels(character.meshes, BODY_CELLS_M, 0)
+    return _levels(character.meshes, BODY_CELLS_M, 0, PLAIN_FACTOR)
 
 
 @lru_cache(maxsize=32)
 def instrument_levels(model: InstrumentModel, first_bone: int) -> tuple[Geometry, ...]:
     """All levels of detail of an instrument, whose node n moves with bone ``first_bone + n``."""
-    return _levels(model.meshes, INSTRUMENT_CELLS_M, first_bone)
+    return _levels(model.meshes, INSTRUMENT_CELLS_M, first_bone, 1.0)
 
 
 def stool(bone: int, height_m: float) -> Geometry:
@@ -121,11 +129,14 @@ def stool(bone: int, height_m: float) -> Geometry:
 def joined(parts: Sequence[Geometry]) -> Geometry:
     """Several geometries as one, without their morphs."""
     starts = np.cumsum([0, *(len(part.shape) for part in parts)])
-    triangles = [part.triangles + np.uint32(start) for part, start in zip(parts, starts, strict=False)]
+    moved = [part.triangles + np.uint32(start) for part, start in zip(parts, starts, strict=False)]
+    first = [triangles[: part.one_sided] for part, triangles in zip(parts, moved, strict=True)]
+    last = [triangles[part.one_sided :] for part, triangles in zip(parts, moved, strict=True)]
     return Geometry(
         np.concatenate([part.shape for part in parts]),
         np.concatenate([part.surface for part in parts]),
-        np.concatenate(triangles).astype(np.uint32),
+        np.concatenate(first + last).astype(np.uint32),
+        sum(map(len, first)),
     )
 
 
@@ -166,12 +177,18 @@ def _turned(
     surface["a_weights"][:, 0] = 1.0
     surface["a_color"] = (*color, roughness)
     surface["a_metallic"] = metallic
-    return Geometry(shape, surface, np.concatenate(triangles).astype(np.uint32))
+    whole = np.concatenate(triangles).astype(np.uint32)
+    return Geometry(shape, surface, whole, len(whole))
 
 
-def _levels(meshes: Sequence[Mesh], cells_m: Sequence[float], first_bone: int) -> tuple[Geometry, ...]:
-    whole = _Whole([_split(mesh) for mesh in meshes], first_bone)
-    return tuple(whole.level(cell_m, morphs=index < len(cells_m) - 1) for index, cell_m in enumerate(cells_m))
+def _levels(
+    meshes: Sequence[Mesh], cells_m: Sequence[float], first_bone: int, plain_factor: float
+) -> tuple[Geometry, ...]:
+    whole = _Whole([_split(mesh) for mesh in meshes], first_bone, plain_factor)
+    return tuple(
+        whole.level(cell_m, share, morphs=index < len(cells_m) - 1)
+        for index, (cell_m, share) in enumerate(zip(cells_m, THIN_SHARES, strict=True))
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -195,7 +212,7 @@ def _split(mesh: Mesh) -> _Split:
 class _Whole:
     """All meshes of a thing end to end."""
 
-    def __init__(self, splits: Sequence[_Split], first_bone: int) -> None:
+    def __init__(self, splits: Sequence[_Split], first_bone: int, plain_factor: float) -> None:
         counts = [len(split.vertices) for split in splits]
         self._starts = np.cumsum([0, *counts])
         self._splits = splits
@@ -206,6 +223,9 @@ class _Whole:
         self._shape = np.zeros(total, SHAPE)
         self._surface = np.zeros(total, SURFACE)
         self._part = np.repeat(np.arange(len(splits)), counts)
+        self._thickness = np.repeat([_thickness_m(split.mesh) for split in splits], counts)
+        self._two_sided = np.zeros(total, dtype=bool)
+        self._coarser = np.repeat([plain_factor if _is_plain(split.mesh) else 1.0 for split in splits], counts)
         for split, start in zip(splits, self._starts, strict=False):
             own = slice(int(start), int(start) + len(split.vertices))
             mesh = split.mesh
@@ -220,10 +240,12 @@ class _Whole:
             metallic = np.array([material.metallic for material in mesh.materials], np.float32)
             self._surface["a_color"][own] = colors[split.materials]
             self._surface["a_metallic"][own] = metallic[split.materials]
+            two_sided = np.array([material.double_sided for material in mesh.materials])
+            self._two_sided[own] = two_sided[split.materials]
         self._morphs = self._all_morphs()
 
-    def level(self, cell_m: float, morphs: bool) -> Geometry:
-        kept, triangles = self._clustered(cell_m)
+    def level(self, cell_m: float, thin_share: float, morphs: bool) -> Geometry:
+        kept, triangles = self._clustered(cell_m, thin_share)
         names = tuple(self._morphs) if morphs else ()
         moved = np.zeros(len(self._shape), dtype=bool)
         for name in names:
@@ -235,7 +257,12 @@ class _Whole:
         count = int(moved[kept].sum())
         shape = self._shape[order]
         face = self._face(names, shape, place, count) if count else None
-        return Geometry(shape, self._surface[order], place[triangles].astype(np.uint32), face)
+        # Vertices of different materials are never one, so that the first corner tells for the triangle.
+        last = self._two_sided[triangles[:, 0]]
+        sorted_triangles = np.concatenate([triangles[~last], triangles[last]])
+        return Geometry(
+            shape, self._surface[order], place[sorted_triangles].astype(np.uint32), int((~last).sum()), face
+        )
 
     def _face(self, names: tuple[str, ...], shape: npt.NDArray[np.void], place: Ints, count: int) -> Face:
         deltas = np.zeros((len(names), count, 6), np.float32)
@@ -248,11 +275,12 @@ class _Whole:
         rest = np.ascontiguousarray(shape[:count]).view(np.float32).reshape(-1).copy()
         return Face(count, names, deltas.reshape(len(names), -1), rest)
 
-    def _clustered(self, cell_m: float) -> tuple[Ints, Ints]:
+    def _clustered(self, cell_m: float, thin_share: float) -> tuple[Ints, Ints]:
         """Vertices kept, and triangles between them: of those in one cell and of one surface the first one stays."""
         if cell_m <= 0.0:
             return np.arange(len(self._shape)), self._triangles
-        cells = np.floor(self._shape["a_position"].astype(np.float64) / cell_m).astype(np.int64)
+        wide = np.minimum(cell_m * self._coarser, thin_share * self._thickness)[:, None]
+        cells = np.floor(self._shape["a_position"].astype(np.float64) / wide).astype(np.int64)
         # Surfaces that face away from one another are not merged through a thin wall.
         facing = np.argmax(np.abs(self._shape["a_normal"]), axis=1)
         sign = np.take_along_axis(self._shape["a_normal"], facing[:, None], axis=1)[:, 0] > 0.0
@@ -314,6 +342,16 @@ class _Weld:
     def turned(self, moves: Floats) -> Floats:
         """How normals change under displacements (V, 3)."""
         return (self._normals(self._positions + moves) - self._rest).astype(np.float32)
+
+
+def _is_plain(mesh: Mesh) -> bool:
+    """Whether a mesh is large and shows no expression."""
+    return not mesh.morphs and _thickness_m(mesh) > PLAIN_LEAST_M
+
+
+def _thickness_m(mesh: Mesh) -> float:
+    """The smallest side of a mesh's box."""
+    return float((mesh.positions_m.max(axis=0) - mesh.positions_m.min(axis=0)).min())
 
 
 def _strongest(joints: npt.NDArray[np.int32], weights: Floats) -> tuple[npt.NDArray[np.int32], Floats]:

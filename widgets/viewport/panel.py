@@ -7,15 +7,15 @@ from time import perf_counter
 
 import numpy as np
 import numpy.typing as npt
-from PySide6.QtCore import QEvent, QObject, QPointF, QRectF, QSize, Qt, QTimer
+from PySide6.QtCore import QEvent, QObject, QPoint, QPointF, QRectF, QSize, Qt, QTimer
 from PySide6.QtGui import QImage, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QWheelEvent
-from PySide6.QtWidgets import QLabel, QStackedWidget, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLabel, QMenu, QStackedWidget, QVBoxLayout, QWidget
 
 from app.errors import Message
 from app.project.document import Change
-from widgets.common.session import Session
+from widgets.common.session import Session, Severity
 from widgets.common.text import message_text
-from widgets.common.viewport_state import View
+from widgets.common.viewport_state import SHOWN, VIEWS, View
 from widgets.viewport.camera import Camera, between, dolly, followed, frame, orbit, pan, triple
 from widgets.viewport.canvas import Canvas, Picture, pixels, why_no_gl
 from widgets.viewport.cast import Stage
@@ -39,6 +39,13 @@ WAIT_MS = 90
 """Between two looks whether a pose that is not there yet has been made."""
 SETTLED_S = 4.0
 """After an edit poses may still change for this long."""
+MENU = (
+    ("viewport.frame", "viewport.frame_all"),
+    tuple(f"viewport.{view}" for view in VIEWS),
+    tuple(f"viewport.{what}" for what in SHOWN),
+    ("viewport.pose", "application.full_screen"),
+)
+"""The menu under the right button: groups of actions."""
 CLICK_PX = 4.0
 """A press that moves less is a click."""
 FOLLOWED_M = 0.0008
@@ -317,6 +324,8 @@ class ViewportPanel(QWidget):
             self._load()
             return
         self._show_stage(loaded)
+        for reason in loaded.absent.values():
+            self._session.notice(reason, Severity.WARNING)
         # Places may have changed while the figures were loaded.
         self._load()
 
@@ -613,6 +622,8 @@ class ViewportPanel(QWidget):
             self._tool.release()
         elif clicked and event.button() == Qt.MouseButton.LeftButton:
             self._select(event.position(), bool(event.modifiers() & Qt.KeyboardModifier.ControlModifier))
+        elif clicked and event.button() == Qt.MouseButton.RightButton:
+            self._show_menu(event.globalPosition().toPoint())
         self._hover(event.position())
         self._follow()
         self._update()
@@ -659,6 +670,21 @@ class ViewportPanel(QWidget):
             self._session.set_players((*before, player_id))
         elif len(before) > 1:
             self._session.set_players(tuple(own for own in before if own != player_id))
+
+    def _show_menu(self, at: QPoint) -> None:
+        """What can be done here, from the table of actions."""
+        menu = QMenu(self)
+        menu.setObjectName("viewport_menu")
+        menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        for group in MENU:
+            rows = [self._session.actions[name] for name in group if name in self._session.actions]
+            if rows:
+                menu.addActions(rows)
+                menu.addSeparator()
+        if menu.actions():
+            menu.popup(at)
+        else:
+            menu.deleteLater()
 
     def _row_at(self, at: QPointF) -> int | None:
         if self._loaded is None or not self._loaded.stage.shown.any():

@@ -82,13 +82,25 @@ def _looks_same(one: Stage, other: Stage) -> bool:
     )
 
 
+def _sides(geometry: Geometry) -> tuple[tuple[bool, Any], ...]:
+    """The triangles seen from one side, and those seen from both: whether their backs are left out, and indices."""
+    parts = ((True, geometry.triangles[: geometry.one_sided]), (False, geometry.triangles[geometry.one_sided :]))
+    return tuple((culled, gloo.IndexBuffer(part)) for culled, part in parts if len(part))
+
+
+def _draw_sides(program: Any, sides: tuple[tuple[bool, Any], ...]) -> None:
+    for culled, triangles in sides:
+        gloo.set_state(cull_face=culled)
+        program.draw("triangles", triangles)
+
+
 class _Solid:
     """A geometry on the graphics card."""
 
     def __init__(self, geometry: Geometry) -> None:
         self.geometry = geometry
         self.surface = gloo.VertexBuffer(geometry.surface)
-        self.triangles = gloo.IndexBuffer(geometry.triangles)
+        self.triangles = _sides(geometry)
         self._shape: Any = None
         self._edges: Any = None
 
@@ -182,7 +194,7 @@ class Renderer:
         self._batch.bind(gloo.VertexBuffer(whole.shape))
         self._batch.bind(gloo.VertexBuffer(whole.surface))
         self._batch["a_row"] = gloo.VertexBuffer(np.concatenate(rows))
-        self._batch_triangles = gloo.IndexBuffer(whole.triangles)
+        self._batch_triangles = _sides(whole)
         self._batch_edges: Any = None
         self._batch_shape = whole
 
@@ -211,7 +223,7 @@ class Renderer:
         for program in (self._figures, self._batch):
             self._light(program, camera, clip, look)
         if (level == LEVELS - 1).any():
-            self._batch.draw("triangles", self._batch_triangles)
+            _draw_sides(self._batch, self._batch_triangles)
         self._draw_near(stage, shapes, level, "triangles")
         if emphasis.wireframe:
             self._draw_wires(stage, shapes, level, camera, look)
@@ -317,7 +329,10 @@ class Renderer:
 
     def _draw_solid(self, solid: _Solid, row: int, mode: str) -> None:
         self._figures["u_row"] = float(row)
-        self._figures.draw(mode, solid.triangles if mode == "triangles" else solid.edges)
+        if mode == "triangles":
+            _draw_sides(self._figures, solid.triangles)
+        else:
+            self._figures.draw(mode, solid.edges)
 
     def _draw_wires(
         self, stage: Stage, shapes: Shapes, level: npt.NDArray[np.intp], camera: Camera, look: Look

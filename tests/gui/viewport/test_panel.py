@@ -14,8 +14,8 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
-from PySide6.QtGui import QMouseEvent, QWheelEvent
-from PySide6.QtWidgets import QApplication, QToolButton, QWidget
+from PySide6.QtGui import QAction, QMouseEvent, QWheelEvent
+from PySide6.QtWidgets import QApplication, QMenu, QToolButton, QWidget
 from pytestqt.qtbot import QtBot
 
 from app.errors import Message
@@ -301,6 +301,47 @@ def test_a_close_up_follows_the_hands_while_playing(qtbot: QtBot, viewport: View
     hands = [stage.joint_m(3, side + name) for side in ("left", "right") for name in ("Hand", "MiddleProximal")]
     assert np.asarray(viewport.camera.target_m) == pytest.approx(np.mean(hands, axis=0), abs=0.01)
     assert np.linalg.norm(np.asarray(viewport.camera.target_m) - before) > 0.005
+
+
+def test_a_view_fills_a_panel_that_is_resized_until_the_camera_is_moved_by_hand(
+    qtbot: QtBot, viewport: ViewportPanel
+) -> None:
+    wide = viewport.camera
+    viewport.resize(320, 480)
+    qtbot.waitUntil(lambda: viewport.camera.distance_m > 1.2 * wide.distance_m, timeout=2000)
+    drag(canvas(viewport), QPointF(10, 10), QPointF(20, 0))
+    moved = viewport.camera
+    viewport.resize(640, 360)
+    qtbot.wait(50)
+    assert viewport.camera == moved
+
+
+def test_where_there_is_little_room_the_views_fold_into_a_menu(qtbot: QtBot, viewport: ViewportPanel) -> None:
+    folded = viewport.findChild(QToolButton, "viewport_view")
+    segment = viewport.findChild(QToolButton, "viewport_view_front")
+    assert folded is not None
+    assert segment is not None
+    assert segment.isVisible()
+    assert not folded.isVisible()
+    viewport.resize(300, 300)
+    qtbot.waitUntil(folded.isVisible, timeout=2000)
+    assert not segment.isVisible()
+    folded.menu().actions()[4].trigger()
+    assert viewport._session.viewport.view == "hands"
+    assert folded.text() == folded.menu().actions()[4].text()
+
+
+def test_the_right_button_offers_the_tables_actions(qtbot: QtBot, viewport: ViewportPanel, session: Session) -> None:
+    action = QAction("Frame", viewport)
+    action.triggered.connect(lambda: session.viewport.set_view("top"))
+    session.actions = {"viewport.frame": action}
+    qtbot.mouseClick(canvas(viewport), Qt.MouseButton.RightButton, pos=QPoint(5, 5))
+    menu = viewport.findChild(QMenu, "viewport_menu")
+    assert menu is not None
+    assert action in menu.actions()
+    action.trigger()
+    assert session.viewport.view == "top"
+    menu.close()
 
 
 # Selection

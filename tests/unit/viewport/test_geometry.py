@@ -117,6 +117,23 @@ def test_normals_follow_a_morph(name: str) -> None:
     assert np.percentile(angles, 95) < 20.0
 
 
+@pytest.mark.parametrize("name", CHARACTERS)
+def test_what_is_seen_from_one_side_faces_outwards_and_comes_first(name: str) -> None:
+    """The backs of these triangles are left out: their normals must tell which side that is."""
+    two_sided = sum(
+        int(np.array([material.double_sided for material in mesh.materials])[mesh.triangle_materials].sum())
+        for mesh in bundled_character(name).meshes
+    )
+    for level in levels(name)[:1]:
+        assert len(level.triangles) - level.one_sided == two_sided
+        one = level.triangles[: level.one_sided]
+        places = level.shape["a_position"].astype(np.float64)[one]
+        faces = np.cross(places[:, 1] - places[:, 0], places[:, 2] - places[:, 0])
+        outwards = (faces * level.shape["a_normal"][one].mean(axis=1)).sum(axis=1) >= 0.0
+        area = np.linalg.norm(faces, axis=1)
+        assert area[outwards].sum() > 0.995 * area.sum()
+
+
 def test_instruments_move_with_bones_after_the_joints() -> None:
     for instrument in bundled_maps().values():
         model = bundled_instrument(instrument)
@@ -130,6 +147,7 @@ def test_joined_shapes_keep_their_triangles() -> None:
     parts = [stool(3, 0.4), stool(5, 0.5)]
     whole = joined(parts)
     assert len(whole.triangles) == sum(len(part.triangles) for part in parts)
+    assert whole.one_sided == len(whole.triangles)
     last = whole.shape["a_position"][whole.triangles[-1]]
     assert (last == parts[1].shape["a_position"][parts[1].triangles[-1]]).all()
     assert set(whole.surface["a_bones"][:, 0]) == {3.0, 5.0}
