@@ -269,3 +269,21 @@ def test_a_problem_is_marked_and_a_click_selects_its_note(panel: TimelinePanel, 
     assert session.selection.notes == {problem.note_id}
     assert told == [problem.message]
     assert lane.count.text() == str(len(lane.problems))
+
+
+def test_the_menu_pins_all_selected_notes_that_can_be_played_so(panel: TimelinePanel, session: Session) -> None:
+    lane, event = fingering_lane(panel), with_alternates(session)
+    plan = front_plan(session)
+    same = [item for item in plan.fingerings if item.label == event.label][:4]
+    label = next(f.label for f in lane.alternates.choices(plan.player_id, event) if f.label != event.label)
+    able = {
+        item.note_id
+        for item in (*same, event)
+        if label in {f.label for f in lane.alternates.choices(plan.player_id, item)}
+    }
+    session.select(Selection(notes=frozenset(item.note_id for item in (*same, event))))
+    menu = lane.context_menu(lane.mouse_at(place_of(lane, event.start_s, event.end_s)))
+    assert menu is not None
+    next(action for action in menu.actions() if action.text().split()[0] == label).trigger()
+    assert pins(session) == dict.fromkeys(able, label)
+    assert len(session.document.done) == 1

@@ -244,7 +244,7 @@ class ActingLane(RegionLane):
             painter.drawRect(box.adjusted(0.5, 0.5, -0.5, -0.5))
         if box.width() > 46.0:
             painter.setPen(QColor(self.session.tokens.text))
-            draw_text(painter, box.adjusted(10.0, 0.0, -2.0, 0.0), f"{region.amount:+.2f}")
+            draw_text(painter, box.adjusted(10.0, 0.0, -2.0, 0.0), f"{region.amount:+.2f}".replace("-", "−"))
 
     def _paint_span(self, painter: QPainter, region: Region, box: QRectF, colour: str, selected: bool) -> None:
         """A trapezoid as high as it is strong, with its fades as slopes."""

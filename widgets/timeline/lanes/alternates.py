@@ -49,7 +49,7 @@ class Alternates(QFrame):
             "raised": self.tr("raised"),
             "alternate": self.tr("alternate"),
         }
-        parts = [f"{fingering.cents:+.0f} ¢"] if round(fingering.cents) else []
+        parts = [f"{fingering.cents:+.0f} ¢".replace("-", "−")] if round(fingering.cents) else []
         parts += [words.get(tag, tag) for tag in fingering.tags]
         return " · ".join(parts)
 
@@ -106,14 +106,22 @@ class Alternates(QFrame):
             chosen.setFocus(Qt.FocusReason.TabFocusReason)
 
     def choose(self, label: str) -> None:
-        """Pin a fingering for every selected note that has one of this label, at least for the note shown."""
+        """Pin a fingering for the note shown, and for every other selected note that can be played with it."""
         if self.event_shown is None:
             return
-        note_id, player_id = self.event_shown.note_id, self.player_id
+        player_id, shown = self.player_id, self.event_shown.note_id
         self.hide()
+        player = self._session.project.player(player_id)
+        instrument = self._session.performance.instrument(player)
+        selected = self._session.selection.notes | {shown}
+        labels = {
+            note.id: label
+            for note in self._session.project.part(player).notes
+            if note.id in selected and label in {item.label for item in instrument.fingerings_for(note.pitch)}
+        }
         self._session.attempt(
-            Message("edit.pin_fingerings", {"count": 1}),
-            lambda project: pin_fingerings(project, player_id, {note_id: label}),
+            Message("edit.pin_fingerings", {"count": len(labels)}),
+            lambda project: pin_fingerings(project, player_id, labels),
         )
 
     def give_back(self) -> None:
