@@ -55,7 +55,7 @@ def _solve_arm(
     shoulder, clavicle = clavicle_of(skeleton, side)
     moved = quaternion.multiply(
         quaternion.from_axis_angle(Z_AXIS, sign * motion.shoulders_rad),
-        quaternion.from_axis_angle(forwards_axis(clavicle), motion.protraction_rad[side]),
+        quaternion.from_axis_angle(forwards_axis(skeleton, side), motion.protraction_rad[side]),
     )
     clavicle_world = quaternion.multiply(body.chest, moved)
     joint_m = body.chest_m + quaternion.rotate(body.chest, skeleton.offsets_m[shoulder])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -128,7 +129,7 @@ def _girdle(skeleton: Skeleton, side: Side, body: Trunk, target_m: FloatArray) -
     shoulder, clavicle = clavicle_of(skeleton, side)
     joint_m = body.chest_m + quaternion.rotate(body.chest, skeleton.offsets_m[shoulder])
     there = quaternion.rotate(quaternion.conjugate(body.chest), target_m - joint_m)
-    ahead = np.cross(forwards_axis(clavicle), clavicle)
+    ahead = quaternion.cross(forwards_axis(skeleton, side), clavicle)
     phase = np.arctan2(there @ ahead, there @ clavicle)
     square_m2 = np.einsum("fi,fi->f", there, there) + clavicle @ clavicle
     return _Swing(square_m2, np.hypot(there @ ahead, there @ clavicle), phase)
@@ -137,7 +138,7 @@ def _girdle(skeleton: Skeleton, side: Side, body: Trunk, target_m: FloatArray) -
 def _waist(skeleton: Skeleton, side: Side, body: Trunk, target_m: FloatArray) -> _Swing:
     """The chest turning about the upright, its shoulder brought forwards as far as it goes."""
     shoulder, clavicle = clavicle_of(skeleton, side)
-    forwards = quaternion.from_axis_angle(forwards_axis(clavicle), CLAVICLE_RAD)
+    forwards = quaternion.from_axis_angle(forwards_axis(skeleton, side), CLAVICLE_RAD)
     root_m = skeleton.offsets_m[shoulder] + quaternion.rotate(forwards, clavicle)
     root = quaternion.rotate(body.chest, root_m)
     there = target_m - body.chest_m
@@ -150,13 +151,16 @@ def _waist(skeleton: Skeleton, side: Side, body: Trunk, target_m: FloatArray) ->
     return _Swing(flat + rise_m * rise_m, np.hypot(along, across), np.arctan2(across, along))
 
 
+@lru_cache(maxsize=64)
 def clavicle_of(skeleton: Skeleton, side: Side) -> tuple[int, FloatArray]:
     """Joint of a clavicle, and where the shoulder joint lies in its frame."""
     return skeleton.index(f"{side}Shoulder"), skeleton.offsets_m[skeleton.index(f"{side}UpperArm")]
 
 
-def forwards_axis(clavicle: FloatArray) -> FloatArray:
+@lru_cache(maxsize=64)
+def forwards_axis(skeleton: Skeleton, side: Side) -> FloatArray:
     """Axis in the chest's frame about which a clavicle comes straight forwards."""
+    _, clavicle = clavicle_of(skeleton, side)
     axis = np.cross(clavicle, Z_AXIS)
     unit: FloatArray = axis / np.linalg.norm(axis)
     return unit

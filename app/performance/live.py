@@ -31,7 +31,7 @@ from app.project.model import Player
 Floats = npt.NDArray[np.float32]
 StopWanted = Callable[[], bool]
 
-CHUNK_S = 2.0
+CHUNK_S = 4.0
 """Length of a chunk: long enough that numpy's overhead is small, short enough that a correction is seen at once."""
 BUDGET_BYTES = 256 * 1024 * 1024
 OVERHEAD_BYTES = 1024

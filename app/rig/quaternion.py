@@ -21,8 +21,9 @@ def multiply(a: ArrayLike, b: ArrayLike) -> FloatArray:
     a, b = np.asarray(a), np.asarray(b)
     ax, ay, az, aw = a[..., 0], a[..., 1], a[..., 2], a[..., 3]
     bx, by, bz, bw = b[..., 0], b[..., 1], b[..., 2], b[..., 3]
-    result = np.empty(np.broadcast_shapes(a.shape, b.shape))
-    result[..., 0] = aw * bx + ax * bw + ay * bz - az * by
+    first = aw * bx + ax * bw + ay * bz - az * by
+    result = np.empty((*first.shape, 4))
+    result[..., 0] = first
     result[..., 1] = aw * by - ax * bz + ay * bw + az * bx
     result[..., 2] = aw * bz + ax * by - ay * bx + az * bw
     result[..., 3] = aw * bw - ax * bx - ay * by - az * bz
@@ -45,8 +46,9 @@ def rotate(q: ArrayLike, v: ArrayLike) -> FloatArray:
     tx = 2.0 * (y * vz - z * vy)
     ty = 2.0 * (z * vx - x * vz)
     tz = 2.0 * (x * vy - y * vx)
-    result = np.empty((*np.broadcast_shapes(q.shape[:-1], v.shape[:-1]), 3))
-    result[..., 0] = vx + w * tx + y * tz - z * ty
+    first = vx + w * tx + y * tz - z * ty
+    result = np.empty((*first.shape, 3))
+    result[..., 0] = first
     result[..., 1] = vy + w * ty + z * tx - x * tz
     result[..., 2] = vz + w * tz + x * ty - y * tx
     return result
@@ -156,8 +158,9 @@ def cross(a: FloatArray, b: FloatArray) -> FloatArray:
     """Return a x b (..., 3), as `numpy.cross` does with less ado."""
     ax, ay, az = a[..., 0], a[..., 1], a[..., 2]
     bx, by, bz = b[..., 0], b[..., 1], b[..., 2]
-    result = np.empty(np.broadcast_shapes(a.shape, b.shape))
-    result[..., 0] = ay * bz - az * by
+    first = ay * bz - az * by
+    result = np.empty((*first.shape, 3))
+    result[..., 0] = first
     result[..., 1] = az * bx - ax * bz
     result[..., 2] = ax * by - ay * bx
     return result

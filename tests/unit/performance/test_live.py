@@ -178,7 +178,7 @@ def test_it_is_asked_while_it_works(performance: Performance) -> None:
         try:
             while not stop.is_set():
                 live.work(stop.is_set)
-        except BaseException as fault:
+        except BaseException as fault:  # noqa: BLE001 - told below
             faults.append(fault)
 
     thread = threading.Thread(target=work)
