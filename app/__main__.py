@@ -47,6 +47,8 @@ def run(arguments: Sequence[str]) -> int:
 
 def edit(parsed: Namespace) -> int:
     """Start the editor as the command line says."""
+    # Which sound libraries this system lacks is nothing a person can act on.
+    os.environ.setdefault("QT_LOGGING_RULES", "qt.multimedia.symbolsresolver=false;qt.multimedia.ffmpeg=false")
     from app.cli import BAD_INPUT
     from app.errors import AppError
     from app.messages import error_text

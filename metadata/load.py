@@ -190,7 +190,7 @@ def _check_axes(path: Path, key: str, axes: tuple[tuple[float, float, float], ..
                 raise _invalid(path, key, "axes must be unit vectors at right angles")
 
 
-# msgspec works a type out when it is first used, and two threads that do so at once crash it: it is done here, under the
-# import's lock.
+# msgspec works a type out when it is first used, and two threads that do so at once crash it: it is done here, under
+# the import's lock.
 for _type in (Body, Expression, SkeletonProfile):
     msgspec.json.Decoder(_type)

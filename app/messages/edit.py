@@ -19,7 +19,6 @@ TEMPLATES: Final[dict[str, str]] = {
     "edit.set_embouchure": "change the embouchure of {count} notes",
     "edit.pin_fingerings": "fingering of {count} notes",
     "edit.add_breath": "add a breath",
-    "edit.add_preparation": "add a preparation",
     "edit.add_cue": "add a cue",
     "edit.add_gesture": "add a gesture",
     "edit.add_expression": "add an expression",

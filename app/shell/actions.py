@@ -81,11 +81,7 @@ def rows() -> tuple[Action, ...]:
     """Every row of the table."""
     found: list[Action] = []
     for subject in SUBJECTS:
-        try:
-            module = importlib.import_module(f"app.shell.commands.{subject}")
-        except ModuleNotFoundError:
-            continue
-        found += module.ACTIONS
+        found += importlib.import_module(f"app.shell.commands.{subject}").ACTIONS
     return tuple(found)
 
 
@@ -153,6 +149,7 @@ class ActionTable(QObject):
         application = QApplication.instance()
         if isinstance(application, QApplication):
             application.focusChanged.connect(self._focus_moved)
+        self._give_shortcuts()
         self._dress()
         self.retranslate()
 
@@ -219,18 +216,19 @@ class ActionTable(QObject):
             self._give_shortcuts()
 
     def _give_shortcuts(self) -> None:
-        """Where a panel and the window know the same shortcut, the panel that has the keyboard has it alone: Qt
-        would do neither."""
-        taken = {
-            sequence.toString()
-            for row in self.rows.values()
-            if row.context == self._context != "window"
-            for sequence in sequences(self.keys(row.id))
+        """Where a panel and the window know the same shortcut, the panel that has the keyboard has it alone, and without
+        the keyboard none of it: Qt would do neither."""
+        keys = {
+            row.id: {sequence.toString() for sequence in sequences(self.keys(row.id))} for row in self.rows.values()
         }
+        of_context: dict[str, set[str]] = {}
         for row in self.rows.values():
-            wanted = sequences(self.keys(row.id))
-            if row.context == "window":
-                wanted = [sequence for sequence in wanted if sequence.toString() not in taken]
+            of_context.setdefault(row.context, set()).update(keys[row.id])
+        here = of_context.get(self._context, set()) if self._context != "window" else set()
+        everywhere = of_context.get("window", set())
+        for row in self.rows.values():
+            taken = here if row.context == "window" else set() if row.context == self._context else everywhere
+            wanted = [sequence for sequence in sequences(self.keys(row.id)) if sequence.toString() not in taken]
             action = self.actions[row.id]
             if action.shortcuts() != wanted:
                 action.setShortcuts(wanted)

@@ -170,16 +170,19 @@ class Files(QObject):
         self.session.tasks.run(Message("work.open"), work, done, self._failed(path), key="open")
 
     def _read(self, path: Path, ask: bool) -> None:
-        def work(progress: Callable[[float], None], stop_wanted: Callable[[], bool]) -> MidiContents:
-            return read_contents(path)
+        source = str(path)
 
-        def done(contents: MidiContents) -> None:
-            source = str(path)
+        def work(progress: Callable[[float], None], stop_wanted: Callable[[], bool]) -> Read:
+            contents = read_contents(path)
             if ask:
+                return contents, None
+            maps = bundled_maps()
+            return contents, import_project(contents, usual_rows(contents, maps), maps, source)
+
+        def done(read: Read) -> None:
+            contents, project = read
+            if project is None:
                 project = self.questions.import_midi(contents, source, self.session.tokens)
-            else:
-                maps = bundled_maps()
-                project = import_project(contents, usual_rows(contents, maps), maps, source)
             if project is None:
                 return
             self._become(project, None)
@@ -378,3 +381,4 @@ class Files(QObject):
 
 
 Opened = tuple[Project, Recoverable | None]
+Read = tuple[MidiContents, Project | None]

@@ -139,6 +139,15 @@ class Settings:
         self._set("files/folder", value)
 
     @property
+    def export_folder(self) -> str:
+        """Where players were last exported to."""
+        return self._get("files/export_folder", "")
+
+    @export_folder.setter
+    def export_folder(self, value: str) -> None:
+        self._set("files/export_folder", value)
+
+    @property
     def recent(self) -> tuple[str, ...]:
         """Files opened lately, the newest first."""
         count = self._file.beginReadArray("recent")

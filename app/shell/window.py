@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import importlib
 from functools import partial
 from pathlib import Path
 from typing import Final
 
-from PySide6.QtCore import QByteArray, QEvent, QPoint, QSize, Qt
+from PySide6.QtCore import QByteArray, QEvent, QPoint, QSize, Qt, QTimer
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QKeySequence
 from PySide6.QtWidgets import QMainWindow, QPushButton, QStackedWidget, QToolBar, QVBoxLayout, QWidget
 
@@ -27,6 +26,11 @@ from app.shell.status import StatusLine
 from app.shell.tasks import ThreadTasks
 from widgets.common.icons import icon
 from widgets.common.session import Session
+from widgets.inspector.panel import InspectorPanel
+from widgets.players.panel import PlayersPanel
+from widgets.timeline.panel import TimelinePanel
+from widgets.transport.bar import TransportBar
+from widgets.viewport.panel import ViewportPanel
 
 LAYOUT_VERSION: Final = 1
 """Another set of panels makes layouts of before useless: they are passed over."""
@@ -65,8 +69,16 @@ class Window(QMainWindow):
         self._full: QByteArray | None = None
         self._layout = QByteArray()
 
-        self.panels: dict[str, QWidget] = _panels(self.session, generator)
-        self.viewport = self.panels["viewport"]
+        self.viewport = ViewportPanel(self.session, generator.live)
+        generator.motion_changed.connect(self.viewport.poses_changed)
+        self.timeline = TimelinePanel(self.session)
+        self.panels: dict[str, QWidget] = {
+            "viewport": self.viewport,
+            "timeline": self.timeline,
+            "players": PlayersPanel(self.session),
+            "inspector": InspectorPanel(self.session),
+            "transport": TransportBar(self.session),
+        }
         self.banner = Banner(self.session)
         self.start_page = StartPage(self.session, self._files, editor.settings)
         self._pages = QStackedWidget()
@@ -356,7 +368,8 @@ class Window(QMainWindow):
         """Unsaved changes are saved or given up first."""
         if not self._closing and not self._files.is_saved:
             event.ignore()
-            self._files.let_go(self._close_now)
+            # Qt does not close a window that is just being closed.
+            self._files.let_go(lambda: QTimer.singleShot(0, self._close_now))
             return
         self.remember()
         self._files.end()
@@ -374,20 +387,3 @@ def dropped_file(event: QDropEvent) -> Path | None:
         if path.suffix.lower() in (SUFFIX, *MIDI_SUFFIXES, *AUDIO_SUFFIXES):
             return path
     return None
-
-
-def _panels(session: Session, generator: Generator) -> dict[str, QWidget]:
-    def made(module: str, name: str, *arguments: object) -> QWidget:
-        try:
-            panel: QWidget = getattr(importlib.import_module(module), name)(session, *arguments)
-        except ModuleNotFoundError:
-            panel = QWidget()
-        return panel
-
-    return {
-        "viewport": made("widgets.viewport.panel", "ViewportPanel", generator.live),
-        "timeline": made("widgets.timeline.panel", "TimelinePanel"),
-        "players": made("widgets.players.panel", "PlayersPanel"),
-        "inspector": made("widgets.inspector.panel", "InspectorPanel"),
-        "transport": made("widgets.transport.bar", "TransportBar"),
-    }

@@ -8,7 +8,7 @@ from functools import cache
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import QCoreApplication, Qt
+from PySide6.QtCore import QCoreApplication, QEvent, Qt
 from PySide6.QtWidgets import QApplication
 
 from app.project.model import Project, map_choices, project_from_score
@@ -21,6 +21,8 @@ from widgets.common.tokens import DARK
 
 QUARTET = Path(__file__).parents[2] / "resources" / "examples" / "quartet.mid"
 
+# A worker that triggers the collection would destroy widgets in its own thread: here it happens between tests alone.
+gc.disable()
 # Before the application is made: the viewport's context survives docking and floating.
 QCoreApplication.setAttribute(Qt.ApplicationAttribute.AA_ShareOpenGLContexts)
 
@@ -36,6 +38,12 @@ def quartet_project() -> Project:
 def qapp_args() -> list[str]:
     """The program's name."""
     return ["suisou"]
+
+
+def delete_now() -> None:
+    """Whatever is to be deleted later is deleted now."""
+    QCoreApplication.processEvents()
+    QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete.value)
 
 
 @pytest.fixture
@@ -67,6 +75,5 @@ def _widgets_die_here(qapp: QApplication) -> Iterator[None]:
     for widget in QApplication.topLevelWidgets():
         widget.close()
         widget.deleteLater()
-    QCoreApplication.sendPostedEvents(None, 0)
-    QCoreApplication.processEvents()
+    delete_now()
     gc.collect()

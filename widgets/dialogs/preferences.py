@@ -205,5 +205,5 @@ class PreferencesDialog(QDialog):
         super().changeEvent(event)
 
 
-def _call(choose: Callable[[], object], checked: bool) -> None:
+def _call(choose: Callable[[], object], *_: object) -> None:
     choose()

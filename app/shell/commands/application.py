@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from functools import partial
 
-
 from app.shell.action import QT_TRANSLATE_NOOP, Action
 from app.shell.editor import editor_of
-from widgets.common.session import Session, TimeDisplay
+from widgets.common.session import Session
 from widgets.common.tokens import THEMES
 
 
@@ -71,11 +70,6 @@ def syllables(on_syllables: bool, session: Session, on: bool) -> None:
     session.pitch_display.set(syllables=on_syllables)
 
 
-def time_display(display: TimeDisplay, session: Session, on: bool) -> None:
-    """How times are written."""
-    session.set_time_display(display)
-
-
 def _is_full_screen(session: Session) -> bool:
     return editor_of(session).window.is_full_screen
 
@@ -129,27 +123,6 @@ ACTIONS: tuple[Action, ...] = (
         "View/Panels",
         enabled=_is_open,
         icon="layout",
-    ),
-    Action(
-        "time.bars",
-        QT_TRANSLATE_NOOP("Action", "Bars and Beats"),
-        partial(time_display, "bars"),
-        "View/Time",
-        checked=lambda session: session.time_display == "bars",
-    ),
-    Action(
-        "time.seconds",
-        QT_TRANSLATE_NOOP("Action", "Seconds"),
-        partial(time_display, "seconds"),
-        "View/Time",
-        checked=lambda session: session.time_display == "seconds",
-    ),
-    Action(
-        "time.frames",
-        QT_TRANSLATE_NOOP("Action", "Frames"),
-        partial(time_display, "frames"),
-        "View/Time",
-        checked=lambda session: session.time_display == "frames",
     ),
     Action(
         "pitch.concert",

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-
 from app.shell.action import QT_TRANSLATE_NOOP, Action
 from widgets.common.session import Session
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-
 from app.errors import Message
 from app.project.edit import players as edit
 from app.project.model import Player

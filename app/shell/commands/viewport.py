@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from functools import partial
 
-
 from app.shell.action import QT_TRANSLATE_NOOP, Action
 from widgets.common.session import Session
 from widgets.common.viewport_state import Shown, View

@@ -85,7 +85,7 @@ def test_a_refused_number_shows_what_is_there(panel: InspectorPanel, planned: Se
     # The first would go to the lowest pitch there is, the other below it.
     low = min(notes, key=lambda note: note.onset_tick)
     type_into(number(panel, "note_pitch"), "127" if notes[1].pitch > notes[0].pitch else "0")
-    assert told == ["notes.pitch_outside"]
+    assert told == ["note.pitch_outside"]
     assert note_now(planned, low.id).pitch == low.pitch
     assert number(panel, "note_pitch").value == low.pitch
 

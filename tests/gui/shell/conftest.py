@@ -1,0 +1,117 @@
+"""The whole editor, with settings, recovery folder and answers of the test's own."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from PySide6.QtWidgets import QApplication
+from pytestqt.qtbot import QtBot
+
+from app.project.autosave import Autosave
+from app.project.importing import import_project, usual_rows
+from app.project.model import Project
+from app.project.presence import Presence
+from app.score.read import MidiContents
+from app.shell.app import Program
+from app.shell.questions import Answer
+from app.shell.settings import Settings
+from instrument_maps.load import bundled_maps
+from tests.gui.conftest import QUARTET, delete_now
+from tests.support.tasks import ImmediateTasks
+from widgets.common.tokens import Tokens
+
+
+class Answers:
+    """Answers what the editor asks as the test says, and notes down what was asked."""
+
+    def __init__(self) -> None:
+        self.path: Path | None = None
+        self.answer: Answer = "cancel"
+        self.imports = True
+        self.asked: list[str] = []
+
+    def open_file(self, title: str, folder: str, filters: str) -> Path | None:
+        """The test's path."""
+        self.asked.append("open")
+        return self.path
+
+    def save_file(self, title: str, proposal: str, filters: str) -> Path | None:
+        """The test's path."""
+        self.asked.append("save")
+        return self.path
+
+    def unsaved(self, name: str) -> Answer:
+        """The test's answer."""
+        self.asked.append("unsaved")
+        return self.answer
+
+    def import_midi(self, contents: MidiContents, source: str, tokens: Tokens) -> Project | None:
+        """As if nobody touched the dialog."""
+        self.asked.append("import")
+        maps = bundled_maps()
+        return import_project(contents, usual_rows(contents, maps), maps, source) if self.imports else None
+
+
+@pytest.fixture
+def answers() -> Answers:
+    """What the person answers."""
+    return Answers()
+
+
+@pytest.fixture
+def settings(tmp_path: Path) -> Settings:
+    """Settings of nobody; English, whatever the system speaks."""
+    result = Settings(tmp_path / "settings" / "editor.ini")
+    result.language = "en"
+    return result
+
+
+Start = Callable[[], Program]
+
+
+@pytest.fixture
+def start(qtbot: QtBot, qt_app: QApplication, settings: Settings, answers: Answers, tmp_path: Path) -> Iterator[Start]:
+    """Starts editors, one after another, that share settings and recovery folder."""
+    started: list[Program] = []
+
+    def begin() -> Program:
+        program = Program(settings, ImmediateTasks(), answers, Autosave(Presence(tmp_path / "recovery")), heard=False)
+        program.window.show()
+        program.window.activateWindow()
+        qtbot.waitUntil(program.window.isActiveWindow)
+        started.append(program)
+        return program
+
+    yield begin
+    for program in started:
+        program.window.hide()
+        program.end()
+        program.generator.deleteLater()
+        program.editor.files.end()
+        program.language.set("en")
+        program.window.deleteLater()
+        program.session.deleteLater()
+    delete_now()
+
+
+def trigger(program: Program, action_id: str) -> None:
+    """Do what an action does, if it makes sense now."""
+    program.editor.table.refresh()
+    assert program.session.actions[action_id].isEnabled(), action_id
+    program.session.actions[action_id].trigger()
+
+
+@pytest.fixture
+def program(start: Start) -> Program:
+    """An editor with the quartet open."""
+    result = start()
+    result.editor.files.open(QUARTET, ask=False)
+    return result
+
+
+@pytest.fixture
+def empty(start: Start) -> Program:
+    """An editor with nothing open."""
+    return start()

@@ -1,0 +1,168 @@
+"""The table of actions: palette, shortcuts, menus, states."""
+
+from __future__ import annotations
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QApplication, QPushButton
+from pytestqt.qtbot import QtBot
+
+from app.errors import Message
+from app.project.edit.piece import set_title
+from app.shell.actions import CONTEXTS, ActionTable, rows, sequences, unnamed_menus
+from app.shell.app import Program
+from app.shell.settings import Settings
+from app.shell.window import Window
+
+
+def test_the_table_is_sound() -> None:
+    table = rows()
+    ids = [row.id for row in table]
+    assert len(set(ids)) == len(ids)
+    assert unnamed_menus(table) == set()
+    assert {row.context for row in table} <= set(CONTEXTS)
+    for row in table:
+        assert row.text
+        for sequence in sequences(row.shortcut):
+            assert sequence.toString(), f"{row.id}: {row.shortcut!r} is no shortcut"
+
+
+def test_no_two_actions_have_the_same_shortcut_in_one_place(program: Program) -> None:
+    table = program.editor.table
+    clashes = {row.id: found for row in table.rows.values() if (found := table.conflicts(row.id, row.shortcut))}
+    assert clashes == {}
+
+
+def test_tool_tips_name_the_shortcut(program: Program) -> None:
+    assert program.session.actions["file.save"].toolTip() == "Save (Ctrl+S)"
+
+
+def test_undo_names_the_step_and_takes_it_back(program: Program, qtbot: QtBot) -> None:
+    session = program.session
+    undo, redo = session.actions["edit.undo"], session.actions["edit.redo"]
+    qtbot.waitUntil(lambda: not undo.isEnabled())
+    before = session.project
+    session.attempt(Message("edit.set_tempo"), lambda project: set_title(project, "Another"))
+    qtbot.waitUntil(undo.isEnabled)
+    assert undo.text() == "Undo: set the tempo"
+    qtbot.keyClick(program.window, Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier)
+    assert session.project is before
+    qtbot.waitUntil(redo.isEnabled)
+    assert not undo.isEnabled()
+    qtbot.keyClick(
+        program.window, Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier
+    )
+    assert session.project.score.title == "Another"
+
+
+def test_the_palette_finds_and_runs(program: Program, qtbot: QtBot) -> None:
+    palette = program.window.palette_popup
+    qtbot.mouseClick(program.window.palette_field, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(palette.isVisible)
+    qtbot.keyClicks(palette.field, "light th")
+    assert palette.found()[0] == "theme.light"
+    qtbot.keyClick(palette.field, Qt.Key.Key_Return)
+    assert program.session.tokens.name == "light"
+    assert not palette.isVisible()
+    # What was done last is offered first.
+    qtbot.keyClick(
+        program.window, Qt.Key.Key_P, Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier
+    )
+    qtbot.waitUntil(palette.isVisible)
+    assert palette.found()[0] == "theme.light"
+    palette.hide()
+
+
+def test_the_palette_knows_both_languages(program: Program) -> None:
+    program.editor.speak("ja")
+    palette = program.window.palette_popup
+    palette.field.setText("theme light")
+    assert palette.found()[0] == "theme.light"
+    palette.field.setText("ライト")
+    assert palette.found()[0] == "theme.light"
+
+
+def test_the_palette_does_not_run_what_makes_no_sense(program: Program, qtbot: QtBot) -> None:
+    palette = program.window.palette_popup
+    program.editor.table.refresh()
+    palette.field.setText("redo")
+    assert palette.found()[0] == "edit.redo"
+    qtbot.keyClick(palette.field, Qt.Key.Key_Return)
+    assert program.session.document.undone == ()
+
+
+def test_a_shortcut_of_ones_own_works_and_is_remembered(program: Program, settings: Settings, qtbot: QtBot) -> None:
+    table = program.editor.table
+    table.set_keys("theme.light", "Ctrl+Alt+L")
+    qtbot.keyClick(program.window, Qt.Key.Key_L, Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.AltModifier)
+    assert program.session.tokens.name == "light"
+    assert "Ctrl+Alt+L" in program.session.actions["theme.light"].toolTip()
+    again = ActionTable(program.session, Settings(settings.path), rows())
+    assert again.keys("theme.light") == "Ctrl+Alt+L"
+    table.set_keys("theme.light", None)
+    assert settings.shortcut("theme.light") is None
+
+
+def test_a_taken_shortcut_is_told(program: Program) -> None:
+    table = program.editor.table
+    assert table.conflicts("theme.light", "Ctrl+S") == ("file.save",)
+    assert table.conflicts("file.save", "Ctrl+S") == ()
+
+
+def test_the_preferences_move_a_shortcut(program: Program, qtbot: QtBot) -> None:
+    from app.shell.preferences import show_preferences
+
+    dialog = show_preferences(program.editor, "shortcuts")
+    page = dialog.shortcuts
+    page.choose("theme.light")
+    qtbot.keyClick(page.edit, Qt.Key.Key_S, Qt.KeyboardModifier.ControlModifier)
+    assert "Save" in page.told.text()
+    qtbot.mouseClick(page.give, Qt.MouseButton.LeftButton)
+    assert program.editor.table.keys("theme.light") == "Ctrl+S"
+    assert program.editor.table.keys("file.save") == ""
+    qtbot.mouseClick(page.all_back, Qt.MouseButton.LeftButton)
+    assert program.editor.table.keys("theme.light") == ""
+    assert program.editor.table.keys("file.save") == "Ctrl+S"
+    dialog.close()
+
+
+def test_the_preferences_hold_at_once(program: Program, settings: Settings, qtbot: QtBot) -> None:
+    from app.shell.preferences import show_preferences
+
+    dialog = show_preferences(program.editor, "general")
+    for name in ("preferences_theme_light", "preferences_octave_c3", "preferences_time_frames"):
+        dialog.findChild(object, name).click()
+    assert program.session.tokens.name == "light"
+    assert program.session.pitch_display.middle_c_octave == 3
+    assert program.session.time_display == "frames"
+    kept = Settings(settings.path)
+    settings.sync()
+    assert (kept.theme, kept.middle_c_octave, kept.time_display) == ("light", 3, "frames")
+    dialog.close()
+
+
+def test_a_panel_has_its_shortcut_before_the_window(program: Program, qtbot: QtBot) -> None:
+    table = program.editor.table
+    table.set_keys("theme.light", "Ctrl+Alt+K")
+    table.set_keys("viewport.skeleton", "Ctrl+Alt+K")
+    modifiers = Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.AltModifier
+    window = program.window
+    focus(window, "viewport", qtbot)
+    qtbot.keyClick(QApplication.focusWidget() or window, Qt.Key.Key_K, modifiers)
+    assert program.session.viewport.shows("skeleton")
+    assert program.session.tokens.name == "dark"
+    window.palette_field.setFocus()
+    qtbot.keyClick(window.palette_field, Qt.Key.Key_K, modifiers)
+    assert program.session.tokens.name == "light"
+
+
+def focus(window: Window, panel: str, qtbot: QtBot) -> None:
+    """Bring the keyboard into a panel."""
+    window.activateWindow()
+    widget = window.panels[panel]
+    for candidate in (widget, *widget.findChildren(QPushButton), *widget.findChildren(object)):
+        if getattr(candidate, "focusPolicy", lambda: Qt.FocusPolicy.NoFocus)() != Qt.FocusPolicy.NoFocus:
+            candidate.setFocus()
+            if QApplication.focusWidget() is not None and widget.isAncestorOf(QApplication.focusWidget()):
+                return
+    pytest.fail(f"nothing in {panel} takes the keyboard")

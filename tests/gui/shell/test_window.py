@@ -1,0 +1,200 @@
+"""The window: panels, pages, menus, layout, title, closing."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt, QUrl
+from PySide6.QtGui import QDragEnterEvent, QDropEvent
+from PySide6.QtWidgets import QApplication, QMenu
+from pytestqt.qtbot import QtBot
+
+from app.errors import Message
+from app.project.edit.piece import set_title
+from app.project.storage import load
+from app.shell.app import Program
+from app.shell.window import SIDES
+from tests.gui.conftest import QUARTET
+from tests.gui.shell.conftest import Answers, Start, trigger
+
+
+def edit(program: Program, title: str = "Another") -> None:
+    program.session.attempt(Message("edit.set_tempo"), lambda project: set_title(project, title))
+
+
+def drop(program: Program, path: Path) -> bool:
+    """Drag a file onto the window; whether it was welcome."""
+    mime = QMimeData()
+    mime.setUrls([QUrl.fromLocalFile(str(path))])
+    action, left, none = Qt.DropAction.CopyAction, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier
+    enter = QDragEnterEvent(QPoint(50, 50), action, mime, left, none)
+    QApplication.sendEvent(program.window, enter)
+    if enter.isAccepted():
+        QApplication.sendEvent(program.window, QDropEvent(QPointF(50, 50), action, mime, left, none))
+    return enter.isAccepted()
+
+
+def test_the_start_page_is_alone_until_something_is_open(empty: Program) -> None:
+    window = empty.window
+    assert window.start_page.isVisible()
+    assert not any(dock.isVisible() for dock in window.docks.values())
+    trigger(empty, "file.open_example")
+    assert not window.start_page.isVisible()
+    assert window.viewport.isVisible()
+    assert all(dock.isVisible() for dock in window.docks.values())
+    trigger(empty, "file.close")
+    assert window.start_page.isVisible()
+    assert empty.session.project.players == ()
+
+
+def test_every_menu_opens(program: Program, qtbot: QtBot) -> None:
+    opened: list[QMenu] = []
+    for menu in program.window.menus.menus.values():
+        menu.aboutToShow.connect(lambda menu=menu: opened.append(menu))
+        menu.popup(program.window.mapToGlobal(QPoint(20, 40)))
+        qtbot.waitUntil(menu.isVisible)
+        menu.close()
+        assert menu.title()
+        assert menu.actions()
+    assert len(opened) == len(program.window.menus.menus)
+
+
+def test_the_title_says_what_is_open_and_whether_it_is_saved(
+    program: Program, tmp_path: Path, answers: Answers
+) -> None:
+    window = program.window
+    assert window.windowTitle().startswith("quartet")
+    assert not window.isWindowModified()
+    edit(program)
+    assert window.isWindowModified()
+    answers.path = tmp_path / "mine"
+    trigger(program, "file.save")
+    assert window.windowTitle().startswith("mine.suisou")
+    assert not window.isWindowModified()
+    assert load(tmp_path / "mine.suisou") == program.session.project
+    trigger(program, "edit.undo")
+    assert window.isWindowModified()
+
+
+@pytest.mark.parametrize(("answer", "is_closed"), [("cancel", False), ("discard", True), ("save", True)])
+def test_closing_with_unsaved_changes_asks(
+    program: Program, answers: Answers, tmp_path: Path, qtbot: QtBot, answer: str, is_closed: bool
+) -> None:
+    edit(program)
+    answers.path = tmp_path / "kept.suisou"
+    answers.answer = answer  # type: ignore[assignment]
+    program.window.close()
+    qtbot.wait(10)
+    assert answers.asked[0] == "unsaved"
+    assert program.window.isHidden() is is_closed
+    assert (tmp_path / "kept.suisou").exists() is (answer == "save")
+
+
+def test_closing_without_changes_does_not_ask(program: Program, answers: Answers) -> None:
+    program.window.close()
+    assert program.window.isHidden()
+    assert answers.asked == []
+
+
+def test_saving_that_is_given_up_does_not_close(program: Program, answers: Answers) -> None:
+    edit(program)
+    answers.answer, answers.path = "save", None
+    program.window.close()
+    assert not program.window.isHidden()
+
+
+def test_files_are_dropped_onto_the_window(empty: Program, answers: Answers, tmp_path: Path) -> None:
+    sound, text = tmp_path / "take.wav", tmp_path / "notes.txt"
+    sound.write_bytes(b"")
+    text.write_text("no music")
+    assert not drop(empty, text)
+    assert drop(empty, QUARTET)
+    assert answers.asked == ["import"]
+    assert len(empty.session.project.players) == 4
+    assert drop(empty, sound)
+    assert empty.session.project.audio is not None
+    assert empty.session.project.audio.path == str(sound)
+
+
+def test_an_import_that_is_given_up_leaves_everything(empty: Program, answers: Answers) -> None:
+    answers.imports = False
+    drop(empty, QUARTET)
+    assert not empty.editor.files.is_open
+
+
+def test_panels_close_come_back_float_and_return_to_their_places(program: Program) -> None:
+    window = program.window
+    dock = window.docks["players"]
+    assert dock.isVisible()
+    trigger(program, "panel.players")
+    assert not dock.isVisible()
+    trigger(program, "panel.players")
+    assert dock.isVisible()
+    dock.setFloating(True)
+    assert dock.isFloating()
+    trigger(program, "application.reset_layout")
+    assert not dock.isFloating()
+    assert all(window.dockWidgetArea(window.docks[name]) == area for name, area in SIDES.items())
+
+
+def test_the_layout_is_remembered(start: Start) -> None:
+    first = start()
+    first.editor.files.open(QUARTET, ask=False)
+    trigger(first, "panel.inspector")
+    first.window.addDockWidget(Qt.DockWidgetArea.RightDockWidgetArea, first.window.docks["players"])
+    first.window.resize(1234, 777)
+    first.window.close()
+    second = start()
+    assert (second.window.width(), second.window.height()) == (1234, 777)
+    second.editor.files.open(QUARTET, ask=False)
+    assert second.window.docks["inspector"].isHidden()
+    assert not second.window.docks["timeline"].isHidden()
+    assert second.window.dockWidgetArea(second.window.docks["players"]) == Qt.DockWidgetArea.RightDockWidgetArea
+
+
+def test_the_layout_survives_the_start_page(start: Start) -> None:
+    first = start()
+    first.editor.files.open(QUARTET, ask=False)
+    trigger(first, "panel.inspector")
+    trigger(first, "file.close")
+    first.window.close()
+    second = start()
+    second.editor.files.open(QUARTET, ask=False)
+    assert second.window.docks["inspector"].isHidden()
+    assert not second.window.docks["players"].isHidden()
+
+
+def test_full_screen_shows_the_viewport_alone(program: Program, qtbot: QtBot) -> None:
+    window = program.window
+    trigger(program, "application.full_screen")
+    assert window.isFullScreen()
+    assert window.viewport.isVisible()
+    assert not any(dock.isVisible() for dock in window.docks.values())
+    assert not window.menuBar().isVisible()
+    qtbot.keyClick(window, Qt.Key.Key_Escape)
+    assert not window.isFullScreen()
+    assert all(dock.isVisible() for dock in window.docks.values())
+    assert window.menuBar().isVisible()
+
+
+def test_a_missing_recording_is_asked_for_and_its_offset_stays(
+    start: Start, answers: Answers, tmp_path: Path, qtbot: QtBot
+) -> None:
+    first = start()
+    first.editor.files.open(QUARTET, ask=False)
+    sound = tmp_path / "take.wav"
+    sound.write_bytes(b"")
+    first.editor.files.add_audio(sound)
+    answers.path = tmp_path / "piece.suisou"
+    trigger(first, "file.save")
+    first.window.close()
+    moved = sound.rename(tmp_path / "moved.wav")
+    second = start()
+    second.editor.files.open(tmp_path / "piece.suisou")
+    assert second.window.banner.isVisible()
+    answers.path = moved
+    qtbot.mouseClick(second.window.banner.findChild(object, "banner_answer_0"), Qt.MouseButton.LeftButton)
+    assert second.session.project.audio is not None
+    assert second.session.project.audio.path == str(moved)
+    assert not second.window.banner.isVisible()

@@ -1,0 +1,57 @@
+"""Playback on a device and a clock that the test turns by hand."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+import pytest
+
+from app.audio.playback import Playback
+from app.shell.sound import Sound
+from tests.gui.transport.devices import FakeDevices, Time
+from widgets.common.session import Session
+
+STEP_S = 0.01
+
+Elapse = Callable[[float], None]
+
+
+@pytest.fixture
+def time() -> Time:
+    return Time()
+
+
+@pytest.fixture
+def devices(time: Time) -> Iterator[FakeDevices]:
+    result = FakeDevices(time)
+    yield result
+    result.deleteLater()
+
+
+@pytest.fixture
+def playback(qapp: object, devices: FakeDevices, time: Time) -> Iterator[Playback]:
+    result = Playback(devices, time)
+    result.set_span(-1.0, 20.0)
+    yield result
+    result.stop()
+    result.deleteLater()
+
+
+@pytest.fixture
+def elapse(playback: Playback, time: Time) -> Elapse:
+    """Let time go by; the device is fed as its timer would."""
+
+    def run(seconds: float) -> None:
+        for _ in range(round(seconds / STEP_S)):
+            time.now_s += STEP_S
+            playback.feed()
+
+    return run
+
+
+@pytest.fixture
+def sound(session: Session, playback: Playback, devices: FakeDevices) -> Iterator[Sound]:
+    """The session's sound, with everything rendered at once."""
+    result = Sound(session, playback)
+    yield result
+    playback.stop()

@@ -1,0 +1,293 @@
+"""What is heard follows the project; playing moves the playhead; the recording finds its place."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+import soundfile
+from pytestqt.qtbot import QtBot
+
+from app.audio.mix import mixdown
+from app.audio.track import RATE_HZ
+from app.errors import Message
+from app.project.edit.piece import set_audio, set_offset
+from app.project.edit.tempo import scale_tempo, set_tempo
+from app.project.model import Project
+from app.shell.sound import Sound, sound_of
+from tests.gui.transport.conftest import Elapse
+from tests.gui.transport.devices import FakeDevices
+from tests.support.tasks import ImmediateTasks
+from tests.unit.audio.pieces import melody, piece, with_players
+from widgets.common.session import Session, Severity
+
+NAME = Message("edit.set_offset")
+
+
+@pytest.fixture
+def ready(sound: Sound, session: Session, qtbot: QtBot) -> Sound:
+    """A short duet, rendered."""
+    session.document.open(piece(melody((0, 960, 70), (960, 960, 72)), melody((1920, 960, 65))))
+    wait_ready(session, qtbot)
+    return sound
+
+
+def wait_ready(session: Session, qtbot: QtBot) -> None:
+    qtbot.waitUntil(lambda: session.listening.ready == 1.0 and not playing_task(session), timeout=20_000)
+
+
+def playing_task(session: Session) -> bool:
+    sound = sound_of(session)
+    return sound is None or sound.is_busy
+
+
+def heard(sound: Sound, start_s: float, end_s: float) -> np.ndarray:
+    """What the playback would play."""
+    return sound.playback.mix.read(round(start_s * RATE_HZ), round((end_s - start_s) * RATE_HZ))
+
+
+def loudness(sound: Sound, start_s: float, end_s: float) -> float:
+    return float(np.sqrt((heard(sound, start_s, end_s) ** 2).mean()))
+
+
+def edit(session: Session, project: Project) -> None:
+    session.apply(NAME, project)
+
+
+def test_it_is_found_by_its_session(session: Session, sound: Sound) -> None:
+    assert sound_of(session) is sound
+    assert session.playback is sound.playback
+
+
+def test_playing_moves_the_playhead(ready: Sound, session: Session, elapse: Elapse, qtbot: QtBot) -> None:
+    session.playback.play(0.0)  # type: ignore[union-attr]
+    assert session.playing
+    elapse(0.5)
+    qtbot.waitUntil(lambda: session.playhead_s == pytest.approx(0.5, abs=0.003))
+    session.playback.stop()  # type: ignore[union-attr]
+    assert not session.playing
+    assert session.playhead_s == pytest.approx(0.5, abs=0.003)
+
+
+def test_moving_the_playhead_moves_the_sound(
+    ready: Sound, session: Session, elapse: Elapse, devices: FakeDevices
+) -> None:
+    session.set_playhead(1.0)
+    assert ready.playback.position_s() == 1.0
+    assert np.abs(devices.sink.sound).max() > 0.01, "a grain is heard"
+    ready.playback.play()
+    elapse(0.3)
+    session.set_playhead(0.25)
+    assert ready.playback.position_s() == 0.25
+    elapse(0.7)
+    assert ready.playback.position_s() == pytest.approx(0.75, abs=0.003)
+
+
+def test_scrubbing_can_be_silent(ready: Sound, session: Session, devices: FakeDevices) -> None:
+    session.listening.set(scrub_sound=False)
+    session.set_playhead(1.0)
+    assert not devices.sinks
+    assert ready.playback.position_s() == 1.0
+
+
+def test_what_is_heard_is_what_films_get(ready: Sound, session: Session) -> None:
+    assert heard(ready, 0.0, 3.0) == pytest.approx(mixdown(session.project, 0.0, 3.0), abs=1e-6)
+
+
+def test_mute_and_solo_are_heard_at_once(ready: Sound, session: Session, tasks: ImmediateTasks) -> None:
+    rendered = len(tasks.names)
+    edit(session, with_players(session.project, p0={"muted": True}))
+    assert loudness(ready, 0.2, 0.9) < 1e-4
+    assert loudness(ready, 2.2, 2.9) > 0.01
+    edit(session, with_players(session.project, p0={"muted": False, "soloed": True}))
+    assert loudness(ready, 0.2, 0.9) > 0.01
+    assert loudness(ready, 2.7, 2.95) < 1e-3
+    assert len(tasks.names) == rendered, "nothing was rendered for it"
+
+
+def test_after_an_edit_only_what_changed_is_rendered(
+    ready: Sound, session: Session, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    import app.audio.synth as synth
+
+    rendered = []
+    real = synth._render
+    monkeypatch.setattr(synth, "_render", lambda midi: rendered.append(midi) or real(midi))
+    before = heard(ready, 0.0, 1.0)
+    project = session.project
+    other = melody((1920, 960, 60))
+    score = project.score
+    parts = (score.parts[0], replace_notes(score.parts[1], other.notes))
+    edit(session, replace(project, score=replace_parts(score, parts)))
+    qtbot.waitUntil(lambda: len(rendered) == 1, timeout=5000)
+    wait_ready(session, qtbot)
+    assert len(rendered) == 1
+    assert (heard(ready, 0.0, 1.0) == before).all()
+    session.document.undo()
+    wait_ready(session, qtbot)
+    assert len(rendered) == 1, "undo finds what was made before"
+
+
+def replace_notes(part: object, notes: object) -> object:
+    import msgspec
+
+    return msgspec.structs.replace(part, notes=notes)
+
+
+def replace_parts(score: object, parts: object) -> object:
+    import msgspec
+
+    return msgspec.structs.replace(score, parts=parts)
+
+
+def test_another_tempo_is_heard(ready: Sound, session: Session, qtbot: QtBot) -> None:
+    edit(session, set_tempo(session.project, 0, 60.0))
+    qtbot.waitUntil(lambda: loudness(ready, 4.2, 5.0) > 0.01, timeout=10_000)
+    assert heard(ready, 0.0, 6.0) == pytest.approx(mixdown(session.project, 0.0, 6.0), abs=1e-6)
+
+
+def test_the_click(ready: Sound, session: Session) -> None:
+    quiet = loudness(ready, -0.6, -0.01)
+    session.listening.set(click=True)
+    assert loudness(ready, -0.6, -0.01) > quiet + 0.005
+    session.listening.set(click=False)
+    assert loudness(ready, -0.6, -0.01) == quiet
+
+
+def test_the_loop_and_the_speed_reach_the_playback(
+    ready: Sound, session: Session, elapse: Elapse, qtbot: QtBot
+) -> None:
+    session.set_loop((0.5, 1.0))
+    session.listening.set(speed=0.5)
+    ready.playback.play(0.5)
+    elapse(1.5)
+    assert ready.playback.position_s() == pytest.approx(0.75, abs=0.03)
+
+
+@pytest.fixture
+def recording(tmp_path: Path, session: Session, ready: Sound) -> Path:
+    """The duet, two seconds into a file."""
+    played = mixdown(session.project, -2.0, 5.0)
+    played += np.random.default_rng(0).normal(scale=1e-3, size=played.shape).astype(np.float32)
+    path = tmp_path / "録音.flac"
+    soundfile.write(path, played, RATE_HZ)
+    return path
+
+
+def add(session: Session, path: Path, qtbot: QtBot) -> None:
+    assert session.attempt(NAME, lambda project: set_audio(project, path))
+    qtbot.waitUntil(lambda: session.listening.waveform is not None, timeout=20_000)
+
+
+def test_a_recording_is_heard_at_its_place(
+    recording: Path, ready: Sound, session: Session, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(Sound, "estimate", lambda self, **how: None)
+    add(session, recording, qtbot)
+    assert session.listening.waveform is not None
+    assert session.listening.waveform.duration_s == pytest.approx(7.0)
+    assert loudness(ready, 2.1, 2.9) > 0.01
+    assert loudness(ready, 0.2, 0.9) < 0.01
+    session.attempt(NAME, lambda project: set_offset(project, -2.0))
+    assert loudness(ready, 0.2, 0.9) > 0.01
+    session.listening.set(source="both")
+    assert loudness(ready, 0.2, 0.9) > 0.02
+    session.listening.set(source="recording")
+    edit(session, with_players(session.project, p0={"muted": True}, p1={"muted": True}))
+    assert loudness(ready, 0.2, 0.9) > 0.01
+    session.attempt(NAME, lambda project: set_audio(project, None))
+    assert session.listening.waveform is None
+    assert loudness(ready, 0.2, 0.9) < 1e-4
+
+
+def test_a_new_recording_finds_its_place_by_itself(
+    sound: Sound, session: Session, qtbot: QtBot, tmp_path: Path
+) -> None:
+    told: list[tuple[Message, Severity]] = []
+    session.noticed.connect(lambda message, severity: told.append((message, severity)))
+    path = tmp_path / "take.wav"
+    soundfile.write(path, mixdown(session.project, -3.21, 30.0), RATE_HZ)
+    add(session, path, qtbot)
+    qtbot.waitUntil(lambda: session.project.audio is not None and session.project.audio.confidence is not None)
+    assert session.project.audio is not None
+    assert session.project.audio.offset_s == pytest.approx(-3.21, abs=0.02)
+    assert session.project.audio.confidence is not None
+    assert session.project.audio.confidence > 0.6
+    assert session.document.done[-1].name.id == "edit.estimate_offset"
+    assert told[-1][0].id == "audio.offset_found"
+    session.document.undo()
+    assert session.project.audio.offset_s == 0.0
+    session.document.undo()
+    session.document.redo()
+    qtbot.waitUntil(lambda: session.listening.waveform is not None, timeout=20_000)
+    assert session.project.audio.offset_s == 0.0, "it is not estimated again behind one's back"
+    assert len(session.document.undone) == 1
+
+
+def test_another_piece_changes_nothing(sound: Sound, session: Session, qtbot: QtBot, tmp_path: Path) -> None:
+    told: list[Message] = []
+    session.noticed.connect(lambda message, severity: told.append(message))
+    noise = np.random.default_rng(1).normal(scale=0.1, size=(20 * RATE_HZ, 2))
+    soundfile.write(tmp_path / "rain.wav", noise, RATE_HZ)
+    add(session, tmp_path / "rain.wav", qtbot)
+    qtbot.waitUntil(lambda: bool(told))
+    assert told[-1].id == "audio.not_recognised"
+    assert session.project.audio is not None
+    assert session.project.audio.offset_s == 0.0
+    assert len(session.document.done) == 1
+
+
+def test_a_faster_recording_gives_its_tempo_when_asked(
+    sound: Sound, session: Session, qtbot: QtBot, tmp_path: Path
+) -> None:
+    told: list[Message] = []
+    session.noticed.connect(lambda message, severity: told.append(message))
+    before = session.project.score.tempo_map
+    faster = scale_tempo(session.project, 1.03)
+    soundfile.write(tmp_path / "fast.wav", mixdown(faster, -1.0, 40.0), RATE_HZ)
+    add(session, tmp_path / "fast.wav", qtbot)
+    qtbot.waitUntil(lambda: bool(told))
+    assert told[-1].id == "audio.other_tempo"
+    assert session.project.score.tempo_map is before
+    sound.estimate(with_tempo=True)
+    assert told[-1].id == "audio.tempo_fitted"
+    assert session.project.score.tempo_map.bpm[0][1] == pytest.approx(faster.score.tempo_map.bpm[0][1], rel=5e-4)
+    assert session.project.audio is not None
+    assert session.project.audio.offset_s == pytest.approx(-1.0, abs=0.02)
+    session.document.undo()
+    assert session.project.score.tempo_map is before
+
+
+def test_a_missing_recording_is_told_once(sound: Sound, session: Session, qtbot: QtBot, tmp_path: Path) -> None:
+    told: list[tuple[Message, Severity]] = []
+    session.noticed.connect(lambda message, severity: told.append((message, severity)))
+    session.attempt(NAME, lambda project: set_audio(project, tmp_path / "gone.wav"))
+    qtbot.waitUntil(lambda: bool(told))
+    assert told[0][0].id == "file.cannot_read"
+    assert told[0][1] is Severity.ERROR
+    edit(session, set_tempo(session.project, 0, 90.0))
+    qtbot.wait(1)
+    assert len(told) == 1
+
+
+def test_a_project_brings_its_own_offset(sound: Sound, session: Session, qtbot: QtBot, tmp_path: Path) -> None:
+    soundfile.write(tmp_path / "r.wav", mixdown(session.project, 0.0, 10.0), RATE_HZ)
+    project = set_offset(set_audio(session.project, tmp_path / "r.wav"), 1.5)
+    session.document.open(project)
+    qtbot.waitUntil(lambda: session.listening.waveform is not None, timeout=20_000)
+    assert session.project is project
+
+
+def test_opening_stops_the_sound(ready: Sound, session: Session, elapse: Elapse) -> None:
+    ready.playback.play(0.0)
+    elapse(0.2)
+    session.document.open(piece(melody((0, 480, 60))))
+    assert not session.playing
+
+
+def test_an_empty_piece_is_silent(sound: Sound, session: Session, qtbot: QtBot) -> None:
+    session.document.open(piece())
+    wait_ready(session, qtbot)
+    assert not heard(sound, -1.0, 2.0).any()
