@@ -51,18 +51,6 @@
         <translation>レイアウトを初期化</translation>
     </message>
     <message>
-        <source>Bars and Beats</source>
-        <translation>小節と拍</translation>
-    </message>
-    <message>
-        <source>Seconds</source>
-        <translation>秒</translation>
-    </message>
-    <message>
-        <source>Frames</source>
-        <translation>フレーム</translation>
-    </message>
-    <message>
         <source>Concert Pitch</source>
         <translation>実音</translation>
     </message>
@@ -582,6 +570,38 @@
         <source>Pose by Hand</source>
         <translation>手でポーズを付ける</translation>
     </message>
+    <message>
+        <source>Read the MIDI File Again...</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Take In a Newer MIDI File...</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Export Players...</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Playblast...</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Another Performance by Everyone</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Another Performance by the Selected Players</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Another Performance of the Selected Bars</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Selected Bars as at First</source>
+        <translation type="unfinished"></translation>
+    </message>
 </context>
 <context>
     <name>ActionTable</name>
@@ -673,6 +693,10 @@
         <source>Suisou project (*{suffix})</source>
         <translation>Suisou プロジェクト (*{suffix})</translation>
     </message>
+    <message>
+        <source>Re-import MIDI</source>
+        <translation type="unfinished"></translation>
+    </message>
 </context>
 <context>
     <name>Menu</name>
@@ -726,6 +750,26 @@
     </message>
     <message>
         <source>Tool</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Players</source>
+        <translation type="unfinished">プレイヤー</translation>
+    </message>
+    <message>
+        <source>Go</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Recording</source>
+        <translation type="unfinished">録音</translation>
+    </message>
+    <message>
+        <source>Sound</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Speed</source>
         <translation type="unfinished"></translation>
     </message>
     <message>

@@ -110,13 +110,14 @@ class FingeringDiagram(QWidget):
         return [control for control in self._instrument.controls if control.kind != "slide" and control.role == "pitch"]
 
     def _slides(self) -> list[Control]:
-        """Every slide, those that only correct the intonation last."""
+        """Slides that are played."""
         assert self._instrument is not None
-        slides = [control for control in self._instrument.controls if control.kind == "slide"]
-        slides += [
-            control for control in self._instrument.controls if control.kind != "slide" and control.role == "intonation"
-        ]
-        return sorted(slides, key=lambda control: control.role != "pitch")
+        return [control for control in self._instrument.controls if control.kind == "slide" and control.role == "pitch"]
+
+    def _correcting(self) -> list[Control]:
+        """What only corrects the intonation."""
+        assert self._instrument is not None
+        return [control for control in self._instrument.controls if control.role == "intonation"]
 
     # Drawing
 
@@ -143,7 +144,7 @@ class FingeringDiagram(QWidget):
         return TOP_PX + self._line_px() + 8.0
 
     def _rail_px(self, control: Control) -> float:
-        return (34.0 + self._line_px()) if control.role == "pitch" else (self._line_px() + 10.0)
+        return 34.0 + self._line_px()
 
     def _paint_key(
         self, painter: QPainter, tokens: Tokens, control: Control, centre: QPointF, column_px: float
@@ -172,9 +173,6 @@ class FingeringDiagram(QWidget):
         left, right, value = 18.0, self.width() - 18.0, self._values[control.name]
         line_px = self._line_px()
         painter.setFont(self._small())
-        if control.role != "pitch":
-            self._paint_correction(painter, tokens, control, QRectF(8.0, top, self.width() - 16.0, line_px + 6.0))
-            return
         middle = top + line_px + 10.0
         at = left + value * (right - left)
         painter.setPen(QPen(QColor(tokens.line_strong), 4.0, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
@@ -201,6 +199,16 @@ class FingeringDiagram(QWidget):
             length = QCoreApplication.translate("Fingering", "{cm} cm").format(cm=f"{value * travel_m * 100.0:.1f}")
             painter.setPen(QColor(tokens.text))
             painter.drawText(below, Qt.AlignmentFlag.AlignRight, length)
+
+    def _paint_corrections(self, painter: QPainter, tokens: Tokens, top: float) -> None:
+        """Two beside one another in a line."""
+        painter.setFont(self._small())
+        wide = (self.width() - 24.0) / 2.0
+        for number, control in enumerate(self._correcting()):
+            left = 8.0 + (number % 2) * (wide + 8.0)
+            height = self._line_px() + 6.0
+            box = QRectF(left, top + (number // 2) * (height + 2.0), wide, height)
+            self._paint_correction(painter, tokens, control, box)
 
     def _paint_correction(self, painter: QPainter, tokens: Tokens, control: Control, box: QRectF) -> None:
         """A slide that only corrects the intonation: a thin bar."""
@@ -229,6 +237,7 @@ class FingeringDiagram(QWidget):
         if self._instrument is None:
             return QSize(200, 40)
         height = 8.0 + len(self._rows()) * self._key_row_px() + sum(self._rail_px(slide) for slide in self._slides())
+        height += -(-len(self._correcting()) // 2) * (self._line_px() + 8.0)
         return QSize(200, round(height) + 4)
 
     def minimumSizeHint(self) -> QSize:
@@ -253,3 +262,4 @@ class FingeringDiagram(QWidget):
         for slide in self._slides():
             self._paint_rail(painter, tokens, slide, top)
             top += self._rail_px(slide)
+        self._paint_corrections(painter, tokens, top)

@@ -185,13 +185,15 @@ class NoteSection(QWidget):
         self._make_chips(instrument.fingerings_for(shown.note.pitch) if same_pitch else (), event, made)
         self._chips_box.setVisible(same_pitch)
         self._diagram.show_fingering(instrument, event.controls)
-        pinned = self._pinned(shown)
-        by_whom = self.tr("The generator: {reason}") if pinned and made is not None else self.tr("Why: {reason}")
-        reason = made.reason if pinned and made is not None else event.reason
+        pinned = self._pin_label(shown)
+        by_whom = (
+            self.tr("The generator: {reason}") if pinned is not None and made is not None else self.tr("Why: {reason}")
+        )
+        reason = made.reason if pinned is not None and made is not None else event.reason
         self._why.setText(by_whom.format(reason=message_text(reason)))
-        if pinned:
+        if pinned is not None:
             self._fingering_by_hand.show_values(
-                None if made is None else _spaced(made.label, instrument), _spaced(event.label, instrument)
+                None if made is None else _spaced(made.label, instrument), _spaced(pinned, instrument)
             )
         else:
             self._fingering_by_hand.hide()
@@ -263,9 +265,15 @@ class NoteSection(QWidget):
     def _corrections(self, shown: SelectedNotes) -> tuple[object, ...]:
         return () if shown.player is None else self._session.project.corrections.get(shown.player.id, ())
 
-    def _pinned(self, shown: SelectedNotes) -> bool:
+    def _pin_label(self, shown: SelectedNotes) -> str | None:
+        """What the shown note is pinned to (the instrument may not have it), else another of the selected."""
         ids = frozenset(shown.own_ids)
-        return any(isinstance(item, PinFingering) and item.note_id in ids for item in self._corrections(shown))
+        pins = {
+            item.note_id: item.label
+            for item in self._corrections(shown)
+            if isinstance(item, PinFingering) and item.note_id in ids
+        }
+        return pins.get(shown.note.id, next(iter(pins.values()), None))
 
     def _lips_correction(self, shown: SelectedNotes) -> SetEmbouchure | None:
         ids = frozenset(shown.own_ids)
