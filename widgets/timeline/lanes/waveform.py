@@ -184,7 +184,7 @@ class WaveformLane(Lane):
         menu = QMenu(self)
         if self.session.project.audio is not None:
             menu.addAction(self.tr("Type the offset...")).triggered.connect(lambda _=False: self.double_click(mouse))
-        for action_id in ("file.add_audio", "audio.estimate_offset", "audio.remove"):
+        for action_id in ("file.add_audio", "play.estimate_offset", "play.remove_recording"):
             action = self.session.actions.get(action_id)
             if action is not None:
                 menu.addAction(action)
