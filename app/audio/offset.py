@@ -31,8 +31,8 @@ _CHROMA_HOP: Final = 2048
 _CHROMA_S: Final = _CHROMA_HOP / _RATE_HZ
 _ONSET_HOP: Final = 220
 _ONSET_S: Final = _ONSET_HOP / _RATE_HZ
-_LEAST_SAMPLES: Final = _RATE_HZ
-"""Shorter recordings are filled up with silence: the frames of the features are longer."""
+_LEAST_SAMPLES: Final = 4 * _RATE_HZ
+"""Shorter recordings are filled up with silence: what surrounds an onset must be there."""
 _HARMONICS: Final = ((0, 1.0), (7, 0.25), (4, 0.08))
 """Pitch classes above a note's own that its overtones sound in (the third and the fifth harmonic), and how loud."""
 _CANDIDATES: Final = 3

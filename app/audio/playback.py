@@ -4,18 +4,32 @@ from __future__ import annotations
 
 import time
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Final, Protocol
 
 import numpy as np
 import soxr
-from PySide6.QtCore import QByteArray, QIODevice, QObject, Qt, QTimer, Signal, SignalInstance
-from PySide6.QtMultimedia import QAudioDevice, QAudioFormat, QAudioSink, QMediaDevices, QtAudio
+from PySide6.QtCore import QByteArray, QIODevice, QObject, Qt, QTimer, Signal, SignalInstance, qInstallMessageHandler
 
 from app.audio.clock import DeviceClock
 from app.audio.reader import Mark, Reader
 from app.audio.sink import BUFFER_S, SilentSink, Sink
 from app.audio.track import RATE_HZ, Block, Mix
+
+
+@contextmanager
+def _quietly() -> Iterator[None]:
+    """Qt tells of every library that it looked for in vain; a missing device is told by us."""
+    before = qInstallMessageHandler(lambda kind, context, text: None)
+    try:
+        yield
+    finally:
+        qInstallMessageHandler(before)
+
+
+with _quietly():
+    from PySide6.QtMultimedia import QAudioDevice, QAudioFormat, QAudioSink, QMediaDevices, QtAudio
 
 _FEED_MS: Final = 10
 _GRAIN_S: Final = 0.09
@@ -92,6 +106,11 @@ class Playback(QObject):
         self._devices.changed.connect(self._device_changed)
 
     # What is played
+
+    @property
+    def mix(self) -> Mix:
+        """What is played."""
+        return self._mix
 
     def set_mix(self, mix: Mix) -> None:
         """Play this, from the next sample on."""
@@ -272,8 +291,9 @@ class SystemDevices(QObject):
         """The device that the system plays on."""
         if self._media is None:
             # Made when sound is wanted for the first time: the window is up sooner.
-            self._media = QMediaDevices(self)
-            self._last = QMediaDevices.defaultAudioOutput().id()
+            with _quietly():
+                self._media = QMediaDevices(self)
+                self._last = QMediaDevices.defaultAudioOutput().id()
             self._media.audioOutputsChanged.connect(self._outputs_changed)
         device = QMediaDevices.defaultAudioOutput()
         if device.isNull():

@@ -72,7 +72,8 @@ class Sound(QObject):
         self._synthesiser = Synthesiser()
         self._made: dict[str, _Made] = {}
         self._recording: Recording | None = None
-        self._reading = ""
+        self._path = ""
+        """Of the recording that was asked for last, whether it could be read or not."""
         self._estimated: set[str] = set()
         self._click: tuple[tuple[object, ...], Track] | None = None
         self._own_move = False
@@ -93,6 +94,11 @@ class Sound(QObject):
     def recording(self) -> Recording | None:
         """The project's recording, once it is read."""
         return self._recording
+
+    @property
+    def is_busy(self) -> bool:
+        """Whether something that is to be heard is not made yet."""
+        return self._settle_timer.isActive() or self._look_timer.isActive()
 
     # The playhead
 
@@ -150,7 +156,7 @@ class Sound(QObject):
         end_s = max(score.tempo_map.seconds(float(score.sounding_end_tick)), frame.end_s)
         self.playback.set_span(frame.first_frame_s, end_s)
         path = project.audio.path if project.audio is not None else ""
-        if path != (self._recording.path if self._recording is not None else "") and path != self._reading:
+        if path != self._path:
             self._read(path)
         if self._synthesiser_heard(project) and self._outdated(project):
             self._settle_timer.start()
@@ -241,7 +247,7 @@ class Sound(QObject):
 
     def _read(self, path: str) -> None:
         self._recording = None
-        self._reading = path
+        self._path = path
         self._session.listening.set_waveform(None)
         if not path:
             return
@@ -255,7 +261,6 @@ class Sound(QObject):
             if audio is None or audio.path != path:
                 return
             self._recording, waveform = result
-            self._reading = ""
             for warning in self._recording.warnings:
                 self._session.notice(warning, Severity.WARNING)
             self._session.listening.set_waveform(waveform)
@@ -264,7 +269,6 @@ class Sound(QObject):
                 self.estimate(unasked=True)
 
         def failed(error: AppError) -> None:
-            # It stays the one that was read last, so that it is not tried again at every edit.
             self._session.notice(error.message, Severity.ERROR)
 
         # Later: whoever adds a recording is still being told of it.

@@ -60,8 +60,8 @@ def to_end(session: Session) -> None:
     _go(session, score.tempo_map.seconds(float(score.end_tick)))
 
 
-def toggle_loop(session: Session) -> None:
-    """Play what is selected over and over: the range, the notes, else the bar; or no longer."""
+def toggle_loop(session: Session, on: bool = True) -> None:
+    """Play what is selected over and over: the range, the notes, else the bar; what is looped already no longer."""
     span = _selected_s(session)
     if session.loop_s is not None and (span is None or span == session.loop_s):
         session.set_loop(None)
@@ -108,19 +108,19 @@ def bar_on(session: Session) -> None:
     _go(session, _bar_s(session, _bar(session) + 1))
 
 
-def toggle_click(session: Session) -> None:
+def set_click(session: Session, on: bool) -> None:
     """Hear the beats, or not."""
-    session.listening.set(click=not session.listening.click)
+    session.listening.set(click=on)
 
 
-def toggle_scrub(session: Session) -> None:
+def set_scrub(session: Session, on: bool) -> None:
     """Hear the moment that the playhead is moved to, or not."""
-    session.listening.set(scrub_sound=not session.listening.scrub_sound)
+    session.listening.set(scrub_sound=on)
 
 
-def toggle_follow(session: Session) -> None:
+def set_follow(session: Session, on: bool) -> None:
     """Let the timeline follow the playhead, or not."""
-    session.set_follow(not session.follow)
+    session.set_follow(on)
 
 
 def estimate_offset(session: Session) -> None:
@@ -143,7 +143,7 @@ def remove_recording(session: Session) -> None:
 
 
 def _speed(percent: int) -> Action:
-    def run(session: Session) -> None:
+    def run(session: Session, on: bool = True) -> None:
         session.listening.set(speed=percent / 100)
 
     return Action(
@@ -156,7 +156,7 @@ def _speed(percent: int) -> Action:
 
 
 def _source(source: Source, text: str) -> Action:
-    def run(session: Session) -> None:
+    def run(session: Session, on: bool = True) -> None:
         session.listening.set(source=source)
 
     return Action(
@@ -303,7 +303,7 @@ ACTIONS: tuple[Action, ...] = (
     Action(
         "play.click",
         QT_TRANSLATE_NOOP("Action", "Metronome"),
-        toggle_click,
+        set_click,
         "Play",
         "Shift+C",
         checked=lambda session: session.listening.click,
@@ -312,7 +312,7 @@ ACTIONS: tuple[Action, ...] = (
     Action(
         "play.scrub",
         QT_TRANSLATE_NOOP("Action", "Hear the Playhead Being Moved"),
-        toggle_scrub,
+        set_scrub,
         "Play",
         checked=lambda session: session.listening.scrub_sound,
         icon="sound",
@@ -320,7 +320,7 @@ ACTIONS: tuple[Action, ...] = (
     Action(
         "play.follow",
         QT_TRANSLATE_NOOP("Action", "Follow the Playhead"),
-        toggle_follow,
+        set_follow,
         "Play",
         checked=lambda session: session.follow,
         icon="follow",

@@ -44,8 +44,8 @@ def bar(session: Session, sound: Sound, tmp_path: Path, qtbot: QtBot) -> Transpo
 def type_into(qtbot: QtBot, field: NumberSlider, text: str) -> None:
     field.setFocus()
     qtbot.keyClick(field, Qt.Key.Key_Return)
-    editor = field.findChild(QLineEdit)
-    assert editor is not None
+    # The one before may not be deleted yet.
+    (editor,) = (child for child in field.findChildren(QLineEdit) if child.isVisible())
     editor.selectAll()
     qtbot.keyClicks(editor, text)
     qtbot.keyClick(editor, Qt.Key.Key_Return)
