@@ -30,6 +30,7 @@ from widgets.viewport.pose_tool import PoseTool
 from widgets.viewport.poses import Posed, Poses, same
 from widgets.viewport.renderer import Emphasis
 from widgets.viewport.views import bounds, in_the_way, tracked, view_camera
+from widgets.viewport.worn_face import WornFaces
 
 Floats = npt.NDArray[np.float64]
 
@@ -67,7 +68,7 @@ class ViewportPanel(QWidget):
         super().__init__(parent)
         self.setObjectName("viewport")
         self._session = session
-        self._poses = poses
+        self._poses: Poses = WornFaces(session, poses)
         self._loaded: Loaded | None = None
         self._loading = False
         self._camera = Camera()
@@ -116,6 +117,7 @@ class ViewportPanel(QWidget):
         session.players_changed.connect(self._players_changed)
         session.selection_changed.connect(self._update)
         session.playhead_changed.connect(self.refresh)
+        session.preview_changed.connect(self.refresh)
         session.theme_changed.connect(self._dress)
         session.viewport.changed.connect(self._state_changed)
         session.viewport.viewed.connect(self._view_asked)
@@ -147,7 +149,7 @@ class ViewportPanel(QWidget):
 
     def set_poses(self, poses: Poses) -> None:
         """Take poses from there from now on."""
-        self._poses = poses
+        self._poses = WornFaces(self._session, poses)
         self.refresh()
 
     def poses_changed(self) -> None:
@@ -278,7 +280,11 @@ class ViewportPanel(QWidget):
         aside = frozenset[int]()
         if self._loaded is not None:
             aside = in_the_way(self._view(), self._loaded.stage, self._rows(), camera)
-        return camera, look_of(self._session.tokens), Emphasis(self._rings(), hovered, aside, self._shows_wires())
+        moving = self._session.playing or self._dragging or self._flight is not None
+        emphasis = Emphasis(
+            self._rings(), hovered, aside, self._shows_wires(), in_motion=moving and self._override is None
+        )
+        return camera, look_of(self._session.tokens), emphasis
 
     def _view(self) -> View:
         return self._override[1] if self._override is not None else self._shown_view

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 from vispy import gloo
+from vispy.gloo import gl
 
 from widgets.viewport import shaders
 from widgets.viewport.camera import Camera
@@ -29,6 +30,11 @@ FINE_PX_PER_M = 620.0
 COARSE_PX_PER_M = 120.0
 """... and below this from the fewest, with all others."""
 MOST_NEAR = 12
+HASTY_FACTOR = 1.7
+"""Pictures that are made in haste have the detail of ones so many times smaller."""
+SOFTWARE = ("llvmpipe", "softpipe", "swiftshader", "software", "basic render", "gdi generic")
+"""Parts of the names of renderers that have no card."""
+GL_MULTISAMPLE = 0x809D
 SPREAD_M = 1.25
 """No part of a player or instrument is farther from the chest."""
 SHADOW_RADIUS_M = 1.9
@@ -55,6 +61,8 @@ class Emphasis:
     hovered: int | None = None
     in_the_way: frozenset[int] = frozenset()
     wireframe: bool = False
+    in_motion: bool = False
+    """Whether the next picture follows at once: a processor that draws without a graphics card may be less exact."""
 
 
 def shapes_of(stage: Stage, before: Shapes | None = None) -> Shapes:
@@ -138,6 +146,7 @@ class Renderer:
         self._stage: Stage | None = None
         self._shapes: Shapes | None = None
         self._limbs: Limbs | None = None
+        self._software: bool | None = None
 
     def set_stage(self, stage: Stage, shapes: Shapes) -> None:
         """Draw this stage from now on."""
@@ -181,6 +190,12 @@ class Renderer:
         self._shadows["a_corner"] = corners.reshape(-1, 3)
         self._fill_batch(stage, shapes)
 
+    def _draws_without_card(self) -> bool:
+        if self._software is None:
+            name = str(gl.glGetParameter(gl.GL_RENDERER)).lower()
+            self._software = any(part in name for part in SOFTWARE)
+        return self._software
+
     def _fill_batch(self, stage: Stage, shapes: Shapes) -> None:
         """The coarsest shapes of everyone, end to end."""
         parts, rows = [], []
@@ -205,12 +220,15 @@ class Renderer:
         gloo.set_viewport(0, 0, width, height)
         gloo.set_state(depth_test=False, blend=False, cull_face=False)
         gloo.clear(color=(*look.horizon, 1.0), depth=True)
+        hasty = emphasis.in_motion and self._draws_without_card()
+        context = gloo.get_current_canvas().context
+        context.glir.command("FUNC", "glDisable" if hasty else "glEnable", GL_MULTISAMPLE)
         matrix = camera.clip_from_world(aspect)
         self._draw_backdrop(camera, aspect, look)
         stage, shapes, limbs = self._stage, self._shapes, self._limbs
         if stage is None or shapes is None or limbs is None or not stage.members or not stage.shown.any():
             return
-        level = self._levels(stage, camera, matrix, height)
+        level = self._levels(stage, camera, matrix, height / HASTY_FACTOR if hasty else height)
         self._upload(stage, limbs, level, emphasis)
         clip = matrix.T.astype(np.float32)
         gloo.set_state(blend=True, blend_func=OVER)
@@ -246,7 +264,7 @@ class Renderer:
         program["u_middle"], program["u_radius"] = middle, radius
         program.draw("triangle_strip")
 
-    def _levels(self, stage: Stage, camera: Camera, matrix: Floats, height_px: int) -> npt.NDArray[np.intp]:
+    def _levels(self, stage: Stage, camera: Camera, matrix: Floats, height_px: float) -> npt.NDArray[np.intp]:
         """The level of detail of everyone; -1: not in the picture."""
         middles = np.array([member.world_from_player[:, 3] for member in stage.members]) + np.array([0.0, 1.0, 0.0])
         away = np.linalg.norm(middles - camera.eye_m, axis=1)
