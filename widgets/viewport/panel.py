@@ -432,6 +432,9 @@ class ViewportPanel(QWidget):
         if self._shown_view != "ensemble" and self._loaded is not None:
             self._shift_m = np.zeros(3)
             self.set_camera(self._camera_of(self._shown_view))
+        if self._session.preview_morphs is not None:
+            # The face that is being made goes to whoever is in front now.
+            self.refresh()
         self._update()
 
     def _state_changed(self) -> None:
