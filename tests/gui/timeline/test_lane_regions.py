@@ -15,11 +15,13 @@ from app.plan.corrections import (
     AddGesture,
     ChangeExpression,
     ChangeGesture,
+    PoseCorrection,
     RemoveEvent,
     SetBreath,
     SetCue,
 )
 from app.project.edit import events as edit
+from app.project.edit.corrections import put
 from tests.gui.timeline.lane_hands import (
     ALT,
     CTRL,
@@ -328,3 +330,26 @@ def test_the_keyboard_reaches_every_region_and_its_amount(panel: TimelinePanel, 
     assert region_of(lane, key.event_id).amount == pytest.approx(before - 0.05)
     QTest.keyClick(lane.plot, Qt.Key.Key_Up, Qt.KeyboardModifier.ShiftModifier)
     assert region_of(lane, key.event_id).amount == pytest.approx(before - 0.04)
+
+
+def test_a_pose_is_moved_and_its_fades_lie_beside_it(panel: TimelinePanel, session: Session) -> None:
+    lane = acting_lane(panel)
+    player = front_plan(session).player_id
+    pose = PoseCorrection("lift", "bell", 8 * 480, 12 * 480, up_deg=6.0, fade_in_ticks=240, fade_out_ticks=240)
+    session.attempt(Message("edit.add_gesture"), lambda p: put(p, player, (pose,)))
+    region = region_of(lane, "pose:lift")
+    assert region.label == "Bell"
+    drag(lane, middle(lane, "pose:lift"), dx=lane.axis.px_per_s, modifiers=ALT)
+    (moved,) = corrections(session)
+    assert isinstance(moved, PoseCorrection)
+    assert moved.start_tick > pose.start_tick
+    assert moved.end_tick - moved.start_tick == pose.end_tick - pose.start_tick
+    region = region_of(lane, "pose:lift")
+    (_, into), _ = lane.fade_handles(region, lane.box(region))
+    assert into.x() < lane.box(region).left()
+    drag(lane, into, dx=-lane.axis.px_per_s * 0.5)
+    (faded,) = corrections(session)
+    assert isinstance(faded, PoseCorrection)
+    seconds = session.project.score.tempo_map.seconds
+    length_s = seconds(float(faded.start_tick)) - seconds(float(faded.start_tick - faded.fade_in_ticks))
+    assert length_s == pytest.approx(region.fade_in_s + 0.5, abs=0.05)

@@ -22,6 +22,7 @@ from app.project.edit.events import (
     set_expression,
 )
 from app.project.model import Project
+from app.score.tempo import TempoMap
 from widgets.common.event_names import expression_name, kind_name, pose_name
 from widgets.common.selection import EventKey, Selection
 from widgets.common.session import Session
@@ -99,16 +100,18 @@ class ActingLane(RegionLane):
         ]
         result: list[Region] = []
         self.groups, row = [], 0
+        clock = project.score.tempo_map
         for kinds in GROUPS:
-            members = sorted((region for region in made if region.kind in kinds), key=lambda region: region.start_tick)
-            packed = [region for region in members if region.event_id != BASE]
-            rows = packed_rows(
-                np.array([region.start_tick for region in packed], np.float64),
-                np.array([max(region.end_tick, region.start_tick + 1) for region in packed], np.float64),
+            members = [region for region in made if region.kind in kinds]
+            packed = sorted(
+                ((*_extent(item, clock), item.event_id, item) for item in members if item.event_id != BASE),
+                key=lambda row: row[:3],
             )
-            result += [_in_row(region, row + own) for region, own in zip(packed, rows.tolist(), strict=True)]
+            spans = np.array([row[:2] for row in packed], np.float64).reshape(-1, 2)
+            rows = packed_rows(spans[:, 0], spans[:, 1])
             count = int(rows.max(initial=0)) + 1
             result += [_in_row(region, row + count - 1) for region in members if region.event_id == BASE]
+            result += [_in_row(item[3], row + own) for item, own in zip(packed, rows.tolist(), strict=True)]
             self.groups.append((kinds[0], row, count))
             row += count
         first = {kind: start for (_, start, _), kinds in zip(self.groups, GROUPS, strict=True) for kind in kinds}
@@ -256,13 +259,15 @@ class ActingLane(RegionLane):
         if region.event_id == BASE:
             painter.fillRect(box.adjusted(0.0, 1.0, 0.0, 0.0), shade(colour, 190 if selected else 60))
             return
-        fade_in = min(region.fade_in_s * scale, box.width())
-        fade_out = min(region.fade_out_s * scale, box.width() - fade_in)
+        left, right = box.left(), box.right()
+        if region.fades_outside:
+            left, right = left - region.fade_in_s * scale, right + region.fade_out_s * scale
+        fade_in = min(region.fade_in_s * scale, right - left)
+        fade_out = min(region.fade_out_s * scale, right - left - fade_in)
         top = box.bottom() - max(box.height() * region.amount, 3.0)
         corners = np.array(
-            [(box.left(), box.bottom()), (box.left() + fade_in, top), (box.right() - fade_out, top),
-             (box.right(), box.bottom())]
-        )  # fmt: skip
+            [(left, box.bottom()), (left + fade_in, top), (right - fade_out, top), (right, box.bottom())]
+        )
         painter.setPen(Qt.PenStyle.NoPen)
         painter.setBrush(shade(colour, 34))
         painter.drawRoundedRect(box, 3.0, 3.0)
@@ -275,10 +280,10 @@ class ActingLane(RegionLane):
                 painter.drawEllipse(handle, HANDLE_PX - 1.0, HANDLE_PX - 1.0)
         painter.setPen(QColor(tokens.text))
         number = "" if region.steady or region.amount >= 1.0 else f" {region.amount:.2f}"
-        left = 10.0 if region.by_hand else 5.0
+        indent = 10.0 if region.by_hand else 5.0
         # The name of what begins before the left edge stays in sight.
         inside = QRectF(QPointF(max(box.left(), 0.0), box.top()), box.bottomRight())
-        draw_text(painter, inside.adjusted(left, 0.0, -4.0, 0.0), region.label + number)
+        draw_text(painter, inside.adjusted(indent, 0.0, -4.0, 0.0), region.label + number)
 
     # Hands on it
 
@@ -391,6 +396,14 @@ class ActingLane(RegionLane):
             self.session.select(Selection(events=frozenset(EventKey(plan.player_id, event_id) for event_id in ids)))
 
 
+def _extent(region: Region, clock: TempoMap) -> tuple[float, float]:
+    """The ticks that a region covers, with the fades beside it: ticks, because neighbours touch to the tick."""
+    start, end = float(region.start_tick), float(max(region.end_tick, region.start_tick + 1))
+    if region.fades_outside:
+        return min(start, clock.ticks(region.first_s)), max(end, clock.ticks(region.last_s))
+    return start, end
+
+
 def _in_row(region: Region, row: int) -> Region:
     region.row = row
     return region
@@ -431,6 +444,7 @@ def _pose(player_id: str, event: PoseEvent) -> Region:
     return Region(
         player_id, event.id, "pose", event.start_tick, event.end_tick, event.start_s, event.end_s,
         label=pose_name(event.target), reason=event.reason, by_hand=event.corrected, steady=True,
+        fade_in_s=event.fade_in_s, fade_out_s=event.fade_out_s, fades=True, fades_outside=True,
     )  # fmt: skip
 
 

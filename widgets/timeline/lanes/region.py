@@ -24,6 +24,9 @@ class Region(msgspec.Struct):
     amount : float
         0..1, or -1..1 where it is ``signed``.
     reason : Message or None
+    fades, fades_outside : bool
+        Whether it comes and goes by fades that can be dragged; whether they lie before its start and after its end
+        instead of within.
     steady : bool
         It has no amount that could be dragged.
     guest : bool
@@ -49,9 +52,20 @@ class Region(msgspec.Struct):
     fade_in_s: float = 0.0
     fade_out_s: float = 0.0
     fades: bool = False
+    fades_outside: bool = False
     peak_s: float = 0.0
     guest: bool = False
     removed: bool = False
+
+    @property
+    def first_s(self) -> float:
+        """Where its picture begins."""
+        return self.start_s - self.fade_in_s if self.fades_outside else self.start_s
+
+    @property
+    def last_s(self) -> float:
+        """Where its picture ends."""
+        return self.end_s + self.fade_out_s if self.fades_outside else self.end_s
 
     @property
     def key(self) -> EventKey:
@@ -62,8 +76,8 @@ class Region(msgspec.Struct):
 def spans_of(regions: Sequence[Region]) -> Spans:
     """Where regions are, to be found by time."""
     return Spans(
-        np.array([region.start_s for region in regions], np.float64),
-        np.array([region.end_s for region in regions], np.float64),
+        np.array([region.first_s for region in regions], np.float64),
+        np.array([region.last_s for region in regions], np.float64),
     )
 
 

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
 DRAG_PX = 3.0
 """The mouse moves this far before a press becomes a drag."""
+MOST_FADE_S = 30.0
 FINE = 0.2
 """With Shift an amount follows the mouse this slowly."""
 
@@ -171,9 +172,11 @@ class RegionDrag:
         self._apply(Message("edit.set_event_amount", {"count": len(self._keys)}), edit, preview)
 
     def _change_fade(self, region: Region, mouse: LaneMouse) -> None:
-        by_s, length_s = mouse.time_s - self._at.time_s, region.end_s - region.start_s
-        into = min(max(region.fade_in_s + by_s, 0.0), length_s) if self.mode == "fade_in" else None
-        out = min(max(region.fade_out_s - by_s, 0.0), length_s) if self.mode == "fade_out" else None
+        by_s, most_s = mouse.time_s - self._at.time_s, region.end_s - region.start_s
+        if region.fades_outside:
+            by_s, most_s = -by_s, MOST_FADE_S
+        into = min(max(region.fade_in_s + by_s, 0.0), most_s) if self.mode == "fade_in" else None
+        out = min(max(region.fade_out_s - by_s, 0.0), most_s) if self.mode == "fade_out" else None
 
         def edit(project: Project, plan: PlayerPlan, ids: Sequence[str]) -> Edited:
             return Edited(set_fades(project, plan, ids, into, out), tuple(ids))

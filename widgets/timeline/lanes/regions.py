@@ -202,21 +202,26 @@ class RegionLane(Lane):
             box = self.box(region)
             # Thin regions are caught from a little outside, wide ones at their edges only from inside.
             slack = max(EDGE_PX - box.width() / 2, 0.0)
-            if not box.adjusted(-slack, 0.0, slack, 0.0).contains(place):
+            zone = self._fade_zone(region, box, place)
+            if not zone and not box.adjusted(-slack, 0.0, slack, 0.0).contains(place):
                 continue
             # The selected one wins, then the shortest: what lies on top can always be reached.
             rank = (region.key not in selected, box.width())
             if best is None or rank < best[0]:
-                best = (rank, region, self._zone(region, box, place))
+                best = (rank, region, zone or self._zone(region, box, place))
         return (best[1], best[2]) if best is not None else (None, "")
 
-    def _zone(self, region: Region, box: QRectF, place: QPointF) -> str:
-        if region.removed:
-            return "body"
+    def _fade_zone(self, region: Region, box: QRectF, place: QPointF) -> str:
+        """Only what is selected has its fades taken hold of: handles of all would be in the way."""
         if region.fades and region.key in self.session.selection.events:
             for zone, handle in self.fade_handles(region, box):
                 if abs(place.x() - handle.x()) <= EDGE_PX and abs(place.y() - handle.y()) <= EDGE_PX:
                     return zone
+        return ""
+
+    def _zone(self, region: Region, box: QRectF, place: QPointF) -> str:
+        if region.removed:
+            return "body"
         if box.width() >= 3 * EDGE_PX:
             if place.x() <= box.left() + EDGE_PX:
                 return "start"
@@ -228,6 +233,11 @@ class RegionLane(Lane):
         """Where the fades are taken hold of."""
         scale = self.axis.px_per_s
         y = box.top() + HANDLE_PX
+        if region.fades_outside:
+            return (
+                ("fade_in", QPointF(box.left() - region.fade_in_s * scale, y)),
+                ("fade_out", QPointF(box.right() + region.fade_out_s * scale, y)),
+            )
         return (
             ("fade_in", QPointF(min(box.left() + region.fade_in_s * scale, box.right()), y)),
             ("fade_out", QPointF(max(box.right() - region.fade_out_s * scale, box.left()), y)),
@@ -252,7 +262,7 @@ class RegionLane(Lane):
             return
         self._made_for = made_for
         regions, self._row_count = self.make_regions(plan) if plan is not None else ([], 1)
-        regions.sort(key=lambda region: (region.start_s, region.end_s, region.event_id))
+        regions.sort(key=lambda region: (region.first_s, region.end_s, region.event_id))
         self._shown = regions
         self._by_key = {region.key: region for region in regions}
         self._spans = spans_of(regions)
