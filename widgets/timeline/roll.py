@@ -62,7 +62,7 @@ class PianoRoll(Lane):
 
     id = "roll"
     preferred_height_px = 210
-    least_height_px = 150
+    least_height_px = 130
 
     def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
         self._tables: dict[str, NoteTable] = {}

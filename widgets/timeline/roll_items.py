@@ -21,9 +21,9 @@ if TYPE_CHECKING:
 LEVELS = 4
 """Shades of velocity."""
 GHOST_ALPHA = 70
-MOST_RECTANGLES = 12000
+MOST_RECTANGLES = 6000
 """More notes behind than this, and the narrow ones become points of a picture: two to four times as fast."""
-NARROW_PX = 1.0
+NARROW_PX = 5.0
 LABEL_GAP_PX = 5.0
 INSIDE_PX = 15.0
 """In rows at least so high a label stands inside its note."""
@@ -76,6 +76,7 @@ class Notes(LaneItem):
     def __init__(self, lane: PianoRoll) -> None:
         super().__init__(lane, 0.0)
         self._array = PrimitiveArray(QRectF, 4)
+        self._picture: _Picture | None = None
 
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
         lane: PianoRoll = self.lane  # type: ignore[assignment]
@@ -97,17 +98,23 @@ class Notes(LaneItem):
     def _draw_behind(self, painter: QPainter, exposed: QRectF) -> None:
         """The other players' notes: as rectangles, or where there are very many narrow ones, as points of a picture."""
         lane: PianoRoll = self.lane  # type: ignore[assignment]
-        behind = []
-        for table, colour in lane.ghosts():
-            shade = QColor(colour)
-            shade.setAlpha(GHOST_ALPHA if lane.ghosted else 255)
-            behind.append((table, lane.visible(table, exposed), shade, colour))
-        if sum(len(rows) for _, rows, _, _ in behind) > MOST_RECTANGLES:
-            picture = _Picture(lane)
-            behind = [(table, picture.draw(table, rows, shade), shade, colour) for table, rows, shade, colour in behind]
-            picture.show(painter)
-        for table, rows, shade, colour in behind:
-            self._draw(painter, table, rows, shade)
+        behind = lane.ghosts()
+        alpha = GHOST_ALPHA if lane.ghosted else 255
+        # By what the whole plot shows: a part drawn anew must look like what is around it.
+        start_s, end_s = lane.axis.start_s, lane.axis.end_s
+        spans = [table.visible(start_s, end_s) for table, _ in behind]
+        if sum(span.stop - span.start for span in spans) > MOST_RECTANGLES:
+            key = (start_s, end_s, lane.y_range, lane.plot_rect.size().toTuple(), alpha, behind)
+            if self._picture is None or self._picture.key != key:
+                self._picture = _Picture(lane, key, behind, alpha)
+            self._picture.show(painter)
+            for (table, colour), rows in zip(behind, self._picture.wide, strict=True):
+                self._draw(painter, table, rows, _shade(colour, alpha))
+        else:
+            self._picture = None
+            for table, colour in behind:
+                self._draw(painter, table, lane.visible(table, exposed), _shade(colour, alpha))
+        for table, colour in behind:
             self._draw_selected(painter, table, exposed, colour)
 
     def _draw_selected(self, painter: QPainter, table: NoteTable, exposed: QRectF, colour: str) -> None:
@@ -139,18 +146,28 @@ class Notes(LaneItem):
         painter.drawRects(*array.drawargs())
 
 
+def _shade(colour: str, alpha: int) -> QColor:
+    shade = QColor(colour)
+    shade.setAlpha(alpha)
+    return shade
+
+
 class _Picture:
-    """Notes of a pixel's width, drawn as pixels: a column for each of the plot's, a row for each pitch."""
+    """Notes of a few pixels' width, drawn as pixels: a column for each of the plot's, a row for each pitch.
 
-    def __init__(self, lane: PianoRoll) -> None:
+    ``wide`` has for each table the places of the notes that are too wide for it.
+    """
+
+    def __init__(self, lane: PianoRoll, key: object, tables: list[tuple[NoteTable, str]], alpha: int) -> None:
         self._lane = lane
+        self.key = key
         bottom, top = lane.y_range
-        self._low, self._high = int(np.floor(bottom)), int(np.ceil(top))
-        self._width = int(np.ceil(lane.plot_rect.width()))
-        self._pixels = np.zeros((self._high - self._low, self._width), np.uint32)
+        low, self._high = int(np.floor(bottom)), int(np.ceil(top))
+        self._pixels = np.zeros((self._high - low, int(np.ceil(lane.plot_rect.width()))), np.uint32)
+        self.wide = [self._draw(table, _shade(colour, alpha)) for table, colour in tables]
 
-    def draw(self, table: NoteTable, rows: Integers, shade: QColor) -> Integers:
-        """Draw the narrow ones of some notes; the places of those that are too wide come back."""
+    def _draw(self, table: NoteTable, shade: QColor) -> Integers:
+        rows = self._lane.visible(table, self._lane.plot_rect)
         left, _, width, _ = self._lane.boxes(table, rows)
         narrow = width <= NARROW_PX
         x = left[narrow].astype(np.int64)
@@ -159,8 +176,10 @@ class _Picture:
         alpha = shade.alpha()
         red, green, blue = (round(part * alpha / 255) for part in (shade.red(), shade.green(), shade.blue()))
         value = (alpha << 24) | (red << 16) | (green << 8) | blue
-        inside = (x >= 0) & (x < self._width)
-        self._pixels[y[inside], x[inside]] = value
+        widths = width[narrow]
+        for column in range(int(widths.max(initial=0.0))):
+            inside = (x + column >= 0) & (x + column < self._pixels.shape[1]) & (widths > column)
+            self._pixels[y[inside], x[inside] + column] = value
         return rows[~narrow]
 
     def show(self, painter: QPainter) -> None:
