@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import msgspec
 import shiboken6
-from PySide6.QtCore import QCoreApplication, QEvent, Qt
+from PySide6.QtCore import QCoreApplication, QEvent, Qt, Signal
 from PySide6.QtWidgets import QCheckBox, QGridLayout, QHBoxLayout, QLabel, QLineEdit, QToolButton, QVBoxLayout, QWidget
 
 from app.errors import AppError, Message
@@ -47,7 +47,15 @@ def mirrored(morph: str) -> str:
 
 
 class ExpressionMaker(QWidget):
-    """Shows an expression as sliders, and its face on the player in front."""
+    """Shows an expression as sliders, and its face on the player in front.
+
+    Signals
+    -------
+    folded()
+        It was folded or unfolded.
+    """
+
+    folded = Signal()
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -143,6 +151,11 @@ class ExpressionMaker(QWidget):
     # Showing
 
     @property
+    def is_open(self) -> bool:
+        """Whether its sliders show."""
+        return self._section.is_open
+
+    @property
     def expression(self) -> Expression | None:
         """The expression that is shown; one of the project's own can be edited."""
         own = {item.name: item for item in self._session.project.expressions}
@@ -162,6 +175,7 @@ class ExpressionMaker(QWidget):
                 own = self._session.project.expressions
                 self._name = own[0].name if own else next(iter(load_expressions()))
         self.show_expression()
+        self.folded.emit()
 
     def show_expression(self) -> None:
         """Show the chosen expression."""

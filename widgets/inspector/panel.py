@@ -53,6 +53,7 @@ class InspectorPanel(QWidget):
         session.theme_changed.connect(self._dress)
         self._generated.changed.connect(self.show_selection)
         self._problems.counted.connect(self._count_problems)
+        self._maker.folded.connect(self.show_selection)
         self._dress()
         self.retranslate()
         self._problems.show_problems()
@@ -89,7 +90,7 @@ class InspectorPanel(QWidget):
     def show_selection(self) -> None:
         """Show the selected notes and events."""
         notes, events = self._notes.show_notes(), self._events.show_events()
-        self._empty.setVisible(not notes and not events)
+        self._empty.setVisible(not notes and not events and not self._maker.is_open)
 
     def _changed(self, change: Change) -> None:
         if change.before.score.parts is not change.after.score.parts or change.opened:
