@@ -8,6 +8,7 @@ moves, and in how much of a note, the instrument map says.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from functools import lru_cache
 
 import numpy as np
 
@@ -71,8 +72,14 @@ def unseen_s(control: Control, distance: float, window: float) -> float:
     share = STILL_PRESSED
     if control.kind == "slide" and control.motion.travel_m is not None:
         share = min(STILL_IN_PLACE_M / (abs(distance) * control.motion.travel_m), STILL_SHARE)
-    phase = float(np.interp(share, minimum_jerk(_PHASES), _PHASES))
+    phase = _phase(share)
     return window * phase / (1.0 - phase)
+
+
+@lru_cache(maxsize=4096)
+def _phase(share: float) -> float:
+    """When a minimum-jerk move has come so far, as a share of its time."""
+    return float(np.interp(share, minimum_jerk(_PHASES), _PHASES))
 
 
 def control_curve(fingerings: Sequence[FingeringEvent], control: Control, beat_ticks: int) -> Curve:

@@ -7,7 +7,10 @@ one to three seconds; the lids close every few seconds, more often at rest than 
 
 from __future__ import annotations
 
+from bisect import bisect_left, bisect_right
+from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import accumulate
 
 import numpy as np
 
@@ -62,8 +65,9 @@ def plan_gaze(plan: PlayerPlan, seed: int) -> Gaze:
 
 def _fixations(plan: PlayerPlan, random: np.random.Generator) -> list[tuple[float, float, float, float]]:
     """Rows of (start_s, yaw_rad, pitch_rad, share the head follows), at least `HEAD_TURN_S` apart."""
-    rests = _rests(plan)
-    up = [(cue.start_s, cue.end_s) for cue in plan.cues]
+    rests = _Spans(_rests(plan))
+    cues = sorted((cue.start_s, cue.end_s) for cue in plan.cues)
+    up, ups_s = _Spans([(start_s - 0.3, end_s) for start_s, end_s in cues]), [start_s - 0.2 for start_s, _ in cues]
     side = 1.0 if random.random() < 0.5 else -1.0
     rows: list[tuple[float, float, float, float]] = []
     time_s = plan.time_frame.first_frame_s + random.uniform(0.1, 0.6)
@@ -72,36 +76,50 @@ def _fixations(plan: PlayerPlan, random: np.random.Generator) -> list[tuple[floa
         yaw, pitch = random.normal(0.0, 0.035), MUSIC_PITCH_RAD + random.normal(0.0, 0.03)
         wander = random.random()
         share = 0.3
-        if any(start_s - 0.3 <= time_s < end_s for start_s, end_s in up):
+        if up.hold(time_s):
             yaw, pitch, share = side * 0.22 + random.normal(0.0, 0.05), 0.0, 0.35
-        elif any(start_s <= time_s < end_s for start_s, end_s in rests):
+        elif rests.hold(time_s):
             share = 0.6
             if wander < 0.5:
                 yaw, pitch = random.normal(0.0, 0.25), random.normal(0.03, 0.04)
         elif wander < 0.12:
             yaw, pitch = random.normal(0.0, 0.12), 0.02
-        rows.append((time_s, float(np.clip(yaw, -0.5, 0.5)), float(np.clip(pitch, -0.15, 0.4)), share))
-        following = [start_s for start_s, _ in up if time_s + HEAD_TURN_S < start_s - 0.2 < time_s + length_s]
-        time_s = min([time_s + length_s, *(start_s - 0.2 for start_s in following)])
+        rows.append((time_s, min(max(float(yaw), -0.5), 0.5), min(max(float(pitch), -0.15), 0.4), share))
+        # The eyes go up in time for a cue, unless the head has only just turned.
+        following = bisect_right(ups_s, time_s + HEAD_TURN_S)
+        time_s = min(time_s + length_s, ups_s[following] if following < len(ups_s) else np.inf)
     return rows
 
 
 def _blinks(plan: PlayerPlan, random: np.random.Generator) -> Envelopes:
-    rests = _rests(plan)
-    entries = np.array([end_s for _, end_s in rests])
+    spans = _rests(plan)
+    rests, entries_s = _Spans(spans), [end_s for _, end_s in spans]
     rows: list[tuple[float, float, float, float, float]] = []
     time_s = plan.time_frame.first_frame_s + random.uniform(0.3, 2.0)
     while time_s < plan.time_frame.end_s:
         shut_s = time_s + BLINK_DOWN_S
         open_s = shut_s + BLINK_SHUT_S + BLINK_UP_S
-        near = entries[(entries > time_s - ENTRY_GUARD_S) & (entries < open_s + ENTRY_GUARD_S)]
-        if len(near):
-            time_s = float(near.max()) + ENTRY_GUARD_S + random.uniform(0.1, 0.8)
+        last = bisect_left(entries_s, open_s + ENTRY_GUARD_S) - 1
+        if last >= 0 and entries_s[last] > time_s - ENTRY_GUARD_S:
+            time_s = entries_s[last] + ENTRY_GUARD_S + random.uniform(0.1, 0.8)
             continue
         rows.append((time_s, shut_s, shut_s + BLINK_SHUT_S, open_s, 1.0))
-        resting = any(start_s <= time_s < end_s for start_s, end_s in rests)
-        time_s = open_s + float(np.clip(random.lognormal(np.log(2.4 if resting else 4.2), 0.5), 0.5, 12.0))
+        pause_s = random.lognormal(np.log(2.4 if rests.hold(time_s) else 4.2), 0.5)
+        time_s = open_s + min(max(pause_s, 0.5), 12.0)
     return Envelopes.of(rows)
+
+
+class _Spans:
+    """Spans in order of their starts, asked whether one of them holds a time."""
+
+    def __init__(self, spans: Sequence[tuple[float, float]]) -> None:
+        self._starts = [start for start, _ in spans]
+        self._ends = list(accumulate((end for _, end in spans), max))
+
+    def hold(self, time_s: float) -> bool:
+        """Whether any begins at or before the time and ends after it."""
+        index = bisect_right(self._starts, time_s) - 1
+        return index >= 0 and self._ends[index] > time_s
 
 
 def _rests(plan: PlayerPlan) -> list[tuple[float, float]]:

@@ -160,8 +160,8 @@ def plan_ensemble(
         _go_on(stop_wanted)
         # Players of one part stagger their catch breaths.
         places = taken.get(times.part, frozenset())
-        own_cues = tuple(cue for cue in cues if cue.player_id == line.player_id)
         memo = own[line.player_id]
+        own_cues = memo.step("cues", lambda line=line: _cues_of(cues, line.player_id), cues)  # type: ignore[misc]
         given = _Given(piece, line, times, frame, own_cues, cue_ids, places, seed, first_s, problems, faces)
         plan, caught = memo.step("plan", lambda given=given, memo=memo: _plan_line(given, memo), *given)  # type: ignore[misc]
         plans[line.player_id] = plan
@@ -170,6 +170,10 @@ def plan_ensemble(
     for steps in (shared, *own.values()):
         steps.close()
     return EnsemblePlan(plans, shared, own)
+
+
+def _cues_of(cues: tuple[CueEvent, ...], player_id: str) -> tuple[CueEvent, ...]:
+    return tuple(cue for cue in cues if cue.player_id == player_id)
 
 
 def _go_on(stop_wanted: Callable[[], bool]) -> None:
