@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Callable, Iterable
 
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QCursor
-from PySide6.QtWidgets import QMenu
+from PySide6.QtWidgets import QApplication, QMainWindow, QMenu
 
 from app.errors import Message
 from app.plan.model import PlayerPlan
@@ -156,14 +157,13 @@ def choose_expression(session: Session) -> None:
     menu.popup(QCursor.pos())
 
 
-_open: list[QMenu] = []
-
-
 def _menu() -> QMenu:
-    """A menu that lives until it closes."""
-    menu = QMenu()
+    """A menu of the editor's window; it goes when it closes."""
+    windows = (window for window in QApplication.topLevelWidgets() if isinstance(window, QMainWindow))
+    # Not of the palette, which may be what asks: it is about to close.
+    menu = QMenu(next(windows, QApplication.activeWindow()))
     menu.setObjectName("choice")
-    _open[:] = [menu]
+    menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
     return menu
 
 

@@ -234,6 +234,7 @@ class RegionLane(Lane):
         scale = self.axis.px_per_s
         y = box.top() + HANDLE_PX
         if region.fades_outside:
+            y = box.bottom() - HANDLE_PX
             return (
                 ("fade_in", QPointF(box.left() - region.fade_in_s * scale, y)),
                 ("fade_out", QPointF(box.right() + region.fade_out_s * scale, y)),

@@ -52,6 +52,9 @@ class RowNames(QWidget):
         title_px = QFontMetricsF(self._lane.title.font()).horizontalAdvance(self._lane.title.text()) + 34.0
         free_from = -height
         for text, middle in self._names():
+            if not 0.0 <= middle <= self.height():
+                # The row is scrolled out of sight.
+                continue
             top = min(max(middle - height / 2, 0.0), max(self.height() - height, 0.0))
             left = title_px if top < TITLE_PX - 4.0 else 4.0
             width = self.width() - 6.0 - left
