@@ -1,0 +1,44 @@
+"""The inspector changes its language while it is open."""
+
+from __future__ import annotations
+
+from PySide6.QtWidgets import QApplication
+
+from app.errors import Message
+from app.project.edit import events as edit
+from tests.gui.inspector.hands import show_tab
+from tests.gui.japanese import FromFiles, texts_of
+from widgets.common.section import Section
+from widgets.common.selection import EventKey, Selection
+from widgets.common.session import Session
+from widgets.inspector.panel import InspectorPanel
+from widgets.inspector.rows import LineList
+
+
+def test_everything_is_japanese_at_once_and_english_again(panel: InspectorPanel, planned: Session) -> None:
+    player = planned.project.players[0]
+    note = planned.project.part(player).notes[0]
+    gesture = planned.performance.plan(player).gestures[2]
+    planned.attempt(Message("edit.give_back"), lambda p: edit.pin_fingerings(p, player.id, {note.id: "123"}))
+    planned.select(Selection(frozenset((note.id,)), frozenset((EventKey(player.id, gesture.id),))))
+    maker = panel.findChild(Section, "inspector_expressions")
+    assert maker is not None
+    maker.set_open(True)
+    show_tab(panel, 1)
+    english = texts_of(panel)
+    translator = FromFiles("inspector", "common")
+    assert translator.faults == []
+    QApplication.installTranslator(translator)
+    try:
+        QApplication.processEvents()
+        shown = texts_of(panel)
+        assert not shown & translator.english
+        assert "運指図" in shown
+        assert "右人差し指" in panel._notes._diagram.spoken()
+        handwork = panel.findChild(LineList, "correction_list")
+        assert handwork is not None
+        assert [line.title for line in handwork.lines.lines] == ["運指 123"]
+    finally:
+        QApplication.removeTranslator(translator)
+    QApplication.processEvents()
+    assert texts_of(panel) == english

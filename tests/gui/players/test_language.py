@@ -1,0 +1,30 @@
+"""The players' panel changes its language while it is open."""
+
+from __future__ import annotations
+
+from PySide6.QtWidgets import QApplication
+from pytestqt.qtbot import QtBot
+
+from tests.gui.japanese import FromFiles, texts_of
+from widgets.common.session import Session
+from widgets.players.panel import PlayersPanel
+
+
+def test_everything_is_japanese_at_once_and_english_again(session: Session, qtbot: QtBot) -> None:
+    panel = PlayersPanel(session)
+    qtbot.addWidget(panel)
+    panel.show()
+    english = texts_of(panel)
+    translator = FromFiles("players", "common")
+    assert translator.faults == []
+    QApplication.installTranslator(translator)
+    try:
+        QApplication.processEvents()
+        shown = texts_of(panel)
+        assert not shown & translator.english
+        assert "動きの大きさ" in shown
+        assert panel.list.rows.rows[0].instrument == "トランペット（B♭管）"
+    finally:
+        QApplication.removeTranslator(translator)
+    QApplication.processEvents()
+    assert texts_of(panel) == english
