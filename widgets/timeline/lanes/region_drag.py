@@ -67,7 +67,10 @@ class RegionDrag:
         self._project = session.project
         self._plans: Mapping[str, PlayerPlan] = session.performance.plans if session.performance.planned else {}
         self._shown = {item.key: item for item in lane.regions if item.key in selected and not item.removed}
-        self._keys = tuple(sorted(selected)) if region is not None and region.key in selected else ()
+        together = selected if region is not None and region.key in selected else ()
+        # What is selected of a player who has gone, or is not planned yet, stays where it is.
+        known = {player.id for player in session.project.players} & set(self._plans)
+        self._keys = tuple(sorted(key for key in together if key.player_id in known))
         self._token = object()
         self.mode = ""
         self.preview: dict[EventKey, Region] = {}
