@@ -221,7 +221,7 @@
     <name>RegionLane</name>
     <message>
         <source>How much</source>
-        <translation type="unfinished"></translation>
+        <translation>量</translation>
     </message>
     <message>
         <source>deleted by hand</source>
