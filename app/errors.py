@@ -13,7 +13,7 @@ import msgspec
 Argument: TypeAlias = str | int | float | bool
 
 
-class Message(msgspec.Struct, frozen=True):
+class Message(msgspec.Struct, frozen=True, gc=False):
     """Something to tell a person: a warning, a reason, a problem.
 
     Attributes

@@ -76,7 +76,11 @@ class PlayerParameters(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     seed: int = 0
 
 
-class FingeringEvent(msgspec.Struct, frozen=True):
+# Events hold no cycles (`gc=False`): a hundred thousand notes have a million of them, and a collection that looked at
+# each would stop the editor for half a second.
+
+
+class FingeringEvent(msgspec.Struct, frozen=True, gc=False):
     """The fingering of one note. ``controls`` holds 0..1 for every control of the map that is not at rest."""
 
     id: str
@@ -93,7 +97,7 @@ class FingeringEvent(msgspec.Struct, frozen=True):
     corrected: bool = False
 
 
-class BreathEvent(msgspec.Struct, frozen=True):
+class BreathEvent(msgspec.Struct, frozen=True, gc=False):
     """An inhalation, or the motion that prepares it. ``depth`` is 0..1 of a full lung; a catch breath is shallow."""
 
     id: str
@@ -107,7 +111,7 @@ class BreathEvent(msgspec.Struct, frozen=True):
     corrected: bool = False
 
 
-class TongueEvent(msgspec.Struct, frozen=True):
+class TongueEvent(msgspec.Struct, frozen=True, gc=False):
     """The tongue's stroke before an attacked note; it releases at ``end_s``, the onset."""
 
     id: str
@@ -116,7 +120,7 @@ class TongueEvent(msgspec.Struct, frozen=True):
     end_s: float
 
 
-class EmbouchureEvent(msgspec.Struct, frozen=True):
+class EmbouchureEvent(msgspec.Struct, frozen=True, gc=False):
     """Lips during one note. All values 0..1: ``tension`` (register), ``effort`` (height, loudness, length), ``air``
     (dynamics)."""
 
@@ -131,7 +135,7 @@ class EmbouchureEvent(msgspec.Struct, frozen=True):
     corrected: bool = False
 
 
-class CueEvent(msgspec.Struct, frozen=True):
+class CueEvent(msgspec.Struct, frozen=True, gc=False):
     """A lead-in by body and instrument. The nod starts at ``start_s``; its acceleration peaks at ``peak_s``, the
     preparatory beat, one beat (``beat_s``) before the entry at ``end_s``."""
 
@@ -147,7 +151,7 @@ class CueEvent(msgspec.Struct, frozen=True):
     corrected: bool = False
 
 
-class GestureEvent(msgspec.Struct, frozen=True):
+class GestureEvent(msgspec.Struct, frozen=True, gc=False):
     """A body motion over a span. ``amount`` is -1..1, signed by direction (left, up and forward are positive)."""
 
     id: str
@@ -161,7 +165,7 @@ class GestureEvent(msgspec.Struct, frozen=True):
     corrected: bool = False
 
 
-class ExpressionEvent(msgspec.Struct, frozen=True):
+class ExpressionEvent(msgspec.Struct, frozen=True, gc=False):
     """A facial expression from `metadata` with strength 0..1 and fades."""
 
     id: str
@@ -181,7 +185,7 @@ PoseTarget: TypeAlias = Literal["bell", "head", "left_elbow", "right_elbow", "to
 """What the animator takes hold of."""
 
 
-class PoseEvent(msgspec.Struct, frozen=True):
+class PoseEvent(msgspec.Struct, frozen=True, gc=False):
     """A part of the body held differently over a span: whole from ``start_s`` to ``end_s``, with a fade before and one
     after it. Angles as in `app.plan.corrections.PoseCorrection`."""
 
@@ -205,7 +209,7 @@ Event: TypeAlias = (
 )
 
 
-class Problem(msgspec.Struct, frozen=True):
+class Problem(msgspec.Struct, frozen=True, gc=False):
     """Something the animator should look at, anchored to a note where there is one."""
 
     message: Message

@@ -15,7 +15,7 @@ from app.score.tempo import TempoMap
 CurveKind: TypeAlias = Literal["breath", "volume", "expression", "aftertouch", "pitch_bend"]
 
 
-class Note(msgspec.Struct, frozen=True):
+class Note(msgspec.Struct, frozen=True, gc=False):
     """A note as it sounds.
 
     Attributes
