@@ -13,11 +13,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from argparse import Namespace
 
-NO_DISPLAY = 1
-NO_DISPLAY_TEXT = (
-    "suisou: the editor needs a display and there is none (neither DISPLAY nor WAYLAND_DISPLAY is set). "
-    "'suisou export' and 'suisou inspect' work without one; 'suisou --help' lists all commands."
-)
+NO_DISPLAY = 3
 
 
 def main() -> int:
@@ -36,8 +32,11 @@ def run(arguments: Sequence[str]) -> int:
         parsed = parser().parse_args(["edit", *arguments[1:]])
     except SystemExit as stop:  # argparse: --help ends with 0, bad use with 2
         return stop.code if isinstance(stop.code, int) else BAD_USE
-    if display_missing():
-        sys.stderr.write(f"{NO_DISPLAY_TEXT}\n")
+    from app.shell.display import why_no_display
+
+    reason = why_no_display()
+    if reason is not None:
+        sys.stderr.write(f"suisou: {reason}\n")
         return NO_DISPLAY
     try:
         return edit(parsed)
@@ -69,15 +68,6 @@ def edit(parsed: Namespace) -> int:
     except AppError as error:
         sys.stderr.write(f"suisou: {error_text(error)}\n")
         return BAD_INPUT
-
-
-def display_missing() -> bool:
-    """Whether this is a system of displays without one; asked before Qt, which would end the process."""
-    if not sys.platform.startswith("linux"):
-        return False
-    if os.environ.get("QT_QPA_PLATFORM", "").partition(":")[0] in ("offscreen", "minimal", "vnc", "eglfs", "linuxfb"):
-        return False
-    return not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
 
 
 if __name__ == "__main__":

@@ -23,6 +23,13 @@ need_packages() {
     DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
 }
 
+# What Qt's wheels take from a Debian system: a display, OpenGL, fonts, sound.
+qt_packages=(
+    libdbus-1-3 libegl1 libfontconfig1 libgl1 libgl1-mesa-dri libglib2.0-0 libpulse0 libx11-xcb1 libxcb-cursor0 libxcb-icccm4
+    libxcb-image0 libxcb-keysyms1 libxcb-randr0 libxcb-render-util0 libxcb-shape0 libxcb-sync1 libxcb-xfixes0 libxcb-xkb1
+    libxext6 libxkbcommon-x11-0 libxkbcommon0 libxrandr2 libxrender1
+)
+
 usable_python() {
     local candidate
     for candidate in python3.11 python3 python3.12 python3.13; do

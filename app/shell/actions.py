@@ -216,8 +216,8 @@ class ActionTable(QObject):
             self._give_shortcuts()
 
     def _give_shortcuts(self) -> None:
-        """Where a panel and the window know the same shortcut, the panel that has the keyboard has it alone, and without
-        the keyboard none of it: Qt would do neither."""
+        """Where a panel and the window know the same shortcut, the panel that has the keyboard has it alone, and
+        without the keyboard none of it: Qt would do neither."""
         keys = {
             row.id: {sequence.toString() for sequence in sequences(self.keys(row.id))} for row in self.rows.values()
         }

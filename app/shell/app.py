@@ -37,6 +37,8 @@ from widgets.common.viewport_state import VIEWS
 
 STOP_S = 3.0
 """Workers that are asked to stop when the editor ends get this long."""
+READY_S = 20.0
+"""A picture waits this long until all motion is made and the status line is quiet; it can do without."""
 PICTURE_S = 60.0
 """A picture waits this long for plans and motion."""
 
@@ -224,6 +226,7 @@ def picture(start: Start, target: Path) -> int:
                 program.session.set_playhead(start.time_s)
                 program.session.reveal(start.time_s)
                 _wait(application, lambda: _moves(program, start.time_s) and not _working(program))
+                _wait(application, lambda: program.generator.ready_share >= 1.0, READY_S)
                 window.reset_layout()
             # Flights of the camera and late layouts.
             _wait(application, lambda: False, 1.2)

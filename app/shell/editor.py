@@ -48,7 +48,7 @@ class Editor(QObject):
     def _restore(self) -> None:
         settings, session = self.settings, self.session
         session.set_tokens(THEMES.get(settings.theme, session.tokens))
-        session.pitch_display.set(settings.written_pitch, 3 if settings.middle_c_octave == 3 else 4, settings.syllables)
+        session.pitch_display.set(settings.written_pitch, settings.middle_c_octave, settings.syllables)
         display = settings.time_display
         for known in get_args(TimeDisplay):
             if display == known:

@@ -36,12 +36,13 @@ def _word(word: str, text: str) -> float | None:
     total, place = 0.0, -1
     for letter in word:
         following = place + 1
-        if following < len(text) and text[following] == letter:
+        starts = [index for index in range(following, len(text)) if text[index] == letter and _starts(text, index)]
+        if starts:
+            at, value = starts[0], 2.5
+        elif place >= 0 and text.startswith(letter, following):
             at, value = following, 1.0
         else:
-            starts = [index for index in range(following, len(text)) if text[index] == letter and _starts(text, index)]
-            at = starts[0] if starts else text.find(letter, following)
-            value = 0.8 if starts else 0.1
+            at, value = text.find(letter, following), 0.1
             if at < 0:
                 return None
         total, place = total + value, at

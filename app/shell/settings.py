@@ -87,7 +87,7 @@ class Settings:
     @property
     def middle_c_octave(self) -> int:
         """3 or 4."""
-        return self._get("pitch/middle_c_octave", 4)
+        return 3 if self._get("pitch/middle_c_octave", 4) == 3 else 4
 
     @middle_c_octave.setter
     def middle_c_octave(self, value: int) -> None:

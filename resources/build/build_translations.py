@@ -35,7 +35,7 @@ def tool(name: str) -> str:
 def collect(sources: list[Path], target: Path) -> None:
     """Bring a room's file up to date with its sources; what is translated stays."""
     command = [tool("lupdate"), *map(str, sources), "-ts", str(target), "-target-language", LANGUAGE]
-    command += ["-source-language", "en", "-no-obsolete", "-locations", "none"]
+    command += ["-no-obsolete", "-locations", "none"]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     complaints = [line for line in done.stderr.splitlines() if line.strip()]
     if done.returncode or complaints:

@@ -403,39 +403,39 @@
     <name>ReimportDialog</name>
     <message>
         <source>Re-import MIDI</source>
-        <translation type="unfinished"></translation>
+        <translation>MIDI の再読み込み</translation>
     </message>
     <message>
         <source>{file} says nothing new.</source>
-        <translation type="unfinished"></translation>
+        <translation>{file} に変更はありません。</translation>
     </message>
     <message>
         <source>What {file} changes. Everything done by hand stays with its notes.</source>
-        <translation type="unfinished"></translation>
+        <translation>{file} による変更です。手で直したものは、それぞれの音符に残ります。</translation>
     </message>
     <message>
         <source>Part</source>
-        <translation type="unfinished"></translation>
+        <translation>パート</translation>
     </message>
     <message>
         <source>Kept</source>
-        <translation type="unfinished"></translation>
+        <translation>維持</translation>
     </message>
     <message>
         <source>New</source>
-        <translation type="unfinished"></translation>
+        <translation>新規</translation>
     </message>
     <message>
         <source>Gone</source>
-        <translation type="unfinished"></translation>
+        <translation>削除</translation>
     </message>
     <message>
         <source>These corrections have lost their note. They are kept; the inspector can give them another note:</source>
-        <translation type="unfinished"></translation>
+        <translation>次の修正は対象の音符を失いました。残してあり、インスペクターで別の音符に付け直せます:</translation>
     </message>
     <message>
         <source>Re-import</source>
-        <translation type="unfinished"></translation>
+        <translation>再読み込み</translation>
     </message>
     <message>
         <source>Cancel</source>
@@ -443,15 +443,15 @@
     </message>
     <message>
         <source>New players: {names}</source>
-        <translation type="unfinished"></translation>
+        <translation>新しいプレイヤー: {names}</translation>
     </message>
     <message>
         <source>Players whose part is gone: {names}</source>
-        <translation type="unfinished"></translation>
+        <translation>パートがなくなったプレイヤー: {names}</translation>
     </message>
     <message>
         <source>Players whose part is gone, kept for what was done by hand: {names}</source>
-        <translation type="unfinished"></translation>
+        <translation>パートはなくなりましたが、手で直したものがあるため残すプレイヤー: {names}</translation>
     </message>
 </context>
 <context>

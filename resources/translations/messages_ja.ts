@@ -4,6 +4,66 @@
     <context>
         <name>Message</name>
         <message>
+            <source>{file} is no sound that can be read ({detail}); choose a WAV, FLAC, OGG or MP3 file, or convert it to one</source>
+            <translation>{file} は読み込める音声ではありません({detail})。WAV、FLAC、OGG、MP3 のいずれかを選ぶか、変換してください</translation>
+        </message>
+        <message>
+            <source>{file} has {channels} channels at {rate_hz} Hz, which is no recording; export it as stereo at 48000 Hz</source>
+            <translation>{file} は {channels} チャンネル・{rate_hz} Hz で、録音として扱えません。48000 Hz のステレオで書き出してください</translation>
+        </message>
+        <message>
+            <source>{file} holds no sound; choose another recording</source>
+            <translation>{file} には音が入っていません。別の録音を選んでください</translation>
+        </message>
+        <message>
+            <source>{file} is longer than {most_hours} hours; cut it to the piece</source>
+            <translation>{file} は {most_hours} 時間を超えています。曲の部分だけに切り詰めてください</translation>
+        </message>
+        <message>
+            <source>{file} breaks off after {seconds} s: the file is damaged or was not copied whole</source>
+            <translation>{file} は {seconds} 秒で途切れています。壊れているか、コピーが不完全です</translation>
+        </message>
+        <message>
+            <source>there is no device for sound: it plays silently, in time</source>
+            <translation>音声デバイスがありません。無音のまま正しい時間で再生します</translation>
+        </message>
+        <message>
+            <source>the recording or the score is silent: there is nothing to find the offset by</source>
+            <translation>録音か楽譜が無音のため、オフセットを推定できません</translation>
+        </message>
+        <message>
+            <source>the piece was not recognised in the recording (confidence {percent} %): nothing was changed; drag the waveform or type the offset</source>
+            <translation>録音の中に曲が見つかりませんでした(確信度 {percent} %)。何も変更していません。波形をドラッグするか、オフセットを入力してください</translation>
+        </message>
+        <message>
+            <source>the recording begins at {offset_s:.3f} s (confidence {percent} %)</source>
+            <translation>録音の開始位置は {offset_s:.3f} 秒です(確信度 {percent} %)</translation>
+        </message>
+        <message>
+            <source>the recording begins at {offset_s:.3f} s (confidence {percent} %); its tempo differs by {tempo_percent:+.1f} %: Play &gt; Recording &gt; Fit the Tempo to the Recording</source>
+            <translation>録音の開始位置は {offset_s:.3f} 秒です(確信度 {percent} %)。テンポが {tempo_percent:+.1f} % 違います:「再生 &gt; 録音 &gt; テンポを録音に合わせる」</translation>
+        </message>
+        <message>
+            <source>the recording begins at {offset_s:.3f} s (confidence {percent} %); the score is played {tempo_percent:+.1f} % faster</source>
+            <translation>録音の開始位置は {offset_s:.3f} 秒です(確信度 {percent} %)。楽譜を {tempo_percent:+.1f} % 速く演奏します</translation>
+        </message>
+        <message>
+            <source>estimated offset of the recording</source>
+            <translation>録音のオフセットの推定</translation>
+        </message>
+        <message>
+            <source>offset and tempo fitted to the recording</source>
+            <translation>オフセットとテンポを録音に合わせる</translation>
+        </message>
+        <message>
+            <source>remove the recording</source>
+            <translation>録音を外す</translation>
+        </message>
+        <message>
+            <source>another recording</source>
+            <translation>録音の変更</translation>
+        </message>
+        <message>
             <source>move {count} events</source>
             <translation>{count} 個のイベントを移動</translation>
         </message>
@@ -36,10 +96,6 @@
             <translation>ブレスを追加</translation>
         </message>
         <message>
-            <source>add a preparation</source>
-            <translation>準備動作を追加</translation>
-        </message>
-        <message>
             <source>add a cue</source>
             <translation>合図を追加</translation>
         </message>
@@ -65,23 +121,23 @@
         </message>
         <message>
             <source>face of {expression}</source>
-            <translation type="unfinished" />
+            <translation>{expression}の顔を変更</translation>
         </message>
         <message>
             <source>an expression made from {expression}</source>
-            <translation type="unfinished" />
+            <translation>{expression}から表情を作成</translation>
         </message>
         <message>
             <source>rename an expression</source>
-            <translation type="unfinished" />
+            <translation>表情の名前を変更</translation>
         </message>
         <message>
             <source>remove {expression}</source>
-            <translation type="unfinished" />
+            <translation>{expression}を削除</translation>
         </message>
         <message>
             <source>{name} is kept for other projects</source>
-            <translation type="unfinished" />
+            <translation>{name}を他のプロジェクト用に保存しました</translation>
         </message>
         <message>
             <source>re-attach a correction</source>
@@ -110,6 +166,30 @@
         <message>
             <source>there is no note after this place to give a cue to</source>
             <translation>この位置より後に、合図を出す音符がありません</translation>
+        </message>
+        <message>
+            <source>another performance by everyone</source>
+            <translation>全員の演奏を作り直す</translation>
+        </message>
+        <message>
+            <source>another performance by players: {count}</source>
+            <translation>{count} 人の演奏を作り直す</translation>
+        </message>
+        <message>
+            <source>another performance of some bars</source>
+            <translation>一部の小節の演奏を作り直す</translation>
+        </message>
+        <message>
+            <source>some bars as at first</source>
+            <translation>一部の小節を最初の演奏に戻す</translation>
+        </message>
+        <message>
+            <source>performed anew; corrections kept: {kept}</source>
+            <translation>演奏を作り直しました。残した修正: {kept} 件</translation>
+        </message>
+        <message>
+            <source>performed anew; corrections kept: {kept}; without a place now, kept all the same: {lost}</source>
+            <translation>演奏を作り直しました。残した修正: {kept} 件。対象を失ったものの残してある修正: {lost} 件</translation>
         </message>
         <message>
             <source>hold the bell differently</source>
@@ -145,11 +225,11 @@
         </message>
         <message>
             <source>duplicate players: {count}</source>
-            <translation type="unfinished" />
+            <translation>プレイヤーを複製: {count} 人</translation>
         </message>
         <message>
             <source>remove players: {count}</source>
-            <translation type="unfinished" />
+            <translation>プレイヤーを削除: {count} 人</translation>
         </message>
         <message>
             <source>order of the players</source>
@@ -157,95 +237,95 @@
         </message>
         <message>
             <source>mute players: {count}</source>
-            <translation type="unfinished" />
+            <translation>ミュート: {count} 人</translation>
         </message>
         <message>
             <source>unmute players: {count}</source>
-            <translation type="unfinished" />
+            <translation>ミュート解除: {count} 人</translation>
         </message>
         <message>
             <source>solo players: {count}</source>
-            <translation type="unfinished" />
+            <translation>ソロ: {count} 人</translation>
         </message>
         <message>
             <source>end of solo for players: {count}</source>
-            <translation type="unfinished" />
+            <translation>ソロ解除: {count} 人</translation>
         </message>
         <message>
             <source>another part for players: {count}</source>
-            <translation type="unfinished" />
+            <translation>パートを変更: {count} 人</translation>
         </message>
         <message>
             <source>another instrument for players: {count}</source>
-            <translation type="unfinished" />
+            <translation>楽器を変更: {count} 人</translation>
         </message>
         <message>
             <source>another character for players: {count}</source>
-            <translation type="unfinished" />
+            <translation>キャラクターを変更: {count} 人</translation>
         </message>
         <message>
             <source>colour of players: {count}</source>
-            <translation type="unfinished" />
+            <translation>プレイヤーの色: {count} 人</translation>
         </message>
         <message>
             <source>amplitude of players: {count}</source>
-            <translation type="unfinished" />
+            <translation>動きの大きさ: {count} 人</translation>
         </message>
         <message>
             <source>shortest rest to breathe in, players: {count}</source>
-            <translation type="unfinished" />
+            <translation>息を吸う休符の下限: {count} 人</translation>
         </message>
         <message>
             <source>rest with a breath on its last beat, players: {count}</source>
-            <translation type="unfinished" />
+            <translation>最後の拍で吸う下限: {count} 人</translation>
         </message>
         <message>
             <source>rest with a prepared breath, players: {count}</source>
-            <translation type="unfinished" />
+            <translation>予備動作を付ける下限: {count} 人</translation>
         </message>
         <message>
             <source>lungs of players: {count}</source>
-            <translation type="unfinished" />
+            <translation>一息の長さ: {count} 人</translation>
         </message>
         <message>
             <source>embouchure tension of players: {count}</source>
-            <translation type="unfinished" />
+            <translation>アンブシュアの張り: {count} 人</translation>
         </message>
         <message>
             <source>sway of players: {count}</source>
-            <translation type="unfinished" />
+            <translation>揺れ: {count} 人</translation>
         </message>
         <message>
             <source>weight shift of players: {count}</source>
-            <translation type="unfinished" />
+            <translation>重心移動: {count} 人</translation>
         </message>
         <message>
             <source>bell height of players: {count}</source>
-            <translation type="unfinished" />
+            <translation>ベルの高さ: {count} 人</translation>
         </message>
         <message>
             <source>standing or seated, players: {count}</source>
-            <translation type="unfinished" />
+            <translation>立奏・座奏: {count} 人</translation>
         </message>
         <message>
             <source>who gives cues, players: {count}</source>
-            <translation type="unfinished" />
+            <translation>合図を出す人: {count} 人</translation>
         </message>
         <message>
             <source>seed of players: {count}</source>
-            <translation type="unfinished" />
+            <translation>シード: {count} 人</translation>
         </message>
         <message>
             <source>reset players: {count}</source>
-            <translation type="unfinished" />
+            <translation>プレイヤーをリセット: {count} 人</translation>
         </message>
         <message>
             <source>randomise players: {count}</source>
-            <translation type="unfinished" />
+            <translation>ランダム化: {count} 人</translation>
         </message>
         <message>
             <source>place players: {count}</source>
-            <translation type="unfinished" />
+            <translation>ステージでの配置: {count} 人</translation>
         </message>
         <message>
             <source>automatic arc</source>
@@ -253,7 +333,11 @@
         </message>
         <message>
             <source>preset {preset} for players: {count}</source>
-            <translation type="unfinished" />
+            <translation>プリセット {preset}: {count} 人</translation>
+        </message>
+        <message>
+            <source>the preset {name} is saved</source>
+            <translation>プリセット {name} を保存しました</translation>
         </message>
         <message>
             <source>a project can have {most} players</source>
@@ -262,6 +346,14 @@
         <message>
             <source>a name must have at least one sign that can be seen</source>
             <translation>名前には、目に見える文字が 1 つ以上必要です</translation>
+        </message>
+        <message>
+            <source>there is no part {part}</source>
+            <translation>パート {part} はありません</translation>
+        </message>
+        <message>
+            <source>re-import the MIDI file</source>
+            <translation>MIDI ファイルの再読み込み</translation>
         </message>
         <message>
             <source>{file} cannot be read: {reason}</source>
@@ -700,6 +792,10 @@
             <translation>このプロジェクトに、自作の表情 {name!r} はありません</translation>
         </message>
         <message>
+            <source>the MIDI file is taken in; notes found again: {kept}, corrections without a note: {lost}</source>
+            <translation>MIDI ファイルを取り込みました。引き継いだ音符: {kept}、音符のない修正: {lost}</translation>
+        </message>
+        <message>
             <source>a correction of this kind ({kind}) belongs to no note</source>
             <translation>この種類の修正({kind})は音符に付くものではありません</translation>
         </message>
@@ -972,12 +1068,28 @@
             <translation>{player} の自動生成の結果を調べています</translation>
         </message>
         <message>
+            <source>reading the MIDI file again</source>
+            <translation>MIDI ファイルを読み直しています</translation>
+        </message>
+        <message>
             <source>writing the files</source>
             <translation>ファイルを書き出しています</translation>
         </message>
         <message>
             <source>making the film</source>
             <translation>動画を作っています</translation>
+        </message>
+        <message>
+            <source>making the sound</source>
+            <translation>音を作っています</translation>
+        </message>
+        <message>
+            <source>reading {file}</source>
+            <translation>{file} を読み込んでいます</translation>
+        </message>
+        <message>
+            <source>finding the recording's offset</source>
+            <translation>録音のオフセットを推定しています</translation>
         </message>
     </context>
 </TS>

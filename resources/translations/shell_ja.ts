@@ -572,35 +572,35 @@
     </message>
     <message>
         <source>Read the MIDI File Again...</source>
-        <translation type="unfinished"></translation>
+        <translation>MIDI ファイルを読み直す...</translation>
     </message>
     <message>
         <source>Take In a Newer MIDI File...</source>
-        <translation type="unfinished"></translation>
+        <translation>新しい MIDI ファイルを取り込む...</translation>
     </message>
     <message>
         <source>Export Players...</source>
-        <translation type="unfinished"></translation>
+        <translation>プレイヤーを書き出す...</translation>
     </message>
     <message>
         <source>Playblast...</source>
-        <translation type="unfinished"></translation>
+        <translation>プレイブラスト...</translation>
     </message>
     <message>
         <source>Another Performance by Everyone</source>
-        <translation type="unfinished"></translation>
+        <translation>全員の演奏を作り直す</translation>
     </message>
     <message>
         <source>Another Performance by the Selected Players</source>
-        <translation type="unfinished"></translation>
+        <translation>選択したプレイヤーの演奏を作り直す</translation>
     </message>
     <message>
         <source>Another Performance of the Selected Bars</source>
-        <translation type="unfinished"></translation>
+        <translation>選択した小節の演奏を作り直す</translation>
     </message>
     <message>
         <source>Selected Bars as at First</source>
-        <translation type="unfinished"></translation>
+        <translation>選択した小節を最初の演奏に戻す</translation>
     </message>
 </context>
 <context>
@@ -695,7 +695,7 @@
     </message>
     <message>
         <source>Re-import MIDI</source>
-        <translation type="unfinished"></translation>
+        <translation>MIDI を再読み込み</translation>
     </message>
 </context>
 <context>
@@ -750,27 +750,27 @@
     </message>
     <message>
         <source>Tool</source>
-        <translation type="unfinished"></translation>
+        <translation>ツール</translation>
     </message>
     <message>
         <source>Players</source>
-        <translation type="unfinished">プレイヤー</translation>
+        <translation>プレイヤー</translation>
     </message>
     <message>
         <source>Go</source>
-        <translation type="unfinished"></translation>
+        <translation>移動</translation>
     </message>
     <message>
         <source>Recording</source>
-        <translation type="unfinished">録音</translation>
+        <translation>録音</translation>
     </message>
     <message>
         <source>Sound</source>
-        <translation type="unfinished"></translation>
+        <translation>音</translation>
     </message>
     <message>
         <source>Speed</source>
-        <translation type="unfinished"></translation>
+        <translation>速度</translation>
     </message>
     <message>
         <source>Viewport</source>

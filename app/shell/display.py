@@ -1,0 +1,62 @@
+"""Whether there is a display; asked before Qt, which would end the process. Imports nothing of Qt."""
+
+from __future__ import annotations
+
+import os
+import re
+import socket
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Final
+
+WITHOUT: Final = ("offscreen", "minimal", "minimalegl", "vnc", "eglfs", "linuxfb")
+"""Platforms of Qt that need no display server."""
+X_PORT: Final = 6000
+ANSWER_S: Final = 3.0
+INSTEAD: Final = "'suisou export' and 'suisou inspect' work without one; 'suisou --help' lists all commands."
+
+_DISPLAY = re.compile(r"^(?:(?P<host>[^:/]*)(?:/\w+)?|(?P<path>/.*)):(?P<number>\d+)(?:\.\d+)?$")
+
+
+def why_no_display(environment: Mapping[str, str] = os.environ, platform: str = sys.platform) -> str | None:
+    """Why the editor cannot be shown, as a sentence for the command line; None where it can."""
+    if not platform.startswith("linux") or environment.get("QT_QPA_PLATFORM", "").partition(":")[0] in WITHOUT:
+        return None
+    display, wayland = environment.get("DISPLAY", ""), environment.get("WAYLAND_DISPLAY", "")
+    if not display and not wayland:
+        return f"the editor needs a display and there is none (neither DISPLAY nor WAYLAND_DISPLAY is set). {INSTEAD}"
+    if (wayland and _answers(_wayland_socket(wayland, environment))) or (display and _x_answers(display)):
+        return None
+    asked = " and ".join(filter(None, (wayland, display)))
+    return f"the editor needs a display, and nobody answers at {asked}. {INSTEAD}"
+
+
+def _wayland_socket(name: str, environment: Mapping[str, str]) -> Path:
+    return Path(environment.get("XDG_RUNTIME_DIR", "/")) / name
+
+
+def _x_answers(display: str) -> bool:
+    found = _DISPLAY.match(display)
+    if found is None or found["path"]:
+        # Something of another system: Qt knows better.
+        return True
+    number = int(found["number"])
+    if found["host"] in ("", "unix"):
+        path = f"/tmp/.X11-unix/X{number}"
+        return _answers(Path(path)) or _answers(Path(f"\0{path}"))
+    try:
+        with socket.create_connection((found["host"], X_PORT + number), ANSWER_S):
+            return True
+    except OSError:
+        return False
+
+
+def _answers(path: Path) -> bool:
+    try:
+        with socket.socket(socket.AF_UNIX) as connection:
+            connection.settimeout(ANSWER_S)
+            connection.connect(str(path))
+            return True
+    except (OSError, ValueError):
+        return False

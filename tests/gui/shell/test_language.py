@@ -1,0 +1,136 @@
+"""Both languages: everything that is seen changes with a switch, and every sign can be drawn."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+from PySide6.QtGui import QAction, QFont, QFontDatabase, QRawFont
+from PySide6.QtWidgets import (
+    QAbstractButton,
+    QComboBox,
+    QDockWidget,
+    QGroupBox,
+    QLabel,
+    QLineEdit,
+    QMenu,
+    QTabBar,
+    QTreeWidget,
+    QWidget,
+)
+from pytestqt.qtbot import QtBot
+
+from app.shell.app import Program
+from app.shell.preferences import show_preferences
+from app.shell.settings import Settings
+from app.shell.theme import JAPANESE_FAMILIES
+from resources.build import build_translations as build
+from tests.gui.shell.conftest import trigger
+
+KEPT = (
+    *("MIDI", "FBX", "BVH", "Suisou", "Qt", "Python", "PySide6", "English", "Apache License", "OpenGL", "Esc"),
+    *("Ctrl", "Shift", "Alt", "Home", "End", "Space", "Enter", "Return", "Backspace", "Del", "Delete", "Tab", "Ins"),
+    *("Left", "Right", "Up", "Down", "PgUp", "PgDown", "fps", "CPU", "GL", "ms"),
+)
+"""Words that are the same in Japanese: names, file formats, keys, units."""
+WORD = re.compile(r"[A-Za-z]{3,}")
+
+
+def texts(root: QWidget) -> Iterator[tuple[str, str]]:
+    """Every text of a widget and those in it, with where it is."""
+    for widget in (root, *root.findChildren(QWidget)):
+        where = f"{type(widget).__name__} {widget.objectName()}"
+        yield where, widget.toolTip()
+        if isinstance(widget, QLabel | QAbstractButton):
+            yield where, widget.text()
+        elif isinstance(widget, QLineEdit):
+            yield where, widget.placeholderText()
+        elif isinstance(widget, QComboBox):
+            yield from ((where, widget.itemText(index)) for index in range(widget.count()))
+        elif isinstance(widget, QDockWidget | QMenu | QGroupBox):
+            yield where, widget.windowTitle() if isinstance(widget, QDockWidget) else widget.title()
+        elif isinstance(widget, QTabBar):
+            yield from ((where, widget.tabText(index)) for index in range(widget.count()))
+        elif isinstance(widget, QTreeWidget):
+            header = widget.headerItem()
+            yield from ((where, header.text(column)) for column in range(widget.columnCount()))
+        for action in widget.actions():
+            yield f"{where}, action {action.objectName()}", action.text()
+
+
+def english(text: str, names: tuple[str, ...]) -> list[str]:
+    """Words of a text that are English and no names."""
+    if "<" in text:
+        text = re.sub(r"<[^>]*>", " ", text)
+    for name in sorted((*KEPT, *names), key=len, reverse=True):
+        text = text.replace(name, " ")
+    return WORD.findall(text)
+
+
+def left_overs(program: Program) -> list[str]:
+    names = [player.name for player in program.session.project.players]
+    names += [part.name for part in program.session.project.score.parts]
+    names += [program.editor.files.name, program.session.project.score.title, program.session.project.source]
+    found = []
+    for where, text in texts(program.window):
+        words = english(text, tuple(filter(None, names)))
+        if words:
+            found.append(f"{where}: {text!r}")
+    for action in program.session.actions.values():
+        for text in (action.text(), action.toolTip()):
+            if english(text, tuple(names)):
+                found.append(f"action {action.objectName()}: {text!r}")
+    return found
+
+
+def test_a_switch_leaves_no_english(program: Program, qtbot: QtBot) -> None:
+    assert len(left_overs(program)) > 100, "the search finds English while the editor speaks it"
+    program.editor.speak("ja")
+    qtbot.wait(20)
+    assert left_overs(program) == []
+    assert program.window.menus.menu("File").title() == "ファイル(&F)"
+    program.editor.speak("en")
+    qtbot.wait(20)
+    assert program.window.menus.menu("File").title() == "&File"
+
+
+def test_the_start_page_and_preferences_speak_both(empty: Program, qtbot: QtBot) -> None:
+    dialog = show_preferences(empty.editor, "general")
+    empty.editor.speak("ja")
+    qtbot.wait(20)
+    assert left_overs(empty) == []
+    seen = [text for _, text in texts(dialog) if text]
+    assert dialog.windowTitle() == "環境設定"
+    assert [text for text in seen if english(text, ("C D E",))] == []
+    dialog.close()
+
+
+def test_the_language_is_remembered(program: Program, settings: Settings) -> None:
+    trigger(program, "language.ja")
+    settings.sync()
+    assert Settings(settings.path).language == "ja"
+    assert program.session.actions["language.ja"].text() == "日本語"
+
+
+def test_every_japanese_sign_can_be_drawn(program: Program) -> None:
+    family = next((name for name in JAPANESE_FAMILIES if name in QFontDatabase.families()), None)
+    assert family is not None, "no Japanese font is installed"
+    font = QRawFont.fromFont(QFont(family))
+    signs: dict[str, str] = {}
+    for path in sorted(Path(build.TARGET).glob("*_ja.ts")):
+        for text in build.translations(path).values():
+            signs |= {sign: text for sign in text if ord(sign) > 0x7F}
+    own = QRawFont.fromFont(program.window.font())
+    undrawn = {
+        s: text for s, text in signs.items() if not font.supportsCharacter(ord(s)) and not own.supportsCharacter(ord(s))
+    }
+    assert undrawn == {}
+    assert len(signs) > 300
+
+
+def test_actions_have_texts_in_japanese(program: Program) -> None:
+    program.editor.speak("ja")
+    missing = [row.id for row in program.editor.table.rows.values() if english(program.editor.table.text(row.id), ())]
+    assert missing == []
+    assert isinstance(program.session.actions["file.save"], QAction)

@@ -1,0 +1,52 @@
+"""The Japanese of the editor is whole, fits its English, and is what the editor reads."""
+
+from __future__ import annotations
+
+import string
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import QTranslator
+
+from app.messages import TEMPLATES
+from resources.build import build_translations as build
+
+ROOMS = sorted(build.rooms())
+FILES = sorted(build.TARGET.glob("*_ja.ts"))
+
+
+def fields(text: str) -> set[tuple[str, str]]:
+    """What a template is filled with: names, and how they are formatted."""
+    return {(name, spec or "") for _, name, spec, _ in string.Formatter().parse(text) if name is not None}
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
+def test_every_text_is_translated_with_its_arguments(path: Path) -> None:
+    for (context, source), text in build.translations(path).items():
+        assert text, f"{context}: {source!r} is not translated"
+        assert fields(text) == fields(source), f"{context}: {source!r} -> {text!r}"
+        assert ("&" in text) == ("&" in source), f"{context}: the mark of a key: {source!r} -> {text!r}"
+
+
+def test_nothing_is_missing_and_nothing_is_left_over(tmp_path: Path) -> None:
+    for room, sources in build.rooms().items():
+        fresh = tmp_path / f"{room}_ja.ts"
+        build.collect(sources, fresh)
+        committed = build.TARGET / fresh.name
+        assert committed.exists(), f"run resources/build/build_translations.py: {committed.name} is missing"
+        now, before = set(build.translations(fresh)), set(build.translations(committed))
+        assert now == before, f"{room}: run resources/build/build_translations.py: {sorted(now ^ before)}"
+    messages = build.translations(build.TARGET / "messages_ja.ts")
+    assert {source for _, source in messages} == set(TEMPLATES.values())
+
+
+def test_the_editor_reads_what_the_translators_wrote() -> None:
+    translator = QTranslator()
+    assert translator.load(str(build.TARGET / "suisou_ja.qm"))
+    for path in FILES:
+        for (context, source), text in build.translations(path).items():
+            assert translator.translate(context, source) == text, f"suisou_ja.qm is stale: {context}: {source!r}"
+
+
+def test_every_room_has_its_file() -> None:
+    assert {path.stem.removesuffix("_ja") for path in FILES} == {*ROOMS, "messages"}

@@ -1,0 +1,37 @@
+"""How well typed letters fit a name."""
+
+from __future__ import annotations
+
+import pytest
+
+from app.shell.fuzzy import fitness
+
+
+def best(query: str, *texts: str) -> str:
+    fitting = [(value, text) for text in texts if (value := fitness(query, text)) is not None]
+    return max(fitting)[1]
+
+
+@pytest.mark.parametrize(
+    ("query", "wanted", "others"),
+    [
+        ("save", "Save", ("Save As", "Unsaved work")),
+        ("sa", "Save As", ("Close Project", "Undo")),
+        ("light", "Light Theme", ("Slight Delay", "Highlight")),
+        ("lt", "Light Theme", ("Split at Playhead", "Default")),
+        ("theme dark", "Dark Theme", ("Light Theme",)),
+        ("zoom in", "Zoom Timeline In", ("Zoom Timeline Out",)),
+        ("ライト", "ライトテーマ", ("ダークテーマ",)),
+    ],
+)
+def test_the_best_fit(query: str, wanted: str, others: tuple[str, ...]) -> None:
+    assert best(query, wanted, *others) == wanted
+
+
+def test_letters_must_be_there_in_their_order() -> None:
+    assert fitness("xyz", "Save") is None
+    assert fitness("evas", "Save") is None
+
+
+def test_case_does_not_count() -> None:
+    assert fitness("SAVE", "save") == fitness("save", "SAVE")
