@@ -14,13 +14,12 @@ from PySide6.QtWidgets import (
     QHBoxLayout,
     QLabel,
     QPushButton,
-    QSlider,
-    QSpinBox,
     QWidget,
 )
 
 from app.errors import Message
 from app.project.edit import notes
+from widgets.common.number_slider import NumberSlider
 from widgets.common.session import Session
 
 GRIDS: tuple[tuple[str, Fraction], ...] = (
@@ -49,18 +48,13 @@ class QuantisePopover(QFrame):
         self._base = session.project
         self._ours = self._base
         self._kept = False
-        self.grid_label, self.strength_label = QLabel(self), QLabel(self)
+        self._percent = 100.0
+        self.grid_label = QLabel(self)
         self.grid_box = QComboBox(self)
         for name, quarters in GRIDS:
             self.grid_box.addItem(name, quarters)
-        self.slider = QSlider(Qt.Orientation.Horizontal, self)
-        self.slider.setRange(0, 100)
-        self.slider.setValue(100)
-        self.slider.setMinimumWidth(120)
-        self.percent = QSpinBox(self)
-        self.percent.setRange(0, 100)
-        self.percent.setValue(100)
-        self.percent.setSuffix(" %")
+        self.strength = NumberSlider(session, 0.0, 100.0, default=100.0, step=5.0, decimals=0, parent=self)
+        self.strength.setMinimumWidth(180)
         self.onsets, self.ends = QCheckBox(self), QCheckBox(self)
         self.onsets.setChecked(True)
         self.keep_button = QPushButton(self)
@@ -69,18 +63,14 @@ class QuantisePopover(QFrame):
         grid.setContentsMargins(10, 8, 10, 8)
         grid.addWidget(self.grid_label, 0, 0)
         grid.addWidget(self.grid_box, 0, 1, 1, 2)
-        grid.addWidget(self.strength_label, 1, 0)
-        grid.addWidget(self.slider, 1, 1)
-        grid.addWidget(self.percent, 1, 2)
+        grid.addWidget(self.strength, 1, 0, 1, 3)
         row = QHBoxLayout()
         row.addWidget(self.onsets)
         row.addWidget(self.ends)
         row.addStretch(1)
         row.addWidget(self.keep_button)
         grid.addLayout(row, 2, 0, 1, 3)
-        self.slider.valueChanged.connect(self.percent.setValue)
-        self.percent.valueChanged.connect(self.slider.setValue)
-        self.slider.valueChanged.connect(self._show)
+        self.strength.changed.connect(self._set_strength)
         self.grid_box.currentIndexChanged.connect(self._show)
         self.onsets.toggled.connect(self._show)
         self.ends.toggled.connect(self._show)
@@ -90,7 +80,7 @@ class QuantisePopover(QFrame):
     def retranslate(self) -> None:
         """Set every text anew."""
         self.grid_label.setText(self.tr("Grid"))
-        self.strength_label.setText(self.tr("Strength"))
+        self.strength.set_texts(self.tr("Strength"), "%")
         self.onsets.setText(self.tr("Beginnings"))
         self.ends.setText(self.tr("Ends"))
         self.keep_button.setText(self.tr("Quantise"))
@@ -111,6 +101,11 @@ class QuantisePopover(QFrame):
         self.grid_box.setFocus()
         self._show()
 
+    def _set_strength(self, value: float, token: object) -> None:
+        self._percent = value
+        self.strength.show_value(value)
+        self._show()
+
     def _show(self) -> None:
         if self._session.project is not self._ours or not self.isVisible():
             return
@@ -121,7 +116,7 @@ class QuantisePopover(QFrame):
                 base,
                 ids,
                 self.grid_box.currentData(),
-                self.slider.value() / 100.0,
+                self._percent / 100.0,
                 onsets=self.onsets.isChecked(),
                 ends=self.ends.isChecked(),
             ),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 from PySide6.QtCore import QEvent, QLineF, QRectF, Qt, Signal
-from PySide6.QtGui import QAction, QCursor, QFont, QResizeEvent
+from PySide6.QtGui import QAction, QCursor, QFont, QKeyEvent, QResizeEvent
 from PySide6.QtWidgets import QMenu, QToolTip, QWidget
 
 from app.errors import Message
@@ -378,6 +378,13 @@ class PianoRoll(Lane):
                 self.plot.setCursor(Qt.CursorShape.SizeHorCursor)
             else:
                 self.set_tool(self._tool)
+
+    def key(self, event: QKeyEvent) -> bool:
+        """Escape lets go of the selection."""
+        if event.key() == Qt.Key.Key_Escape and self.session.selection:
+            self.session.select(Selection())
+            return True
+        return False
 
     def wheel(self, mouse: LaneMouse, steps: float) -> bool:
         """Scroll the pitches; with Alt zoom them about the one under the mouse."""

@@ -359,7 +359,7 @@ ACTIONS: tuple[Action, ...] = (
         "notes.select_none",
         QT_TRANSLATE_NOOP("Action", "Select Nothing"),
         select_none,
-        "Ctrl+Shift+A",
+        "Alt+A",
         "",
         "Edit/Select",
         lambda session: bool(session.selection),

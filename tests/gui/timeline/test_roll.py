@@ -268,6 +268,12 @@ def test_split_at_the_playhead_and_join_again(stage: Stage) -> None:
     assert stage.selected == {"1:2"}
 
 
+def test_escape_lets_go_of_the_selection(stage: Stage) -> None:
+    stage.session.select(Selection(frozenset({"1:0"})))
+    press_key(stage, Qt.Key.Key_Escape)
+    assert not stage.session.selection
+
+
 def test_delete_removes_the_notes(stage: Stage) -> None:
     stage.session.select(Selection(frozenset({"1:0", "2:7"})))
     press_key(stage, Qt.Key.Key_Delete)
@@ -331,7 +337,8 @@ def test_quantising_is_seen_as_it_is_set_and_one_step(stage: Stage) -> None:
     popover = stage.panel.quantise
     assert popover.isVisible()
     assert stage.note("1:1").onset_tick == TPQ
-    popover.percent.setValue(50)
+    for _ in range(10):
+        QTest.keyClick(popover.strength, Qt.Key.Key_Left)
     assert stage.note("1:1").onset_tick == TPQ + 16
     popover.ends.setChecked(True)
     QTest.mouseClick(popover.keep_button, Qt.MouseButton.LeftButton)
