@@ -28,7 +28,7 @@ def player_phrases(project: Project, player: Player) -> tuple[Phrase, ...]:
 
 
 def player_tracks(project: Project, pieces: Mapping[str, Iterable[Piece]]) -> tuple[Track, ...]:
-    """The players who are heard: those who are soloed if any is, else those who are not muted.
+    """The players who are heard.
 
     Parameters
     ----------
@@ -36,16 +36,23 @@ def player_tracks(project: Project, pieces: Mapping[str, Iterable[Piece]]) -> tu
     pieces : mapping of str to iterable of Piece
         What is rendered, by player id.
     """
+    return tuple(
+        Track(pieces[player_id], *gains) for player_id, gains in player_gains(project).items() if player_id in pieces
+    )
+
+
+def player_gains(project: Project) -> dict[str, tuple[float, float]]:
+    """Gains of left and right of the players who are heard: those soloed if any is, else those not muted."""
     players = project.players
     soloed = any(player.soloed for player in players)
     width_m = max((abs(player.stage.x_m) for player in players), default=0.0)
-    level = _LEVEL / np.sqrt(max(len(players), 1))
-    tracks = []
+    level = _LEVEL / float(np.sqrt(max(len(players), 1)))
+    gains = {}
     for player in players:
-        if (player.soloed if soloed else not player.muted) and player.id in pieces:
+        if player.soloed if soloed else not player.muted:
             left, right = place_gains(player.stage.x_m, width_m)
-            tracks.append(Track(pieces[player.id], level * left, level * right))
-    return tuple(tracks)
+            gains[player.id] = (level * left, level * right)
+    return gains
 
 
 def recording_track(recording: Recording, offset_s: float) -> Track:

@@ -8,11 +8,13 @@ import numpy as np
 import numpy.typing as npt
 
 Floats: TypeAlias = npt.NDArray[np.float32]
+Samples: TypeAlias = npt.NDArray[np.int16]
 
 BASE_SAMPLES = 64
 """Samples in a bin of the finest level; nearer than that the samples themselves are drawn."""
 FACTOR = 4
 """Bins of one level in a bin of the next."""
+_PIECE = 1024 * BASE_SAMPLES
 _FULL_SCALE = np.float32(1.0 / 32768.0)
 
 
@@ -26,20 +28,17 @@ class Peaks:
     rate_hz : int
     """
 
-    def __init__(self, samples: npt.NDArray[np.int16], rate_hz: int) -> None:
+    def __init__(self, samples: Samples, rate_hz: int) -> None:
         self.rate_hz = rate_hz
         self._samples = samples
-        self._levels: list[tuple[npt.NDArray[np.int16], npt.NDArray[np.int16]]] = []
-        low, high = samples.min(axis=1, initial=0), samples.max(axis=1, initial=0)
-        if samples.shape[1]:
-            low, high = samples.min(axis=1), samples.max(axis=1)
-        size = BASE_SAMPLES
-        while len(low):
-            low, high = _bins(low, size, np.minimum), _bins(high, size, np.maximum)
+        self._levels: list[tuple[Samples, Samples]] = []
+        if not len(samples):
+            return
+        low, high = _finest(samples)
+        self._levels.append((low, high))
+        while len(low) > FACTOR:
+            low, high = _bins(low, FACTOR, np.minimum), _bins(high, FACTOR, np.maximum)
             self._levels.append((low, high))
-            if len(low) <= FACTOR:
-                break
-            size = FACTOR
 
     @property
     def duration_s(self) -> float:
@@ -78,8 +77,7 @@ class Peaks:
         first, last = np.clip(first[inside], 0, bins - 1), np.clip(last[inside], 1, bins)
         start, end = int(first[0]), int(last[-1])
         if level < 0:
-            part = self._samples[start:end]
-            lows, highs = part.min(axis=1), part.max(axis=1)
+            lows, highs = _over_channels(self._samples[start:end])
         else:
             lows, highs = (extreme[start:end] for extreme in self._levels[level])
         low[inside] = _reduced(lows, first - start, last - start, np.minimum) * _FULL_SCALE
@@ -87,19 +85,38 @@ class Peaks:
         return low, high
 
 
-def _bins(values: npt.NDArray[np.int16], size: int, of: np.ufunc) -> npt.NDArray[np.int16]:
+def _finest(samples: Samples) -> tuple[Samples, Samples]:
+    """Extremes of every `BASE_SAMPLES`, by pieces that stay in the processor's cache."""
+    lows, highs = [], []
+    for start in range(0, len(samples), _PIECE):
+        low, high = _over_channels(samples[start : start + _PIECE])
+        lows.append(_bins(low, BASE_SAMPLES, np.minimum))
+        highs.append(_bins(high, BASE_SAMPLES, np.maximum))
+    return np.concatenate(lows), np.concatenate(highs)
+
+
+def _over_channels(samples: Samples) -> tuple[Samples, Samples]:
+    """Least and greatest of all channels; channel by channel, for numpy is slow along a short axis."""
+    if not samples.shape[1]:
+        return np.zeros(len(samples), np.int16), np.zeros(len(samples), np.int16)
+    low = high = samples[:, 0]
+    for channel in range(1, samples.shape[1]):
+        low, high = np.minimum(low, samples[:, channel]), np.maximum(high, samples[:, channel])
+    return low, high
+
+
+def _bins(values: Samples, size: int, of: np.ufunc) -> Samples:
     """Extremes of every ``size`` values; the last bin may be shorter."""
-    result: npt.NDArray[np.int16] = of.reduceat(values, np.arange(0, len(values), size))
-    return result
+    whole = len(values) // size * size
+    result: Samples = of.reduce(values[:whole].reshape(-1, size), axis=1)
+    return result if whole == len(values) else np.append(result, of.reduce(values[whole:]))
 
 
-def _reduced(
-    values: npt.NDArray[np.int16], first: npt.NDArray[np.int64], last: npt.NDArray[np.int64], of: np.ufunc
-) -> npt.NDArray[np.int16]:
+def _reduced(values: Samples, first: npt.NDArray[np.int64], last: npt.NDArray[np.int64], of: np.ufunc) -> Samples:
     """Extremes of ``values[first:last]`` of every column; neighbours may share a value."""
     # reduceat takes pairs of indices; an end at the array's own end must be left to its padding.
     padded = np.append(values, values[-1:])
     indices = np.empty(2 * len(first), np.int64)
     indices[0::2], indices[1::2] = first, last
-    result: npt.NDArray[np.int16] = of.reduceat(padded, indices)[0::2]
+    result: Samples = of.reduceat(padded, indices)[0::2]
     return result

@@ -16,19 +16,21 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from typing import Final
+from typing import Final, TypeAlias
 
 import midirenderer
-import mido
 import numpy as np
+import numpy.typing as npt
 import soundfile
 
 from app.audio.track import RATE_HZ, Piece, Samples
 from app.performance.loudness import speaking_curve
-from app.score.model import ControllerCurve, Note, Part
+from app.score.model import CurveKind, Note, Part
 from app.score.tempo import TempoMap
 from instrument_maps.model import InstrumentMap
 from instrument_maps.vocabulary import vocabulary
+
+Integers: TypeAlias = npt.NDArray[np.int64]
 
 SOUNDFONT: Final = Path(__file__).parents[2] / "resources" / "soundfont" / "winds.sf2"
 
@@ -40,7 +42,6 @@ _TAIL_S: Final = 1.5
 """The longest release and the reverberation."""
 _BLOCK: Final = 64
 """The synthesiser heeds events once in so many samples."""
-_BEND_SEMITONES: Final = 2
 _VOLUME, _EXPRESSION = 7, 11
 _MOST_CACHED_BYTES: Final = 256 * 1024 * 1024
 
@@ -105,12 +106,19 @@ def phrases(part: Part, tempo_map: TempoMap, program: int) -> tuple[Phrase, ...]
     program : int
         General MIDI program, 0..127.
     """
-    window = _WINDOW_QUARTERS * tempo_map.ticks_per_quarter
-    groups: dict[int, list[Note]] = {}
-    for note in part.notes:
-        groups.setdefault(note.onset_tick // window, []).append(note)
-    curves = _heard_curves(part)
-    return tuple(_phrase(notes, curves, tempo_map, program) for _, notes in sorted(groups.items()))
+    if not part.notes:
+        return ()
+    onset_ticks = np.array([note.onset_tick for note in part.notes], np.int64)
+    onsets = _samples(tempo_map, onset_ticks)
+    ends = _samples(tempo_map, np.array([note.end_tick for note in part.notes], np.int64))
+    controls = _controls(part, tempo_map)
+    windows = onset_ticks // (_WINDOW_QUARTERS * tempo_map.ticks_per_quarter)
+    # The notes stand by onset, so that those of a window follow one another.
+    firsts = np.flatnonzero(np.diff(windows, prepend=windows[0] - 1))
+    return tuple(
+        _phrase(part.notes[first:last], onsets[first:last], ends[first:last], controls, program)
+        for first, last in zip(firsts.tolist(), [*firsts[1:].tolist(), len(part.notes)], strict=True)
+    )
 
 
 def program_of(part: Part, instrument: InstrumentMap) -> int:
@@ -146,66 +154,81 @@ def _soundfont() -> bytes:
     return SOUNDFONT.read_bytes()
 
 
-def _heard_curves(part: Part) -> tuple[tuple[int, ControllerCurve], ...]:
-    """The curves that are heard, with the controller that carries each: the player's loudness as expression."""
+def _controls(part: Part, tempo_map: TempoMap) -> tuple[tuple[Integers, tuple[bytes, ...]], ...]:
+    """The curves that are heard, as samples and messages: the player's loudness as expression, volume, pitch bend."""
     loudness = speaking_curve(part)
-    heard: list[tuple[int, ControllerCurve]] = []
+    heard = [curve for curve in part.curves if curve.kind in ("volume", "pitch_bend")]
     if loudness is not None and loudness.kind != "volume":
-        heard.append((_EXPRESSION, loudness))
-    for curve in part.curves:
-        if curve.kind == "volume":
-            heard.append((_VOLUME, curve))
-        elif curve.kind == "pitch_bend":
-            heard.append((-1, curve))
-    return tuple(heard)
+        heard.append(loudness)
+    return tuple(
+        (
+            _samples(tempo_map, np.array(curve.ticks, np.int64)),
+            tuple(_control(curve.kind, value) for value in curve.values),
+        )
+        for curve in heard
+    )
+
+
+def _control(kind: CurveKind, value: float) -> bytes:
+    if kind == "pitch_bend":
+        bend = min(max(round(8192 + 8192 * value), 0), 16383)
+        return bytes((0xE0, bend & 127, bend >> 7))
+    level = min(max(round(127 * value), 0), 127)
+    return bytes((0xB0, _VOLUME if kind == "volume" else _EXPRESSION, level))
 
 
 def _phrase(
-    notes: Sequence[Note], curves: Sequence[tuple[int, ControllerCurve]], tempo_map: TempoMap, program: int
+    notes: Sequence[Note],
+    onsets: Integers,
+    ends: Integers,
+    controls: Sequence[tuple[Integers, tuple[bytes, ...]]],
+    program: int,
 ) -> Phrase:
-    onsets = np.array([note.onset_tick for note in notes], np.int64)
-    ends = np.array([note.end_tick for note in notes], np.int64)
-    first_tick, last_tick = int(onsets.min()), int(ends.max())
-    start = _samples(tempo_map, first_tick) // _BLOCK * _BLOCK
-
-    def at(tick: int) -> int:
-        return _samples(tempo_map, tick) - start
-
+    """Notes that begin at ``onsets`` and end at ``ends``, in samples, as a MIDI file that begins with the first."""
+    start = int(onsets.min()) // _BLOCK * _BLOCK
+    last = int(ends.max())
     # (sample, order, message): what ends a note comes before what begins the next, controllers before both.
-    events: list[tuple[int, int, mido.Message]] = [
-        (0, 0, mido.Message("program_change", program=program)),
-    ]
-    for controller, curve in curves:
-        index = max(int(np.searchsorted(curve.ticks, first_tick, side="right")) - 1, 0)
-        stop = int(np.searchsorted(curve.ticks, last_tick))
-        for step in range(index, max(stop, index + 1)):
-            events.append((max(at(curve.ticks[step]), 0), 1, _control(controller, curve.values[step])))
+    events = [(0, 0, bytes((0xC0, program)))]
+    for samples, messages in controls:
+        first = max(int(np.searchsorted(samples, onsets.min(), side="right")) - 1, 0)
+        for step in range(first, max(int(np.searchsorted(samples, last)), first + 1)):
+            events.append((max(int(samples[step]) - start, 0), 1, messages[step]))
     for note, onset, end in zip(notes, onsets.tolist(), ends.tolist(), strict=True):
-        begin = at(onset)
-        events.append((begin, 3, mido.Message("note_on", note=note.pitch, velocity=note.velocity)))
-        events.append((max(at(end), begin + 1), 2, mido.Message("note_off", note=note.pitch)))
-    events.sort(key=lambda event: event[:2])
-    track = mido.MidiTrack()
+        events.append((onset - start, 3, bytes((0x90, note.pitch, note.velocity))))
+        events.append((max(end, onset + 1) - start, 2, bytes((0x80, note.pitch, 0))))
+    events.sort(key=_in_order)
+    tail = round(_TAIL_S * RATE_HZ)
+    return Phrase(start, max(last, start) + tail, _midi_file(events, tail))
+
+
+def _in_order(event: tuple[int, int, bytes]) -> tuple[int, int]:
+    return event[:2]
+
+
+def _midi_file(events: Iterable[tuple[int, int, bytes]], tail: int) -> bytes:
+    """A MIDI file of one track whose ticks are samples. By hand: a library takes ten times as long, and a large score
+    has hundreds of thousands of messages."""
+    track = bytearray()
     before = 0
-    for sample, _, message in events:
-        track.append(message.copy(time=sample - before))
-        before = sample
-    track.append(mido.MetaMessage("end_of_track", time=round(_TAIL_S * RATE_HZ)))
-    file = mido.MidiFile(type=0, ticks_per_beat=TICKS_PER_QUARTER)
-    file.tracks.append(track)
-    out = io.BytesIO()
-    file.save(file=out)
-    return Phrase(start, start + before + round(_TAIL_S * RATE_HZ), out.getvalue())
+    for at, _, message in events:
+        track += _variable_length(at - before) + message
+        before = at
+    track += _variable_length(tail) + b"\xff\x2f\x00"
+    return struct.pack(">4sIHHH4sI", b"MThd", 6, 0, 1, TICKS_PER_QUARTER, b"MTrk", len(track)) + bytes(track)
 
 
-def _control(controller: int, value: float) -> mido.Message:
-    if controller < 0:
-        return mido.Message("pitchwheel", pitch=min(max(round(value * 8192), -8192), 8191))
-    return mido.Message("control_change", control=controller, value=min(max(round(value * 127), 0), 127))
+def _variable_length(number: int) -> bytes:
+    """Seven bits a byte, the highest first; all but the last are marked."""
+    if number < 128:
+        return bytes((number,))
+    out = [number & 127]
+    while number := number >> 7:
+        out.append(number & 127 | 128)
+    return bytes(reversed(out))
 
 
-def _samples(tempo_map: TempoMap, tick: int) -> int:
-    return round(tempo_map.seconds(float(tick)) * RATE_HZ)
+def _samples(tempo_map: TempoMap, ticks: Integers) -> Integers:
+    return np.round(tempo_map.seconds(ticks) * RATE_HZ).astype(np.int64)
 
 
 def _render(midi: bytes) -> Samples:

@@ -13,13 +13,15 @@ from PySide6.QtCore import QObject, Qt, QTimer
 
 from app.audio.click import click_track
 from app.audio.decode import Recording, decode
-from app.audio.mix import player_phrases, player_tracks, recording_track
+from app.audio.mix import player_gains, player_phrases, recording_track
 from app.audio.offset import Estimate, estimate_offset
 from app.audio.peaks import Peaks
 from app.audio.playback import Playback
 from app.audio.synth import Phrase, Synthesiser
 from app.audio.track import RATE_HZ, Mix, Track
 from app.errors import AppError, Cancelled, MapError, Message
+from app.plan.generate import frame_around
+from app.plan.model import TimeFrame
 from app.project.document import Change
 from app.project.edit.piece import set_offset
 from app.project.edit.tempo import scale_tempo
@@ -75,6 +77,8 @@ class Sound(QObject):
         self._path = ""
         """Of the recording that was asked for last, whether it could be read or not."""
         self._estimated: set[str] = set()
+        self._tracks: dict[str, tuple[tuple[_Made, tuple[float, float]] | None, Track]] = {}
+        """By player, with what a whole one was made from; None where phrases are missing."""
         self._click: tuple[tuple[object, ...], Track] | None = None
         self._own_move = False
         self._told_silent = False
@@ -151,8 +155,7 @@ class Sound(QObject):
 
     def _take(self, project: Project) -> None:
         """Let this project be heard."""
-        frame = self._session.performance.time_frame
-        score = project.score
+        frame, score = span_of(project), project.score
         end_s = max(score.tempo_map.seconds(float(score.sounding_end_tick)), frame.end_s)
         self.playback.set_span(frame.first_frame_s, end_s)
         path = project.audio.path if project.audio is not None else ""
@@ -172,18 +175,31 @@ class Sound(QObject):
         if project.audio is not None and self._recording is not None and listening.source != "synthesiser":
             tracks.append(recording_track(self._recording, project.audio.offset_s))
         if self._synthesiser_heard(project):
-            pieces = {
-                player.id: [piece for phrase in made.phrases if (piece := self._synthesiser.ready(phrase)) is not None]
-                for player in project.players
-                if (made := self._made.get(player.id)) is not None
-            }
-            tracks.extend(player_tracks(project, pieces))
+            tracks.extend(self._player_tracks(project))
         if listening.click:
             tracks.append(self._clicks(project))
         self.playback.set_mix(Mix(tracks))
 
+    def _player_tracks(self, project: Project) -> list[Track]:
+        """The players who are heard, as far as they are rendered; a track is kept while nothing of it changes."""
+        tracks, kept = [], {}
+        for player_id, gains in player_gains(project).items():
+            made = self._made.get(player_id)
+            if made is None:
+                continue
+            key, track = self._tracks.get(player_id, (None, Track(())))
+            if key != (made, gains):
+                pieces = [self._synthesiser.ready(phrase) for phrase in made.phrases]
+                ready = [piece for piece in pieces if piece is not None]
+                track = Track(ready, *gains)
+                key = (made, gains) if len(ready) == len(pieces) else None
+            kept[player_id] = (key, track)
+            tracks.append(track)
+        self._tracks = kept
+        return tracks
+
     def _clicks(self, project: Project) -> Track:
-        score, frame = project.score, self._session.performance.time_frame
+        score, frame = project.score, span_of(project)
         sources = (score.tempo_map, score.metres, score.pickup_ticks, project.felt_beat_ticks)
         key = (*sources, frame.first_frame_s, frame.end_s)
         if self._click is None or self._click[0] != key:
@@ -342,6 +358,14 @@ class Sound(QObject):
             timer.setTimerType(Qt.TimerType.PreciseTimer)
         timer.timeout.connect(slot)
         return timer
+
+
+def span_of(project: Project) -> TimeFrame:
+    """The performance's span at once, while its plans are still being made."""
+    parts = [project.part(player) for player in project.players]
+    first_tick = min((part.notes[0].onset_tick for part in parts if part.notes), default=0)
+    last_tick = max((part.end_tick for part in parts), default=0)
+    return frame_around(first_tick, last_tick, project.score.tempo_map, project.preroll_beats, project.felt_beat_ticks)
 
 
 def sound_of(session: Session) -> Sound | None:
