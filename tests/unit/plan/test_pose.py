@@ -39,10 +39,11 @@ def test_without_a_fade_it_comes_as_quickly_as_is_gentle(angle_deg: float) -> No
 
 
 def test_what_a_body_cannot_do_is_held_back_and_told() -> None:
+    most = pose_limits("head", TRUMPET, STANDING, load_body())["left_deg"][1]
     items = (
         PoseCorrection("far", "head", 960, 1920, left_deg=80.0, up_deg=2.0),
-        PoseCorrection("near", "head", 960, 1920, left_deg=pose_limits("head", TRUMPET, STANDING, load_body())["left_deg"][1]),
-    )  # fmt: skip
+        PoseCorrection("near", "head", 960, 1920, left_deg=most),
+    )
     events, problems = plan_poses(items, TRUMPET, STANDING, CLOCK)
     assert {event.left_deg for event in events} == {16.0}
     (problem,) = problems
