@@ -8,11 +8,12 @@ from PySide6.QtCore import QEvent, QLineF, QRectF, Qt, Signal
 from PySide6.QtGui import QAction, QCursor, QFont, QKeyEvent, QResizeEvent
 from PySide6.QtWidgets import QMenu, QToolTip, QWidget
 
-from app.errors import Message
+from app.errors import AppError, Message
 from app.project.document import Change
 from app.project.edit import notes
 from app.project.model import Player
 from app.score.model import Note
+from instrument_maps.model import InstrumentMap
 from widgets.common.pitch import pitch_text
 from widgets.common.selection import Selection
 from widgets.common.session import Session
@@ -150,11 +151,18 @@ class PianoRoll(Lane):
     @property
     def playable(self) -> tuple[int, int] | None:
         """The range of the instrument in front, concert pitches."""
+        instrument = self._instrument()
+        return (instrument.range.low, instrument.range.high) if instrument is not None else None
+
+    def _instrument(self) -> InstrumentMap | None:
+        """What the player in front plays; None where nobody does, or where its map is gone."""
         player = self.session.player
         if player is None:
             return None
-        instrument = self.session.performance.instrument(player)
-        return instrument.range.low, instrument.range.high
+        try:
+            return self.session.performance.instrument(player)
+        except AppError:
+            return None
 
     @property
     def row_px(self) -> float:
@@ -221,8 +229,7 @@ class PianoRoll(Lane):
 
     def pitch_text(self, pitch: int) -> str:
         """A pitch as the person wants it named."""
-        player = self.session.player
-        instrument = self.session.performance.instrument(player) if player is not None else None
+        instrument = self._instrument()
         return pitch_text(
             self.session.pitch_display, pitch, instrument.transposition_semitones if instrument is not None else 0
         )
