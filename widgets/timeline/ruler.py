@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from fractions import Fraction
-
 from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import (
     QAction,
@@ -22,7 +19,7 @@ from PySide6.QtGui import (
     QResizeEvent,
     QWheelEvent,
 )
-from PySide6.QtWidgets import QApplication, QLineEdit, QMenu, QToolButton, QWidget
+from PySide6.QtWidgets import QApplication, QMenu, QToolButton, QWidget
 
 from app.errors import Message
 from app.project.edit import tempo as tempo_edit
@@ -34,6 +31,7 @@ from widgets.common.tokens import LEAST_TEXT_PT
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.lane import GUTTER_PX, PAN_A_STEP, ZOOM_A_STEP
 from widgets.timeline.lines import Lines
+from widgets.timeline.ruler_labels import Labels, Mark, MarkEditor, bar_labels, clock_labels, frame_labels, lay_marks
 
 MARKS_PX = 22
 SCALE_PX = 24
@@ -41,34 +39,6 @@ HEAD_PX = 6.0
 HEAD_HEIGHT_PX = 9.0
 GRIP_PX = 5.0
 """So near to an edge of the loop, or to the playhead, a press takes hold of it."""
-LEAST_LABEL_PX = 64.0
-STEPS_S = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 60.0, 120.0, 300.0, 600.0, 1800.0, 3600.0)
-STEPS_FRAMES = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10000, 20000, 50000, 100000)
-
-
-@dataclass(frozen=True)
-class Mark:
-    """A tempo or a metre, where it is drawn."""
-
-    kind: str
-    tick: int
-    text: str
-    rect: QRectF
-
-
-class _Editor(QLineEdit):
-    """A tempo or a metre typed in place."""
-
-    left = Signal(bool)
-    """Done; whether what stands there is meant."""
-
-    def keyPressEvent(self, event: QKeyEvent) -> None:
-        if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
-            self.left.emit(True)
-        elif event.key() == Qt.Key.Key_Escape:
-            self.left.emit(False)
-        else:
-            super().keyPressEvent(event)
 
 
 class Ruler(QWidget):
@@ -118,7 +88,7 @@ class Ruler(QWidget):
             self._units[display] = action
         group.triggered.connect(self._choose_unit)
         self.unit_button.setMenu(menu)
-        self._editor = _Editor(self)
+        self._editor = MarkEditor(self)
         self._editor.setObjectName("mark_editor")
         self._editor.hide()
         self._editor.left.connect(self._leave_editor)
@@ -171,35 +141,11 @@ class Ruler(QWidget):
 
     # Drawing
 
-    def _lay_marks(self, metrics: QFontMetricsF) -> None:
-        """Where the marks stand: metres before tempi, none over another. What holds at the left edge stays in view."""
-        score = self.session.project.score
-        found = [(metre.tick, 0, "metre", f"{metre.numerator}/{metre.denominator}") for metre in score.metres]
-        found += [(tick, 1, "tempo", f"♩={bpm:.4g}") for tick, bpm in score.tempo_map.bpm]
-        places = [(self._x(self._seconds_of(tick)), kind, tick, text) for tick, _, kind, text in sorted(found)]
-        held = {kind: (tick, text) for x, kind, tick, text in places if x < GUTTER_PX}
-        self._marks = []
-        free_px = float(GUTTER_PX)
-        inside = [place for place in places if GUTTER_PX <= place[0] <= self.width()]
-        room_px = min((place[0] for place in inside), default=float(self.width()))
-        for kind in ("metre", "tempo"):
-            if kind in held:
-                tick, text = held[kind]
-                width = metrics.horizontalAdvance(text) + 12.0
-                if free_px + width <= room_px:
-                    self._marks.append(Mark(kind, tick, text, QRectF(free_px, 1.0, width, MARKS_PX - 3.0)))
-                    free_px += width + 2.0
-        for x, kind, tick, text in inside:
-            width = metrics.horizontalAdvance(text) + 12.0
-            beside = bool(self._marks) and self._marks[-1].tick == tick
-            if x >= free_px - 1 or beside:
-                x = max(x, free_px)
-                self._marks.append(Mark(kind, tick, text, QRectF(x, 1.0, width, MARKS_PX - 3.0)))
-                free_px = x + width + 2.0
-
     def _paint_marks(self, painter: QPainter) -> None:
         tokens = self.session.tokens
-        self._lay_marks(QFontMetricsF(self.font()))
+        score = self.session.project.score
+        metrics = QFontMetricsF(self.font())
+        self._marks = lay_marks(score, self.axis, metrics, GUTTER_PX, float(self.width()), MARKS_PX)
         for mark in self._marks:
             held = (mark.kind, mark.tick) == self._held_mark
             x = self._x(self._seconds_of(mark.tick))
@@ -223,7 +169,7 @@ class Ruler(QWidget):
         bottom = float(self.height())
         lines = self.axis.lines(self.session.project.score, self.session.grid)
         display = self.session.time_display
-        labels = self._bar_labels(lines) if display == "bars" else self._clock_labels(display)
+        labels = self._labels(display, lines)
         painter.setPen(QPen(QColor(tokens.line_strong), 1.0))
         if display == "bars":
             for seconds in lines.beat_s.tolist():
@@ -237,26 +183,11 @@ class Ruler(QWidget):
                 painter.setPen(QColor(tokens.text_dim))
                 painter.drawText(QRectF(x + 4, MARKS_PX, 120.0, SCALE_PX - 3.0), _MIDDLE, text)
 
-    def _bar_labels(self, lines: Lines) -> list[tuple[float, str]]:
-        first = 0 if self.session.project.score.pickup_ticks else 1
-        # Bars before the piece have lines, but no numbers.
-        return [
-            (seconds, str(bar) if bar >= first else "")
-            for bar, seconds in zip(lines.bars, lines.bar_s.tolist(), strict=True)
-        ]
-
-    def _clock_labels(self, display: TimeDisplay) -> list[tuple[float, str]]:
-        per_s = self.axis.px_per_s
-        if display == "frames":
-            fps = self.session.project.fps
-            frames = next((step for step in STEPS_FRAMES if step / float(fps) * per_s >= LEAST_LABEL_PX), 100000)
-            first = int(self.axis.start_s * fps // frames)
-            last = int(self.axis.end_s * fps // frames) + 1
-            return [(float(Fraction(number * frames) / fps), str(number * frames)) for number in range(first, last + 1)]
-        step_s = next((step for step in STEPS_S if step * per_s >= LEAST_LABEL_PX), 3600.0)
-        first, last = int(self.axis.start_s // step_s), int(self.axis.end_s // step_s) + 1
-        decimals = 0 if step_s >= 1 else 1 if step_s >= 0.1 else 2
-        return [(number * step_s, clock(number * step_s, decimals)) for number in range(first, last + 1)]
+    def _labels(self, display: TimeDisplay, lines: Lines) -> Labels:
+        project = self.session.project
+        if display == "bars":
+            return bar_labels(project.score, lines)
+        return frame_labels(self.axis, project.fps) if display == "frames" else clock_labels(self.axis)
 
     def _paint_bands(self, painter: QPainter) -> None:
         tokens = self.session.tokens
@@ -568,14 +499,3 @@ class Ruler(QWidget):
 
 
 _MIDDLE = int(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
-
-
-def clock(seconds: float, decimals: int) -> str:
-    """Minutes and seconds: ``-0:02.5``."""
-    scaled = round(abs(seconds) * 10**decimals)
-    whole, fraction = divmod(scaled, 10**decimals)
-    sign = "-" if seconds < 0 and scaled else ""
-    tail = f".{fraction:0{decimals}d}" if decimals else ""
-    hours, minutes = divmod(whole // 60, 60)
-    head = f"{hours}:{minutes:02d}" if hours else str(minutes)
-    return f"{sign}{head}:{whole % 60:02d}{tail}"

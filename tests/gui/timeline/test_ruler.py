@@ -10,7 +10,8 @@ from PySide6.QtWidgets import QApplication, QLineEdit, QMenu
 from tests.gui.timeline.conftest import TPQ, Stage
 from tests.gui.timeline.hand import ALT, CTRL, Hand, Place
 from widgets.timeline.lane import GUTTER_PX
-from widgets.timeline.ruler import MARKS_PX, Ruler, clock
+from widgets.timeline.ruler import MARKS_PX, Ruler
+from widgets.timeline.ruler_labels import clock
 
 BAR = 4 * TPQ
 

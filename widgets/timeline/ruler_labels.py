@@ -1,0 +1,125 @@
+"""What is written on the ruler: times in seconds and frames, numbers of bars, marks of tempo and metre."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from PySide6.QtCore import QRectF, Qt, Signal
+from PySide6.QtGui import QFontMetricsF, QKeyEvent
+from PySide6.QtWidgets import QLineEdit
+
+from app.score.model import Score
+from widgets.timeline.axis import TimeAxis
+from widgets.timeline.lines import Lines
+
+LEAST_LABEL_PX = 64.0
+STEPS_S = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 60.0, 120.0, 300.0, 600.0, 1800.0, 3600.0)
+STEPS_FRAMES = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10000, 20000, 50000, 100000)
+
+Labels = list[tuple[float, str]]
+"""Seconds and what is written there."""
+
+
+def bar_labels(score: Score, lines: Lines) -> Labels:
+    """Numbers of the bars. Bars before the piece have lines, but no numbers."""
+    first = 0 if score.pickup_ticks else 1
+    return [
+        (seconds, str(bar) if bar >= first else "")
+        for bar, seconds in zip(lines.bars, lines.bar_s.tolist(), strict=True)
+    ]
+
+
+def frame_labels(axis: TimeAxis, fps: Fraction) -> Labels:
+    """Round numbers of frames, no denser than can be read; frame 0 is at second 0."""
+    step = next(
+        (step for step in STEPS_FRAMES if step / float(fps) * axis.px_per_s >= LEAST_LABEL_PX), STEPS_FRAMES[-1]
+    )
+    first, last = int(axis.start_s * fps // step), int(axis.end_s * fps // step) + 1
+    return [(float(Fraction(number * step) / fps), str(number * step)) for number in range(first, last + 1)]
+
+
+def clock_labels(axis: TimeAxis) -> Labels:
+    """Round times, no denser than can be read."""
+    step_s = next((step for step in STEPS_S if step * axis.px_per_s >= LEAST_LABEL_PX), STEPS_S[-1])
+    first, last = int(axis.start_s // step_s), int(axis.end_s // step_s) + 1
+    decimals = 0 if step_s >= 1 else 1 if step_s >= 0.1 else 2
+    return [(number * step_s, clock(number * step_s, decimals)) for number in range(first, last + 1)]
+
+
+def clock(seconds: float, decimals: int) -> str:
+    """Minutes and seconds: ``-0:02.5``."""
+    scaled = round(abs(seconds) * 10**decimals)
+    whole, fraction = divmod(scaled, 10**decimals)
+    sign = "-" if seconds < 0 and scaled else ""
+    tail = f".{fraction:0{decimals}d}" if decimals else ""
+    hours, minutes = divmod(whole // 60, 60)
+    head = f"{hours}:{minutes:02d}" if hours else str(minutes)
+    return f"{sign}{head}:{whole % 60:02d}{tail}"
+
+
+@dataclass(frozen=True)
+class Mark:
+    """A tempo (``"tempo"``) or a metre (``"metre"``), where it is drawn."""
+
+    kind: str
+    tick: int
+    text: str
+    rect: QRectF
+
+
+def lay_marks(
+    score: Score, axis: TimeAxis, metrics: QFontMetricsF, left_px: float, right_px: float, height_px: float
+) -> list[Mark]:
+    """Where the marks stand: metres before tempi, none over another. What holds at the left edge stays in view.
+
+    Parameters
+    ----------
+    score : Score
+    axis : TimeAxis
+        Its pixels count from ``left_px``.
+    metrics : QFontMetricsF
+    left_px, right_px : float
+        Between these there is room.
+    height_px : float
+    """
+    found = [(metre.tick, 0, "metre", f"{metre.numerator}/{metre.denominator}") for metre in score.metres]
+    found += [(tick, 1, "tempo", f"♩={bpm:.4g}") for tick, bpm in score.tempo_map.bpm]
+    places = [
+        (left_px + axis.x_px(score.tempo_map.seconds(float(tick))), kind, tick, text)
+        for tick, _, kind, text in sorted(found)
+    ]
+    held = {kind: (tick, text) for x, kind, tick, text in places if x < left_px}
+    inside = [place for place in places if left_px <= place[0] <= right_px]
+    room_px = min((place[0] for place in inside), default=right_px)
+    marks: list[Mark] = []
+    free_px = left_px
+
+    def put(x: float, kind: str, tick: int, text: str) -> float:
+        width = metrics.horizontalAdvance(text) + 12.0
+        marks.append(Mark(kind, tick, text, QRectF(x, 1.0, width, height_px - 3.0)))
+        return x + width + 2.0
+
+    for kind in ("metre", "tempo"):
+        if kind in held and free_px + metrics.horizontalAdvance(held[kind][1]) + 12.0 <= room_px:
+            free_px = put(free_px, kind, *held[kind])
+    for x, kind, tick, text in inside:
+        beside = bool(marks) and marks[-1].tick == tick
+        if x >= free_px - 1 or beside:
+            free_px = put(max(x, free_px), kind, tick, text)
+    return marks
+
+
+class MarkEditor(QLineEdit):
+    """A tempo or a metre typed in place."""
+
+    left = Signal(bool)
+    """Done; whether what stands there is meant."""
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
+            self.left.emit(True)
+        elif event.key() == Qt.Key.Key_Escape:
+            self.left.emit(False)
+        else:
+            super().keyPressEvent(event)
