@@ -8,38 +8,35 @@ from time import perf_counter
 import numpy as np
 import numpy.typing as npt
 from PySide6.QtCore import QEvent, QObject, QPoint, QPointF, QRectF, QSize, Qt, QTimer
-from PySide6.QtGui import QImage, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QWheelEvent
+from PySide6.QtGui import QColor, QImage, QPainter
 from PySide6.QtWidgets import QLabel, QMenu, QStackedWidget, QVBoxLayout, QWidget
 
-from app.errors import Message
 from app.project.document import Change
-from widgets.common.session import Session, Severity
-from widgets.common.text import message_text
+from widgets.common.session import Session
 from widgets.common.viewport_state import SHOWN, VIEWS, View
-from widgets.viewport.camera import Camera, between, dolly, followed, frame, orbit, pan, triple
+from widgets.viewport.camera import Camera, frame, triple
 from widgets.viewport.canvas import Canvas, Picture, pixels, why_no_gl
-from widgets.viewport.cast import Stage
-from widgets.viewport.contacts import touches
-from widgets.viewport.figures import Loaded, cast_key, load, moved, same_figures
-from widgets.viewport.handles import TARGETS, Handle, handles
+from widgets.viewport.eye import Eye
+from widgets.viewport.figures import cast_key
 from widgets.viewport.header import Header
-from widgets.viewport.limbs import Limbs, hit
-from widgets.viewport.look import look_of, rgb
-from widgets.viewport.overlay import Marks, Name, handle_at, over_head_m, paint
+from widgets.viewport.layer import Layer
+from widgets.viewport.look import look_of
+from widgets.viewport.overlay import paint
+from widgets.viewport.pointer import Pointer
 from widgets.viewport.pose_tool import PoseTool
-from widgets.viewport.poses import Posed, Poses, same
+from widgets.viewport.poses import Poses
 from widgets.viewport.renderer import Emphasis
+from widgets.viewport.scene import Scene
 from widgets.viewport.views import bounds, in_the_way, tracked, view_camera
-from widgets.viewport.worn_face import WornFaces
 
 Floats = npt.NDArray[np.float64]
 
-TRANSITION_S = 0.35
 FRAME_MS = 16
 WAIT_MS = 90
 """Between two looks whether a pose that is not there yet has been made."""
 SETTLED_S = 4.0
 """After an edit poses may still change for this long."""
+LEAST_SIZE = QSize(160, 120)
 MENU = (
     ("viewport.frame", "viewport.frame_all"),
     tuple(f"viewport.{view}" for view in VIEWS),
@@ -47,10 +44,6 @@ MENU = (
     ("viewport.pose", "application.full_screen"),
 )
 """The menu under the right button: groups of actions."""
-CLICK_PX = 4.0
-"""A press that moves less is a click."""
-FOLLOWED_M = 0.0008
-"""A close-up nearer to its middle than this has arrived."""
 
 
 class ViewportPanel(QWidget):
@@ -68,24 +61,12 @@ class ViewportPanel(QWidget):
         super().__init__(parent)
         self.setObjectName("viewport")
         self._session = session
-        self._poses: Poses = WornFaces(session, poses)
-        self._loaded: Loaded | None = None
-        self._loading = False
-        self._camera = Camera()
-        self._flight: tuple[Camera, Camera, float] | None = None
-        self._shown_view: View = "ensemble"
-        self._touched = False
-        """Whether the camera stands where a person moved it; else it is the view's own."""
-        self._shift_m = np.zeros(3)
-        self._last_frame_s = perf_counter()
-        self._settle_until_s = 0.0
-        self._missing = False
-        self._hovered: int | None = None
+        self._eye = Eye()
         self._tool = PoseTool(session)
-        self._press: QPointF | None = None
-        self._pointer: QPointF | None = None
-        self._dragging = False
-        self._override: tuple[Camera, View] | None = None
+        self.scene = Scene(session, poses, self._tool, self)
+        self._settle_until_s = 0.0
+        self._elsewhere: tuple[Camera, View] | None = None
+        """Camera and view of a picture that is not the window's, while it is drawn."""
 
         self.header = Header(session, self)
         self._stack = QStackedWidget(self)
@@ -103,7 +84,8 @@ class ViewportPanel(QWidget):
         layout.addWidget(self._stack, 1)
 
         self._canvas: Canvas | None = None
-        self._overlay: _Overlay | None = None
+        self._layer: Layer | None = None
+        self._pointer: Pointer | None = None
         self._failure = self._start_gl()
         self._ticker = QTimer(self)
         self._ticker.setInterval(FRAME_MS)
@@ -111,20 +93,32 @@ class ViewportPanel(QWidget):
         self._waiter = QTimer(self)
         self._waiter.setInterval(WAIT_MS)
         self._waiter.timeout.connect(self.poses_changed)
+        self._listen()
+        self._dress()
+        self.retranslate()
+        if self._canvas is not None:
+            self.scene.load()
 
+    def _listen(self) -> None:
+        session, scene = self._session, self.scene
         session.changed.connect(self._project_changed)
         session.performance_changed.connect(self._performance_changed)
         session.players_changed.connect(self._players_changed)
         session.selection_changed.connect(self._update)
         session.playhead_changed.connect(self.refresh)
+        session.playing_changed.connect(self._update)
         session.preview_changed.connect(self.refresh)
         session.theme_changed.connect(self._dress)
         session.viewport.changed.connect(self._state_changed)
         session.viewport.viewed.connect(self._view_asked)
         session.viewport.framed.connect(self._frame_asked)
-        self._dress()
-        self.retranslate()
-        self._load()
+        scene.staged.connect(self._staged)
+        scene.shown.connect(self._place_camera)
+        if self._pointer is not None:
+            self._pointer.moved.connect(self._update)
+            self._pointer.posed.connect(self.refresh)
+            self._pointer.released.connect(self.refresh)
+            self._pointer.menu_asked.connect(self._show_menu)
 
     # What others ask
 
@@ -136,39 +130,18 @@ class ViewportPanel(QWidget):
     @property
     def camera(self) -> Camera:
         """The camera, or where its flight ends."""
-        return self._flight[1] if self._flight is not None else self._camera
+        return self._eye.destination
 
-    def set_camera(self, camera: Camera, at_once: bool = False) -> None:
-        """Look from there; a short flight leads to it."""
-        if at_once or not self.isVisible():
-            self._camera, self._flight = camera, None
-        else:
-            self._flight = (self._camera, camera, perf_counter())
-            self._ticker.start()
-        self._update()
-
-    def set_poses(self, poses: Poses) -> None:
-        """Take poses from there from now on."""
-        self._poses = WornFaces(self._session, poses)
-        self.refresh()
-
-    def poses_changed(self) -> None:
-        """Motion has been made or made anew; what is not at the playhead does not matter here."""
-        if self._loaded is None or self._canvas is None:
-            return
-        stage, time_s = self._loaded.stage, self._session.playhead_s
-        for row, member in enumerate(stage.members):
-            pose = self._poses.pose(member.player_id, time_s)
-            # A pose that is not there yet leaves the one before it.
-            if pose is not None and not same(pose, stage.poses[row]):
-                self.refresh()
-                return
-        self._wait()
+    @property
+    def hovered(self) -> str | None:
+        """Id of the player under the pointer."""
+        stage, row = self.scene.stage, self._pointer.hovered if self._pointer is not None else None
+        return None if stage is None or row is None else stage.members[row].player_id
 
     def player_at(self, x_px: float, y_px: float) -> str | None:
         """Id of the player under a point of the picture."""
-        row = self._row_at(QPointF(x_px, y_px))
-        return None if row is None or self._loaded is None else self._loaded.stage.members[row].player_id
+        row = self._pointer.row_at(QPointF(x_px, y_px)) if self._pointer is not None else None
+        return None if row is None or self.scene.stage is None else self.scene.stage.members[row].player_id
 
     def canvas_widget(self) -> QWidget | None:
         """The widget that is drawn in; None without GL."""
@@ -177,14 +150,38 @@ class ViewportPanel(QWidget):
 
     def handle_places(self) -> dict[str, QPointF]:
         """Where the pose tool's handles are in the picture."""
-        widget = self.canvas_widget()
-        if widget is None:
+        widget, found = self.canvas_widget(), self.scene.handles()
+        if widget is None or not found:
             return {}
-        found = self._handles()
-        if not found:
-            return {}
-        places, _ = self._camera.project(np.array([item.at_m for item in found]), widget.width(), widget.height())
+        places, _ = self._eye.camera.project(np.array([item.at_m for item in found]), widget.width(), widget.height())
         return {item.target: QPointF(*place) for item, place in zip(found, places, strict=True)}
+
+    def message(self) -> str:
+        """What is said instead of a picture, or in its middle; empty where there is nothing to say."""
+        return self._reason.text() if self._failure is not None else self.scene.message()
+
+    def set_poses(self, poses: Poses) -> None:
+        """Take poses from there from now on."""
+        self.scene.set_poses(poses)
+        self.refresh()
+
+    def poses_changed(self) -> None:
+        """Motion has been made or made anew; what is not at the playhead does not matter here."""
+        if self._canvas is None:
+            return
+        if self.scene.is_outdated(self._session.playhead_s):
+            self.refresh()
+        else:
+            self._wait()
+
+    def refresh(self) -> None:
+        """Show the poses at the playhead."""
+        if self._canvas is None:
+            return
+        self.scene.pose(self._session.playhead_s)
+        self._wait()
+        self._follow()
+        self._update()
 
     def render_image(
         self, width: int, height: int, time_s: float, view: View | None = None
@@ -205,37 +202,39 @@ class ViewportPanel(QWidget):
         (height, width, 4) uint8 or None
             None without GL, or while the figures are not loaded.
         """
-        canvas, loaded = self._canvas, self._loaded
-        if canvas is None or loaded is None:
+        canvas, stage = self._canvas, self.scene.stage
+        if canvas is None or stage is None:
             return None
-        stage = loaded.stage
-        seen = {member.player_id: pose for member, pose in zip(stage.members, stage.poses, strict=True)}
-        self._take(stage, {player_id: self._poses.pose_now(player_id, time_s) for player_id in seen})
-        camera = self._camera
-        if view is not None:
-            camera = view_camera(
-                view, loaded.stage, self._rows(), replace(camera, fov_deg=Camera().fov_deg), width / height
-            )
-        elif (middle := self._tracked(loaded.stage)) is not None:
-            camera = replace(camera, target_m=triple(middle + self._shift_m))
-        self._override = (camera, view if view is not None else self._shown_view)
+        shown = self.scene.poses()
+        self.scene.pose_now(time_s)
         try:
+            camera, of = self._camera_for(view, width / height)
+            self._elsewhere = (camera, of)
             picture = canvas.render_image(width, height)
-        finally:
-            self._override = None
-        if picture is None:
-            return None
-        marks = self._marks(camera)
-        if marks:
+            marks = self.scene.marks(camera)
+            if picture is None or not marks:
+                return picture
             image = QImage(picture.data, width, height, 4 * width, QImage.Format.Format_RGBA8888)
             painter = QPainter(image)
             painter.setFont(self.font())
-            paint(painter, marks, loaded.stage, camera, (width, height), self._session.tokens)
+            paint(painter, marks, stage, camera, (width, height), self._session.tokens)
             painter.end()
-            picture = pixels(image)
-        # What the window shows has not changed.
-        stage.pose(seen)
-        return picture
+            return pixels(image)
+        finally:
+            # What the window shows has not changed.
+            self._elsewhere = None
+            self.scene.take(shown)
+
+    def _camera_for(self, view: View | None, aspect: float) -> tuple[Camera, View]:
+        """The camera of a picture: a view's own, or the window's, exactly where it would come to rest."""
+        stage, camera = self.scene.stage, self._eye.camera
+        assert stage is not None
+        if view is not None:
+            return view_camera(view, stage, self.scene.rows(), replace(camera, fov_deg=Camera().fov_deg), aspect), view
+        middle = self._tracked()
+        if middle is not None:
+            camera = replace(camera, target_m=triple(self._eye.centred(middle)))
+        return camera, self._eye.view
 
     # GL
 
@@ -250,14 +249,14 @@ class ViewportPanel(QWidget):
             return f"{type(error).__name__}: {error}"
         native: QWidget = canvas.native
         native.setObjectName("viewport_canvas")
-        native.setMouseTracking(True)
         native.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        native.setMinimumSize(QSize(160, 120))
+        native.setMinimumSize(LEAST_SIZE)
         native.installEventFilter(self)
         self._canvas = canvas
         self._stack.addWidget(native)
         self._stack.setCurrentWidget(native)
-        self._overlay = _Overlay(self, native)
+        self._pointer = Pointer(native, self._session, self._eye, self.scene, self._tool)
+        self._layer = Layer(native, self._paint)
         return None
 
     def _drawing_failed(self, reason: str) -> None:
@@ -266,8 +265,7 @@ class ViewportPanel(QWidget):
         QTimer.singleShot(0, self, self._give_up)
 
     def _give_up(self) -> None:
-        self._canvas = None
-        self._overlay = None
+        self._canvas = self._layer = self._pointer = None
         self._ticker.stop()
         self._waiter.stop()
         self._stack.setCurrentWidget(self._reason)
@@ -275,166 +273,116 @@ class ViewportPanel(QWidget):
 
     def _picture(self, width: int, height: int) -> Picture:
         """What to draw: asked by the canvas."""
-        camera = self._override[0] if self._override is not None else self._camera
-        hovered = None if self._override is not None else self._hovered
-        aside = frozenset[int]()
-        if self._loaded is not None:
-            aside = in_the_way(self._view(), self._loaded.stage, self._rows(), camera)
-        moving = self._session.playing or self._dragging or self._flight is not None
+        stage, pointer, session = self.scene.stage, self._pointer, self._session
+        camera, view = self._elsewhere or (self._eye.camera, self._eye.view)
+        here = self._elsewhere is None
+        moving = session.playing or self._eye.flying or (pointer is not None and pointer.dragging)
         emphasis = Emphasis(
-            self._rings(), hovered, aside, self._shows_wires(), in_motion=moving and self._override is None
+            rings=self.scene.rings(),
+            hovered=pointer.hovered if pointer is not None and here else None,
+            in_the_way=in_the_way(view, stage, self.scene.rows(), camera) if stage is not None else frozenset(),
+            wireframe=session.viewport.shows("wireframe"),
+            in_motion=moving and here,
         )
-        return camera, look_of(self._session.tokens), emphasis
+        return camera, look_of(session.tokens), emphasis
 
-    def _view(self) -> View:
-        return self._override[1] if self._override is not None else self._shown_view
+    def _paint(self, painter: QPainter, size: tuple[float, float]) -> None:
+        """Paint over the window's picture."""
+        message, stage = self.scene.message(), self.scene.stage
+        if message:
+            painter.setPen(QColor(self._session.tokens.text_dim))
+            box = QRectF(0.0, 0.0, *size).adjusted(24.0, 24.0, -24.0, -24.0)
+            painter.drawText(box, int(Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextWordWrap), message)
+        elif stage is not None:
+            camera = self._eye.camera
+            paint(painter, self.scene.marks(camera), stage, camera, size, self._session.tokens)
 
-    def _shows_wires(self) -> bool:
-        return self._session.viewport.shows("wireframe")
-
-    def _rings(self) -> dict[int, tuple[float, float, float]]:
-        if self._loaded is None:
-            return {}
-        project, stage = self._session.project, self._loaded.stage
-        known = {player.id: player for player in project.players}
-        chosen = [player_id for player_id in self._session.players if player_id in known]
-        rows = {player_id: stage.index(player_id) for player_id in chosen}
-        return {row: rgb(self._session.colour(known[own])) for own, row in rows.items() if row is not None}
-
-    # Figures and poses
-
-    def _load(self) -> None:
-        project = self._session.project
-        before = self._loaded
-        if before is not None and same_figures(before.key, cast_key(project)):
-            if before.key != cast_key(project):
-                self._show_stage(moved(project, before))
-            return
-        if self._canvas is None:
-            return
-        self._loading = True
-        shapes = before.shapes if before is not None else None
-        self._session.tasks.run(
-            Message("work.load_figures"),
-            lambda progress, stop_wanted: load(project, shapes, progress, stop_wanted),
-            self._figures_loaded,
-            key="viewport.load",
-        )
-        self._update()
-
-    def _figures_loaded(self, loaded: Loaded | None) -> None:
-        self._loading = False
-        if loaded is None:
-            return
-        if not same_figures(loaded.key, cast_key(self._session.project)):
-            self._load()
-            return
-        self._show_stage(loaded)
-        for reason in loaded.absent.values():
-            self._session.notice(reason, Severity.WARNING)
-        # Places may have changed while the figures were loaded.
-        self._load()
-
-    def _show_stage(self, loaded: Loaded) -> None:
-        self._loaded = loaded
-        self._hovered = None
+    def _update(self) -> None:
+        """Draw again soon."""
         if self._canvas is not None:
-            self._canvas.prepare(lambda renderer: renderer.set_stage(loaded.stage, loaded.shapes))
-        self.refresh()
+            self._canvas.update()
+        if self._layer is not None:
+            self._layer.refresh(bool(self.scene.message()) or self._has_marks())
 
-    def _take(self, stage: Stage, poses: dict[str, Posed | None]) -> None:
-        before = int(stage.shown.sum())
-        stage.pose(poses)
-        if int(stage.shown.sum()) != before:
-            self._place_camera()
+    def _has_marks(self) -> bool:
+        state = self._session.viewport
+        return state.posing or any(state.shows(what) for what in SHOWN if what != "wireframe")
+
+    # The camera
+
+    def _tracked(self) -> Floats | None:
+        """What the view keeps in the middle."""
+        stage, rows = self.scene.stage, self.scene.rows()
+        return tracked(self._eye.view, stage, rows[0]) if stage is not None and rows else None
+
+    def _view_camera(self) -> Camera:
+        stage, widget = self.scene.stage, self.canvas_widget()
+        if stage is None or widget is None:
+            return self._eye.camera
+        aspect = widget.width() / max(widget.height(), 1)
+        return view_camera(self._eye.view, stage, self.scene.rows(), self._eye.camera, aspect)
 
     def _place_camera(self) -> None:
         """Where the view puts it, unless a person has moved it."""
-        if not self._touched and self._loaded is not None and self._loaded.stage.shown.any():
-            self._camera, self._flight = self._camera_of(self._shown_view), None
+        stage = self.scene.stage
+        if not self._eye.touched and stage is not None and stage.shown.any():
+            self._eye.jump(self._view_camera())
 
-    def refresh(self) -> None:
-        """Show the pose at the playhead."""
-        loaded = self._loaded
-        if loaded is None or self._canvas is None:
-            return
-        time_s = self._session.playhead_s
-        poses = {member.player_id: self._poses.pose(member.player_id, time_s) for member in loaded.stage.members}
-        self._take(loaded.stage, poses)
-        self._missing = any(pose is None for pose in poses.values())
-        self._wait()
-        self._follow()
+    def _go(self, camera: Camera) -> None:
+        if self.isVisible() and self._canvas is not None:
+            self._eye.fly(camera, perf_counter())
+            self._ticker.start()
+        else:
+            self._eye.jump(camera)
+        self._update()
+
+    def _follow(self) -> None:
+        """Let a close-up go after its player."""
+        dragging = self._pointer is not None and self._pointer.dragging
+        if self._eye.follow(None if dragging else self._tracked(), perf_counter()):
+            self._ticker.start()
+
+    def _tick(self) -> None:
+        """A frame of a flight, or of following after the playhead has stopped."""
+        if not self._eye.advance(perf_counter()):
+            self._ticker.stop()
+            self._follow()
         self._update()
 
     def _wait(self) -> None:
         """Look again soon, as long as poses are missing or may still change after an edit."""
-        waiting = self._missing or perf_counter() < self._settle_until_s
-        if waiting != self._waiter.isActive():
-            if waiting:
-                self._waiter.start()
-            else:
-                self._waiter.stop()
-
-    def _follow(self) -> None:
-        """Let a close-up follow its player."""
-        now_s = perf_counter()
-        elapsed_s, self._last_frame_s = min(now_s - self._last_frame_s, 0.1), now_s
-        if self._loaded is None or self._flight is not None or self._dragging:
-            return
-        middle = self._tracked(self._loaded.stage)
-        if middle is None:
-            return
-        goal = middle + self._shift_m
-        self._camera = followed(self._camera, goal, elapsed_s)
-        if np.linalg.norm(goal - np.asarray(self._camera.target_m)) > FOLLOWED_M:
-            self._ticker.start()
-
-    def _tracked(self, stage: Stage) -> Floats | None:
-        rows = self._rows()
-        return tracked(self._shown_view, stage, rows[0]) if rows else None
-
-    def _tick(self) -> None:
-        """A frame of a flight, or of following after the playhead has stopped."""
-        if self._flight is not None:
-            start, end, since_s = self._flight
-            share = (perf_counter() - since_s) / TRANSITION_S
-            self._camera = between(start, end, share)
-            if share >= 1.0:
-                self._flight = None
-            self._last_frame_s = perf_counter()
-            self._update()
-            return
-        self._ticker.stop()
-        self._follow()
-        self._update()
-
-    def _update(self) -> None:
-        if self._canvas is not None:
-            self._canvas.update()
-        if self._overlay is not None:
-            self._overlay.refresh()
+        waiting = self.scene.missing or perf_counter() < self._settle_until_s
+        if waiting and not self._waiter.isActive():
+            self._waiter.start()
+        elif not waiting:
+            self._waiter.stop()
 
     # Changes of the session
 
     def _project_changed(self, change: Change) -> None:
         if change.opened:
-            self._touched = False
+            self._eye.touched = False
             self._tool.release()
-        if cast_key(change.before) != cast_key(change.after) or change.opened:
-            self._load()
+        if self._canvas is not None and (change.opened or cast_key(change.before) != cast_key(change.after)):
+            self.scene.load()
         self._update()
+
+    def _staged(self) -> None:
+        loaded = self.scene.loaded
+        if self._canvas is None or self._pointer is None or loaded is None:
+            return
+        self._pointer.forget()
+        self._canvas.prepare(lambda renderer: renderer.set_stage(loaded.stage, loaded.shapes))
+        self.refresh()
 
     def _performance_changed(self) -> None:
         self._settle_until_s = perf_counter() + SETTLED_S
         self.refresh()
 
     def _players_changed(self) -> None:
-        if self._shown_view != "ensemble" and self._loaded is not None:
-            self._shift_m = np.zeros(3)
-            self.set_camera(self._camera_of(self._shown_view))
-        if self._session.preview_morphs is not None:
-            # The face that is being made goes to whoever is in front now.
-            self.refresh()
+        if self._eye.view != "ensemble":
+            self._eye.choose(self._eye.view)
+            self._go(self._view_camera())
         self._update()
 
     def _state_changed(self) -> None:
@@ -444,241 +392,17 @@ class ViewportPanel(QWidget):
         self._update()
 
     def _view_asked(self) -> None:
-        self._shown_view = self._session.viewport.view
-        self._touched = False
-        self._shift_m = np.zeros(3)
-        self.set_camera(self._camera_of(self._shown_view))
+        self._eye.choose(self._session.viewport.view)
+        self._go(self._view_camera())
 
     def _frame_asked(self, selected: bool) -> None:
         """Frame players as the camera stands."""
-        if self._loaded is None:
+        stage, widget, rows = self.scene.stage, self.canvas_widget(), self.scene.visible(selected)
+        if stage is None or widget is None or not rows:
             return
-        stage = self._loaded.stage
-        everyone = [row for row in range(len(stage.members)) if stage.shown[row]]
-        rows = [row for row in self._rows() if stage.shown[row]] if selected else everyone
-        if rows:
-            self._shown_view = "ensemble"
-            self._touched = True
-            self.set_camera(frame(self.camera, *bounds(stage, rows), self._aspect()))
-
-    def _camera_of(self, view: View) -> Camera:
-        if self._loaded is None:
-            return self._camera
-        start = self._override[0] if self._override is not None else self._camera
-        return view_camera(view, self._loaded.stage, self._rows(), start, self._aspect())
-
-    def _rows(self) -> list[int]:
-        """Rows of the selected players, the one in front first."""
-        if self._loaded is None:
-            return []
-        rows = [self._loaded.stage.index(player_id) for player_id in self._session.players]
-        return [row for row in rows if row is not None]
-
-    def _aspect(self) -> float:
-        widget = self.canvas_widget()
-        return widget.width() / max(widget.height(), 1) if widget is not None else 16.0 / 9.0
-
-    # Marks over the picture
-
-    def _handles(self) -> tuple[Handle, ...]:
-        rows = self._rows()
-        if not self._session.viewport.posing or self._loaded is None or not rows:
-            return ()
-        return handles(self._loaded.stage, rows[0])
-
-    def _marks(self, camera: Camera) -> Marks:
-        loaded, state, session = self._loaded, self._session.viewport, self._session
-        if loaded is None:
-            return Marks()
-        stage = loaded.stage
-        players = {player.id: player for player in session.project.players}
-        rows = self._rows()
-        names = []
-        if state.shows("names"):
-            for row, member in enumerate(stage.members):
-                player = players.get(member.player_id)
-                if player is not None and stage.shown[row]:
-                    names.append(
-                        Name(player.name, session.colour(player), over_head_m(stage, row, camera.up), row in rows)
-                    )
-        skeletons = []
-        if state.shows("skeleton"):
-            for row, member in enumerate(stage.members):
-                if stage.shown[row] and member.player_id in players:
-                    skeletons.append((row, session.colour(players[member.player_id])))
-        correction = self._tool.correction
-        reading = ""
-        if correction is not None:
-            reading = self._reading(correction.up_deg, correction.left_deg, correction.roll_deg)
-        return Marks(
-            names=names,
-            skeletons=skeletons,
-            touches=touches(stage, rows[0]) if state.shows("contacts") and rows and stage.shown[rows[0]] else (),
-            handles=self._handles(),
-            grasped=self._tool.grasped,
-            corrected=self._tool.corrected(TARGETS) if state.posing else frozenset(),
-            reading=reading,
-        )
-
-    def _reading(self, up_deg: float, left_deg: float, roll_deg: float) -> str:
-        parts = []
-        if up_deg:
-            parts.append((self.tr("up {degrees}°") if up_deg > 0 else self.tr("down {degrees}°"), up_deg))
-        if left_deg:
-            parts.append((self.tr("left {degrees}°") if left_deg > 0 else self.tr("right {degrees}°"), left_deg))
-        if roll_deg:
-            lean = self.tr("lean left {degrees}°") if roll_deg > 0 else self.tr("lean right {degrees}°")
-            parts.append((lean, roll_deg))
-        return "  ".join(text.format(degrees=f"{abs(value):.1f}") for text, value in parts) or "0°"
-
-    def message(self) -> str:
-        """What is said in the picture's place or in its middle; empty where there is nothing to say."""
-        if self._failure is not None:
-            return ""
-        if not self._session.project.players:
-            return self.tr("No players yet. Open or import a piece to see it performed.")
-        if self._loaded is None:
-            return self.tr("Loading the players …")
-        if not self._loaded.stage.shown.any():
-            if self._loaded.absent and not self._loaded.stage.members:
-                return "\n".join(message_text(reason) for reason in self._loaded.absent.values())
-            return self.tr("Making the first motion …")
-        return ""
-
-    def _show_note(self) -> None:
-        note = ""
-        if self._session.viewport.posing:
-            note = self.tr("Drag a handle; Shift finer, Alt leans, double-click gives back")
-        self.header.set_note(note)
-
-    # The pointer
-
-    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """What happens on the canvas."""
-        kind = event.type()
-        if isinstance(event, QMouseEvent):
-            if kind == QEvent.Type.MouseButtonPress:
-                return self._pressed(event)
-            if kind == QEvent.Type.MouseMove:
-                return self._moved(event)
-            if kind == QEvent.Type.MouseButtonRelease:
-                return self._released(event)
-            if kind == QEvent.Type.MouseButtonDblClick:
-                return self._double_clicked(event)
-        elif isinstance(event, QWheelEvent):
-            return self._wheeled(event)
-        elif isinstance(event, QKeyEvent) and kind == QEvent.Type.KeyPress:
-            return self._key_pressed(event)
-        elif kind == QEvent.Type.Leave:
-            self._hover(None)
-        elif kind == QEvent.Type.Resize and self._overlay is not None:
-            self._place_camera()
-            self._overlay.fit()
-        return super().eventFilter(watched, event)
-
-    def _size(self) -> tuple[float, float]:
-        widget = self.canvas_widget()
-        return (float(widget.width()), float(widget.height())) if widget is not None else (1.0, 1.0)
-
-    def _pressed(self, event: QMouseEvent) -> bool:
-        at = event.position()
-        self._press = self._pointer = at
-        self._dragging = False
-        if event.button() == Qt.MouseButton.LeftButton:
-            handle = handle_at(self._handles(), self._camera, at.x(), at.y(), self._size())
-            if handle is not None:
-                self._tool.grasp(handle)
-                self._update()
-        return True
-
-    def _moved(self, event: QMouseEvent) -> bool:
-        at = event.position()
-        if self._press is None or self._pointer is None or not event.buttons():
-            self._hover(at)
-            return True
-        step, self._pointer = at - self._pointer, at
-        if not self._dragging and (at - self._press).manhattanLength() < CLICK_PX:
-            return True
-        if not self._dragging:
-            self._dragging = True
-            step = at - self._press
-        self._flight = None
-        modifiers = event.modifiers()
-        shift = bool(modifiers & Qt.KeyboardModifier.ShiftModifier)
-        if self._tool.grasped is not None:
-            lean = bool(modifiers & Qt.KeyboardModifier.AltModifier)
-            self._tool.drag(self._camera, step.x(), step.y(), self._size()[1], shift, lean)
-            self.refresh()
-        elif event.buttons() & Qt.MouseButton.MiddleButton or (event.buttons() & Qt.MouseButton.LeftButton and shift):
-            before = np.asarray(self._camera.target_m)
-            self._touched = True
-            self._camera = pan(self._camera, step.x(), step.y(), self._size()[1])
-            self._shift_m = self._shift_m + np.asarray(self._camera.target_m) - before
-        elif event.buttons() & Qt.MouseButton.LeftButton:
-            self._touched = True
-            self._camera = orbit(self._camera, step.x(), step.y())
-        elif event.buttons() & Qt.MouseButton.RightButton:
-            self._touched = True
-            self._camera = dolly(self._camera, -step.y() / 40.0)
-        self._update()
-        return True
-
-    def _released(self, event: QMouseEvent) -> bool:
-        clicked = self._press is not None and not self._dragging
-        self._press = self._pointer = None
-        self._dragging = False
-        if self._tool.grasped is not None:
-            self._tool.release()
-        elif clicked and event.button() == Qt.MouseButton.LeftButton:
-            self._select(event.position(), bool(event.modifiers() & Qt.KeyboardModifier.ControlModifier))
-        elif clicked and event.button() == Qt.MouseButton.RightButton:
-            self._show_menu(event.globalPosition().toPoint())
-        self._hover(event.position())
-        self._follow()
-        self._update()
-        return True
-
-    def _double_clicked(self, event: QMouseEvent) -> bool:
-        at = event.position()
-        handle = handle_at(self._handles(), self._camera, at.x(), at.y(), self._size())
-        if handle is not None:
-            self._tool.reset(handle.target)
-        elif self._row_at(at) is not None:
-            self._session.viewport.frame(True)
-        return True
-
-    def _wheeled(self, event: QWheelEvent) -> bool:
-        steps = event.angleDelta().y() / 120.0 if event.angleDelta().y() else event.pixelDelta().y() / 60.0
-        self._touched = True
-        self.set_camera(dolly(self._camera, steps), at_once=True)
-        return True
-
-    def _key_pressed(self, event: QKeyEvent) -> bool:
-        if event.key() == Qt.Key.Key_Escape:
-            if self._tool.cancel():
-                self._press = self._pointer = None
-                self._dragging = False
-                self.refresh()
-                return True
-            if self._session.viewport.posing:
-                self._session.viewport.set_posing(False)
-                return True
-        # Everything else is the shell's: shortcuts and navigation.
-        event.ignore()
-        return False
-
-    def _select(self, at: QPointF, add: bool) -> None:
-        row = self._row_at(at)
-        if row is None or self._loaded is None:
-            return
-        player_id = self._loaded.stage.members[row].player_id
-        before = self._session.players
-        if not add:
-            self._session.set_players((player_id,))
-        elif player_id not in before:
-            self._session.set_players((*before, player_id))
-        elif len(before) > 1:
-            self._session.set_players(tuple(own for own in before if own != player_id))
+        self._eye.choose("ensemble")
+        self._eye.touched = True
+        self._go(frame(self._eye.destination, *bounds(stage, rows), widget.width() / max(widget.height(), 1)))
 
     def _show_menu(self, at: QPoint) -> None:
         """What can be done here, from the table of actions."""
@@ -695,35 +419,18 @@ class ViewportPanel(QWidget):
         else:
             menu.deleteLater()
 
-    def _row_at(self, at: QPointF) -> int | None:
-        if self._loaded is None or not self._loaded.stage.shown.any():
-            return None
-        found = hit(Limbs(self._loaded.stage).capsules(), *self._camera.ray(at.x(), at.y(), *self._size()))
-        return found[0] if found is not None else None
-
-    def _hover(self, at: QPointF | None) -> None:
-        handle = None
-        if at is not None:
-            handle = handle_at(self._handles(), self._camera, at.x(), at.y(), self._size())
-        row = self._row_at(at) if at is not None and handle is None else None
-        widget = self.canvas_widget()
-        if widget is not None:
-            if handle is not None:
-                widget.setCursor(Qt.CursorShape.SizeAllCursor)
-            elif row is not None:
-                widget.setCursor(Qt.CursorShape.PointingHandCursor)
-            else:
-                widget.unsetCursor()
-        if row != self._hovered:
-            self._hovered = row
-            self._update()
-
     # Looks and language
 
     def _dress(self) -> None:
         tokens = self._session.tokens
         self._reason.setStyleSheet(f"background: {tokens.sunken}; color: {tokens.text};")
         self._update()
+
+    def _show_note(self) -> None:
+        note = ""
+        if self._session.viewport.posing:
+            note = self.tr("Drag a handle; Shift finer, Alt leans, double-click gives back")
+        self.header.set_note(note)
 
     def retranslate(self) -> None:
         """Set all texts again."""
@@ -740,53 +447,14 @@ class ViewportPanel(QWidget):
         self._show_note()
         self._update()
 
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """A canvas of another size shows the whole view, unless a person has moved the camera."""
+        if event.type() == QEvent.Type.Resize:
+            self._place_camera()
+        return super().eventFilter(watched, event)
+
     def changeEvent(self, event: QEvent) -> None:
         """Follow the language."""
         if event.type() == QEvent.Type.LanguageChange:
             self.retranslate()
         super().changeEvent(event)
-
-
-class _Overlay(QWidget):
-    """Lies over the canvas while there is something to paint; the pointer passes through."""
-
-    def __init__(self, panel: ViewportPanel, native: QWidget) -> None:
-        super().__init__(native)
-        self.setObjectName("viewport_overlay")
-        self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
-        self.setAttribute(Qt.WidgetAttribute.WA_NoSystemBackground)
-        self._panel = panel
-        self._native = native
-        self._marks = Marks()
-        self.hide()
-
-    def refresh(self) -> None:
-        """Paint again, or go away where there is nothing to paint."""
-        self._marks = self._panel._marks(self._panel._camera)
-        wanted = bool(self._marks) or bool(self._panel.message())
-        if wanted != self.isVisibleTo(self._native):
-            self.setVisible(wanted)
-            self.fit()
-        if wanted:
-            self.update()
-
-    def fit(self) -> None:
-        """Cover the canvas."""
-        self.setGeometry(self._native.rect())
-
-    def paintEvent(self, event: QPaintEvent) -> None:
-        """Paint the marks, or what there is to say."""
-        panel, painter = self._panel, QPainter(self)
-        tokens = panel._session.tokens
-        message = panel.message()
-        if message:
-            painter.setPen(tokens.text_dim)
-            painter.drawText(
-                QRectF(self.rect()).adjusted(24, 24, -24, -24),
-                int(Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextWordWrap),
-                message,
-            )
-        elif panel._loaded is not None:
-            size = (float(self.width()), float(self.height()))
-            paint(painter, self._marks, panel._loaded.stage, panel._camera, size, tokens)
-        painter.end()

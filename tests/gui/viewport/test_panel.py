@@ -67,9 +67,9 @@ def drag(
 
 def place_of(viewport: ViewportPanel, row: int, joint: str = "chest") -> QPointF:
     """Where a joint is in the picture."""
-    assert viewport._loaded is not None
+    assert viewport.scene.loaded is not None
     size = canvas(viewport).size()
-    (place,), _ = viewport.camera.project(viewport._loaded.stage.joint_m(row, joint), size.width(), size.height())
+    (place,), _ = viewport.camera.project(viewport.scene.stage.joint_m(row, joint), size.width(), size.height())
     return QPointF(*place)
 
 
@@ -164,10 +164,10 @@ def test_the_picture_on_the_screen_is_that_of_the_file(viewport: ViewportPanel, 
 
 
 def test_a_picture_of_another_moment_leaves_the_window_as_it_was(viewport: ViewportPanel) -> None:
-    assert viewport._loaded is not None
-    before = viewport._loaded.stage.bones.copy()
+    assert viewport.scene.loaded is not None
+    before = viewport.scene.stage.bones.copy()
     viewport.render_image(64, 36, 10.0, "hands")
-    assert (viewport._loaded.stage.bones == before).all()
+    assert (viewport.scene.stage.bones == before).all()
 
 
 def test_the_light_theme_is_lighter(shot: Shot, session: Session) -> None:
@@ -204,7 +204,7 @@ def test_seated_players_have_stools(shot: Shot, session: Session) -> None:
 
 
 def test_who_is_moved_on_the_stage_stands_there_at_once(viewport: ViewportPanel, session: Session) -> None:
-    loaded = viewport._loaded
+    loaded = viewport.scene.loaded
     assert loaded is not None
     player = session.project.players[0]
     moved = msgspec.structs.replace(player, stage=msgspec.structs.replace(player.stage, x_m=player.stage.x_m - 1.0))
@@ -212,9 +212,9 @@ def test_who_is_moved_on_the_stage_stands_there_at_once(viewport: ViewportPanel,
         Message("edit.place_players", {"count": 1}),
         replace(session.project, players=(moved, *session.project.players[1:])),
     )
-    assert viewport._loaded is not None
-    assert viewport._loaded.shapes is loaded.shapes
-    before, after = loaded.stage.joint_m(0, "head"), viewport._loaded.stage.joint_m(0, "head")
+    assert viewport.scene.loaded is not None
+    assert viewport.scene.loaded.shapes is loaded.shapes
+    before, after = loaded.stage.joint_m(0, "head"), viewport.scene.stage.joint_m(0, "head")
     assert after - before == pytest.approx([-1.0, 0.0, 0.0], abs=1e-6)
 
 
@@ -291,7 +291,7 @@ def test_a_close_up_follows_the_hands_while_playing(qtbot: QtBot, viewport: View
     session.viewport.set_view("hands")
     qtbot.wait(500)
     session.set_playing(True)
-    stage = viewport._loaded.stage  # type: ignore[union-attr]
+    stage = viewport.scene.stage  # type: ignore[union-attr]
     before = np.asarray(viewport.camera.target_m)
     for time_s in np.arange(6.0, 9.0, 0.1):
         session.set_playhead(float(time_s))
@@ -378,10 +378,10 @@ def test_a_drag_that_begins_on_a_player_selects_nobody(viewport: ViewportPanel, 
 
 def test_who_is_under_the_pointer_is_known(viewport: ViewportPanel, session: Session) -> None:
     send(canvas(viewport), QEvent.Type.MouseMove, place_of(viewport, 2), Qt.MouseButton.NoButton)
-    assert viewport._hovered == 2
+    assert viewport.hovered == session.project.players[2].id
     assert canvas(viewport).cursor().shape() == Qt.CursorShape.PointingHandCursor
     send(canvas(viewport), QEvent.Type.MouseMove, QPointF(3, 3), Qt.MouseButton.NoButton)
-    assert viewport._hovered is None
+    assert viewport.hovered is None
     assert viewport.player_at(3.0, 3.0) is None
     place = place_of(viewport, 0)
     assert viewport.player_at(place.x(), place.y()) == session.project.players[0].id
@@ -420,7 +420,7 @@ def test_dragging_the_bell_up_is_one_step_that_can_be_undone(posing: ViewportPan
 
 
 def test_the_player_follows_the_drag(posing: ViewportPanel, session: Session, poses: MadeNow) -> None:
-    stage = posing._loaded.stage  # type: ignore[union-attr]
+    stage = posing.scene.stage  # type: ignore[union-attr]
     before = stage.node_matrix(0)[:, 2].copy()
     drag(canvas(posing), posing.handle_places()["bell"], QPointF(0, -12), release=False)
     assert stage.node_matrix(0)[1, 2] > before[1] + 0.01

@@ -1,0 +1,109 @@
+"""The camera between views, flights, players that are followed, and a person's hand. Nothing here knows Qt or GL."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from widgets.common.viewport_state import View
+from widgets.viewport import camera as moves
+from widgets.viewport.camera import Camera
+
+Floats = npt.NDArray[np.float64]
+
+TRANSITION_S = 0.35
+ARRIVED_M = 0.0008
+"""A close-up nearer to its middle than this has arrived."""
+LONGEST_STEP_S = 0.1
+"""After a pause the camera goes on as if it had been this long."""
+
+
+class Eye:
+    """Where the picture is seen from. Times are any clock's, in seconds.
+
+    Attributes
+    ----------
+    camera : Camera
+        Of now.
+    view : View
+        What is looked at: close-ups follow it.
+    touched : bool
+        Whether the camera stands where a person moved it; else it is the view's own.
+    """
+
+    def __init__(self) -> None:
+        self.camera = Camera()
+        self.view: View = "ensemble"
+        self.touched = False
+        self._flight: tuple[Camera, Camera, float] | None = None
+        self._shift_m = np.zeros(3)
+        self._last_s = 0.0
+
+    @property
+    def destination(self) -> Camera:
+        """The camera, or where its flight ends."""
+        return self._flight[1] if self._flight is not None else self.camera
+
+    @property
+    def flying(self) -> bool:
+        """Whether it is on its way to another place."""
+        return self._flight is not None
+
+    def choose(self, view: View) -> None:
+        """Look at something else from now on."""
+        self.view, self.touched = view, False
+        self._shift_m = np.zeros(3)
+
+    def jump(self, camera: Camera) -> None:
+        """Look from there at once."""
+        self.camera, self._flight = camera, None
+
+    def fly(self, camera: Camera, now_s: float) -> None:
+        """Look from there soon."""
+        self._flight = (self.camera, camera, now_s)
+
+    def advance(self, now_s: float) -> bool:
+        """Go on with a flight; whether there was one."""
+        if self._flight is None:
+            return False
+        start, end, since_s = self._flight
+        share = (now_s - since_s) / TRANSITION_S
+        self.camera = moves.between(start, end, share)
+        self._last_s = now_s
+        if share >= 1.0:
+            self._flight = None
+        return True
+
+    def centred(self, middle_m: Floats) -> Floats:
+        """The target for a followed place: a person may have shifted it."""
+        shifted: Floats = middle_m + self._shift_m
+        return shifted
+
+    def follow(self, middle_m: Floats | None, now_s: float) -> bool:
+        """Go after a place; whether there is still a way to go."""
+        elapsed_s, self._last_s = min(now_s - self._last_s, LONGEST_STEP_S), now_s
+        if middle_m is None or self._flight is not None:
+            return False
+        goal = self.centred(middle_m)
+        self.camera = moves.followed(self.camera, goal, elapsed_s)
+        return bool(np.linalg.norm(goal - np.asarray(self.camera.target_m)) > ARRIVED_M)
+
+    def orbit(self, right_px: float, down_px: float) -> None:
+        """Turn by hand."""
+        self._grasp()
+        self.camera = moves.orbit(self.camera, right_px, down_px)
+
+    def pan(self, right_px: float, down_px: float, height_px: float) -> None:
+        """Shift by hand; a close-up keeps the shift while it follows."""
+        self._grasp()
+        before = np.asarray(self.camera.target_m)
+        self.camera = moves.pan(self.camera, right_px, down_px, height_px)
+        self._shift_m = self._shift_m + np.asarray(self.camera.target_m) - before
+
+    def dolly(self, steps: float) -> None:
+        """Come nearer by hand."""
+        self._grasp()
+        self.camera = moves.dolly(self.camera, steps)
+
+    def _grasp(self) -> None:
+        self.touched, self._flight = True, None

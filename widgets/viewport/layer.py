@@ -1,0 +1,51 @@
+"""A sheet over the canvas for what Qt paints: it is there only while there is something to paint."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from PySide6.QtCore import QEvent, QObject, Qt
+from PySide6.QtGui import QPainter, QPaintEvent
+from PySide6.QtWidgets import QWidget
+
+Paint = Callable[[QPainter, tuple[float, float]], None]
+
+
+class Layer(QWidget):
+    """Lies over a widget; the pointer passes through.
+
+    Parameters
+    ----------
+    below : QWidget
+    paint : callable
+        Paints over a picture of a size.
+    """
+
+    def __init__(self, below: QWidget, paint: Paint) -> None:
+        super().__init__(below)
+        self.setObjectName("viewport_overlay")
+        self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
+        self.setAttribute(Qt.WidgetAttribute.WA_NoSystemBackground)
+        self._below, self._paint = below, paint
+        below.installEventFilter(self)
+        self.hide()
+
+    def refresh(self, wanted: bool) -> None:
+        """Paint again, or go away where there is nothing to paint."""
+        if wanted != self.isVisibleTo(self._below):
+            self.setGeometry(self._below.rect())
+            self.setVisible(wanted)
+        if wanted:
+            self.update()
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Stay as large as what lies below."""
+        if event.type() == QEvent.Type.Resize:
+            self.setGeometry(self._below.rect())
+        return super().eventFilter(watched, event)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Paint."""
+        painter = QPainter(self)
+        self._paint(painter, (float(self.width()), float(self.height())))
+        painter.end()

@@ -1,0 +1,195 @@
+"""The pointer over the picture: orbit, pan, dolly, click, and the handles of the pose tool."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QEvent, QObject, QPoint, QPointF, Qt, Signal
+from PySide6.QtGui import QKeyEvent, QMouseEvent, QWheelEvent
+from PySide6.QtWidgets import QWidget
+
+from widgets.common.session import Session
+from widgets.viewport.eye import Eye
+from widgets.viewport.handles import Handle
+from widgets.viewport.overlay import handle_at
+from widgets.viewport.pose_tool import PoseTool
+from widgets.viewport.scene import Scene
+
+CLICK_PX = 4.0
+"""A press that moves less is a click."""
+DOLLY_PX_PER_STEP = 40.0
+WHEEL_STEP = 120.0
+TOUCHPAD_PX_PER_STEP = 60.0
+
+
+class Pointer(QObject):
+    """Turns what happens on the canvas into moves of the eye, a selection, and poses.
+
+    Parameters
+    ----------
+    canvas : QWidget
+    session : Session
+    eye : Eye
+    scene : Scene
+    tool : PoseTool
+
+    Signals
+    -------
+    moved()
+        The picture is another one: the camera moved, or somebody else is under the pointer.
+    posed()
+        A handle was dragged.
+    released()
+        A drag has ended.
+    menu_asked(QPoint)
+        The right button was clicked there on the screen.
+    """
+
+    moved = Signal()
+    posed = Signal()
+    released = Signal()
+    menu_asked = Signal(QPoint)
+
+    def __init__(self, canvas: QWidget, session: Session, eye: Eye, scene: Scene, tool: PoseTool) -> None:
+        super().__init__(canvas)
+        self._canvas, self._session = canvas, session
+        self._eye, self._scene, self._tool = eye, scene, tool
+        self._press: QPointF | None = None
+        self._last = QPointF()
+        self.dragging = False
+        """Whether a press has become a drag."""
+        self.hovered: int | None = None
+        """Row of the player under the pointer."""
+        canvas.setMouseTracking(True)
+        canvas.installEventFilter(self)
+
+    def row_at(self, at: QPointF) -> int | None:
+        """Row of the player under a point of the picture."""
+        return self._scene.row_at(*self._eye.camera.ray(at.x(), at.y(), *self._size()))
+
+    def forget(self) -> None:
+        """Another stage: nobody is under the pointer."""
+        self.hovered = None
+
+    def _size(self) -> tuple[float, float]:
+        return float(self._canvas.width()), float(self._canvas.height())
+
+    def _handle_at(self, at: QPointF) -> Handle | None:
+        return handle_at(self._scene.handles(), self._eye.camera, at.x(), at.y(), self._size())
+
+    def _pressed(self, event: QMouseEvent) -> bool:
+        self._press = self._last = event.position()
+        self.dragging = False
+        if event.button() == Qt.MouseButton.LeftButton:
+            handle = self._handle_at(event.position())
+            if handle is not None and self._tool.grasp(handle):
+                self.moved.emit()
+        return True
+
+    def _dragged(self, event: QMouseEvent) -> bool:
+        at = event.position()
+        if self._press is None or not event.buttons():
+            self._hover(at)
+            return True
+        if not self.dragging and (at - self._press).manhattanLength() < CLICK_PX:
+            return True
+        self.dragging = True
+        step, self._last = at - self._last, at
+        shift = bool(event.modifiers() & Qt.KeyboardModifier.ShiftModifier)
+        left = bool(event.buttons() & Qt.MouseButton.LeftButton)
+        if self._tool.grasped is not None:
+            lean = bool(event.modifiers() & Qt.KeyboardModifier.AltModifier)
+            self._tool.drag(self._eye.camera, step.x(), step.y(), self._size()[1], shift, lean)
+            self.posed.emit()
+            return True
+        if event.buttons() & Qt.MouseButton.MiddleButton or (left and shift):
+            self._eye.pan(step.x(), step.y(), self._size()[1])
+        elif left:
+            self._eye.orbit(step.x(), step.y())
+        elif event.buttons() & Qt.MouseButton.RightButton:
+            self._eye.dolly(-step.y() / DOLLY_PX_PER_STEP)
+        self.moved.emit()
+        return True
+
+    def _released(self, event: QMouseEvent) -> bool:
+        clicked = self._press is not None and not self.dragging
+        self._press, self.dragging = None, False
+        if self._tool.grasped is not None:
+            self._tool.release()
+        elif clicked and event.button() == Qt.MouseButton.LeftButton:
+            self._select(event.position(), bool(event.modifiers() & Qt.KeyboardModifier.ControlModifier))
+        elif clicked and event.button() == Qt.MouseButton.RightButton:
+            self.menu_asked.emit(event.globalPosition().toPoint())
+        self._hover(event.position())
+        self.released.emit()
+        return True
+
+    def _double_clicked(self, event: QMouseEvent) -> bool:
+        handle = self._handle_at(event.position())
+        if handle is not None:
+            self._tool.reset(handle.target)
+        elif self.row_at(event.position()) is not None:
+            self._session.viewport.frame(True)
+        return True
+
+    def _wheeled(self, event: QWheelEvent) -> bool:
+        turned, slid = event.angleDelta().y(), event.pixelDelta().y()
+        self._eye.dolly(turned / WHEEL_STEP if turned else slid / TOUCHPAD_PX_PER_STEP)
+        self.moved.emit()
+        return True
+
+    def _key_pressed(self, event: QKeyEvent) -> bool:
+        if event.key() == Qt.Key.Key_Escape:
+            if self._tool.cancel():
+                self._press, self.dragging = None, False
+                self.posed.emit()
+                return True
+            if self._session.viewport.posing:
+                self._session.viewport.set_posing(False)
+                return True
+        # Everything else is the shell's: shortcuts, and the way from panel to panel.
+        event.ignore()
+        return False
+
+    def _select(self, at: QPointF, add: bool) -> None:
+        row, stage = self.row_at(at), self._scene.stage
+        if row is None or stage is None:
+            return
+        player_id, before = stage.members[row].player_id, self._session.players
+        if not add:
+            self._session.set_players((player_id,))
+        elif player_id not in before:
+            self._session.set_players((*before, player_id))
+        elif len(before) > 1:
+            self._session.set_players(tuple(own for own in before if own != player_id))
+
+    def _hover(self, at: QPointF | None) -> None:
+        handle = self._handle_at(at) if at is not None else None
+        row = self.row_at(at) if at is not None and handle is None else None
+        if handle is not None:
+            self._canvas.setCursor(Qt.CursorShape.SizeAllCursor)
+        elif row is not None:
+            self._canvas.setCursor(Qt.CursorShape.PointingHandCursor)
+        else:
+            self._canvas.unsetCursor()
+        if row != self.hovered:
+            self.hovered = row
+            self.moved.emit()
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """What happens on the canvas."""
+        kind = event.type()
+        if isinstance(event, QMouseEvent):
+            if kind == QEvent.Type.MouseButtonPress:
+                return self._pressed(event)
+            if kind == QEvent.Type.MouseMove:
+                return self._dragged(event)
+            if kind == QEvent.Type.MouseButtonRelease:
+                return self._released(event)
+            if kind == QEvent.Type.MouseButtonDblClick:
+                return self._double_clicked(event)
+        elif isinstance(event, QWheelEvent):
+            return self._wheeled(event)
+        elif isinstance(event, QKeyEvent) and kind == QEvent.Type.KeyPress:
+            return self._key_pressed(event)
+        elif kind == QEvent.Type.Leave:
+            self._hover(None)
+        return super().eventFilter(watched, event)

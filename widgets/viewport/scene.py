@@ -1,0 +1,239 @@
+"""Who is on the stage and in which pose, and what is said and marked about them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import numpy.typing as npt
+from PySide6.QtCore import QObject, Signal
+
+from app.errors import Message
+from widgets.common.session import Session, Severity
+from widgets.common.text import message_text
+from widgets.viewport.camera import Camera
+from widgets.viewport.cast import Member, Stage
+from widgets.viewport.contacts import touches
+from widgets.viewport.figures import Loaded, cast_key, load, moved, same_figures
+from widgets.viewport.handles import TARGETS, Handle, handles
+from widgets.viewport.limbs import Limbs, hit
+from widgets.viewport.look import Color, rgb
+from widgets.viewport.overlay import Marks, Name, over_head_m
+from widgets.viewport.pose_tool import PoseTool
+from widgets.viewport.poses import Posed, Poses, same
+from widgets.viewport.worn_face import WornFaces
+
+Floats = npt.NDArray[np.float64]
+
+
+class Scene(QObject):
+    """The stage of a session's project.
+
+    Parameters
+    ----------
+    session : Session
+    poses : Poses
+
+    Signals
+    -------
+    staged()
+        There is another stage.
+    shown()
+        More or fewer players have a pose.
+    """
+
+    staged = Signal()
+    shown = Signal()
+
+    def __init__(self, session: Session, poses: Poses, tool: PoseTool, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._session = session
+        self._poses: Poses = WornFaces(session, poses)
+        self._tool = tool
+        self._loaded: Loaded | None = None
+        self.missing = False
+        """Whether somebody's pose was not there when it was last asked for."""
+
+    @property
+    def loaded(self) -> Loaded | None:
+        """What is drawn; None before it is loaded."""
+        return self._loaded
+
+    @property
+    def stage(self) -> Stage | None:
+        """Who is drawn."""
+        return self._loaded.stage if self._loaded is not None else None
+
+    def set_poses(self, poses: Poses) -> None:
+        """Take poses from there from now on."""
+        self._poses = WornFaces(self._session, poses)
+
+    # Figures
+
+    def load(self) -> None:
+        """Bring the stage to the project's players; what is not there yet is loaded beside the window."""
+        project, before = self._session.project, self._loaded
+        if before is not None and same_figures(before.key, cast_key(project)):
+            if before.key != cast_key(project):
+                self._set(moved(project, before))
+            return
+        shapes = before.shapes if before is not None else None
+        self._session.tasks.run(
+            Message("work.load_figures"),
+            lambda progress, stop_wanted: load(project, shapes, progress, stop_wanted),
+            self._arrived,
+            key="viewport.load",
+        )
+
+    def _arrived(self, loaded: Loaded | None) -> None:
+        if loaded is None:
+            return
+        if same_figures(loaded.key, cast_key(self._session.project)):
+            self._set(loaded)
+            for reason in loaded.absent.values():
+                self._session.notice(reason, Severity.WARNING)
+        # Players or places may have changed meanwhile.
+        self.load()
+
+    def _set(self, loaded: Loaded) -> None:
+        self._loaded = loaded
+        self.staged.emit()
+
+    # Poses
+
+    def pose(self, time_s: float) -> None:
+        """Put everyone into the pose of a time, as far as it is made."""
+        if self._loaded is not None:
+            asked = {member.player_id: self._poses.pose(member.player_id, time_s) for member in self._members()}
+            self.missing = any(pose is None for pose in asked.values())
+            self.take(asked)
+
+    def pose_now(self, time_s: float) -> None:
+        """Put everyone into the pose of a time, made here where it is not there yet."""
+        self.take({member.player_id: self._poses.pose_now(member.player_id, time_s) for member in self._members()})
+
+    def poses(self) -> dict[str, Posed | None]:
+        """Everyone's pose of now."""
+        stage = self.stage
+        if stage is None:
+            return {}
+        return {member.player_id: pose for member, pose in zip(stage.members, stage.poses, strict=True)}
+
+    def take(self, poses: Mapping[str, Posed | None]) -> None:
+        """Put players into poses."""
+        stage = self.stage
+        if stage is not None:
+            before = int(stage.shown.sum())
+            stage.pose(poses)
+            if int(stage.shown.sum()) != before:
+                self.shown.emit()
+
+    def is_outdated(self, time_s: float) -> bool:
+        """Whether somebody has another pose now than is shown."""
+        for player_id, shown in self.poses().items():
+            pose = self._poses.pose(player_id, time_s)
+            # A pose that is not there yet leaves the one before it.
+            if pose is not None and not same(pose, shown):
+                return True
+        return False
+
+    def _members(self) -> tuple[Member, ...]:
+        stage = self.stage
+        return stage.members if stage is not None else ()
+
+    # Players
+
+    def rows(self) -> list[int]:
+        """Rows of the selected players, the one in front first."""
+        stage = self.stage
+        if stage is None:
+            return []
+        rows = [stage.index(player_id) for player_id in self._session.players]
+        return [row for row in rows if row is not None]
+
+    def visible(self, selected: bool) -> list[int]:
+        """Rows of who has a pose: the selected players, or everyone."""
+        stage = self.stage
+        if stage is None:
+            return []
+        rows = self.rows() if selected else range(len(stage.members))
+        return [row for row in rows if stage.shown[row]]
+
+    def row_at(self, origin_m: Floats, direction: Floats) -> int | None:
+        """Who is first met by a ray."""
+        stage = self.stage
+        if stage is None or not stage.shown.any():
+            return None
+        found = hit(Limbs(stage).capsules(), origin_m, direction)
+        return found[0] if found is not None else None
+
+    def rings(self) -> dict[int, Color]:
+        """Rings on the floor: the selected players' rows with their colours."""
+        stage = self.stage
+        if stage is None:
+            return {}
+        players = {player.id: player for player in self._session.project.players}
+        chosen = {stage.members[row].player_id: row for row in self.rows()}
+        return {row: rgb(self._session.colour(players[own])) for own, row in chosen.items() if own in players}
+
+    # Marks and words
+
+    def handles(self) -> tuple[Handle, ...]:
+        """The pose tool's handles, while it is in hand."""
+        stage, rows = self.stage, self.rows()
+        return handles(stage, rows[0]) if self._session.viewport.posing and stage is not None and rows else ()
+
+    def marks(self, camera: Camera) -> Marks:
+        """What is painted over the picture."""
+        stage, state, session = self.stage, self._session.viewport, self._session
+        if stage is None:
+            return Marks()
+        players = {player.id: player for player in session.project.players}
+        rows, visible = self.rows(), self.visible(selected=False)
+        known = [(row, players[own]) for row in visible if (own := stage.members[row].player_id) in players]
+        names, skeletons = [], []
+        if state.shows("names"):
+            for row, player in known:
+                over_m = over_head_m(stage, row, camera.up)
+                names.append(Name(player.name, session.colour(player), over_m, row in rows))
+        if state.shows("skeleton"):
+            skeletons = [(row, session.colour(player)) for row, player in known]
+        touched = state.shows("contacts") and bool(rows) and rows[0] in visible
+        return Marks(
+            names=names,
+            skeletons=skeletons,
+            touches=touches(stage, rows[0]) if touched else (),
+            handles=self.handles(),
+            grasped=self._tool.grasped,
+            corrected=self._tool.corrected(TARGETS) if state.posing else frozenset(),
+            reading=self._reading(),
+        )
+
+    def message(self) -> str:
+        """What is said in the middle of the picture; empty where there is nothing to say."""
+        loaded = self._loaded
+        if not self._session.project.players:
+            return self.tr("No players yet. Open or import a piece to see it performed.")
+        if loaded is None:
+            return self.tr("Loading the players …")
+        if loaded.stage.shown.any():
+            return ""
+        if loaded.absent and not loaded.stage.members:
+            return "\n".join(message_text(reason) for reason in loaded.absent.values())
+        return self.tr("Making the first motion …")
+
+    def _reading(self) -> str:
+        """The angles of the pose in hand."""
+        held = self._tool.correction
+        if held is None:
+            return ""
+        parts = []
+        if held.up_deg:
+            parts.append((self.tr("up {degrees}°") if held.up_deg > 0 else self.tr("down {degrees}°"), held.up_deg))
+        if held.left_deg:
+            side = self.tr("left {degrees}°") if held.left_deg > 0 else self.tr("right {degrees}°")
+            parts.append((side, held.left_deg))
+        if held.roll_deg:
+            lean = self.tr("lean left {degrees}°") if held.roll_deg > 0 else self.tr("lean right {degrees}°")
+            parts.append((lean, held.roll_deg))
+        return "  ".join(text.format(degrees=f"{abs(value):.1f}") for text, value in parts) or "0°"
