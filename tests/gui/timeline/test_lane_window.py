@@ -1,0 +1,89 @@
+"""Lanes in the whole editor, where plans are made beside the window and arrive later."""
+
+from __future__ import annotations
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from pytestqt.qtbot import QtBot
+
+from app.plan.corrections import PinFingering, SetBreath
+from app.plan.model import PlayerPlan
+from app.shell.app import Program
+from tests.gui.shell.conftest import answers, program, settings, start  # noqa: F401  (fixtures)
+from tests.gui.timeline.lane_hands import ALT, drag, middle, region_of
+from widgets.common.selection import Selection
+from widgets.timeline.lanes.breath import BreathLane
+from widgets.timeline.panel import TimelinePanel
+
+
+@pytest.fixture
+def panel(program: Program, qtbot: QtBot) -> TimelinePanel:  # noqa: F811
+    result = program.window.findChild(TimelinePanel)
+    assert isinstance(result, TimelinePanel)
+    qtbot.waitUntil(lambda: program.session.performance.planned, timeout=20_000)
+    result.axis.show(0.0, 20.0)
+    return result
+
+
+def plan(program: Program) -> PlayerPlan:  # noqa: F811
+    assert program.session.player is not None
+    return program.session.performance.plan(program.session.player)
+
+
+def up_to_date(program: Program, qtbot: QtBot) -> None:  # noqa: F811
+    session = program.session
+    qtbot.waitUntil(
+        lambda: session.performance.planned and session.performance.project is session.project, timeout=20_000
+    )
+
+
+def test_a_breath_is_dragged_while_plans_are_made_elsewhere(
+    program: Program,  # noqa: F811
+    panel: TimelinePanel,
+    qtbot: QtBot,
+) -> None:
+    lane = panel.lanes["breath"]
+    assert isinstance(lane, BreathLane)
+    breath = next(event.id for event in plan(program).breaths if event.kind == "breath" and event.start_s > 1.0)
+    before = region_of(lane, breath)
+    drag(lane, middle(lane, breath), dx=-40, modifiers=ALT)
+    (item,) = program.session.project.corrections[plan(program).player_id]
+    assert isinstance(item, SetBreath)
+    up_to_date(program, qtbot)
+    (key,) = program.session.selection.events
+    after = region_of(lane, key.event_id)
+    assert after.by_hand
+    assert after.end_tick - after.start_tick == before.end_tick - before.start_tick
+    assert list(lane.visible(0.0, 1e6)).count(after) == 1
+    qtbot.waitUntil(program.session.actions["edit.undo"].isEnabled)
+    program.session.actions["edit.undo"].trigger()
+    assert not program.session.project.corrections
+    up_to_date(program, qtbot)
+    assert region_of(lane, breath).start_tick == before.start_tick
+
+
+def test_keys_reach_the_lanes_in_the_window(
+    program: Program,  # noqa: F811
+    panel: TimelinePanel,
+    qtbot: QtBot,
+) -> None:
+    session = program.session
+    assert session.player is not None
+    instrument = session.performance.instrument(session.player)
+    note = next(
+        note
+        for note in session.project.part(session.player).notes
+        if {"0", "13"} <= {fingering.label for fingering in instrument.fingerings_for(note.pitch)}
+    )
+    plot = panel.lanes["fingering"].plot
+    plot.setFocus()
+    session.select(Selection(notes=frozenset({note.id})))
+    qtbot.waitUntil(session.actions["fingering.cycle"].isEnabled)
+    QTest.keyClick(plot, Qt.Key.Key_1)
+    QTest.keyClick(plot, Qt.Key.Key_3)
+    assert session.project.corrections[session.player.id] == (PinFingering(note.id, "13"),)
+    up_to_date(program, qtbot)
+    qtbot.waitUntil(session.actions["events.give_back"].isEnabled)
+    QTest.keyClick(plot, Qt.Key.Key_Backspace)
+    assert not session.project.corrections
