@@ -285,6 +285,7 @@ class Day(RuleBasedStateMachine):
         self.told: list[Change] = []
         self.folder = Path(tempfile.mkdtemp())
         self.document.observe(self.told.append)
+        self.performance = Performance(self.document.project)
 
     def teardown(self) -> None:
         shutil.rmtree(self.folder)
@@ -397,9 +398,12 @@ class Day(RuleBasedStateMachine):
     def generate(self) -> None:
         """Every correction does what it says, or a problem says why it does not."""
         project = self.document.project
-        performance = Performance(project)
+        self.performance = Performance(project, self.performance)
+        anew = Performance(project)
         for player in project.players:
-            plan = performance.plan(player)
+            plan = self.performance.plan(player)
+            # What was taken over from before is what would be made anew.
+            assert plan == anew.plan(player)
             for correction in project.corrections.get(player.id, ()):
                 assert is_done(correction, plan, project.corrections[player.id]), correction
 
@@ -440,6 +444,6 @@ def is_done(correction: Correction, plan: PlayerPlan, others: tuple[Correction, 
 
 
 Day.TestCase.settings = settings(
-    max_examples=25, stateful_step_count=25, deadline=None, suppress_health_check=list(HealthCheck)
+    max_examples=80, stateful_step_count=25, deadline=None, suppress_health_check=list(HealthCheck)
 )
 TestDay = Day.TestCase
