@@ -14,7 +14,8 @@ import msgspec
 
 from app.errors import AppError, MapError, Message
 from app.performance.loudness import note_loudness
-from app.plan.generate import EnsemblePlan, Line, Piece, frame_around, plan_ensemble
+from app.plan.corrections import RemoveEvent, SetBreath, SetCue, Vary
+from app.plan.generate import BREATH_PARAMETERS, EnsemblePlan, Line, Piece, frame_around, plan_ensemble
 from app.plan.memo import Memo
 from app.plan.model import PlayerPlan, Problem, TimeFrame
 from app.project.model import Player, Project
@@ -26,6 +27,8 @@ from metadata.model import Expression
 
 MOST_HOURS = 12
 """Longer than any concert."""
+LIGHT = 8
+"""Where neither breaths nor cues are looked for, planning costs this many times less."""
 
 
 class Performance:
@@ -186,7 +189,8 @@ class Performance:
 
     @property
     def unplanned_notes(self) -> int:
-        """How many notes have to be planned; those of players whom an edit has not touched are planned already."""
+        """How many notes have to be planned, about; those of players whom an edit has not touched are planned already,
+        and an edit that moves no breath and no cue costs little."""
         if self.planned:
             return 0
         before = self._before
@@ -194,8 +198,8 @@ class Performance:
             return sum(len(line.notes) for line in self.lines)
         if self.project.seed != before.project.seed or self.expressions is not before.expressions:
             return sum(len(line.notes) for line in self.lines)
-        known = {id(line) for line in before.lines}
-        return sum(len(line.notes) for line in self.lines if id(line) not in known)
+        known = {line.player_id: line for line in before.lines}
+        return sum(_work(line, known.get(line.player_id)) for line in self.lines)
 
     @property
     def planned(self) -> bool:
@@ -209,6 +213,20 @@ class Performance:
     def instrument(self, player: Player) -> InstrumentMap:
         """The map of what a player plays. Raises MapError where there is none of its id."""
         return find_map(player.instrument_id)
+
+
+def _work(line: Line, before: Line | None) -> int:
+    """What planning a line costs after an edit, in notes."""
+    if line is before:
+        return 0
+    if before is None or line.notes is not before.notes or line.instrument_map is not before.instrument_map:
+        return len(line.notes)
+    searched = (*BREATH_PARAMETERS, "cue_leader", "seed")
+    same = all(getattr(line.parameters, name) == getattr(before.parameters, name) for name in searched)
+    kept, said = set(before.corrections), set(line.corrections)
+    if not same or any(isinstance(item, RemoveEvent | SetBreath | SetCue | Vary) for item in kept ^ said):
+        return len(line.notes)
+    return len(line.notes) // LIGHT
 
 
 def _with_problems(player: Player, plan: PlayerPlan | None, frame: TimeFrame, told: tuple[Problem, ...]) -> PlayerPlan:
