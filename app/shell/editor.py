@@ -44,11 +44,14 @@ class Editor(QObject):
         session.pitch_display.changed.connect(self._remember_pitch)
         session.time_display_changed.connect(self._remember_time)
         session.theme_changed.connect(self._remember_theme)
+        session.folded_changed.connect(self._remember_folded)
 
     def _restore(self) -> None:
         settings, session = self.settings, self.session
         session.set_tokens(THEMES.get(settings.theme, session.tokens))
         session.pitch_display.set(settings.written_pitch, settings.middle_c_octave, settings.syllables)
+        for name, folded in settings.folded.items():
+            session.set_folded(name, folded)
         display = settings.time_display
         for known in get_args(TimeDisplay):
             if display == known:
@@ -62,6 +65,9 @@ class Editor(QObject):
 
     def _remember_time(self) -> None:
         self.settings.time_display = self.session.time_display
+
+    def _remember_folded(self) -> None:
+        self.settings.folded = dict(self.session.folded)
 
     def _remember_theme(self) -> None:
         self.settings.theme = self.session.tokens.name

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Final, TypeVar
 
@@ -49,15 +50,6 @@ class Settings:
         self._file.sync()
 
     @property
-    def export_folder(self) -> str:
-        """Where files were exported to last; empty: nowhere yet."""
-        return self._get("export/folder", "")
-
-    @export_folder.setter
-    def export_folder(self, value: str) -> None:
-        self._set("export/folder", value)
-
-    @property
     def language(self) -> str:
         """``"en"``, ``"ja"``; empty: the system's."""
         return self._get("interface/language", "")
@@ -74,6 +66,20 @@ class Settings:
     @theme.setter
     def theme(self, value: str) -> None:
         self._set("interface/theme", value)
+
+    @property
+    def folded(self) -> dict[str, bool]:
+        """Which parts of panels are folded, by name."""
+        found = {}
+        for entry in self._get("interface/folded", "").split(","):
+            name, _, state = entry.partition(":")
+            if name and state in ("0", "1"):
+                found[name] = state == "1"
+        return found
+
+    @folded.setter
+    def folded(self, value: Mapping[str, bool]) -> None:
+        self._set("interface/folded", ",".join(f"{name}:{int(folded)}" for name, folded in sorted(value.items())))
 
     @property
     def written_pitch(self) -> bool:

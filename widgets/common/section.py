@@ -119,7 +119,11 @@ class Section(QWidget):
     ----------
     session : Session
     name : str
-        Object name.
+        Object name; whether it is folded is remembered by it.
+    folded : bool
+        Until a person folds or unfolds it.
+    remembers : bool
+        False: it is so at every start.
     parent : QWidget, optional
 
     Attributes
@@ -129,9 +133,18 @@ class Section(QWidget):
         Put the contents here.
     """
 
-    def __init__(self, session: Session, name: str, parent: QWidget | None = None) -> None:
+    def __init__(
+        self,
+        session: Session,
+        name: str,
+        parent: QWidget | None = None,
+        *,
+        folded: bool = False,
+        remembers: bool = True,
+    ) -> None:
         super().__init__(parent)
         self.setObjectName(name)
+        self._session, self._remembers = session, remembers
         self.header = SectionHeader(session)
         self._content = QWidget()
         self.body = QVBoxLayout(self._content)
@@ -144,6 +157,14 @@ class Section(QWidget):
         outer.addWidget(self._content)
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
         self.header.toggled.connect(self._content.setVisible)
+        was_folded = session.folded.get(name, folded) if remembers else folded
+        self.header.set_open(not was_folded)
+        # From now on it is the person who folds.
+        self.header.toggled.connect(self._keep)
+
+    def _keep(self, is_open: bool) -> None:
+        if self._remembers:
+            self._session.set_folded(self.objectName(), not is_open)
 
     @property
     def is_open(self) -> bool:

@@ -73,6 +73,8 @@ class Session(QObject):
     selection_changed(), players_changed(), playhead_changed(float), playing_changed(bool), loop_changed(),
     grid_changed(), theme_changed(), time_display_changed(), follow_changed()
         The value of that name is another one.
+    folded_changed()
+        Another part of a panel is folded.
     preview_changed()
         The face that is being made is another.
     noticed(object, object)
@@ -92,6 +94,7 @@ class Session(QObject):
     theme_changed = Signal()
     time_display_changed = Signal()
     follow_changed = Signal()
+    folded_changed = Signal()
     preview_changed = Signal()
     noticed = Signal(object, object)
     revealed = Signal(float)
@@ -119,6 +122,7 @@ class Session(QObject):
         self._tokens = DARK
         self._time_display: TimeDisplay = "bars"
         self._follow = True
+        self._folded: dict[str, bool] = {}
         self._preview_morphs: dict[str, float] | None = None
         self.variety = 0.3
         """How far apart `randomise` makes players, 0..1."""
@@ -292,6 +296,17 @@ class Session(QObject):
         if follow != self._follow:
             self._follow = follow
             self.follow_changed.emit()
+
+    @property
+    def folded(self) -> Mapping[str, bool]:
+        """Which parts of panels are folded (or not), by name; what a person never folded or unfolded is not there."""
+        return self._folded
+
+    def set_folded(self, name: str, folded: bool) -> None:
+        """A part of a panel is folded, or not."""
+        if self._folded.get(name) is not folded:
+            self._folded[name] = folded
+            self.folded_changed.emit()
 
     @property
     def preview_morphs(self) -> dict[str, float] | None:

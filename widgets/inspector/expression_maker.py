@@ -62,7 +62,7 @@ class ExpressionMaker(QWidget):
         self._session = session
         self._name: str | None = None
         self._kept: dict[str, Expression] = {}
-        self._section = Section(session, "inspector_expressions", self)
+        self._section = Section(session, "inspector_expressions", self, folded=True, remembers=False)
         self._choice = Combo()
         self._choice.setObjectName("expression_choice")
         self._tools = {name: QToolButton() for name, _ in _TOOLS}
@@ -78,7 +78,6 @@ class ExpressionMaker(QWidget):
         self._sliders: dict[str, NumberSlider] = {}
         self._build()
         self._connect()
-        self._section.set_open(False)
         self._dress()
         self.retranslate()
 
@@ -116,7 +115,7 @@ class ExpressionMaker(QWidget):
     def _make_sliders(self) -> None:
         """52 sliders, made when they are first seen."""
         for group, beginnings in GROUPS:
-            section = Section(self._session, f"morphs_{group}")
+            section = Section(self._session, f"morphs_{group}", folded=group not in ("brows", "eyes"))
             section.body.setContentsMargins(0, 4, 0, 6)
             for morph in sorted(ARKIT_MORPHS, key=ARKIT_MORPHS.index):
                 if not morph.startswith(beginnings):
@@ -127,7 +126,6 @@ class ExpressionMaker(QWidget):
                 slider.released.connect(self._session.document.end_gesture)
                 self._sliders[morph] = slider
                 section.body.addWidget(slider)
-            section.set_open(group in ("brows", "eyes"))
             self._groups[group] = section
             self._faces_layout.addWidget(section)
         self._name_sliders()

@@ -23,7 +23,7 @@ class PresetSection(QWidget):
         super().__init__(parent)
         self._session = session
         self._found: dict[str, presets.Preset] = {}
-        self._section = Section(session, "players_presets", self)
+        self._section = Section(session, "players_presets", self, folded=True)
         self._choice = Combo()
         self._choice.setObjectName("preset_choice")
         self._name = QLineEdit()
@@ -41,7 +41,6 @@ class PresetSection(QWidget):
         outer = QVBoxLayout(self)
         outer.setContentsMargins(0, 0, 0, 0)
         outer.addWidget(self._section)
-        self._section.set_open(False)
         self._section.header.toggled.connect(lambda is_open: self.show_presets() if is_open else None)
         self._choice.chosen.connect(lambda _: self._show_buttons())
         self._name.textChanged.connect(lambda _: self._show_buttons())
@@ -53,6 +52,8 @@ class PresetSection(QWidget):
         session.theme_changed.connect(self._dress)
         self._dress()
         self.retranslate()
+        if self._section.is_open:
+            self.show_presets()
 
     def show_presets(self) -> None:
         """Read the folder anew and show what is there."""

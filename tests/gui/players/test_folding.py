@@ -1,0 +1,47 @@
+"""What is folded stays folded, also in the next editor."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from pytestqt.qtbot import QtBot
+
+from app.shell.settings import Settings
+from widgets.common.section import Section
+from widgets.common.session import Session
+from widgets.players.panel import PlayersPanel
+
+
+def section(panel: PlayersPanel, name: str) -> Section:
+    found = panel.findChild(Section, name)
+    assert found is not None
+    return found
+
+
+def test_a_folded_part_is_remembered_by_name(session: Session, qtbot: QtBot, tmp_path: Path) -> None:
+    panel = PlayersPanel(session)
+    qtbot.addWidget(panel)
+    panel.show()
+    assert session.folded == {}
+    QTest.mouseClick(section(panel, "players_breath").header, Qt.MouseButton.LeftButton)
+    header = section(panel, "players_presets").header
+    header.setFocus()
+    QTest.keyClick(header, Qt.Key.Key_Right)
+    assert session.folded == {"players_breath": True, "players_presets": False}
+    Settings(tmp_path / "editor.ini").folded = session.folded
+    for name, folded in Settings(tmp_path / "editor.ini").folded.items():
+        session.set_folded(name, folded)
+    again = PlayersPanel(session)
+    qtbot.addWidget(again)
+    again.show()
+    assert not section(again, "players_breath").is_open
+    assert section(again, "players_presets").is_open
+    assert section(again, "players_motion").is_open
+
+
+def test_what_cannot_be_understood_is_as_if_it_were_not_there(tmp_path: Path) -> None:
+    path = tmp_path / "editor.ini"
+    path.write_text('[interface]\nfolded="a:1,b,:0,c:x,,d:0"\n', encoding="utf-8")
+    assert Settings(path).folded == {"a": True, "d": False}
