@@ -6,21 +6,12 @@ seconds and the lane's own values, through ``view_box.addItem``), and answers th
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
-import numpy as np
-import pyqtgraph as pg
-from pyqtgraph.Qt.internals import PrimitiveArray
-from PySide6.QtCore import QEvent, QLineF, QPoint, QPointF, QRectF, QSize, Qt, QTimer, Signal
+from PySide6.QtCore import QEvent, QPoint, QPointF, QRectF, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import (
     QColor,
-    QContextMenuEvent,
     QKeyEvent,
     QMouseEvent,
-    QPainter,
     QPalette,
-    QPen,
-    QResizeEvent,
     QWheelEvent,
 )
 from PySide6.QtWidgets import (
@@ -28,7 +19,6 @@ from PySide6.QtWidgets import (
     QLabel,
     QMenu,
     QSizePolicy,
-    QStyleOptionGraphicsItem,
     QToolButton,
     QVBoxLayout,
     QWidget,
@@ -40,6 +30,9 @@ from app.project.model import Player
 from widgets.common.session import Session
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.lines import Lines
+from widgets.timeline.plot import Background, LaneItem, LaneMouse, Plot
+
+__all__ = ["FOLDED_PX", "GUTTER_PX", "PAN_A_STEP", "ZOOM_A_STEP", "Lane", "LaneItem", "LaneMouse"]
 
 GUTTER_PX = 132
 """Width of the header of every lane."""
@@ -49,167 +42,6 @@ AUTOSCROLL_SHARE = 0.02
 """Of the visible span, for each tick of the timer while a drag is held past the edge."""
 ZOOM_A_STEP = 1.2
 PAN_A_STEP = 0.12
-
-
-@dataclass(frozen=True)
-class LaneMouse:
-    """The mouse over a lane's plot.
-
-    Attributes
-    ----------
-    x_px, y_px : float
-        From the upper left corner of the plot.
-    time_s : float
-    value : float
-        On the lane's own vertical scale.
-    tick : float
-        Where ``time_s`` is in the score.
-    snapped_tick : int
-        The nearest line of the session's grid; the nearest tick while Alt is held.
-    modifiers : Qt.KeyboardModifier
-    button : Qt.MouseButton
-        What was pressed; `NoButton` while hovering.
-    screen : QPoint
-        For menus.
-    """
-
-    x_px: float
-    y_px: float
-    time_s: float
-    value: float
-    tick: float
-    snapped_tick: int
-    modifiers: Qt.KeyboardModifier
-    button: Qt.MouseButton
-    screen: QPoint
-
-    @property
-    def shift(self) -> bool:
-        return bool(self.modifiers & Qt.KeyboardModifier.ShiftModifier)
-
-    @property
-    def ctrl(self) -> bool:
-        return bool(self.modifiers & Qt.KeyboardModifier.ControlModifier)
-
-    @property
-    def alt(self) -> bool:
-        return bool(self.modifiers & Qt.KeyboardModifier.AltModifier)
-
-
-class LaneItem(pg.GraphicsObject):  # type: ignore[misc]
-    """Something drawn over the whole plot in pixels. Override `paint_px`, and draw only what meets ``exposed``."""
-
-    def __init__(self, lane: Lane, z: float = 0.0) -> None:
-        super().__init__()
-        self.lane = lane
-        self.setFlag(self.GraphicsItemFlag.ItemUsesExtendedStyleOption)
-        self.setParentItem(lane.view_box)
-        self.setZValue(z)
-
-    def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
-        """Draw; x and y in pixels of the plot, see ``lane.axis.x_px`` and ``lane.y_px``."""
-        raise NotImplementedError
-
-    # Qt overrides
-
-    def boundingRect(self) -> QRectF:
-        return self.lane.plot_rect
-
-    def paint(self, painter: QPainter, option: QStyleOptionGraphicsItem, widget: QWidget | None = None) -> None:
-        self.paint_px(painter, option.exposedRect)
-
-
-class _Background(LaneItem):
-    """Lines of bars, beats and the grid; the loop and the selected span as shades."""
-
-    def __init__(self, lane: Lane) -> None:
-        super().__init__(lane, -100.0)
-        self._array = PrimitiveArray(QLineF, 4)
-
-    def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
-        lane = self.lane
-        tokens, axis, session = lane.session.tokens, lane.axis, lane.session
-        span = session.selection.span
-        if span is not None:
-            tempo = session.project.score.tempo_map
-            self._shade(painter, exposed, tempo.seconds(float(span[0])), tempo.seconds(float(span[1])), tokens.accent)
-        if session.loop_s is not None:
-            self._shade(painter, exposed, *session.loop_s, tokens.good)
-        lines = lane.lines()
-        for seconds, colour, alpha in (
-            (lines.step_s, tokens.line, 110),
-            (lines.beat_s, tokens.line, 255),
-            (lines.bar_s, tokens.line_strong, 255),
-        ):
-            shade = QColor(colour)
-            shade.setAlpha(alpha)
-            x = axis.x_px(seconds)
-            # Whole pixels and a half: a sharp line.
-            x = np.floor(x[(x >= exposed.left() - 1) & (x <= exposed.right() + 1)]) + 0.5
-            if len(x):
-                self._array.resize(len(x))
-                memory = self._array.ndarray()
-                memory[:, 0] = memory[:, 2] = x
-                memory[:, 1], memory[:, 3] = exposed.top(), exposed.bottom()
-                painter.setPen(QPen(shade, 1.0))
-                painter.drawLines(*self._array.drawargs())
-
-    def _shade(self, painter: QPainter, exposed: QRectF, start_s: float, end_s: float, colour: str) -> None:
-        axis = self.lane.axis
-        left, right = axis.x_px(start_s), axis.x_px(end_s)
-        shade = QColor(colour)
-        shade.setAlpha(34)
-        painter.fillRect(QRectF(left, exposed.top(), right - left, exposed.height()) & exposed, shade)
-
-
-class Plot(pg.GraphicsView):  # type: ignore[misc]
-    """The drawing area of a lane: pyqtgraph draws, the lane has the mouse."""
-
-    def __init__(self, lane: Lane) -> None:
-        super().__init__(lane, background=None)
-        self._lane = lane
-        self.setCacheMode(self.CacheModeFlag.CacheNone)
-        self.setMinimumSize(40, 0)
-        self.setMouseTracking(True)
-        self.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
-        self.setRenderHint(QPainter.RenderHint.Antialiasing, False)
-        self.view_box = pg.ViewBox(enableMouse=False, enableMenu=False, defaultPadding=0.0)
-        self.view_box.disableAutoRange()
-        self.setCentralItem(self.view_box)
-
-    # Qt overrides: nothing reaches pyqtgraph's scene, whose own hovering would cost more than the drawing.
-
-    def resizeEvent(self, event: QResizeEvent | None) -> None:
-        super().resizeEvent(event)
-        if event is not None:
-            self._lane._plot_resized()
-
-    def mousePressEvent(self, event: QMouseEvent) -> None:
-        self._lane._pressed(event)
-
-    def mouseMoveEvent(self, event: QMouseEvent) -> None:
-        self._lane._moved(event)
-
-    def mouseReleaseEvent(self, event: QMouseEvent) -> None:
-        self._lane._released(event)
-
-    def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
-        self._lane._double_clicked(event)
-
-    def wheelEvent(self, event: QWheelEvent) -> None:
-        self._lane._wheeled(event)
-
-    def contextMenuEvent(self, event: QContextMenuEvent) -> None:
-        event.accept()
-
-    def keyPressEvent(self, event: QKeyEvent) -> None:
-        self._lane._key_pressed(event)
-
-    def keyReleaseEvent(self, event: QKeyEvent) -> None:
-        event.ignore()
-
-    def leaveEvent(self, event: QEvent) -> None:
-        self._lane.hover(None)
 
 
 class Lane(QWidget):
@@ -299,7 +131,7 @@ class Lane(QWidget):
         self._autoscroll = QTimer(self)
         self._autoscroll.setInterval(AUTOSCROLL_MS)
         self._autoscroll.timeout.connect(self._scroll_past_the_edge)
-        self.background = _Background(self)
+        self.background = Background(self)
         axis.changed.connect(self._axis_changed)
         session.changed.connect(self._session_changed)
         session.performance_changed.connect(self.performance_changed)
@@ -476,7 +308,7 @@ class Lane(QWidget):
             screen=screen or self.plot.mapToGlobal(place.toPoint()),
         )
 
-    def _pressed(self, event: QMouseEvent) -> None:
+    def pressed(self, event: QMouseEvent) -> None:
         event.accept()
         if self._button != Qt.MouseButton.NoButton:
             return
@@ -495,7 +327,7 @@ class Lane(QWidget):
                 menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
                 menu.popup(mouse.screen)
 
-    def _moved(self, event: QMouseEvent) -> None:
+    def moved(self, event: QMouseEvent) -> None:
         event.accept()
         if self._button == Qt.MouseButton.LeftButton:
             self._last = event.clone()
@@ -513,7 +345,7 @@ class Lane(QWidget):
         elif self._button == Qt.MouseButton.NoButton and event.buttons() == Qt.MouseButton.NoButton:
             self.hover(self._mouse(event))
 
-    def _released(self, event: QMouseEvent) -> None:
+    def released(self, event: QMouseEvent) -> None:
         event.accept()
         if event.button() != self._button:
             return
@@ -531,12 +363,12 @@ class Lane(QWidget):
         self._last = None
         self._autoscroll.stop()
 
-    def _double_clicked(self, event: QMouseEvent) -> None:
+    def double_clicked(self, event: QMouseEvent) -> None:
         event.accept()
         if event.button() == Qt.MouseButton.LeftButton:
             self.double_click(self._mouse(event))
 
-    def _wheeled(self, event: QWheelEvent) -> None:
+    def wheeled(self, event: QWheelEvent) -> None:
         event.accept()
         # With Alt held, some platforms turn the wheel sideways.
         notches = (event.angleDelta().y() or event.angleDelta().x()) / 120.0
@@ -547,7 +379,7 @@ class Lane(QWidget):
         elif sideways or modifiers & Qt.KeyboardModifier.ShiftModifier or not self.wheel(self._mouse(event), notches):
             self.axis.pan(-notches * PAN_A_STEP * self.axis.span_s)
 
-    def _key_pressed(self, event: QKeyEvent) -> None:
+    def key_pressed(self, event: QKeyEvent) -> None:
         if event.key() == Qt.Key.Key_Escape and self.dragging:
             self._end_press()
             self.cancel()
@@ -572,7 +404,7 @@ class Lane(QWidget):
         self.axis_changed()
         self.update_items()
 
-    def _plot_resized(self) -> None:
+    def plot_resized(self) -> None:
         self.background.prepareGeometryChange()
         for item in self.view_box.childItems():
             if isinstance(item, LaneItem):

@@ -1,0 +1,177 @@
+"""The drawing area of a lane, what is drawn on it, and the mouse over it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pyqtgraph as pg
+from pyqtgraph.Qt.internals import PrimitiveArray
+from PySide6.QtCore import QEvent, QLineF, QPoint, QRectF, Qt
+from PySide6.QtGui import QColor, QContextMenuEvent, QKeyEvent, QMouseEvent, QPainter, QPen, QResizeEvent, QWheelEvent
+from PySide6.QtWidgets import QStyleOptionGraphicsItem, QWidget
+
+if TYPE_CHECKING:
+    from widgets.timeline.lane import Lane
+
+
+@dataclass(frozen=True)
+class LaneMouse:
+    """The mouse over a lane's plot.
+
+    Attributes
+    ----------
+    x_px, y_px : float
+        From the upper left corner of the plot.
+    time_s : float
+    value : float
+        On the lane's own vertical scale.
+    tick : float
+        Where ``time_s`` is in the score.
+    snapped_tick : int
+        The nearest line of the session's grid; the nearest tick while Alt is held.
+    modifiers : Qt.KeyboardModifier
+    button : Qt.MouseButton
+        What was pressed; `NoButton` while hovering.
+    screen : QPoint
+        For menus.
+    """
+
+    x_px: float
+    y_px: float
+    time_s: float
+    value: float
+    tick: float
+    snapped_tick: int
+    modifiers: Qt.KeyboardModifier
+    button: Qt.MouseButton
+    screen: QPoint
+
+    @property
+    def shift(self) -> bool:
+        return bool(self.modifiers & Qt.KeyboardModifier.ShiftModifier)
+
+    @property
+    def ctrl(self) -> bool:
+        return bool(self.modifiers & Qt.KeyboardModifier.ControlModifier)
+
+    @property
+    def alt(self) -> bool:
+        return bool(self.modifiers & Qt.KeyboardModifier.AltModifier)
+
+
+class LaneItem(pg.GraphicsObject):  # type: ignore[misc]
+    """Something drawn over the whole plot in pixels. Override `paint_px`, and draw only what meets ``exposed``."""
+
+    def __init__(self, lane: Lane, z: float = 0.0) -> None:
+        super().__init__()
+        self.lane = lane
+        self.setFlag(self.GraphicsItemFlag.ItemUsesExtendedStyleOption)
+        self.setParentItem(lane.view_box)
+        self.setZValue(z)
+
+    def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
+        """Draw; x and y in pixels of the plot, see ``lane.axis.x_px`` and ``lane.y_px``."""
+        raise NotImplementedError
+
+    # Qt overrides
+
+    def boundingRect(self) -> QRectF:
+        return self.lane.plot_rect
+
+    def paint(self, painter: QPainter, option: QStyleOptionGraphicsItem, widget: QWidget | None = None) -> None:
+        self.paint_px(painter, option.exposedRect)
+
+
+class Background(LaneItem):
+    """Lines of bars, beats and the grid; the loop and the selected span as shades."""
+
+    def __init__(self, lane: Lane) -> None:
+        super().__init__(lane, -100.0)
+        self._array = PrimitiveArray(QLineF, 4)
+
+    def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
+        lane = self.lane
+        tokens, axis, session = lane.session.tokens, lane.axis, lane.session
+        span = session.selection.span
+        if span is not None:
+            tempo = session.project.score.tempo_map
+            self._shade(painter, exposed, tempo.seconds(float(span[0])), tempo.seconds(float(span[1])), tokens.accent)
+        if session.loop_s is not None:
+            self._shade(painter, exposed, *session.loop_s, tokens.good)
+        lines = lane.lines()
+        for seconds, colour, alpha in (
+            (lines.step_s, tokens.line, 110),
+            (lines.beat_s, tokens.line, 255),
+            (lines.bar_s, tokens.line_strong, 255),
+        ):
+            shade = QColor(colour)
+            shade.setAlpha(alpha)
+            x = axis.x_px(seconds)
+            # Whole pixels and a half: a sharp line.
+            x = np.floor(x[(x >= exposed.left() - 1) & (x <= exposed.right() + 1)]) + 0.5
+            if len(x):
+                self._array.resize(len(x))
+                memory = self._array.ndarray()
+                memory[:, 0] = memory[:, 2] = x
+                memory[:, 1], memory[:, 3] = exposed.top(), exposed.bottom()
+                painter.setPen(QPen(shade, 1.0))
+                painter.drawLines(*self._array.drawargs())
+
+    def _shade(self, painter: QPainter, exposed: QRectF, start_s: float, end_s: float, colour: str) -> None:
+        axis = self.lane.axis
+        left, right = axis.x_px(start_s), axis.x_px(end_s)
+        shade = QColor(colour)
+        shade.setAlpha(34)
+        painter.fillRect(QRectF(left, exposed.top(), right - left, exposed.height()) & exposed, shade)
+
+
+class Plot(pg.GraphicsView):  # type: ignore[misc]
+    """The drawing area of a lane: pyqtgraph draws, the lane has the mouse."""
+
+    def __init__(self, lane: Lane) -> None:
+        super().__init__(lane, background=None)
+        self._lane = lane
+        self.setCacheMode(self.CacheModeFlag.CacheNone)
+        self.setMinimumSize(40, 0)
+        self.setMouseTracking(True)
+        self.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
+        self.setRenderHint(QPainter.RenderHint.Antialiasing, False)
+        self.view_box = pg.ViewBox(enableMouse=False, enableMenu=False, defaultPadding=0.0)
+        self.view_box.disableAutoRange()
+        self.setCentralItem(self.view_box)
+
+    # Qt overrides: nothing reaches pyqtgraph's scene, whose own hovering would cost more than the drawing.
+
+    def resizeEvent(self, event: QResizeEvent | None) -> None:
+        super().resizeEvent(event)
+        if event is not None:
+            self._lane.plot_resized()
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        self._lane.pressed(event)
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:
+        self._lane.moved(event)
+
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:
+        self._lane.released(event)
+
+    def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
+        self._lane.double_clicked(event)
+
+    def wheelEvent(self, event: QWheelEvent) -> None:
+        self._lane.wheeled(event)
+
+    def contextMenuEvent(self, event: QContextMenuEvent) -> None:
+        event.accept()
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        self._lane.key_pressed(event)
+
+    def keyReleaseEvent(self, event: QKeyEvent) -> None:
+        event.ignore()
+
+    def leaveEvent(self, event: QEvent) -> None:
+        self._lane.hover(None)
