@@ -72,7 +72,7 @@ def handles(stage: Stage, row: int) -> tuple[Handle, ...]:
     bell_m = held[:, :3] @ _bell(kit.instrument) + held[:, 3]
     rim_m = held[:, :3] @ np.asarray(kit.map.mouthpiece.position_m) + held[:, 3]
     head = stage.joints[row, kit.character.skeleton.index("head")]
-    brow_m = head[:, :3] @ np.array([0.0, 0.11, 0.11]) + head[:, 3]
+    crown_m = head[:, :3] @ np.array([0.0, 0.2, 0.02]) + head[:, 3]
     hips_m = stage.joint_m(row, "hips")
     chest = "upperChest" if "upperChest" in kit.character.skeleton.names else "spine"
     breast_m = stage.joint_m(row, chest) + 0.12 * ahead
@@ -80,7 +80,7 @@ def handles(stage: Stage, row: int) -> tuple[Handle, ...]:
         Handle("bell", bell_m, _turns(bell_m - rim_m, up_deg=-left, left_deg=up), (("roll_deg", ROLL_ARM_M * left),)),
         Handle(
             "head",
-            brow_m,
+            crown_m,
             (("up_deg", HEAD_ARM_M * up), ("left_deg", HEAD_ARM_M * left)),
             (("roll_deg", HEAD_ARM_M * left),),
         ),

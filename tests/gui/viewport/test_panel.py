@@ -546,3 +546,13 @@ def test_a_driver_that_fails_while_drawing_leaves_the_reason(
     qtbot.waitUntil(lambda: not viewport.has_gl, timeout=2000)
     assert viewport.render_image(32, 32, AT_S) is None
     viewport.refresh()
+
+
+def test_a_picture_needs_no_visible_window(qtbot: QtBot, session: Session, poses: MadeNow, shot: Shot) -> None:
+    panel = ViewportPanel(session, poses)
+    qtbot.addWidget(panel)
+    assert not panel.isVisible()
+    picture = panel.render_image(320, 180, AT_S, "ensemble")
+    assert picture is not None
+    assert differing(picture, shot("ensemble")) < 60
+    assert not panel.isVisible()
