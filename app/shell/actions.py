@@ -68,6 +68,21 @@ BEFORE_LINE: Final = frozenset(
 )
 """Rows that a line goes before; another line stands wherever the subject of the rows changes."""
 
+FILE_ORDER: Final = (
+    "file.new",
+    "file.open",
+    "file.open_example",
+    "file.save",
+    "file.save_as",
+    "file.import_midi",
+    "file.reimport",
+    "file.reimport_other",
+    "file.add_audio",
+    "file.close",
+    "file.quit",
+)
+"""How the rows of the first menu stand, whichever module they are from."""
+
 CONTEXTS: Final = {
     "window": QT_TRANSLATE_NOOP("Context", "everywhere"),
     "timeline": QT_TRANSLATE_NOOP("Context", "in the timeline"),
@@ -80,9 +95,10 @@ CONTEXTS: Final = {
 def rows() -> tuple[Action, ...]:
     """Every row of the table."""
     found: list[Action] = []
+    place = {action_id: number for number, action_id in enumerate(FILE_ORDER)}
     for subject in SUBJECTS:
         found += importlib.import_module(f"app.shell.commands.{subject}").ACTIONS
-    return tuple(found)
+    return tuple(sorted(found, key=lambda row: place.get(row.id, len(place))))
 
 
 def sequences(keys: str) -> list[QKeySequence]:

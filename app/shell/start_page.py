@@ -178,7 +178,8 @@ class StartPage(QScrollArea):
         button = _row_button("recent_file")
         metrics = QFontMetrics(button.font())
         folder = metrics.elidedText(str(path.parent), Qt.TextElideMode.ElideMiddle, 240)
-        button.setText(f"  {path.name}    {folder if there else self.tr('not found')}")
+        where = folder if there else self.tr("not found")
+        button.setText(f"  {path.name}    {where}".replace("&", "&&"))
         button.setIcon(icon("piece", tokens))
         button.setToolTip(str(path))
         button.setEnabled(there)
@@ -234,5 +235,5 @@ def _clear(layout: QVBoxLayout) -> None:
     while (item := layout.takeAt(0)) is not None:
         widget = item.widget()
         if widget is not None:
-            widget.hide()
+            widget.setParent(None)
             widget.deleteLater()

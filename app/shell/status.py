@@ -23,6 +23,7 @@ from PySide6.QtWidgets import (
 )
 
 from app.errors import Message
+from app.messages import TEMPLATES
 from app.shell.files import Files
 from app.shell.tasks import Task, ThreadTasks
 from widgets.common.icons import icon, pixmap
@@ -168,7 +169,7 @@ class StatusLine(QStatusBar):
 
     def _show_notice(self) -> None:
         message, severity = self._log[-1]
-        text = message_text(message)
+        text = sentence(message)
         room_px = max(self.width() // 2, 240)
         first = text.splitlines()[0] if text else ""
         self._notice.setText(
@@ -291,6 +292,12 @@ def problem_count(session: Session) -> int:
     return sum(len(performance.plan(player).problems) for player in performance.project.players)
 
 
+def sentence(message: Message) -> str:
+    """A message that stands alone begins with a capital, unless with a name."""
+    text = message_text(message)
+    return text if TEMPLATES[message.id].startswith("{") else text[:1].upper() + text[1:]
+
+
 def severity_colour(severity: Severity, tokens: Tokens) -> str:
     """The colour of a notice's mark."""
     return {
@@ -365,13 +372,13 @@ class _Details(QFrame):
                 widget.hide()
                 widget.deleteLater()
         newest = tuple(reversed(log))[:12]
-        self._text = "\n".join(message_text(message) for message, _ in newest)
+        self._text = "\n".join(sentence(message) for message, _ in newest)
         tokens = self._session.tokens
         for message, severity in newest:
             row = QWidget()
             line = QHBoxLayout(row)
             line.setContentsMargins(0, 0, 0, 0)
-            mark, text = QLabel(), QLabel(message_text(message))
+            mark, text = QLabel(), QLabel(sentence(message))
             mark.setPixmap(pixmap(severity.value, 16, severity_colour(severity, tokens), self.devicePixelRatioF()))
             text.setWordWrap(True)
             text.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)

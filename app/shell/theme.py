@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+import atexit
 import sys
+import tempfile
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
 
 import pyqtgraph
-from PySide6.QtCore import QSize
 from PySide6.QtGui import QColor, QFont, QFontDatabase, QPalette
 from PySide6.QtWidgets import QApplication, QStyleFactory
 
+from widgets.common.icons import source
 from widgets.common.tokens import LEAST_TARGET_PX, LEAST_TEXT_PT, Tokens
 
 FONT_SIZE_PT = 9.5
@@ -32,7 +37,7 @@ def apply_theme(application: QApplication, tokens: Tokens) -> None:
     if application.style().name().lower() != "fusion":
         application.setStyle(QStyleFactory.create("Fusion"))
     application.setPalette(palette(tokens))
-    application.setStyleSheet(style_sheet(tokens))
+    application.setStyleSheet(style_sheet(tokens, marks(tokens)))
     # What pyqtgraph draws from now on; panels that are there follow `theme_changed`.
     pyqtgraph.setConfigOptions(background=tokens.sunken, foreground=tokens.text_dim, antialias=False)
 
@@ -93,12 +98,38 @@ def palette(tokens: Tokens) -> QPalette:
     return result
 
 
-def small_icon() -> QSize:
-    """Size of icons in tool buttons and menus."""
-    return QSize(16, 16)
+@dataclass(frozen=True)
+class Marks:
+    """Drawings that a style sheet can only name as files."""
+
+    down: str
+    check: str
+    dot: str
 
 
-def style_sheet(t: Tokens) -> str:
+@cache
+def _folder() -> Path:
+    folder = tempfile.TemporaryDirectory(prefix="suisou-")
+    atexit.register(folder.cleanup)
+    return Path(folder.name)
+
+
+@cache
+def marks(tokens: Tokens) -> Marks:
+    """The drawings in a theme's colours."""
+    written = {}
+    for name, colour in (
+        ("chevron_down", tokens.text_dim),
+        ("check", tokens.accent_text),
+        ("by_hand", tokens.accent_text),
+    ):
+        path = _folder() / f"{name}_{tokens.name}.svg"
+        path.write_bytes(source(name, colour))
+        written[name] = path.as_posix()
+    return Marks(down=written["chevron_down"], check=written["check"], dot=written["by_hand"])
+
+
+def style_sheet(t: Tokens, marks: Marks) -> str:
     """Rules for what Fusion draws too loudly: flat, quiet, one accent."""
     hover = t.line
     return f"""
@@ -158,7 +189,8 @@ QComboBox {{ background: {t.raised}; color: {t.text}; border: 1px solid {t.line}
   padding: 2px 6px 2px 8px; min-height: {LEAST_TARGET_PX - 6}px; }}
 QComboBox:hover {{ border-color: {t.line_strong}; }}
 QComboBox:focus {{ border-color: {t.accent}; }}
-QComboBox::drop-down {{ border: none; width: 18px; }}
+QComboBox::drop-down {{ border: none; width: 20px; }}
+QComboBox::down-arrow {{ image: url("{marks.down}"); width: 14px; height: 14px; }}
 QComboBox QAbstractItemView {{ background: {t.raised}; border: 1px solid {t.line_strong};
   selection-background-color: {t.accent}; selection-color: {t.accent_text}; padding: 3px; }}
 QAbstractItemView {{ background: {t.sunken}; alternate-background-color: {t.surface}; border: 1px solid {t.line};
@@ -182,4 +214,15 @@ QSplitter::handle:hover {{ background: {t.accent}; }}
 QGroupBox {{ border: 1px solid {t.line}; border-radius: 5px; margin-top: 9px; padding-top: 7px; }}
 QGroupBox::title {{ subcontrol-origin: margin; left: 8px; padding: 0 4px; color: {t.text_dim}; }}
 QCheckBox, QRadioButton {{ min-height: {LEAST_TARGET_PX}px; spacing: 7px; }}
+QCheckBox::indicator, QRadioButton::indicator, QAbstractItemView::indicator {{ width: 14px; height: 14px;
+  background: {t.sunken}; border: 1px solid {t.line_strong}; border-radius: 3px; }}
+QRadioButton::indicator {{ border-radius: 8px; }}
+QCheckBox::indicator:hover, QRadioButton::indicator:hover {{ border-color: {t.text_dim}; }}
+QCheckBox::indicator:focus, QRadioButton::indicator:focus {{ border-color: {t.accent}; }}
+QCheckBox:focus, QRadioButton:focus {{ color: {t.accent}; }}
+QCheckBox::indicator:checked, QAbstractItemView::indicator:checked {{ background: {t.accent}; border-color: {t.accent};
+  image: url("{marks.check}"); }}
+QRadioButton::indicator:checked {{ background: {t.accent}; border-color: {t.accent}; image: url("{marks.dot}"); }}
+QCheckBox::indicator:disabled, QRadioButton::indicator:disabled {{ background: {t.surface}; border-color: {t.line}; }}
+QDialogButtonBox {{ dialogbuttonbox-buttons-have-icons: 0; }}
 """

@@ -73,7 +73,7 @@ def translations(path: Path) -> dict[tuple[str, str], str]:
         for message in context.iter("message"):
             element = message.find("translation")
             finished = element is not None and element.get("type") is None
-            text = "".join(element.itertext()).strip() if element is not None and finished else ""
+            text = "".join(element.itertext()) if element is not None and finished else ""
             found[name, message.findtext("source") or ""] = text
     return found
 

@@ -906,6 +906,10 @@
         <translation>開いたファイルがここに並びます。</translation>
     </message>
     <message>
+        <source>not found</source>
+        <translation>見つかりません</translation>
+    </message>
+    <message>
         <source>Remove from this list</source>
         <translation>この一覧から外す</translation>
     </message>

@@ -41,7 +41,7 @@ def icon(name: str, tokens: Tokens, colour: str | None = None) -> QIcon:
 
 def pixmap(name: str, size_px: int, colour: str, ratio: float = 1.0) -> QPixmap:
     """One drawing as a picture of ``size_px`` device-independent pixels."""
-    result = _draw(_source(name, colour), round(size_px * ratio), 1.0)
+    result = _draw(source(name, colour), round(size_px * ratio), 1.0)
     result.setDevicePixelRatio(ratio)
     return result
 
@@ -49,7 +49,7 @@ def pixmap(name: str, size_px: int, colour: str, ratio: float = 1.0) -> QPixmap:
 @lru_cache(maxsize=512)
 def _icon(name: str, colour: str, checked: str) -> QIcon:
     result = QIcon()
-    off, on = _source(name, colour), _source(name, checked)
+    off, on = source(name, colour), source(name, checked)
     for size_px in SIZES_PX:
         result.addPixmap(_draw(off, size_px, 1.0), QIcon.Mode.Normal, QIcon.State.Off)
         result.addPixmap(_draw(off, size_px, DISABLED_OPACITY), QIcon.Mode.Disabled, QIcon.State.Off)
@@ -63,7 +63,8 @@ def _text(name: str) -> str:
     return (files("resources") / "icons" / f"{name}.svg").read_text(encoding="utf-8")
 
 
-def _source(name: str, colour: str) -> bytes:
+def source(name: str, colour: str) -> bytes:
+    """A drawing as SVG in a colour."""
     return _text(name).replace("currentColor", colour).encode()
 
 

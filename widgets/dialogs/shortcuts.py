@@ -104,6 +104,9 @@ class ShortcutsPage(QWidget):
         self.take.setObjectName("shortcut_take")
         self.back.setObjectName("shortcut_back")
         self.all_back.setObjectName("shortcuts_all_back")
+        for button in (self.give, self.take, self.back, self.all_back):
+            # Enter in the list or the search is no answer.
+            button.setAutoDefault(False)
         self.give.clicked.connect(self._give)
         self.take.clicked.connect(self._take)
         self.back.clicked.connect(self._back)

@@ -23,7 +23,7 @@ def fields(text: str) -> set[tuple[str, str]]:
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
 def test_every_text_is_translated_with_its_arguments(path: Path) -> None:
     for (context, source), text in build.translations(path).items():
-        assert text, f"{context}: {source!r} is not translated"
+        assert text.strip(), f"{context}: {source!r} is not translated"
         assert fields(text) == fields(source), f"{context}: {source!r} -> {text!r}"
         assert ("&" in text) == ("&" in source), f"{context}: the mark of a key: {source!r} -> {text!r}"
 
