@@ -137,6 +137,9 @@ class Plot(pg.GraphicsView):  # type: ignore[misc]
         self.setMinimumSize(40, 0)
         self.setMouseTracking(True)
         self.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
+        # What is dropped here is for the window: a view of graphics would take it for its items.
+        self.setAcceptDrops(False)
+        self.viewport().setAcceptDrops(False)
         self.setRenderHint(QPainter.RenderHint.Antialiasing, False)
         self.view_box = pg.ViewBox(enableMouse=False, enableMenu=False, defaultPadding=0.0)
         self.view_box.disableAutoRange()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
 from app.plan.corrections import PinFingering, SetBreath
@@ -87,3 +88,15 @@ def test_keys_reach_the_lanes_in_the_window(
     qtbot.waitUntil(session.actions["events.give_back"].isEnabled)
     QTest.keyClick(plot, Qt.Key.Key_Backspace)
     assert not session.project.corrections
+
+
+def test_what_is_dropped_on_a_lane_reaches_the_window(
+    program: Program,  # noqa: F811
+    panel: TimelinePanel,
+) -> None:
+    assert program.window.acceptDrops()
+    for lane in panel.lanes.values():
+        widget: QWidget | None = lane.plot.viewport()
+        while widget is not None and not widget.acceptDrops():
+            widget = widget.parentWidget()
+        assert widget is program.window, lane.id
