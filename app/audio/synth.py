@@ -90,7 +90,8 @@ class Synthesiser:
         if self._bytes <= _MOST_CACHED_BYTES:
             return
         kept = {phrase.midi for phrase in used}
-        for midi in [midi for midi in self._sounds if midi not in kept]:
+        # A copy: another worker that is being stopped may still add a sound.
+        for midi in [midi for midi in list(self._sounds) if midi not in kept]:
             if self._bytes <= _MOST_CACHED_BYTES:
                 break
             self._bytes -= self._sounds.pop(midi).nbytes

@@ -5,53 +5,33 @@ While it plays, the playhead follows the sound.
 
 from __future__ import annotations
 
-import time
-from dataclasses import dataclass
 from pathlib import Path
 
 from PySide6.QtCore import QObject, Qt, QTimer
 
 from app.audio.click import click_track
 from app.audio.decode import Recording, decode
-from app.audio.mix import player_gains, player_phrases, recording_track
+from app.audio.mix import recording_track
 from app.audio.offset import Estimate, estimate_offset
 from app.audio.peaks import Peaks
 from app.audio.playback import Playback
-from app.audio.synth import Phrase, Synthesiser
 from app.audio.track import RATE_HZ, Mix, Track
-from app.errors import AppError, Cancelled, MapError, Message
+from app.errors import AppError, Message
 from app.plan.generate import frame_around
 from app.plan.model import TimeFrame
 from app.project.document import Change
 from app.project.edit.piece import set_offset
 from app.project.edit.tempo import scale_tempo
-from app.project.model import Player, Project
+from app.project.model import Project
+from app.shell.stems import Stems
 from widgets.common.session import Session, Severity
 from widgets.common.tasks import Progress, StopWanted
 
 _FRAME_MS = 16
-_SETTLE_MS = 120
-"""Rendering waits until a drag rests for so long."""
-_LOOK_MS = 250
-"""How often what was rendered meanwhile is added to what is heard."""
-_BREATHE_S = 0.003
-"""Between phrases the window has its turn: the synthesiser lets no other Python run."""
 SURE = 0.5
 """An offset that was estimated with less confidence is not taken by itself."""
 SAME_TEMPO = 0.002
 """Tempi that differ by less are the same: it is 6 ms in 3 s."""
-
-
-@dataclass(frozen=True, eq=False)
-class _Made:
-    """A player's phrases, and what they were made from."""
-
-    sources: tuple[object, ...]
-    phrases: tuple[Phrase, ...]
-
-    def of(self, sources: tuple[object, ...]) -> bool:
-        """Whether they are up to date: compared by identity, as values are."""
-        return all(one is other for one, other in zip(self.sources, sources, strict=True))
 
 
 class Sound(QObject):
@@ -71,20 +51,17 @@ class Sound(QObject):
         self._session = session
         self.playback = playback if playback is not None else Playback(parent=self)
         session.playback = self.playback
-        self._synthesiser = Synthesiser()
-        self._made: dict[str, _Made] = {}
+        self._stems = Stems(session.tasks, self)
         self._recording: Recording | None = None
         self._path = ""
         """Of the recording that was asked for last, whether it could be read or not."""
         self._estimated: set[str] = set()
-        self._tracks: dict[str, tuple[tuple[_Made, tuple[float, float]] | None, Track]] = {}
-        """By player, with what a whole one was made from; None where phrases are missing."""
         self._click: tuple[tuple[object, ...], Track] | None = None
         self._own_move = False
         self._told_silent = False
-        self._frame_timer = self._timer(_FRAME_MS, self._follow_sound, precise=True)
-        self._settle_timer = self._timer(_SETTLE_MS, self._render, once=True)
-        self._look_timer = self._timer(_LOOK_MS, self._look)
+        self._frame_timer = QTimer(self, interval=_FRAME_MS, timerType=Qt.TimerType.PreciseTimer)
+        self._frame_timer.timeout.connect(self._follow_sound)
+        self._stems.changed.connect(self._stems_changed)
         session.changed.connect(self._changed)
         session.playhead_changed.connect(self._playhead_moved)
         session.loop_changed.connect(lambda: self.playback.set_loop(session.loop_s))
@@ -102,7 +79,7 @@ class Sound(QObject):
     @property
     def is_busy(self) -> bool:
         """Whether something that is to be heard is not made yet."""
-        return self._settle_timer.isActive() or self._look_timer.isActive()
+        return self._stems.is_busy
 
     # The playhead
 
@@ -114,6 +91,9 @@ class Sound(QObject):
             self._own_move = False
 
     def _playhead_moved(self, playhead_s: float) -> None:
+        project = self._session.project
+        if self._synthesiser_heard(project) and not self._stems.covers(playhead_s):
+            self._stems.follow(project, playhead_s)
         if self._own_move:
             return
         if self._session.listening.scrub_sound:
@@ -140,7 +120,6 @@ class Sound(QObject):
     def _changed(self, change: Change) -> None:
         if change.opened:
             self.playback.stop()
-            self._made.clear()
             self._estimated.clear()
             if change.after.audio is not None:
                 # An offset that a project brings along is the person's.
@@ -161,8 +140,12 @@ class Sound(QObject):
         path = project.audio.path if project.audio is not None else ""
         if path != self._path:
             self._read(path)
-        if self._synthesiser_heard(project) and self._outdated(project):
-            self._settle_timer.start()
+        if self._synthesiser_heard(project):
+            self._stems.follow(project, self._session.playhead_s)
+        self._set_mix()
+
+    def _stems_changed(self) -> None:
+        self._session.listening.set(ready=self._stems.ready)
         self._set_mix()
 
     def _synthesiser_heard(self, project: Project) -> bool:
@@ -175,28 +158,10 @@ class Sound(QObject):
         if project.audio is not None and self._recording is not None and listening.source != "synthesiser":
             tracks.append(recording_track(self._recording, project.audio.offset_s))
         if self._synthesiser_heard(project):
-            tracks.extend(self._player_tracks(project))
+            tracks.extend(self._stems.tracks(project))
         if listening.click:
             tracks.append(self._clicks(project))
         self.playback.set_mix(Mix(tracks))
-
-    def _player_tracks(self, project: Project) -> list[Track]:
-        """The players who are heard, as far as they are rendered; a track is kept while nothing of it changes."""
-        tracks, kept = [], {}
-        for player_id, gains in player_gains(project).items():
-            made = self._made.get(player_id)
-            if made is None:
-                continue
-            key, track = self._tracks.get(player_id, (None, Track(())))
-            if key != (made, gains):
-                pieces = [self._synthesiser.ready(phrase) for phrase in made.phrases]
-                ready = [piece for piece in pieces if piece is not None]
-                track = Track(ready, *gains)
-                key = (made, gains) if len(ready) == len(pieces) else None
-            kept[player_id] = (key, track)
-            tracks.append(track)
-        self._tracks = kept
-        return tracks
 
     def _clicks(self, project: Project) -> Track:
         score, frame = project.score, span_of(project)
@@ -205,59 +170,6 @@ class Sound(QObject):
         if self._click is None or self._click[0] != key:
             self._click = (key, click_track(project, frame.first_frame_s, frame.end_s))
         return self._click[1]
-
-    # The synthesiser
-
-    def _sources(self, project: Project, player: Player) -> tuple[object, ...]:
-        return (project.part(player), project.score.tempo_map, player.instrument_id)
-
-    def _outdated(self, project: Project) -> bool:
-        return any(
-            (made := self._made.get(player.id)) is None or not made.of(self._sources(project, player))
-            for player in project.players
-        )
-
-    def _render(self) -> None:
-        """Make what is missing, what is heard next first."""
-        project, from_s = self._session.project, self._session.playhead_s
-        made, synthesiser = self._made, self._synthesiser
-
-        def work(progress: Progress, stop_wanted: StopWanted) -> None:
-            for player in project.players:
-                sources = self._sources(project, player)
-                if (old := made.get(player.id)) is None or not old.of(sources):
-                    try:
-                        made[player.id] = _Made(sources, player_phrases(project, player))
-                    except MapError:
-                        made[player.id] = _Made(sources, ())
-                if stop_wanted():
-                    raise Cancelled("work.stopped")
-            everything = [phrase for player in project.players for phrase in made[player.id].phrases]
-            synthesiser.forget(everything)
-            missing = [phrase for phrase in everything if synthesiser.ready(phrase) is None]
-            missing.sort(key=lambda phrase: (phrase.end < from_s * RATE_HZ, phrase.start))
-            for index, phrase in enumerate(missing):
-                if stop_wanted():
-                    raise Cancelled("work.stopped")
-                synthesiser.render(phrase)
-                progress((index + 1) / len(missing))
-                time.sleep(_BREATHE_S)
-
-        self._look_timer.start()
-        self._session.tasks.run(Message("work.synthesise"), work, lambda _: self._look(), key="synthesise")
-
-    def _look(self) -> None:
-        """Add what is ready to what is heard."""
-        project = self._session.project
-        phrases = [
-            phrase for player in project.players if (made := self._made.get(player.id)) for phrase in made.phrases
-        ]
-        ready = sum(self._synthesiser.ready(phrase) is not None for phrase in phrases)
-        done = ready == len(phrases) and not self._outdated(project)
-        if done or not self._synthesiser_heard(project):
-            self._look_timer.stop()
-        self._session.listening.set(ready=1.0 if done else ready / max(len(phrases), 1))
-        self._set_mix()
 
     # The recording
 
@@ -349,15 +261,6 @@ class Sound(QObject):
             id = "audio.tempo_fitted" if with_tempo else "audio.other_tempo"
         severity = Severity.INFORMATION if estimate.confidence >= SURE else Severity.WARNING
         session.notice(Message(id, dict(arguments)), severity)
-
-    def _timer(self, interval_ms: int, slot: object, once: bool = False, precise: bool = False) -> QTimer:
-        timer = QTimer(self)
-        timer.setInterval(interval_ms)
-        timer.setSingleShot(once)
-        if precise:
-            timer.setTimerType(Qt.TimerType.PreciseTimer)
-        timer.timeout.connect(slot)
-        return timer
 
 
 def span_of(project: Project) -> TimeFrame:

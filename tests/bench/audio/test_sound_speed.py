@@ -130,7 +130,7 @@ def test_an_edit_of_a_large_score(qtbot: QtBot) -> None:
         session.apply(Message("edit.mute"), replace(session.project, players=(first, *players[1:])))
 
     tell("an edit, told to the sound", took_s(edit, 20))
-    sound._settle_timer.stop()
+    sound.deleteLater()
 
 
 def test_the_picture_of_an_hour() -> None:

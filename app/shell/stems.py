@@ -1,0 +1,212 @@
+"""Every player's sound by the synthesiser, kept up to date in the background."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from math import inf
+
+from PySide6.QtCore import QObject, QTimer, Signal
+
+from app.audio.mix import player_gains, player_phrases
+from app.audio.synth import Phrase, Synthesiser
+from app.audio.track import RATE_HZ, Track
+from app.errors import Cancelled, MapError, Message
+from app.project.model import Player, Project
+from widgets.common.tasks import Progress, StopWanted, Tasks
+
+_SETTLE_MS = 120
+"""Rendering waits until a drag rests for so long."""
+_LOOK_MS = 250
+"""How often what was rendered meanwhile is added to what is heard."""
+_MOST_BYTES = 768 * 1024 * 1024
+"""Of sound that is wanted: four players for half an hour, fifty for two and a half minutes. Of what is longer, the part
+that is heard next is kept, and the window moves along."""
+_AHEAD_S = 20.0
+"""The next window is begun so long before the end of this one is heard."""
+_BREATHE_S = 0.003
+"""Between phrases the window has its turn: the synthesiser lets no other Python run."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Made:
+    """A player's phrases, and what they were made from."""
+
+    sources: tuple[object, ...]
+    phrases: tuple[Phrase, ...]
+
+    def is_of(self, sources: tuple[object, ...]) -> bool:
+        """Whether they are up to date: compared by identity, as values are."""
+        return all(one is other for one, other in zip(self.sources, sources, strict=True))
+
+
+@dataclass(eq=False)
+class _Job:
+    """Rendering under way; the worker writes, the window's thread reads."""
+
+    project: Project
+    made: dict[str, _Made] = field(default_factory=dict)
+    """Every player's phrases, once they are cut; the same object until then."""
+    wanted: tuple[Phrase, ...] = ()
+    window_s: tuple[float, float] = (-inf, inf)
+    """What is rendered when it has ended."""
+    is_cut: bool = False
+    has_ended: bool = False
+
+
+class Stems(QObject):
+    """The players' tracks.
+
+    Parameters
+    ----------
+    tasks : Tasks
+    parent : QObject
+
+    Signals
+    -------
+    changed()
+        More can be heard than before.
+    """
+
+    changed = Signal()
+
+    def __init__(self, tasks: Tasks, parent: QObject) -> None:
+        super().__init__(parent)
+        self._tasks = tasks
+        self._synthesiser = Synthesiser()
+        self._made: dict[str, _Made] = {}
+        self._job: _Job | None = None
+        self._wanted: tuple[Project, float] | None = None
+        self._tracks: dict[str, tuple[tuple[_Made, tuple[float, float]] | None, Track]] = {}
+        """By player, with what a whole one was made from; None where phrases are missing."""
+        self.ready = 1.0
+        """0..1: how much of the project that is followed is rendered."""
+        self._settle_timer = QTimer(self, interval=_SETTLE_MS, singleShot=True)
+        self._settle_timer.timeout.connect(self._render)
+        self._look_timer = QTimer(self, interval=_LOOK_MS)
+        self._look_timer.timeout.connect(self._look)
+
+    @property
+    def is_busy(self) -> bool:
+        """Whether something is to be rendered, or being rendered."""
+        return self._settle_timer.isActive() or self._look_timer.isActive()
+
+    def follow(self, project: Project, from_s: float) -> None:
+        """Render what a project needs and is not there yet.
+
+        Parameters
+        ----------
+        project : Project
+        from_s : float
+            What is heard from here on comes first.
+        """
+        self._wanted = (project, from_s)
+        job = self._job
+        if job is not None and job.project is project and (not job.has_ended or self.covers(from_s)):
+            return
+        if not self.covers(from_s) or any(
+            (made := self._made.get(player.id)) is None or not made.is_of(_sources(project, player))
+            for player in project.players
+        ):
+            self._settle_timer.start()
+
+    def covers(self, at_s: float) -> bool:
+        """Whether what is heard next at a moment is rendered, or being rendered."""
+        if self._job is None:
+            return True
+        start_s, end_s = self._job.window_s
+        return start_s <= at_s and (at_s + _AHEAD_S < end_s or end_s == inf)
+
+    def tracks(self, project: Project) -> list[Track]:
+        """The players who are heard, as far as they are rendered; a track is kept while nothing of it changes."""
+        tracks, kept = [], {}
+        for player_id, gains in player_gains(project).items():
+            made = self._made.get(player_id)
+            if made is None:
+                continue
+            key, track = self._tracks.get(player_id, (None, Track(())))
+            if key != (made, gains):
+                pieces = [self._synthesiser.ready(phrase) for phrase in made.phrases]
+                ready = [piece for piece in pieces if piece is not None]
+                track = Track(ready, *gains)
+                key = (made, gains) if len(ready) == len(pieces) else None
+            kept[player_id] = (key, track)
+            tracks.append(track)
+        self._tracks = kept
+        return tracks
+
+    def _render(self) -> None:
+        """Make what is missing, what is heard next first."""
+        if self._wanted is None:
+            return
+        project, from_s = self._wanted
+        synthesiser, before = self._synthesiser, self._made
+        job = self._job = _Job(project)
+
+        def work(progress: Progress, stop_wanted: StopWanted) -> None:
+            try:
+                made = {}
+                for player in project.players:
+                    made[player.id] = _made(project, player, before.get(player.id))
+                    if stop_wanted():
+                        raise Cancelled("work.stopped")
+                everything = [phrase for one in made.values() for phrase in one.phrases]
+                job.wanted, job.window_s = _next_heard(everything, from_s)
+                job.made, job.is_cut = made, True
+                synthesiser.forget(job.wanted)
+                missing = [phrase for phrase in job.wanted if synthesiser.ready(phrase) is None]
+                for index, phrase in enumerate(missing):
+                    if stop_wanted():
+                        raise Cancelled("work.stopped")
+                    synthesiser.render(phrase)
+                    progress((index + 1) / len(missing))
+                    time.sleep(_BREATHE_S)
+            finally:
+                job.has_ended = True
+
+        self._look_timer.start()
+        self._tasks.run(Message("work.synthesise"), work, lambda _: self._look(), key="synthesise")
+
+    def _look(self) -> None:
+        """Take what is there."""
+        job = self._job
+        if job is None:
+            return
+        # Asked before what is ready: what ends in between is seen the next time.
+        ended = job.has_ended
+        if job.is_cut:
+            self._made = job.made
+        ready = sum(self._synthesiser.ready(phrase) is not None for phrase in job.wanted)
+        self.ready = ready / len(job.wanted) if job.wanted else float(ended)
+        if ended:
+            self._look_timer.stop()
+        self.changed.emit()
+
+
+def _next_heard(phrases: Sequence[Phrase], from_s: float) -> tuple[tuple[Phrase, ...], tuple[float, float]]:
+    """As many phrases as there is room for, what is heard next first, and the seconds that they cover."""
+    ordered = sorted(phrases, key=lambda phrase: (phrase.end < from_s * RATE_HZ, phrase.start))
+    taken = 0
+    for index, phrase in enumerate(ordered):
+        # Samples of two bytes.
+        taken += 2 * (phrase.end - phrase.start)
+        if taken > _MOST_BYTES:
+            later = phrase.end >= from_s * RATE_HZ
+            return tuple(ordered[:index]), (from_s, phrase.start / RATE_HZ if later else inf)
+    return tuple(ordered), (-inf, inf)
+
+
+def _sources(project: Project, player: Player) -> tuple[object, ...]:
+    return (project.part(player), project.score.tempo_map, player.instrument_id)
+
+
+def _made(project: Project, player: Player, before: _Made | None) -> _Made:
+    sources = _sources(project, player)
+    if before is not None and before.is_of(sources):
+        return before
+    try:
+        return _Made(sources, player_phrases(project, player))
+    except MapError:
+        # Who has no instrument is told elsewhere, and is silent.
+        return _Made(sources, ())
