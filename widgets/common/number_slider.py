@@ -67,6 +67,8 @@ class NumberSlider(QWidget):
     decimals : int
     slides : bool
         Whether the range is short enough to be filled like a slider; else a drag moves by steps.
+    resets : bool
+        Whether there is a value to return to; without one a double click types.
     fills : (float, float), optional
         The part of the range that fills the control and that a drag reaches; the rest can be typed. None: all of it.
     parent : QWidget, optional
@@ -98,13 +100,14 @@ class NumberSlider(QWidget):
         decimals: int = 2,
         slides: bool = True,
         fills: tuple[float, float] | None = None,
+        resets: bool = True,
         parent: QWidget | None = None,
     ) -> None:
         super().__init__(parent)
         self._session = session
         self._minimum, self._maximum = minimum, maximum
         self._step, self._decimals, self._slides = step, decimals, slides
-        self._fills = fills
+        self._fills, self._resets = fills, resets
         self._default = default
         self._value = default
         self._mixed = False
@@ -149,7 +152,9 @@ class NumberSlider(QWidget):
     @property
     def by_hand(self) -> bool:
         """Whether the value is marked as a person's."""
-        return self._value != self._default or self._mixed if self._by_hand is None else self._by_hand
+        if self._by_hand is not None:
+            return self._by_hand
+        return self._resets and (self._value != self._default or self._mixed)
 
     def show_value(
         self, value: float, *, mixed: bool = False, default: float | None = None, by_hand: bool | None = None
@@ -215,8 +220,10 @@ class NumberSlider(QWidget):
         self._take(QGuiApplication.clipboard().text())
 
     def reset_value(self) -> None:
-        """Return to the default."""
-        if self.receivers(SIGNAL("reset(double)")) > 0:
+        """Return to the default; where there is none, type."""
+        if not self._resets:
+            self.type_value()
+        elif self.receivers(SIGNAL("reset(double)")) > 0:
             self.reset.emit(self._default)
         else:
             self._want(self._default, None)
@@ -302,9 +309,10 @@ class NumberSlider(QWidget):
             (self.tr("Type a value"), lambda: self.type_value()),
             (self.tr("Copy value"), self.copy),
             (self.tr("Paste value"), self.paste),
-            (self.tr("Reset"), self.reset_value),
         ):
             menu.addAction(text, slot)
+        if self._resets:
+            menu.addAction(self.tr("Reset"), self.reset_value)
         return menu
 
     # Drawing

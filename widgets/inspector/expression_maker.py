@@ -72,7 +72,8 @@ class ExpressionMaker(QWidget):
         self._playing.setObjectName("expression_while_playing")
         self._hint = QLabel()
         self._fades = {
-            name: NumberSlider(session, 0.01, 60, step=0.05, fills=(0.0, 3.0)) for name in ("fade_in_s", "fade_out_s")
+            name: NumberSlider(session, 0.01, 60, step=0.05, fills=(0.0, 3.0), resets=False)
+            for name in ("fade_in_s", "fade_out_s")
         }
         self._groups: dict[str, Section] = {}
         self._sliders: dict[str, NumberSlider] = {}

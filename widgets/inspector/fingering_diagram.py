@@ -29,13 +29,17 @@ class Slot:
     place: float
 
 
-def finger_text(mover: str) -> str:
-    """Which part of which hand moves a control, in the language of the editor: ``"right.index"``."""
-    hand, _, part = mover.partition(".")
+def hand_text(hand: str) -> str:
+    """``"left"`` or ``"right"`` as one sign."""
     hands = {
         "left": QCoreApplication.translate("Fingering", "L"),
         "right": QCoreApplication.translate("Fingering", "R"),
     }
+    return hands.get(hand, hand)
+
+
+def part_text(part: str) -> str:
+    """A finger, or the hand as a whole."""
     parts = {
         "thumb": QCoreApplication.translate("Fingering", "thumb"),
         "index": QCoreApplication.translate("Fingering", "index"),
@@ -44,9 +48,13 @@ def finger_text(mover: str) -> str:
         "little": QCoreApplication.translate("Fingering", "little"),
         "hand": QCoreApplication.translate("Fingering", "hand"),
     }
-    return QCoreApplication.translate("Fingering", "{hand} {part}").format(
-        hand=hands.get(hand, hand), part=parts.get(part, part)
-    )
+    return parts.get(part, part)
+
+
+def finger_text(mover: str) -> str:
+    """Which part of which hand moves a control, in the language of the editor: ``"right.index"``."""
+    hand, _, part = mover.partition(".")
+    return QCoreApplication.translate("Fingering", "{hand} {part}").format(hand=hand_text(hand), part=part_text(part))
 
 
 def slide_slots(instrument: InstrumentMap, control: Control) -> tuple[Slot, ...]:
@@ -140,6 +148,11 @@ class FingeringDiagram(QWidget):
             if (row := [control for control in keys if control.finger.startswith(hand)])
         ]
 
+    @property
+    def _by_hands(self) -> bool:
+        """Whether there is a row for each hand."""
+        return len(self._rows()) > 1
+
     def _key_row_px(self) -> float:
         return TOP_PX + self._line_px() + 8.0
 
@@ -164,10 +177,12 @@ class FingeringDiagram(QWidget):
         painter.setFont(self._small())
         painter.setPen(QColor(tokens.text if down else tokens.text_dim))
         under = QRectF(centre.x() - column_px / 2, centre.y() + radius + 3.0, column_px, self._line_px())
-        text = QFontMetricsF(self._small()).elidedText(
-            finger_text(control.finger), Qt.TextElideMode.ElideRight, column_px - 2
+        metrics, text = QFontMetricsF(self._small()), finger_text(control.finger)
+        if self._by_hands or metrics.horizontalAdvance(text) > column_px - 2:
+            text = part_text(control.finger.partition(".")[2])
+        painter.drawText(
+            under, Qt.AlignmentFlag.AlignCenter, metrics.elidedText(text, Qt.TextElideMode.ElideRight, column_px - 1)
         )
-        painter.drawText(under, Qt.AlignmentFlag.AlignCenter, text)
 
     def _paint_rail(self, painter: QPainter, tokens: Tokens, control: Control, top: float) -> None:
         left, right, value = 18.0, self.width() - 18.0, self._values[control.name]
@@ -252,9 +267,14 @@ class FingeringDiagram(QWidget):
         painter.setBrush(QColor(tokens.sunken))
         painter.drawRoundedRect(QRectF(self.rect()).adjusted(0.5, 0.5, -0.5, -0.5), 5, 5)
         top = 6.0
-        for _, row in self._rows():
-            column_px = min(COLUMN_PX * 1.3, (self.width() - 12.0) / len(row))
-            left = self.width() / 2.0 - column_px * len(row) / 2.0
+        gutter = 20.0 if self._by_hands else 0.0
+        for hand, row in self._rows():
+            column_px = min(COLUMN_PX * 1.3, (self.width() - 12.0 - gutter) / len(row))
+            left = gutter + (self.width() - gutter - column_px * len(row)) / 2.0
+            if gutter:
+                painter.setFont(self.font())
+                painter.setPen(QColor(tokens.text_dim))
+                painter.drawText(QRectF(6.0, top, gutter, TOP_PX), Qt.AlignmentFlag.AlignCenter, hand_text(hand))
             for number, control in enumerate(row):
                 centre = QPointF(left + (number + 0.5) * column_px, top + TOP_PX / 2.0)
                 self._paint_key(painter, tokens, control, centre, column_px)

@@ -41,10 +41,10 @@ class NoteSection(QWidget):
         self._shown: SelectedNotes | None = None
         self._section = Section(session, "inspector_note", self)
         self._numbers = {
-            "pitch": NumberSlider(session, 0, 127, decimals=0, step=1, slides=False),
-            "onset": NumberSlider(session, 0, LATEST_TICK, decimals=0, step=30, slides=False),
-            "length": NumberSlider(session, 0.001, 100_000, decimals=3, step=0.125, slides=False),
-            "velocity": NumberSlider(session, 1, 127, decimals=0, step=1),
+            "pitch": NumberSlider(session, 0, 127, decimals=0, step=1, slides=False, resets=False),
+            "onset": NumberSlider(session, 0, LATEST_TICK, decimals=0, step=30, slides=False, resets=False),
+            "length": NumberSlider(session, 0.001, 100_000, decimals=3, step=0.125, slides=False, resets=False),
+            "velocity": NumberSlider(session, 1, 127, decimals=0, step=1, resets=False),
         }
         self._lips = {name: NumberSlider(session, 0, 1, step=0.05) for name in EMBOUCHURE}
         self._diagram = FingeringDiagram(session)
@@ -109,9 +109,6 @@ class NoteSection(QWidget):
         self._numbers["onset"].set_wording(self._place_text, self._place_from)
         self._numbers["length"].changed.connect(self._set_length)
         self._numbers["velocity"].changed.connect(self._set_velocity)
-        for slider in self._numbers.values():
-            # A note has no value of its own to return to.
-            slider.reset.connect(lambda _: None)
         for name, slider in self._lips.items():
             slider.changed.connect(lambda value, token, name=name: self._set_lips(name, value, token))
             slider.reset.connect(lambda _, name=name: self._reset_lips(name))

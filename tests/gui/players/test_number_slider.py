@@ -219,6 +219,19 @@ def test_who_listens_to_reset_decides(slider: NumberSlider) -> None:
     assert told.values == []
 
 
+def test_without_a_default_a_double_click_types(session: Session, window: QWidget) -> None:
+    control = NumberSlider(session, 0, 127, decimals=0, resets=False, parent=window)
+    control.resize(120, 26)
+    control.show()
+    told = Told(control)
+    control.show_value(64)
+    assert not control.by_hand
+    QTest.mouseDClick(control, Qt.MouseButton.LeftButton, pos=QPoint(30, 10))
+    QTest.keyClicks(field(control), "70")
+    QTest.keyClick(field(control), Qt.Key.Key_Return)
+    assert told.values == [70.0]
+
+
 def test_copy_and_paste(slider: NumberSlider) -> None:
     slider.show_value(0.35)
     QTest.keyClick(slider, Qt.Key.Key_C, Qt.KeyboardModifier.ControlModifier)
