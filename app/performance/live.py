@@ -188,6 +188,8 @@ class _Track:
         Shown as long as there is nothing better.
     error : Message or None
         Why the player cannot be seen.
+    prepared : Playing or None
+        What ``playing`` will be, once the chunks are proven.
     """
 
     player: Player
@@ -198,6 +200,7 @@ class _Track:
     unproven: dict[int, _Chunk] = field(default_factory=dict)
     outdated: dict[int, _Chunk] = field(default_factory=dict)
     error: Message | None = None
+    prepared: Playing | None = None
 
     @property
     def bytes(self) -> int:
@@ -371,11 +374,12 @@ class LiveMotion:
     def _playing(self, shown: _Shown, track: _Track) -> Playing | None:
         if track.playing is not None or track.error is not None:
             return track.playing
-        try:
-            return playing_of(shown.performance, track.player, track.basis)
-        except AppError as error:
-            track.error = error.message
-            return None
+        if track.prepared is None:
+            try:
+                track.prepared = playing_of(shown.performance, track.player, track.basis)
+            except AppError as error:
+                track.error = error.message
+        return track.prepared
 
     def _prove(self, shown: _Shown, track: _Track) -> None:
         """Find out which chunks of the performance before are still right."""

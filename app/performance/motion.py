@@ -36,7 +36,7 @@ CHUNK = 16384
 
 _MODELS: IdentityCache[InstrumentModel] = IdentityCache(16)
 _HOLDS: IdentityCache[Hold] = IdentityCache(64)
-_PLAYING: IdentityCache[Playing] = IdentityCache(64)
+_PLAYING: IdentityCache[Playing] = IdentityCache(8)
 
 
 def character_of(player: Player) -> Character:
