@@ -136,6 +136,15 @@ class Settings:
         self._set("window/layout", value)
 
     @property
+    def timeline(self) -> str:
+        """The timeline's lanes: order, heights, folds."""
+        return self._get("window/timeline", "")
+
+    @timeline.setter
+    def timeline(self, value: str) -> None:
+        self._set("window/timeline", value)
+
+    @property
     def folder(self) -> str:
         """Where a file was last opened or saved."""
         return self._get("files/folder", "")

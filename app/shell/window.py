@@ -8,6 +8,7 @@ from typing import Final
 
 from PySide6.QtCore import QByteArray, QEvent, QPoint, QSize, Qt, QTimer
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QKeySequence
+from PySide6.QtOpenGLWidgets import QOpenGLWidget
 from PySide6.QtWidgets import QMainWindow, QPushButton, QStackedWidget, QToolBar, QVBoxLayout, QWidget
 
 from app.errors import Message
@@ -133,6 +134,9 @@ class Window(QMainWindow):
         self.session.theme_changed.connect(self._dress)
         self.status.problems_asked.connect(self._next_problem)
         generator.ready_changed.connect(self.status.set_ready)
+        picture = self.viewport.findChild(QOpenGLWidget)
+        if isinstance(picture, QOpenGLWidget):
+            picture.frameSwapped.connect(self.status.painted)
         self._arrange()
         self._default_layout = self.saveState(LAYOUT_VERSION)
         self._restore()
@@ -160,6 +164,8 @@ class Window(QMainWindow):
             available = self.screen().availableSize()
             self.resize(SIZE.boundedTo(available))
         self._layout = settings.layout if not settings.layout.isEmpty() else self._default_layout
+        if settings.timeline:
+            self.timeline.restore_state(settings.timeline)
 
     def remember(self) -> None:
         """Keep the layout for the next time."""
@@ -167,6 +173,7 @@ class Window(QMainWindow):
         if self._full is None:
             settings.geometry = self.saveGeometry()
             settings.layout = self.saveState(LAYOUT_VERSION) if self._files.is_open else self._layout
+            settings.timeline = self.timeline.save_state()
         settings.sync()
 
     def reset_layout(self) -> None:

@@ -252,7 +252,7 @@ class TimelinePanel(QWidget):
             self.stack.insertWidget(index, self.lanes[id])
             self.lanes[id].setVisible(id not in hidden)
             self.lanes[id].set_folded(id in folded)
-        if len(sizes) == self.stack.count():
+        if len(sizes) == self.stack.count() and any(sizes):
             self.stack.setSizes(sizes)
         self.set_ghosts(ghosts)
 
