@@ -1,0 +1,170 @@
+"""Unsaved work: written down by itself, offered after a crash, taken over or thrown away; faults are told."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QPushButton
+from pytestqt.qtbot import QtBot
+
+from app.errors import Message
+from app.project.autosave import DELAY_S, Autosave
+from app.project.edit.piece import set_title
+from app.project.presence import Presence
+from app.shell.app import Program
+from app.shell.faults import Faults
+from tests.gui.conftest import QUARTET
+from tests.gui.shell.conftest import Answers, Start, trigger
+from widgets.common.session import Severity
+
+
+def edit(program: Program, title: str) -> None:
+    program.session.attempt(Message("edit.set_tempo"), lambda project: set_title(project, title))
+
+
+def crash(program: Program) -> None:
+    """End like a process that was killed: no file is touched, and the system takes the lock away."""
+    autosave = program.editor.files.autosave
+    assert autosave is not None
+    autosave.presence._stream.close()
+    program.editor.files._timer.stop()
+    program.editor.files.autosave = None
+    program.window.hide()
+
+
+def later(program: Program, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Long enough after an edit that unsaved work is written down."""
+    import time
+
+    now = time.monotonic()
+    with monkeypatch.context() as patch:
+        patch.setattr("app.shell.files.time.monotonic", lambda: now + DELAY_S + 1.0)
+        program.editor.files.tick()
+
+
+def click(program: Program, name: str, qtbot: QtBot) -> None:
+    button = program.window.findChild(QPushButton, name)
+    assert button is not None
+    qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
+
+
+def test_a_piece_that_was_never_saved_is_offered_on_the_start_page(
+    start: Start, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
+) -> None:
+    first = start()
+    first.editor.files.open(QUARTET, ask=False)
+    edit(first, "Precious")
+    later(first, monkeypatch)
+    assert "autosaved" in first.window.status._saved.text()
+    crash(first)
+    second = start()
+    click(second, "recover", qtbot)
+    assert second.session.project.score.title == "Precious"
+    assert second.window.isWindowModified()
+    assert second.editor.files.path is None
+
+
+def test_unsaved_work_on_a_file_is_offered_when_it_is_opened(
+    start: Start, answers: Answers, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
+) -> None:
+    path = answers.path = tmp_path / "piece.suisou"
+    first = start()
+    first.editor.files.open(QUARTET, ask=False)
+    trigger(first, "file.save")
+    edit(first, "Precious")
+    later(first, monkeypatch)
+    crash(first)
+    second = start()
+    second.editor.files.open(path)
+    assert second.session.project.score.title != "Precious"
+    assert second.window.banner.isVisible()
+    click(second, "banner_answer_0", qtbot)
+    assert second.session.project.score.title == "Precious"
+    assert second.editor.files.path == path
+    assert second.window.isWindowModified()
+
+
+def test_work_that_is_thrown_away_is_not_offered_again(
+    start: Start, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
+) -> None:
+    first = start()
+    first.editor.files.open(QUARTET, ask=False)
+    edit(first, "Worthless")
+    later(first, monkeypatch)
+    crash(first)
+    second = start()
+    click(second, "discard", qtbot)
+    assert second.editor.files.recoverable() == ()
+    qtbot.waitUntil(lambda: second.window.findChild(QPushButton, "recover") is None)
+
+
+def test_an_orderly_end_leaves_nothing_to_recover(
+    start: Start, monkeypatch: pytest.MonkeyPatch, answers: Answers
+) -> None:
+    first = start()
+    first.editor.files.open(QUARTET, ask=False)
+    edit(first, "Given up")
+    later(first, monkeypatch)
+    answers.answer = "discard"
+    trigger(first, "file.close")
+    first.window.close()
+    assert start().editor.files.recoverable() == ()
+
+
+def test_a_fault_is_told_noted_down_and_the_work_written(
+    program: Program, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    log = tmp_path / "log" / "faults.log"
+    monkeypatch.setattr(sys, "excepthook", sys.excepthook)
+    faults = Faults(program.session, program.editor.files.write_now, log)
+    edit(program, "Precious")
+    try:
+        raise KeyError("a bug")
+    except KeyError as error:
+        faults.tell(error)
+    assert "KeyError: 'a bug'" in log.read_text(encoding="utf-8")
+    assert "KeyError" in program.window.status.notice_text
+    assert str(log) in program.window.status.notice_text
+    autosave = program.editor.files.autosave
+    assert autosave is not None
+    assert Path(autosave.presence.note.autosave).is_file()
+    capsys.readouterr()
+
+
+def test_a_fault_of_saving_does_not_hide_the_first(
+    program: Program, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def fail() -> None:
+        raise OSError("the disk is full")
+
+    faults = Faults(program.session, fail, tmp_path / "faults.log")
+    faults.tell(KeyError("first"))
+    text = (tmp_path / "faults.log").read_text(encoding="utf-8")
+    assert "first" in text
+    assert "the disk is full" in text
+    assert "first" in program.window.status.notice_text
+    capsys.readouterr()
+
+
+def test_notices_unfold_and_go(program: Program, qtbot: QtBot) -> None:
+    status = program.window.status
+    program.session.notice(Message("midi.empty", {"file": "/a/very/long/path.mid"}), Severity.ERROR)
+    assert status.notice_text == "/a/very/long/path.mid is empty"
+    click(program, "notice", qtbot)
+    details = status._details
+    qtbot.waitUntil(details.isVisible)
+    details.hide()
+    status.dismiss()
+    assert status.notice_text == ""
+
+
+def test_an_editor_whose_recovery_folder_cannot_be_used_still_opens(tmp_path: Path) -> None:
+    blocked = tmp_path / "file"
+    blocked.write_text("no folder")
+    from app.errors import AppError
+
+    with pytest.raises(AppError):
+        Autosave(Presence(blocked / "recovery"))

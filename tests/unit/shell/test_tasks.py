@@ -1,0 +1,126 @@
+"""Slow work in threads: results, errors, cancelling, keys."""
+
+from __future__ import annotations
+
+import threading
+
+import pytest
+from PySide6.QtCore import QThread
+from pytestqt.qtbot import QtBot
+
+from app.errors import AppError, Cancelled, Message
+from app.shell.tasks import ThreadTasks
+
+NAME = Message("work.open")
+
+
+@pytest.fixture
+def tasks(qtbot: QtBot) -> ThreadTasks:
+    return ThreadTasks()
+
+
+def test_work_is_done_elsewhere_and_told_here(tasks: ThreadTasks, qtbot: QtBot) -> None:
+    threads: list[object] = []
+    here = threading.get_ident()
+
+    def work(progress: object, stop_wanted: object) -> int:
+        threads.append(threading.get_ident())
+        return 7
+
+    def done(result: int) -> None:
+        threads.extend((threading.get_ident(), result))
+
+    tasks.run(NAME, work, done)
+    assert len(tasks.running) == 1
+    qtbot.waitUntil(lambda: not tasks.running)
+    assert threads[0] != here
+    assert threads[1:] == [here, 7]
+
+
+def test_progress_is_kept_within_its_bounds(tasks: ThreadTasks, qtbot: QtBot) -> None:
+    told, go_on = threading.Event(), threading.Event()
+
+    def work(progress, stop_wanted) -> None:  # type: ignore[no-untyped-def]
+        progress(0.5)
+        told.set()
+        go_on.wait(5)
+        progress(7.0)
+
+    tasks.run(NAME, work, lambda nothing: None)
+    assert told.wait(5)
+    task = tasks.running[0]
+    assert task.share == 0.5
+    go_on.set()
+    qtbot.waitUntil(lambda: not tasks.running)
+    assert task.share == 1.0
+
+
+def test_a_cancelled_work_is_asked_to_stop_and_its_result_dropped(tasks: ThreadTasks, qtbot: QtBot) -> None:
+    results: list[object] = []
+    ended = threading.Event()
+
+    def work(progress, stop_wanted) -> str:  # type: ignore[no-untyped-def]
+        while not stop_wanted():
+            QThread.msleep(1)
+        ended.set()
+        return "late"
+
+    tasks.run(NAME, work, results.append, results.append)
+    tasks.cancel(tasks.running[0])
+    assert tasks.running == ()
+    assert ended.wait(5)
+    qtbot.wait(30)
+    assert results == []
+
+
+def test_the_same_key_takes_the_place(tasks: ThreadTasks, qtbot: QtBot) -> None:
+    results: list[object] = []
+
+    def slow(progress, stop_wanted) -> str:  # type: ignore[no-untyped-def]
+        while not stop_wanted():
+            QThread.msleep(1)
+        return "slow"
+
+    tasks.run(NAME, slow, results.append, key="plan")
+    tasks.run(NAME, lambda progress, stop_wanted: "fast", results.append, key="plan")
+    qtbot.waitUntil(lambda: results == ["fast"])
+    qtbot.wait(30)
+    assert results == ["fast"]
+
+
+def test_errors_go_where_they_belong(tasks: ThreadTasks, qtbot: QtBot) -> None:
+    own: list[AppError] = []
+    told: list[AppError] = []
+    faults: list[BaseException] = []
+    tasks.failed.connect(told.append)
+    tasks.unexpected.connect(faults.append)
+
+    def raising(error: BaseException):  # type: ignore[no-untyped-def]
+        def work(progress: object, stop_wanted: object) -> None:
+            raise error
+
+        return work
+
+    def done(nothing: object) -> None:
+        pytest.fail("there is no result")
+
+    tasks.run(NAME, raising(AppError("midi.empty", file="a")), done, own.append)
+    tasks.run(NAME, raising(AppError("midi.empty", file="b")), done)
+    tasks.run(NAME, raising(Cancelled("work.stopped")), done, own.append)
+    tasks.run(NAME, raising(KeyError(5)), done, own.append)
+    qtbot.waitUntil(lambda: not tasks.running)
+    assert [error.message.arguments["file"] for error in own] == ["a"]
+    assert [error.message.arguments["file"] for error in told] == ["b"]
+    assert [type(error) for error in faults] == [KeyError]
+
+
+def test_ending_waits_for_the_workers(tasks: ThreadTasks, qtbot: QtBot) -> None:
+    def work(progress, stop_wanted) -> None:  # type: ignore[no-untyped-def]
+        while not stop_wanted():
+            QThread.msleep(1)
+
+    tasks.run(NAME, work, lambda nothing: None)
+    thread = tasks.running[0].thread
+    assert thread is not None
+    tasks.cancel_all(2.0)
+    assert not thread.is_alive()
