@@ -89,25 +89,22 @@ def _corrections(draw: st.DrawFn, project: Project, player: Player) -> Correctio
     expression = draw(st.sampled_from(plan.expressions)).id if plan.expressions else "expression:neutral"
     breath = draw(st.sampled_from(plan.breaths)).id if plan.breaths else "breath:1:1"
     label = draw(st.sampled_from(plan.fingerings)).label if plan.fingerings else "0"
-    return draw(
-        st.sampled_from(
-            [
-                PinFingering(note, label),
-                RemoveEvent(breath, note),
-                RemoveEvent(gesture),
-                SetBreath(note, -draw(st.integers(1, 480)), depth=0.5),
-                SetCue(note),
-                SetEmbouchure(note, effort=0.9),
-                ChangeGesture(gesture, amount=amount),
-                AddGesture("mine", "bell_height", tick, end, amount),
-                ChangeExpression(expression, strength=0.4),
-                AddExpression("mine", draw(st.sampled_from(["strained", "smile", "grin"])), tick, end),
-                PoseCorrection("mine", "bell", tick, end, up_deg=10.0 * amount, fade_in_ticks=240),
-                PoseCorrection("other", "left_elbow", tick, end, up_deg=40.0 * amount),
-                Vary("mine", tick, end, 5),
-            ]
-        )
-    )
+    choices: list[Correction] = [
+        PinFingering(note, label),
+        RemoveEvent(breath, note),
+        RemoveEvent(gesture),
+        SetBreath(note, -draw(st.integers(1, 480)), depth=0.5),
+        SetCue(note),
+        SetEmbouchure(note, effort=0.9),
+        ChangeGesture(gesture, amount=amount),
+        AddGesture("mine", "bell_height", tick, end, amount),
+        ChangeExpression(expression, strength=0.4),
+        AddExpression("mine", draw(st.sampled_from(["strained", "smile", "grin"])), tick, end),
+        PoseCorrection("mine", "bell", tick, end, up_deg=10.0 * amount, fade_in_ticks=240),
+        PoseCorrection("other", "left_elbow", tick, end, up_deg=40.0 * amount),
+        Vary("mine", tick, end, 5),
+    ]
+    return draw(st.sampled_from(choices))
 
 
 @st.composite
