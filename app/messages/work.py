@@ -12,6 +12,7 @@ TEMPLATES: Final[dict[str, str]] = {
     "work.load_figures": "loading the players' figures",
     "work.compare": "what the generator would do for {player}",
     "work.reimport": "reading the MIDI file again",
+    "work.portraits": "drawing the characters' portraits",
     "work.export": "writing the files",
     "work.playblast": "making the film",
     "work.synthesise": "making the sound",

@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from PySide6.QtCore import QEvent, Qt, Signal
+import shiboken6
+from PySide6.QtCore import QEvent, QSize, Qt, QTimer, Signal
+from PySide6.QtGui import QIcon, QImage, QPixmap, QShowEvent
 from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QToolButton, QVBoxLayout, QWidget
 
 from app.errors import Message
@@ -20,8 +22,12 @@ from widgets.common.number_slider import NumberSlider
 from widgets.common.section import Section
 from widgets.common.session import Session
 from widgets.common.swatch import ColourSwatch
+from widgets.common.tasks import Progress, StopWanted
+from widgets.players.portrait import portrait_of
 
 LABEL_PX = 88
+PORTRAIT_PX = 28
+PORTRAITS_AFTER_MS = 3000
 _LEADER = {"auto": None, "yes": True, "no": False}
 
 
@@ -75,6 +81,8 @@ class ParameterSections(QWidget):
         outer.setSpacing(0)
         for section in self._sections.values():
             outer.addWidget(section)
+        self._portraits: dict[str, QIcon] = {}
+        self._asked = False
         self._make_player_rows()
         for row in _SLIDERS:
             self._make_slider(row)
@@ -98,6 +106,7 @@ class ParameterSections(QWidget):
             "leader": self._leader,
             "colour": self._colour,
         }
+        self._character.setIconSize(QSize(PORTRAIT_PX, PORTRAIT_PX))
         grid = QGridLayout()
         grid.setSpacing(4)
         grid.setColumnStretch(1, 1)
@@ -200,6 +209,37 @@ class ParameterSections(QWidget):
             lambda project: edit.reset_parameters(project, chosen, (parameter,)),
         )
 
+    # Portraits
+
+    def _show_characters(self) -> None:
+        options = [Option(id, character_name(id), self._portraits.get(id)) for id in characters()]
+        self._character.set_options(options)
+
+    def _draw_portraits(self) -> None:
+        """Beside the window: every body is looked at closely once."""
+        size_px = round(PORTRAIT_PX * self.devicePixelRatioF())
+
+        def work(progress: Progress, stop_wanted: StopWanted) -> dict[str, QImage]:
+            drawn = {}
+            for number, id in enumerate(characters()):
+                if stop_wanted():
+                    break
+                drawn[id] = portrait_of(id, size_px)
+                progress((number + 1) / len(characters()))
+            return drawn
+
+        self._session.tasks.run(Message("work.portraits"), work, self._take_portraits, key="portraits")
+
+    def _take_portraits(self, drawn: dict[str, QImage]) -> None:
+        if not shiboken6.isValid(self):
+            return
+        for id, image in drawn.items():
+            image = QImage(image)
+            image.setDevicePixelRatio(self.devicePixelRatioF())
+            self._portraits[id] = QIcon(QPixmap.fromImage(image))
+        self._show_characters()
+        self.show_players()
+
     # Words
 
     def retranslate(self) -> None:
@@ -218,7 +258,7 @@ class ParameterSections(QWidget):
         for name, text in texts.items():
             self._labels[name].setText(text)
         self._instrument.set_options([Option(map.id, instrument_name(map)) for map in bundled_maps().values()])
-        self._character.set_options([Option(id, character_name(id)) for id in characters()])
+        self._show_characters()
         self._posture.set_options([Option("standing", self.tr("Standing")), Option("seated", self.tr("Seated"))])
         self._leader.set_options(
             [
@@ -264,6 +304,12 @@ class ParameterSections(QWidget):
             self._sliders[name].set_texts(label, unit, tip)
 
     # Qt's own names
+
+    def showEvent(self, event: QShowEvent) -> None:
+        if not self._asked:
+            self._asked = True
+            # The players themselves come first.
+            QTimer.singleShot(PORTRAITS_AFTER_MS, self, self._draw_portraits)
 
     def changeEvent(self, event: QEvent) -> None:
         if event.type() == QEvent.Type.LanguageChange:

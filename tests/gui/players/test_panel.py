@@ -330,6 +330,18 @@ def test_snapping_arrows_and_numbers(panel: PlayersPanel, session: Session) -> N
     assert session.project.players[0].stage.x_m == 2.5
 
 
+def test_characters_have_portraits(panel: PlayersPanel, qtbot: QtBot) -> None:
+    combo = child(panel, QComboBox, "player_character")
+    assert isinstance(combo, QComboBox)
+    qtbot.waitUntil(lambda: not combo.itemIcon(0).isNull(), timeout=10000)
+    heads = [combo.itemIcon(number).pixmap(28, 28).toImage() for number in range(combo.count())]
+    for head in heads:
+        # Skin or hair in the middle, nothing in the upper corners.
+        assert head.pixelColor(head.width() // 2, head.height() // 2).alpha() == 255
+        assert head.pixelColor(0, 0).alpha() == 0
+    assert heads[0] != heads[1]
+
+
 def test_many_players_are_few_widgets(session: Session, qtbot: QtBot) -> None:
     project = session.project
     while len(project.players) < 50:
