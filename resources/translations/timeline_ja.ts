@@ -152,7 +152,7 @@
     <name>PianoRoll</name>
     <message>
         <source>Nobody plays yet: open a MIDI file, or add a player.</source>
-        <translation>奏者がまだいません。MIDI ファイルを開くか、奏者を追加してください。</translation>
+        <translation>プレイヤーがまだいません。MIDI ファイルを開くか、プレイヤーを追加してください。</translation>
     </message>
     <message>
         <source>No notes yet: take the pencil and draw, double-click, or paste.</source>
@@ -180,7 +180,7 @@
     </message>
     <message>
         <source>Notes of the player in front; the others behind</source>
-        <translation>手前の奏者の音符（ほかの奏者は背面に表示）</translation>
+        <translation>手前のプレイヤーの音符（ほかのプレイヤーは背面に表示）</translation>
     </message>
 </context>
 <context>
@@ -191,7 +191,7 @@
     </message>
     <message>
         <source>What the player in front cannot do as it stands; F8 goes to the next</source>
-        <translation>手前の奏者がこのままではできないこと。F8 で次へ進みます</translation>
+        <translation>手前のプレイヤーがこのままではできないこと。F8 で次へ進みます</translation>
     </message>
 </context>
 <context>
@@ -354,23 +354,23 @@
     </message>
     <message>
         <source>Others as Ghosts</source>
-        <translation>ほかの奏者を薄く表示</translation>
+        <translation>ほかのプレイヤーを薄く表示</translation>
     </message>
     <message>
         <source>All Players</source>
-        <translation>全奏者</translation>
+        <translation>全プレイヤー</translation>
     </message>
     <message>
         <source>Only This Player</source>
-        <translation>この奏者のみ</translation>
+        <translation>このプレイヤーのみ</translation>
     </message>
     <message>
         <source>How the other players&apos; notes are seen</source>
-        <translation>ほかの奏者の音符の見せ方</translation>
+        <translation>ほかのプレイヤーの音符の見せ方</translation>
     </message>
     <message>
         <source>The player in front</source>
-        <translation>手前の奏者</translation>
+        <translation>手前のプレイヤー</translation>
     </message>
     <message>
         <source>Selected notes: {count}</source>

@@ -7,12 +7,9 @@ import json
 from PySide6.QtCore import QEvent, QPoint, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QHideEvent, QPainter, QPaintEvent, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import (
-    QFrame,
     QHBoxLayout,
     QMenu,
-    QScrollArea,
     QScrollBar,
-    QSplitter,
     QToolButton,
     QVBoxLayout,
     QWidget,
@@ -29,6 +26,7 @@ from widgets.timeline.lanes import LANES
 from widgets.timeline.quantise import QuantisePopover
 from widgets.timeline.roll import PianoRoll
 from widgets.timeline.ruler import Ruler
+from widgets.timeline.stack import LaneStack
 from widgets.timeline.tool_bar import ToolBar
 
 ZOOM_A_CLICK = 1.5
@@ -89,31 +87,21 @@ class TimelinePanel(QWidget):
 
         self.tool_bar = ToolBar(session, self.roll, self)
         self.ruler = Ruler(session, self.axis, self)
-        self.stack = QSplitter(Qt.Orientation.Vertical)
-        self.stack.setObjectName("lanes")
-        self.stack.setChildrenCollapsible(False)
-        self.stack.setHandleWidth(4)
-        for index, lane in enumerate(self.lanes.values()):
-            self.stack.addWidget(lane)
-            self.stack.setStretchFactor(index, 1 if lane is self.roll else 0)
+        self.stack = LaneStack(session, tuple(self.lanes.values()), self.roll, self)
+        for lane in self.lanes.values():
             lane.sought.connect(self.sought)
             lane.fold_changed.connect(self._place_playhead)
             lane.header.setContextMenuPolicy(Qt.ContextMenuPolicy.CustomContextMenu)
             lane.header.customContextMenuRequested.connect(self._header_menu)
             if lane.folded_at_first:
                 lane.set_folded(True)
-        self.viewport = QScrollArea(self)
-        self.viewport.setFrameShape(QFrame.Shape.NoFrame)
-        self.viewport.setWidgetResizable(True)
-        self.viewport.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        self.viewport.setWidget(self.stack)
 
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(0)
         column.addWidget(self.tool_bar)
         column.addWidget(self.ruler)
-        column.addWidget(self.viewport, 1)
+        column.addWidget(self.stack, 1)
         column.addLayout(self._make_foot())
         self.playhead = Playhead(session, self)
         self.quantise = QuantisePopover(session, self)
@@ -227,13 +215,13 @@ class TimelinePanel(QWidget):
 
     def save_state(self) -> str:
         """Order, visibility, folds and heights of the lanes, as text."""
-        order = [lane.id for lane in self._ordered()]
+        order = [lane.id for lane in self.stack.lanes]
         return json.dumps(
             {
                 "order": order,
                 "hidden": [id for id in order if self.lanes[id].isHidden()],
                 "folded": [id for id in order if self.lanes[id].folded],
-                "sizes": self.stack.sizes(),
+                "heights": self.stack.heights_px,
                 "ghosts": self.ghosts.value,
             }
         )
@@ -244,27 +232,22 @@ class TimelinePanel(QWidget):
             saved = json.loads(state)
             order = [id for id in saved["order"] if id in self.lanes]
             hidden, folded = set(saved["hidden"]), set(saved["folded"])
-            sizes = [int(size) for size in saved["sizes"]]
+            heights = {str(id): int(height) for id, height in saved["heights"].items()}
             ghosts = Ghosts(saved["ghosts"])
-        except (ValueError, KeyError, TypeError):
+        except (ValueError, KeyError, TypeError, AttributeError):
             return
-        for index, id in enumerate(order):
-            self.stack.insertWidget(index, self.lanes[id])
+        self.stack.set_order(order)
+        for id in order:
             self.lanes[id].setVisible(id not in hidden)
             self.lanes[id].set_folded(id in folded)
-        if len(sizes) == self.stack.count() and any(sizes):
-            self.stack.setSizes(sizes)
+        self.stack.set_heights(heights)
         self.set_ghosts(ghosts)
 
     # Lanes
 
-    def _ordered(self) -> list[Lane]:
-        widgets = [self.stack.widget(index) for index in range(self.stack.count())]
-        return [widget for widget in widgets if isinstance(widget, Lane)]
-
     def _fill_lanes_menu(self) -> None:
         self._lanes_menu.clear()
-        for lane in self._ordered():
+        for lane in self.stack.lanes:
             action = self._lanes_menu.addAction(lane.title.text())
             action.setCheckable(True)
             action.setChecked(not lane.isHidden())
@@ -282,15 +265,15 @@ class TimelinePanel(QWidget):
         assert isinstance(header, QWidget)
         lane = header.parentWidget()
         assert isinstance(lane, Lane)
-        at, last = self.stack.indexOf(lane), self.stack.count() - 1
+        at, last = self.stack.lanes.index(lane), len(self.stack.lanes) - 1
         menu = QMenu(self)
         menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         up = menu.addAction(self.tr("Move Up"))
         up.setEnabled(at > 0)
-        up.triggered.connect(lambda: self.stack.insertWidget(at - 1, lane))
+        up.triggered.connect(lambda: self.stack.shift(lane, -1))
         down = menu.addAction(self.tr("Move Down"))
         down.setEnabled(at < last)
-        down.triggered.connect(lambda: self.stack.insertWidget(at + 1, lane))
+        down.triggered.connect(lambda: self.stack.shift(lane, 1))
         menu.addSeparator()
         fold = menu.addAction(self.tr("Unfold") if lane.folded else self.tr("Fold"))
         fold.triggered.connect(lambda: lane.set_folded(not lane.folded))
@@ -344,7 +327,7 @@ class TimelinePanel(QWidget):
         inside = 0 <= x <= self.axis.width_px
         self.playhead.setVisible(inside)
         if inside:
-            top, height = self.viewport.y(), self.viewport.height()
+            top, height = self.stack.y(), self.stack.height()
             self.playhead.setGeometry(int(GUTTER_PX + x), top, 1, height)
             self.playhead.raise_()
 

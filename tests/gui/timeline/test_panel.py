@@ -8,7 +8,7 @@ import msgspec
 import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QMenu
+from PySide6.QtWidgets import QApplication, QMenu, QWidget
 from pytestqt.qtbot import QtBot
 
 from app.project.model import Project
@@ -55,12 +55,29 @@ def test_a_lane_folds_and_unfolds_by_its_button(stage: Stage) -> None:
     assert not lane.folded
 
 
+def test_a_lane_is_made_taller_by_its_lower_edge(stage: Stage) -> None:
+    lane = stage.roll
+    height = lane.height()
+    handle = stage.panel.findChild(QWidget, "handle_roll")
+    assert handle is not None
+    hand = Hand(handle)
+    hand.press((50.0, 2.0))
+    hand.move((50.0, 92.0))
+    assert lane.height() == height + 90
+    hand.release((50.0, 2.0))
+    stage.panel.resize(1200, 300)
+    QApplication.processEvents()
+    assert lane.height() == height + 90
+    hand.double_click((50.0, 2.0))
+    assert lane.height() < height
+
+
 def test_lanes_are_moved_and_hidden_from_their_header(stage: Stage) -> None:
     panel = stage.panel
-    at = panel.stack.indexOf(stage.roll)
+    at = panel.stack.lanes.index(stage.roll)
     stage.roll.header.customContextMenuRequested.emit(QPoint(5, 5))
     choose(menu_of(panel), "Move Down")
-    assert panel.stack.indexOf(stage.roll) == at + 1
+    assert panel.stack.lanes.index(stage.roll) == at + 1
     stage.roll.header.customContextMenuRequested.emit(QPoint(5, 5))
     choose(menu_of(panel), "Hide")
     assert stage.roll.isHidden()

@@ -417,11 +417,13 @@ def test_layout_is_remembered(stage: Stage) -> None:
     panel = stage.panel
     first, second = list(panel.lanes.values())[:2]
     second.set_folded(True)
-    panel.stack.insertWidget(0, second)
+    panel.stack.shift(second, -1)
+    panel.stack.set_height(panel.roll, 300)
     panel.set_ghosts(Ghosts.ALONE)
     state = panel.save_state()
     second.set_folded(False)
-    panel.stack.insertWidget(0, first)
+    panel.stack.shift(first, -1)
+    panel.stack.set_height(panel.roll, None)
     panel.set_ghosts(Ghosts.ALL)
     panel.restore_state(state)
     assert panel.save_state() == state

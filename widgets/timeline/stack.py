@@ -1,0 +1,167 @@
+"""Lanes one under another, each as tall as a person wants it; what does not fit is scrolled to."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from PySide6.QtCore import QEvent, QObject, QSize, Qt
+from PySide6.QtGui import QColor, QMouseEvent, QPainter, QPaintEvent, QResizeEvent
+from PySide6.QtWidgets import QFrame, QScrollArea, QVBoxLayout, QWidget
+
+from widgets.common.session import Session
+from widgets.timeline.lane import FOLDED_PX, Lane
+
+HANDLE_PX = 5
+MOST_PX = 2000
+
+
+class Handle(QWidget):
+    """The line below a lane: dragged it makes the lane taller or lower, a double click lets the lane choose again."""
+
+    def __init__(self, stack: LaneStack, lane: Lane) -> None:
+        super().__init__()
+        self.setObjectName("handle_" + lane.id)
+        self.setFixedHeight(HANDLE_PX)
+        self.setCursor(Qt.CursorShape.SizeVerCursor)
+        self._stack = stack
+        self._lane = lane
+        self._grip: tuple[float, int] | None = None
+
+    # Qt overrides
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        tokens = self._stack.session.tokens
+        QPainter(self).fillRect(event.rect(), QColor(tokens.accent if self._grip is not None else tokens.line))
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        if event.button() == Qt.MouseButton.LeftButton and not self._lane.folded:
+            self._grip = (event.globalPosition().y(), self._lane.height())
+            self.update()
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:
+        if self._grip is not None:
+            self._stack.set_height(self._lane, round(self._grip[1] + event.globalPosition().y() - self._grip[0]))
+
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:
+        self._grip = None
+        self.update()
+
+    def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
+        self._stack.set_height(self._lane, None)
+
+
+class LaneStack(QScrollArea):
+    """Lanes from top to bottom.
+
+    A lane whose height nobody set is between its least and its preferred height, as there is room; what is left over
+    is the elastic lane's.
+
+    Parameters
+    ----------
+    session : Session
+    lanes : sequence of Lane
+    elastic : Lane
+        One of them.
+    """
+
+    def __init__(self, session: Session, lanes: Sequence[Lane], elastic: Lane, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setObjectName("lanes")
+        self.session = session
+        self.setFrameShape(QFrame.Shape.NoFrame)
+        self.setWidgetResizable(True)
+        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self._elastic = elastic
+        self._order = list(lanes)
+        self._set_px: dict[str, int] = {}
+        inner = QWidget()
+        self._column = QVBoxLayout(inner)
+        self._column.setContentsMargins(0, 0, 0, 0)
+        self._column.setSpacing(0)
+        self._handles = {lane.id: Handle(self, lane) for lane in lanes}
+        for lane in lanes:
+            lane.installEventFilter(self)
+            lane.fold_changed.connect(self.arrange)
+        self._column.addStretch(1)
+        self.setWidget(inner)
+        self._fill()
+
+    @property
+    def lanes(self) -> tuple[Lane, ...]:
+        """All lanes from the top, hidden ones too."""
+        return tuple(self._order)
+
+    @property
+    def heights_px(self) -> dict[str, int]:
+        """The heights that a person set, by lane id."""
+        return dict(self._set_px)
+
+    def set_order(self, lane_ids: Sequence[str]) -> None:
+        """Put lanes in this order; those that are not named follow."""
+        places = {lane_id: index for index, lane_id in enumerate(lane_ids)}
+        self._order.sort(key=lambda lane: places.get(lane.id, len(places)))
+        self._fill()
+
+    def shift(self, lane: Lane, by: int) -> None:
+        """Move a lane up (-1) or down (1)."""
+        at = self._order.index(lane)
+        to = min(max(at + by, 0), len(self._order) - 1)
+        self._order.insert(to, self._order.pop(at))
+        self._fill()
+
+    def set_height(self, lane: Lane, height_px: int | None) -> None:
+        """Make a lane so tall; None: as it likes."""
+        if height_px is None:
+            self._set_px.pop(lane.id, None)
+        else:
+            self._set_px[lane.id] = min(max(height_px, lane.least_height_px), MOST_PX)
+        self.arrange()
+
+    def set_heights(self, heights_px: Mapping[str, int]) -> None:
+        """Make lanes as tall as `heights_px` said; the others are as they like."""
+        known = {lane.id: lane for lane in self._order}
+        self._set_px = {
+            lane_id: min(max(int(height), known[lane_id].least_height_px), MOST_PX)
+            for lane_id, height in heights_px.items()
+            if lane_id in known
+        }
+        self.arrange()
+
+    def arrange(self) -> None:
+        """Give every lane its height."""
+        shown = [lane for lane in self._order if not lane.isHidden()]
+        for lane in self._order:
+            self._handles[lane.id].setVisible(lane in shown)
+        free = [lane for lane in shown if not lane.folded and lane.id not in self._set_px]
+        heights = {lane.id: FOLDED_PX if lane.folded else self._set_px.get(lane.id, 0) for lane in shown}
+        heights |= {lane.id: lane.least_height_px for lane in free}
+        room = self.viewport().height() - sum(heights.values()) - HANDLE_PX * len(shown)
+        wanted = sum(lane.preferred_height_px - lane.least_height_px for lane in free)
+        share = min(max(room, 0) / wanted, 1.0) if wanted else 0.0
+        for lane in free:
+            heights[lane.id] += int(share * (lane.preferred_height_px - lane.least_height_px))
+        left_over = self.viewport().height() - sum(heights.values()) - HANDLE_PX * len(shown)
+        if left_over > 0 and self._elastic in free:
+            heights[self._elastic.id] += left_over
+        for lane in shown:
+            lane.setFixedHeight(heights[lane.id])
+
+    def _fill(self) -> None:
+        for index, lane in enumerate(self._order):
+            self._column.insertWidget(2 * index, lane)
+            self._column.insertWidget(2 * index + 1, self._handles[lane.id])
+        self.arrange()
+
+    # Qt overrides
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        if event.type() in (QEvent.Type.ShowToParent, QEvent.Type.HideToParent) and hasattr(self, "_handles"):
+            self.arrange()
+        return super().eventFilter(watched, event)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        self.arrange()
+
+    def minimumSizeHint(self) -> QSize:
+        return QSize(300, 60)
