@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import Final
 
 from app.errors import AppError, Message
-from app.messages import audio, edit, files, formats, notes, plan, project, request, score, tables, work
+from app.messages import audio, edit, files, formats, notes, picture, plan, project, request, score, tables, work
 
 TEMPLATES: Final[dict[str, str]] = {
     **audio.TEMPLATES,
@@ -16,6 +16,7 @@ TEMPLATES: Final[dict[str, str]] = {
     **files.TEMPLATES,
     **formats.TEMPLATES,
     **notes.TEMPLATES,
+    **picture.TEMPLATES,
     **plan.TEMPLATES,
     **project.TEMPLATES,
     **request.TEMPLATES,

@@ -540,6 +540,14 @@
             <translation>貼り付け先のプレイヤーがいません。先に追加してください。</translation>
         </message>
         <message>
+            <source>the players cannot be drawn here, because there is no usable OpenGL 2 ({reason})</source>
+            <translation>OpenGL 2 が使えないため、ここではプレイヤーを描画できません（{reason}）</translation>
+        </message>
+        <message>
+            <source>the players are still being loaded; try again in a moment</source>
+            <translation>プレイヤーを読み込み中です。少し待ってからもう一度お試しください</translation>
+        </message>
+        <message>
             <source>{label}: the first choice</source>
             <translation>{label}: 第一候補</translation>
         </message>
@@ -1070,6 +1078,10 @@
         <message>
             <source>reading the MIDI file again</source>
             <translation>MIDI ファイルを読み直しています</translation>
+        </message>
+        <message>
+            <source>drawing the characters' portraits</source>
+            <translation type="unfinished" />
         </message>
         <message>
             <source>writing the files</source>

@@ -191,7 +191,15 @@ class PlayblastDialog(QDialog):
         self._timer.setInterval(0)
         time_s = span.first_frame_s + self._drawn * span.fps.denominator / span.fps.numerator
         width, height = self._size.currentData()
-        self._pictures.put(self._render(width, height, time_s, self._view.currentData()))
+        try:
+            picture = self._render(width, height, time_s, self._view.currentData())
+        except AppError as error:
+            # The encoder stops and takes back what it has written.
+            self._stop = True
+            self._timer.stop()
+            self._failed(error)
+            return
+        self._pictures.put(picture)
         self._drawn += 1
         self._progress.setValue(round(1000 * self._drawn / span.count))
 

@@ -11,6 +11,7 @@ from PySide6.QtCore import QEvent, QObject, QPoint, QPointF, QRectF, QSize, Qt, 
 from PySide6.QtGui import QColor, QImage, QPainter
 from PySide6.QtWidgets import QLabel, QMenu, QStackedWidget, QVBoxLayout, QWidget
 
+from app.errors import AppError
 from app.project.document import Change
 from widgets.common.session import Session
 from widgets.common.viewport_state import SHOWN, VIEWS, View
@@ -183,9 +184,7 @@ class ViewportPanel(QWidget):
         self._follow()
         self._update()
 
-    def render_image(
-        self, width: int, height: int, time_s: float, view: View | None = None
-    ) -> npt.NDArray[np.uint8] | None:
+    def render_image(self, width: int, height: int, time_s: float, view: View | None = None) -> npt.NDArray[np.uint8]:
         """A picture of a moment, with the names and marks that are shown.
 
         Parameters
@@ -199,20 +198,28 @@ class ViewportPanel(QWidget):
 
         Returns
         -------
-        (height, width, 4) uint8 or None
-            None without GL, or while the figures are not loaded.
+        (height, width, 4) uint8
+
+        Raises
+        ------
+        AppError
+            ``picture.no_gl`` (reason), ``picture.loading``.
         """
         canvas, stage = self._canvas, self.scene.stage
-        if canvas is None or stage is None:
-            return None
+        if canvas is None:
+            raise AppError("picture.no_gl", reason=self._failure or "")
+        if stage is None:
+            raise AppError("picture.loading")
         shown = self.scene.poses()
         self.scene.pose_now(time_s)
         try:
             camera, of = self._camera_for(view, width / height)
             self._elsewhere = (camera, of)
             picture = canvas.render_image(width, height)
+            if picture is None:
+                raise AppError("picture.no_gl", reason=self._failure or "QOpenGLContext")
             marks = self.scene.marks(camera)
-            if picture is None or not marks:
+            if not marks:
                 return picture
             image = QImage(picture.data, width, height, 4 * width, QImage.Format.Format_RGBA8888)
             painter = QPainter(image)

@@ -73,8 +73,6 @@ def shot(viewport: ViewportPanel) -> Callable[..., Picture]:
     """A small picture of a view at a time."""
 
     def take(view: str | None = None, time_s: float = AT_S) -> Picture:
-        picture = viewport.render_image(320, 180, time_s, view)  # type: ignore[arg-type]
-        assert picture is not None
-        return picture
+        return viewport.render_image(320, 180, time_s, view)  # type: ignore[arg-type]
 
     return take
