@@ -72,11 +72,14 @@ def _player(performance: Performance, player: Player) -> Table:
     instrument = performance.instrument(player)
     part = performance.project.part(player)
     fingerings = {event.note_id: event for event in plan.fingerings}
-    return {
+    table = {
         "name": player.name,
         "instrument": player.instrument_id,
         "part": part.name,
-        "notes": [_note(note, fingerings[note.id], instrument, clock) for note in part.notes],
+        # Of notes struck together only one is played; the others are among what to look at.
+        "notes": [
+            _note(note, fingerings[note.id], instrument, clock) for note in part.notes if note.id in fingerings
+        ],
         "breaths": [
             {"kind": event.kind, **span, "reason": text(event.reason)}
             for event, span in zip(plan.breaths, _spans(plan.breaths, clock), strict=True)
@@ -89,7 +92,10 @@ def _player(performance: Performance, player: Player) -> Table:
             {"kind": event.kind, **span, "amount": event.amount, "reason": text(event.reason)}
             for event, span in zip(plan.gestures, _spans(plan.gestures, clock), strict=True)
         ],
-        "poses": [
+    }
+    if plan.poses:
+        # Only where the animator held something differently: nothing else has any.
+        table["poses"] = [
             {
                 "target": event.target,
                 **span,
@@ -101,8 +107,8 @@ def _player(performance: Performance, player: Player) -> Table:
                 "reason": text(event.reason),
             }
             for event, span in zip(plan.poses, _spans(plan.poses, clock), strict=True)
-        ],
-    }
+        ]
+    return table
 
 
 def _note(note: Note, fingering: FingeringEvent, instrument: InstrumentMap, clock: Clock) -> Table:
