@@ -34,7 +34,8 @@ with _quietly():
 _FEED_MS: Final = 10
 _GRAIN_S: Final = 0.09
 """What is heard of a moment when the playhead is moved by hand."""
-_GRAINS_REST_MS: Final = 700
+_GRAINS_REST_MS: Final = 3000
+"""The device is kept open so long after a grain: opening one takes a while."""
 _LEAST_S: Final = 1e-3
 _HOPELESS_S: Final = 1.0
 
@@ -188,7 +189,10 @@ class Playback(QObject):
         if self._sink is not None:
             return
         if self._grains is None:
-            self._grains = self._open()
+            self._grains = self._devices.open()
+            if self._grains is None:
+                return
+            self._grains.set_volume(self._gain)
         self._rest_timer.start()
         count = round(_GRAIN_S * RATE_HZ)
         # One grain at a time: what waits in the device would be heard after the hand has gone on.

@@ -115,9 +115,8 @@ class Program(QObject):
         self.session.theme_changed.connect(self._dress)
         self._dress()
         self.generator = Generator(self.session, self.tasks)
-        if heard:
-            # A child of the session: it stays.
-            Sound(self.session)
+        # A child of the session: it stays.
+        Sound(self.session, heard=heard)
         self.editor.table = ActionTable(self.session, settings, rows())
         self.language.changed.connect(self.editor.table.retranslate)
         self.window = Window(self.editor, self.generator)

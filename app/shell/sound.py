@@ -43,19 +43,26 @@ class Sound(QObject):
         Gets the playback, and becomes the parent.
     playback : Playback, optional
         One on the system's device, if None.
+    heard : bool
+        Whether the performance can be played; else the recording is read to be seen, and nothing more.
     """
 
-    def __init__(self, session: Session, playback: Playback | None = None) -> None:
+    def __init__(self, session: Session, playback: Playback | None = None, heard: bool = True) -> None:
         super().__init__(session)
         self.setObjectName("sound")
         self._session = session
         self.playback = playback if playback is not None else Playback(parent=self)
-        session.playback = self.playback
+        self._heard = heard
+        if heard:
+            session.playback = self.playback
         self._stems = Stems(session.tasks, self)
         self._recording: Recording | None = None
         self._path = ""
         """Of the recording that was asked for last, whether it could be read or not."""
         self._estimated: set[str] = set()
+        """Paths of recordings whose place was looked for."""
+        self._unplaced = ""
+        """Path of a recording that was just added: its place is to be looked for."""
         self._click: tuple[tuple[object, ...], Track] | None = None
         self._own_move = False
         self._told_silent = False
@@ -94,7 +101,7 @@ class Sound(QObject):
         project = self._session.project
         if self._synthesiser_heard(project) and not self._stems.covers(playhead_s):
             self._stems.follow(project, playhead_s)
-        if self._own_move:
+        if self._own_move or not self._heard:
             return
         if self._session.listening.scrub_sound:
             self.playback.scrub(playhead_s)
@@ -121,9 +128,12 @@ class Sound(QObject):
         if change.opened:
             self.playback.stop()
             self._estimated.clear()
-            if change.after.audio is not None:
-                # An offset that a project brings along is the person's.
-                self._estimated.add(change.after.audio.path)
+            self._unplaced = ""
+        elif change.before.audio is None and change.after.audio is not None:
+            audio = change.after.audio
+            # An offset that is there already, or was there before an undo, is the person's.
+            fresh = audio.offset_s == 0.0 and audio.confidence is None and audio.path not in self._estimated
+            self._unplaced = audio.path if fresh else ""
         self._take(change.after)
 
     def _listening_changed(self) -> None:
@@ -149,7 +159,7 @@ class Sound(QObject):
         self._set_mix()
 
     def _synthesiser_heard(self, project: Project) -> bool:
-        return project.audio is None or self._session.listening.source != "recording"
+        return self._heard and (project.audio is None or self._session.listening.source != "recording")
 
     def _set_mix(self) -> None:
         session = self._session
@@ -193,7 +203,7 @@ class Sound(QObject):
                 self._session.notice(warning, Severity.WARNING)
             self._session.listening.set_waveform(waveform)
             self._set_mix()
-            if path not in self._estimated and self._session.project.score.end_tick:
+            if self._heard and path == self._unplaced and self._session.project.score.end_tick:
                 self.estimate(unasked=True)
 
         def failed(error: AppError) -> None:
@@ -222,6 +232,7 @@ class Sound(QObject):
         if recording is None or project.audio is None:
             return
         self._estimated.add(recording.path)
+        self._unplaced = ""
 
         def work(progress: Progress, stop_wanted: StopWanted) -> Estimate:
             return estimate_offset(recording.samples, RATE_HZ, project.score, progress, stop_wanted)

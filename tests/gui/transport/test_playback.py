@@ -133,6 +133,15 @@ def test_scrubbing_lets_a_grain_be_heard(playback: Playback, devices: FakeDevice
     assert devices.sinks[0].stopped
 
 
+def test_scrubbing_without_a_device_says_nothing(playback: Playback, devices: FakeDevices) -> None:
+    devices.there = False
+    told: list[bool] = []
+    playback.silent_changed.connect(told.append)
+    playback.scrub(3.0)
+    assert playback.position_s() == 3.0
+    assert not told
+
+
 def test_without_a_device_it_plays_silently_in_time(playback: Playback, devices: FakeDevices, elapse: Elapse) -> None:
     told: list[bool] = []
     playback.silent_changed.connect(told.append)

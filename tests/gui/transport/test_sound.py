@@ -11,6 +11,7 @@ import soundfile
 from pytestqt.qtbot import QtBot
 
 from app.audio.mix import mixdown
+from app.audio.playback import Playback
 from app.audio.track import RATE_HZ
 from app.errors import Message
 from app.project.edit.piece import set_audio, set_offset
@@ -280,11 +281,38 @@ def test_a_project_brings_its_own_offset(sound: Sound, session: Session, qtbot: 
     assert session.project is project
 
 
+def test_a_recording_that_was_moved_keeps_its_offset(
+    sound: Sound, session: Session, qtbot: QtBot, tmp_path: Path
+) -> None:
+    soundfile.write(tmp_path / "here.wav", mixdown(session.project, -2.0, 10.0), RATE_HZ)
+    session.document.open(set_offset(set_audio(session.project, tmp_path / "there.wav"), 1.5))
+    add(session, tmp_path / "here.wav", qtbot)
+    assert session.project.audio is not None
+    assert session.project.audio.offset_s == 1.5
+    session.attempt(NAME, lambda project: set_audio(project, None))
+    session.document.undo()
+    qtbot.waitUntil(lambda: session.listening.waveform is not None, timeout=20_000)
+    assert session.project.audio.offset_s == 1.5
+    assert len(session.document.done) == 1
+
+
 def test_opening_stops_the_sound(ready: Sound, session: Session, elapse: Elapse) -> None:
     ready.playback.play(0.0)
     elapse(0.2)
     session.document.open(piece(melody((0, 480, 60))))
     assert not session.playing
+
+
+def test_for_a_picture_the_recording_is_only_seen(
+    session: Session, playback: Playback, qtbot: QtBot, tmp_path: Path, tasks: ImmediateTasks
+) -> None:
+    sound = Sound(session, playback, heard=False)
+    assert session.playback is None
+    soundfile.write(tmp_path / "r.wav", mixdown(session.project, -2.0, 5.0), RATE_HZ)
+    add(session, tmp_path / "r.wav", qtbot)
+    session.set_playhead(1.0)
+    assert [name.id for name in tasks.names] == ["work.read_recording"]
+    assert not sound.is_busy
 
 
 def test_an_empty_piece_is_silent(sound: Sound, session: Session, qtbot: QtBot) -> None:
