@@ -177,4 +177,59 @@
         <translation>胴</translation>
     </message>
 </context>
+<context>
+    <name>Word</name>
+    <message>
+        <source>left</source>
+        <translation>左</translation>
+    </message>
+    <message>
+        <source>right</source>
+        <translation>右</translation>
+    </message>
+    <message>
+        <source>the highest part</source>
+        <translation>最も高いパート</translation>
+    </message>
+    <message>
+        <source>chosen as leader</source>
+        <translation>リーダーに指定</translation>
+    </message>
+    <message>
+        <source>fingering</source>
+        <translation>運指</translation>
+    </message>
+    <message>
+        <source>removal</source>
+        <translation>削除</translation>
+    </message>
+    <message>
+        <source>breath</source>
+        <translation>ブレス</translation>
+    </message>
+    <message>
+        <source>cue</source>
+        <translation>合図</translation>
+    </message>
+    <message>
+        <source>embouchure</source>
+        <translation>アンブシュア</translation>
+    </message>
+    <message>
+        <source>gesture</source>
+        <translation>ジェスチャー</translation>
+    </message>
+    <message>
+        <source>expression</source>
+        <translation>表情</translation>
+    </message>
+    <message>
+        <source>pose</source>
+        <translation>ポーズ</translation>
+    </message>
+    <message>
+        <source>variation</source>
+        <translation>変化</translation>
+    </message>
+</context>
 </TS>

@@ -198,7 +198,7 @@
     </message>
     <message>
         <source>Nobody plays: tick a track, or import an empty stage</source>
-        <translation>演奏者がいません。トラックを選ぶか、空のステージとして読み込みます</translation>
+        <translation>演奏するプレイヤーがいません。トラックを選ぶか、空のステージとして読み込みます</translation>
     </message>
     <message>
         <source>{name} is not played: {reason}</source>

@@ -5,7 +5,7 @@
         <name>Message</name>
         <message>
             <source>{file} is no sound that can be read ({detail}); choose a WAV, FLAC, OGG or MP3 file, or convert it to one</source>
-            <translation>{file} は読み込める音声ではありません({detail})。WAV、FLAC、OGG、MP3 のいずれかを選ぶか、変換してください</translation>
+            <translation>{file} は読み込める音声ではありません（{detail}）。WAV、FLAC、OGG、MP3 のいずれかを選ぶか、変換してください</translation>
         </message>
         <message>
             <source>{file} has {channels} channels at {rate_hz} Hz, which is no recording; export it as stereo at 48000 Hz</source>
@@ -33,19 +33,19 @@
         </message>
         <message>
             <source>the piece was not recognised in the recording (confidence {percent} %): nothing was changed; drag the waveform or type the offset</source>
-            <translation>録音の中に曲が見つかりませんでした(確信度 {percent} %)。何も変更していません。波形をドラッグするか、オフセットを入力してください</translation>
+            <translation>録音の中に曲が見つかりませんでした（確信度 {percent} %）。何も変更していません。波形をドラッグするか、オフセットを入力してください</translation>
         </message>
         <message>
             <source>the recording begins at {offset_s:.3f} s (confidence {percent} %)</source>
-            <translation>録音の開始位置は {offset_s:.3f} 秒です(確信度 {percent} %)</translation>
+            <translation>録音の開始位置は {offset_s:.3f} 秒です（確信度 {percent} %）</translation>
         </message>
         <message>
             <source>the recording begins at {offset_s:.3f} s (confidence {percent} %); its tempo differs by {tempo_percent:+.1f} %: Play &gt; Recording &gt; Fit the Tempo to the Recording</source>
-            <translation>録音の開始位置は {offset_s:.3f} 秒です(確信度 {percent} %)。テンポが {tempo_percent:+.1f} % 違います:「再生 &gt; 録音 &gt; テンポを録音に合わせる」</translation>
+            <translation>録音の開始位置は {offset_s:.3f} 秒です（確信度 {percent} %）。テンポが {tempo_percent:+.1f} % 違います:「再生 &gt; 録音 &gt; テンポを録音に合わせる」</translation>
         </message>
         <message>
             <source>the recording begins at {offset_s:.3f} s (confidence {percent} %); the score is played {tempo_percent:+.1f} % faster</source>
-            <translation>録音の開始位置は {offset_s:.3f} 秒です(確信度 {percent} %)。楽譜を {tempo_percent:+.1f} % 速く演奏します</translation>
+            <translation>録音の開始位置は {offset_s:.3f} 秒です（確信度 {percent} %）。楽譜を {tempo_percent:+.1f} % 速く演奏します</translation>
         </message>
         <message>
             <source>estimated offset of the recording</source>
@@ -385,7 +385,7 @@
         </message>
         <message>
             <source>{file} ends in the middle of a record (byte {offset})</source>
-            <translation>{file} がレコードの途中で終わっています(バイト {offset})</translation>
+            <translation>{file} がレコードの途中で終わっています（バイト {offset}）</translation>
         </message>
         <message>
             <source>{file}: the record at byte {offset} does not fit into its surroundings</source>
@@ -425,7 +425,7 @@
         </message>
         <message>
             <source>{file}: the motion does not fit the skeleton ({detail})</source>
-            <translation>{file}: モーションがスケルトンに合いません({detail})</translation>
+            <translation>{file}: モーションがスケルトンに合いません（{detail}）</translation>
         </message>
         <message>
             <source>{file}, line {line}: {what} is not supported</source>
@@ -565,7 +565,7 @@
         </message>
         <message>
             <source>note {note} (MIDI {pitch}) lies outside the range {low}-{high} of this instrument; shown with the fingering of {played_pitch}</source>
-            <translation>音符 {note}(MIDI {pitch})はこの楽器の音域 {low}～{high} の外です。{played_pitch} の運指で表示します</translation>
+            <translation>音符 {note}（MIDI {pitch}）はこの楽器の音域 {low}～{high} の外です。{played_pitch} の運指で表示します</translation>
         </message>
         <message>
             <source>the way to {label} takes {needed_ms} ms, but only {available_ms} ms are free before note {note}; it starts earlier</source>
@@ -585,19 +585,19 @@
         </message>
         <message>
             <source>a rest of {rest_beats:g} beats (from {min_beats:g} to below {last_beat_beats:g}): the breath takes all of it</source>
-            <translation>{rest_beats:g} 拍の休符({min_beats:g} 以上 {last_beat_beats:g} 未満): 休符全体でブレスします</translation>
+            <translation>{rest_beats:g} 拍の休符（{min_beats:g} 以上 {last_beat_beats:g} 未満）: 休符全体でブレスします</translation>
         </message>
         <message>
             <source>a rest of {rest_beats:g} beats (from {last_beat_beats:g} to below {prepare_beats:g}): the breath takes its last beat</source>
-            <translation>{rest_beats:g} 拍の休符({last_beat_beats:g} 以上 {prepare_beats:g} 未満): 最後の拍でブレスします</translation>
+            <translation>{rest_beats:g} 拍の休符（{last_beat_beats:g} 以上 {prepare_beats:g} 未満）: 最後の拍でブレスします</translation>
         </message>
         <message>
             <source>a rest of {rest_beats:g} beats (from {prepare_beats:g}): prepared, then the last beat</source>
-            <translation>{rest_beats:g} 拍の休符({prepare_beats:g} 以上): 準備してから最後の拍でブレスします</translation>
+            <translation>{rest_beats:g} 拍の休符（{prepare_beats:g} 以上）: 準備してから最後の拍でブレスします</translation>
         </message>
         <message>
             <source>a rest of {rest_beats:g} beats (from {prepare_beats:g}): getting ready to breathe</source>
-            <translation>{rest_beats:g} 拍の休符({prepare_beats:g} 以上): ブレスの準備</translation>
+            <translation>{rest_beats:g} 拍の休符（{prepare_beats:g} 以上）: ブレスの準備</translation>
         </message>
         <message>
             <source>a catch breath after note {after_note}: {phrase_s:g} s without a rest ask for more than the {lung_s:g} s of a full lung; {from_note_ms:g} ms come out of that note's tail</source>
@@ -613,11 +613,11 @@
         </message>
         <message>
             <source>starts the piece ({leader_reason}); the preparatory beat lasts {beat_s:g} s</source>
-            <translation>曲を始める合図({leader_reason})。予備拍は {beat_s:g} 秒です</translation>
+            <translation>曲を始める合図（{leader_reason}）。予備拍は {beat_s:g} 秒です</translation>
         </message>
         <message>
             <source>brings everyone in after {rest_s:g} s of common rest ({leader_reason}); the preparatory beat lasts {beat_s:g} s</source>
-            <translation>{rest_s:g} 秒の全休の後に全員を入れる合図({leader_reason})。予備拍は {beat_s:g} 秒です</translation>
+            <translation>{rest_s:g} 秒の全休の後に全員を入れる合図（{leader_reason}）。予備拍は {beat_s:g} 秒です</translation>
         </message>
         <message>
             <source>half a swing in {beats:g} beats of {beat_s:g} s</source>
@@ -653,11 +653,11 @@
         </message>
         <message>
             <source>effort {effort:g} (from {threshold:g}): high, loud or long</source>
-            <translation>負担 {effort:g}({threshold:g} 以上): 高い・強い・長い音</translation>
+            <translation>負担 {effort:g}（{threshold:g} 以上）: 高い・強い・長い音</translation>
         </message>
         <message>
             <source>MIDI {pitch} lies below {easy_low} and is loud ({loudness:g})</source>
-            <translation>MIDI {pitch} は {easy_low} より低く、強い音です({loudness:g})</translation>
+            <translation>MIDI {pitch} は {easy_low} より低く、強い音です（{loudness:g}）</translation>
         </message>
         <message>
             <source>gives the entry</source>
@@ -677,7 +677,7 @@
         </message>
         <message>
             <source>the correction ({kind}) for {anchor} has lost its place: it is kept, but does nothing</source>
-            <translation>{anchor} への修正({kind})は対象を失いました。残してありますが、効果はありません</translation>
+            <translation>{anchor} への修正（{kind}）は対象を失いました。残してありますが、効果はありません</translation>
         </message>
         <message>
             <source>there is no expression {name!r}; there are: {known}</source>
@@ -685,11 +685,11 @@
         </message>
         <message>
             <source>the correction ({kind}) for {anchor} ends before it begins: it is kept, but does nothing</source>
-            <translation>{anchor} への修正({kind})は、始まる前に終わっています。残してありますが、効果はありません</translation>
+            <translation>{anchor} への修正（{kind}）は、始まる前に終わっています。残してありますが、効果はありません</translation>
         </message>
         <message>
             <source>the {target} was to be held {asked_deg:g} degrees ({angle}), but a body or the instrument's hold goes no further than {most_deg:g}</source>
-            <translation>{target} を {asked_deg:g} 度({angle})にする指定ですが、体や楽器の構えの限度は {most_deg:g} 度です</translation>
+            <translation>{target} を {asked_deg:g} 度（{angle}）にする指定ですが、体や楽器の構えの限度は {most_deg:g} 度です</translation>
         </message>
         <message>
             <source>{label} is not a fingering of note {note} on this instrument; the search chose</source>
@@ -705,7 +705,7 @@
         </message>
         <message>
             <source>{file} was saved by a newer version of the program (its file version is {version}, this program knows up to {known}); open it with the newer version</source>
-            <translation>{file} はより新しいバージョンで保存されています(ファイルのバージョン {version}、対応は {known} まで)。新しいバージョンで開いてください</translation>
+            <translation>{file} はより新しいバージョンで保存されています（ファイルのバージョン {version}、対応は {known} まで）。新しいバージョンで開いてください</translation>
         </message>
         <message>
             <source>{file} is larger than the {most_mb} MB that a project can have; it is no project file</source>
@@ -733,7 +733,7 @@
         </message>
         <message>
             <source>a remark of another version of the program ({remark})</source>
-            <translation>別のバージョンのプログラムによる注記({remark})</translation>
+            <translation>別のバージョンのプログラムによる注記（{remark}）</translation>
         </message>
         <message>
             <source>a tempo must be from {low:g} to {high:g} quarters per minute</source>
@@ -805,7 +805,7 @@
         </message>
         <message>
             <source>a correction of this kind ({kind}) belongs to no note</source>
-            <translation>この種類の修正({kind})は音符に付くものではありません</translation>
+            <translation>この種類の修正（{kind}）は音符に付くものではありません</translation>
         </message>
         <message>
             <source>the player does not play the note {note}; choose one of theirs</source>
@@ -881,7 +881,7 @@
         </message>
         <message>
             <source>{file} ends within its header, at byte {byte}</source>
-            <translation>{file} がヘッダーの途中(バイト {byte})で終わっています</translation>
+            <translation>{file} がヘッダーの途中（バイト {byte}）で終わっています</translation>
         </message>
         <message>
             <source>{file}: the time division at byte {byte} is 0, so the notes have no times</source>
@@ -901,7 +901,7 @@
         </message>
         <message>
             <source>the header says that it is {length} bytes long and is not (byte {byte}); its first 6 bytes were taken</source>
-            <translation>ヘッダーの長さが {length} バイトとありますが、違います(バイト {byte})。先頭の 6 バイトを使いました</translation>
+            <translation>ヘッダーの長さが {length} バイトとありますが、違います（バイト {byte}）。先頭の 6 バイトを使いました</translation>
         </message>
         <message>
             <source>the file says it has the unknown format {format}; its tracks were taken as simultaneous</source>
@@ -909,11 +909,11 @@
         </message>
         <message>
             <source>the file says it has one track (format 0) and has {tracks}; they were taken as simultaneous</source>
-            <translation>トラックが 1 つ(フォーマット 0)のはずですが、{tracks} あります。同時に鳴るものとして読みました</translation>
+            <translation>トラックが 1 つ（フォーマット 0）のはずですが、{tracks} あります。同時に鳴るものとして読みました</translation>
         </message>
         <message>
             <source>the length of track {track} (byte {byte}) is wrong; the track was read up to its real end</source>
-            <translation>トラック {track} の長さ(バイト {byte})が誤っています。実際の終わりまで読みました</translation>
+            <translation>トラック {track} の長さ（バイト {byte}）が誤っています。実際の終わりまで読みました</translation>
         </message>
         <message>
             <source>the header promises {expected} tracks, the file has {found}</source>
@@ -929,7 +929,7 @@
         </message>
         <message>
             <source>{count} bytes of track {track} are no MIDI events and were left out, the first at byte {byte}</source>
-            <translation>トラック {track} の {count} バイトは MIDI イベントではないため省きました(最初はバイト {byte})</translation>
+            <translation>トラック {track} の {count} バイトは MIDI イベントではないため省きました（最初はバイト {byte}）</translation>
         </message>
         <message>
             <source>the file counts time in frames of 1/{rate} s, which is no SMPTE rate; it was taken literally</source>
@@ -937,7 +937,7 @@
         </message>
         <message>
             <source>the file has {patterns} independent patterns (format 2); they follow one another</source>
-            <translation>独立した {patterns} 個のパターン(フォーマット 2)です。続けて並べました</translation>
+            <translation>独立した {patterns} 個のパターン（フォーマット 2）です。続けて並べました</translation>
         </message>
         <message>
             <source>{count} notes of track {track} never end; they end with the track</source>
@@ -973,7 +973,7 @@
         </message>
         <message>
             <source>neither its name nor its program says what it is, and no instrument map reaches its notes (MIDI {lowest} to {highest})</source>
-            <translation>名前からもプログラム番号からも楽器が分からず、音域(MIDI {lowest}～{highest})に合うマップもありません</translation>
+            <translation>名前からもプログラム番号からも楽器が分からず、音域（MIDI {lowest}～{highest}）に合うマップもありません</translation>
         </message>
         <message>
             <source>{part}: there is no instrument map for {instrument}; {map} plays it instead</source>
@@ -1081,7 +1081,7 @@
         </message>
         <message>
             <source>drawing the characters' portraits</source>
-            <translation type="unfinished" />
+            <translation>キャラクターの肖像を描いています</translation>
         </message>
         <message>
             <source>writing the files</source>

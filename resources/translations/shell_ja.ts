@@ -13,7 +13,7 @@
     </message>
     <message>
         <source>Version {version}, under the Apache License 2.0.</source>
-        <translation>バージョン {version}(Apache License 2.0)</translation>
+        <translation>バージョン {version}（Apache License 2.0）</translation>
     </message>
     <message>
         <source>Settings: {path}</source>
@@ -68,7 +68,7 @@
     </message>
     <message>
         <source>Letters (C D E)</source>
-        <translation>英語音名(C D E)</translation>
+        <translation>英語音名（C D E）</translation>
     </message>
     <message>
         <source>Syllables (Do Re Mi)</source>
@@ -648,7 +648,7 @@
     </message>
     <message>
         <source>Close this panel; View › Panels brings it back</source>
-        <translation>パネルを閉じる(「表示 › パネル」で再表示)</translation>
+        <translation>パネルを閉じる（「表示 › パネル」で再表示）</translation>
     </message>
 </context>
 <context>
@@ -875,7 +875,7 @@
     </message>
     <message>
         <source>1. Open the MIDI of a piece: every part gets a player, with fingerings, breaths and cues.</source>
-        <translation>1. 曲の MIDI を開くと、パートごとに奏者が付き、運指・ブレス・合図が作られます。</translation>
+        <translation>1. 曲の MIDI を開くと、パートごとにプレイヤーが付き、運指・ブレス・合図が作られます。</translation>
     </message>
     <message>
         <source>2. Change what you would do differently. What you set by hand stays, whatever is generated.</source>
@@ -883,7 +883,7 @@
     </message>
     <message>
         <source>3. Export players and instruments as FBX and BVH. Files can also be dropped onto the window.</source>
-        <translation>3. 奏者と楽器を FBX と BVH に書き出します。ファイルはウィンドウにドロップしても開けます。</translation>
+        <translation>3. プレイヤーと楽器を FBX と BVH に書き出します。ファイルはウィンドウにドロップしても開けます。</translation>
     </message>
     <message>
         <source>a piece that was never saved</source>
