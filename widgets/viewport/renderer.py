@@ -244,7 +244,9 @@ class Renderer:
             _draw_sides(self._batch, self._batch_triangles)
         self._draw_near(stage, shapes, level, "triangles")
         if emphasis.wireframe:
-            self._draw_wires(stage, shapes, level, camera, look)
+            # Lines that lie as near as pixels would paint the players over.
+            opacity = 0.4 * float(np.clip(camera.pixels_per_metre(height) / 900.0, 0.25, 1.0))
+            self._draw_wires(stage, shapes, level, 0.0006 * camera.distance_m, (*look.wire, opacity))
 
     def _draw_backdrop(self, camera: Camera, aspect: float, look: Look) -> None:
         program = self._backdrop
@@ -353,12 +355,17 @@ class Renderer:
             self._figures.draw(mode, solid.edges)
 
     def _draw_wires(
-        self, stage: Stage, shapes: Shapes, level: npt.NDArray[np.intp], camera: Camera, look: Look
+        self,
+        stage: Stage,
+        shapes: Shapes,
+        level: npt.NDArray[np.intp],
+        lift_m: float,
+        color: tuple[float, float, float, float],
     ) -> None:
         gloo.set_state(blend=True, blend_func=OVER)
         for program in (self._figures, self._batch):
-            program["u_line"] = (*look.wire, 0.35)
-            program["u_lift"] = 0.0006 * camera.distance_m
+            program["u_line"] = color
+            program["u_lift"] = lift_m
         if (level == LEVELS - 1).any():
             if self._batch_edges is None:
                 self._batch_edges = gloo.IndexBuffer(edges(self._batch_shape))
