@@ -37,6 +37,10 @@ LAYOUT_VERSION: Final = 1
 """Another set of panels makes layouts of before useless: they are passed over."""
 SIZE: Final = QSize(1600, 1000)
 LEAST_SIZE: Final = QSize(960, 600)
+PLAYERS_PX: Final = 300
+INSPECTOR_PX: Final = 320
+TIMELINE_SHARE: Final = 0.52
+"""Of the window's height: the work is done there; what is left shows the players."""
 SIDES: Final = {
     "players": Qt.DockWidgetArea.LeftDockWidgetArea,
     "inspector": Qt.DockWidgetArea.RightDockWidgetArea,
@@ -154,9 +158,14 @@ class Window(QMainWindow):
             dock.setFloating(False)
             self.addDockWidget(area, dock)
             dock.show()
-        self.resizeDocks([self.docks["players"]], [300], Qt.Orientation.Horizontal)
-        self.resizeDocks([self.docks["inspector"]], [320], Qt.Orientation.Horizontal)
-        self.resizeDocks([self.docks["timeline"]], [360], Qt.Orientation.Vertical)
+        self._size_docks()
+
+    def _size_docks(self) -> None:
+        """As large as panels are in a window of this size where nobody said otherwise."""
+        sides = [self.docks["players"], self.docks["inspector"]]
+        self.resizeDocks(sides, [PLAYERS_PX, INSPECTOR_PX], Qt.Orientation.Horizontal)
+        height = round(TIMELINE_SHARE * self.height())
+        self.resizeDocks([self.docks["timeline"]], [height], Qt.Orientation.Vertical)
 
     def _restore(self) -> None:
         settings = self.editor.settings
@@ -190,7 +199,11 @@ class Window(QMainWindow):
         shown = self._pages.currentWidget() is self.viewport
         if is_open and not shown:
             if not self.restoreState(self._layout, LAYOUT_VERSION):
-                self.restoreState(self._default_layout, LAYOUT_VERSION)
+                self._layout = self._default_layout
+                self.restoreState(self._layout, LAYOUT_VERSION)
+            if self._layout == self._default_layout:
+                # It was made before anyone knew how large the window would be.
+                self._size_docks()
         elif not is_open:
             if shown:
                 self._layout = self.saveState(LAYOUT_VERSION)

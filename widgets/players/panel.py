@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QEvent, QPoint, Qt
-from PySide6.QtGui import QContextMenuEvent
+from PySide6.QtGui import QContextMenuEvent, QResizeEvent
 from PySide6.QtWidgets import (
     QHBoxLayout,
     QLabel,
@@ -47,6 +47,9 @@ MENU = (
 )
 """The context menu: actions by id, an empty one is a line."""
 _TOOLS = (("add", "add"), ("duplicate", "duplicate"), ("remove", "delete"))
+LEAST_LIST_PX = 130
+LIST_SHARE = 0.5
+"""Of the panel: where there are many players the parameters still have room."""
 
 
 class PlayersPanel(QWidget):
@@ -120,12 +123,13 @@ class PlayersPanel(QWidget):
         scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         scroll.setWidget(lower)
         scroll.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        self._divided = False
         self._splitter = QSplitter(Qt.Orientation.Vertical)
         self._splitter.addWidget(upper)
         self._splitter.addWidget(scroll)
         self._splitter.setStretchFactor(1, 1)
         self._splitter.setChildrenCollapsible(False)
-        self._splitter.setSizes([230, 500])
+        self._splitter.splitterMoved.connect(self._splitter_moved)
         outer = QVBoxLayout(self)
         outer.setContentsMargins(0, 0, 0, 0)
         outer.addWidget(self._splitter)
@@ -150,6 +154,18 @@ class PlayersPanel(QWidget):
         self._reset.clicked.connect(self._reset_all)
 
     # Showing
+
+    def _splitter_moved(self) -> None:
+        self._divided = True
+
+    def _divide(self) -> None:
+        """As much room for the list as its rows need, but not much more than half, until a person says otherwise."""
+        height = self._splitter.height()
+        if self._divided or not height:
+            return
+        wanted = self.list.height_of_rows() + self._tools["add"].sizeHint().height() + 14
+        upper = min(max(wanted, LEAST_LIST_PX), round(LIST_SHARE * height))
+        self._splitter.setSizes([upper, height - upper])
 
     def _changed(self, change: Change) -> None:
         before, after = change.before, change.after
@@ -190,6 +206,7 @@ class PlayersPanel(QWidget):
         self.list.show_rows(tuple(rows))
         self.list.setVisible(bool(rows))
         self._empty.setVisible(not rows)
+        self._divide()
 
     def _show_buttons(self) -> None:
         chosen, everyone = self._session.players, self._session.project.players
@@ -314,6 +331,10 @@ class PlayersPanel(QWidget):
         self._show_all()
 
     # Qt's own names
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        self._divide()
 
     def contextMenuEvent(self, event: QContextMenuEvent) -> None:
         inside = self.list.rect().contains(self.list.mapFromGlobal(event.globalPos()))

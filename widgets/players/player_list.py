@@ -299,6 +299,10 @@ class PlayerList(QListView):
         self.setMouseTracking(True)
         self.selectionModel().selectionChanged.connect(self._selected)
 
+    def height_of_rows(self) -> int:
+        """How high the list is without scrolling, pixels."""
+        return max(self.sizeHintForRow(0), 0) * self.rows.rowCount() + 2 * self.frameWidth()
+
     def show_rows(self, rows: tuple[Row, ...]) -> None:
         """Show these players, and which of them are selected."""
         self._showing = True

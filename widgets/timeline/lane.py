@@ -34,7 +34,7 @@ from widgets.timeline.plot import Background, LaneItem, LaneMouse, Plot
 
 __all__ = ["FOLDED_PX", "GUTTER_PX", "PAN_A_STEP", "ZOOM_A_STEP", "Lane", "LaneItem", "LaneMouse"]
 
-GUTTER_PX = 132
+GUTTER_PX = 144
 """Width of the header of every lane."""
 FOLDED_PX = 26
 AUTOSCROLL_MS = 30
@@ -58,15 +58,16 @@ class Lane(QWidget):
     sought(float)
         Somebody wants the playhead at this time (seconds); the panel passes it on.
     fold_changed()
+    height_asked()
+        The lane would have another height now.
 
     Attributes
     ----------
     id : str
         Class attribute: the lane's name in saved layouts, and its object name is ``"lane_" + id``.
     preferred_height_px : int
-        Class attribute: its height in a new window.
+        Its height in a new window.
     least_height_px : int
-        Class attribute.
     folded_at_first : bool
         Class attribute.
     """
@@ -78,6 +79,7 @@ class Lane(QWidget):
 
     sought = Signal(float)
     fold_changed = Signal()
+    height_asked = Signal()
 
     def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -265,6 +267,13 @@ class Lane(QWidget):
         self.setMinimumHeight(FOLDED_PX if folded else self.least_height_px)
         self.setMaximumHeight(FOLDED_PX if folded else 16777215)
         self.fold_changed.emit()
+
+    def ask_height(self, preferred_px: int, least_px: int) -> None:
+        """Ask for another height; one that a person set stays."""
+        if (preferred_px, least_px) != (self.preferred_height_px, self.least_height_px):
+            self.preferred_height_px, self.least_height_px = preferred_px, least_px
+            self.setMinimumHeight(FOLDED_PX if self._folded else least_px)
+            self.height_asked.emit()
 
     def _toggle_fold(self) -> None:
         self.set_folded(not self._folded)

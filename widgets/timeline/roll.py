@@ -62,8 +62,8 @@ class PianoRoll(Lane):
     """What is under the mouse, for the tool bar."""
 
     id = "roll"
-    preferred_height_px = 210
-    least_height_px = 130
+    preferred_height_px = 240
+    least_height_px = 112
 
     def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
         self._tables: dict[str, NoteTable] = {}

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QFrame, QScrollArea, QVBoxLayout, QWidget
 from widgets.common.session import Session
 from widgets.timeline.lane import FOLDED_PX, Lane
 
-HANDLE_PX = 5
+HANDLE_PX = 4
 MOST_PX = 2000
 
 
@@ -82,6 +82,7 @@ class LaneStack(QScrollArea):
         for lane in lanes:
             lane.installEventFilter(self)
             lane.fold_changed.connect(self.arrange)
+            lane.height_asked.connect(self.arrange)
         self._column.addStretch(1)
         self.setWidget(inner)
         self._fill()

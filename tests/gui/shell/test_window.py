@@ -198,3 +198,19 @@ def test_a_missing_recording_is_asked_for_and_its_offset_stays(
     assert second.session.project.audio is not None
     assert second.session.project.audio.path == str(moved)
     assert not second.window.banner.isVisible()
+
+
+@pytest.mark.parametrize(("width", "height"), [(1280, 800), (1600, 1000), (1920, 1080)])
+def test_a_new_window_gives_half_its_height_to_the_timeline(start: Start, width: int, height: int) -> None:
+    window = start().window
+    window.resize(width, height)
+    window.editor.files.open(QUARTET, ask=False)
+    QApplication.processEvents()
+    assert 0.48 * height <= window.docks["timeline"].height() <= 0.55 * height
+    assert window.viewport.height() >= 0.35 * height
+    lanes = window.timeline.stack.viewport()
+    heights = {lane.id: lane.mapTo(lanes, lane.rect().topLeft()).y() for lane in window.timeline.stack.lanes}
+    assert heights["acting"] < lanes.height()
+    if height >= 1000:
+        assert heights["curves"] < lanes.height()
+    assert window.timeline.lanes["audio"].height() <= 30

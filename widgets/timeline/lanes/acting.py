@@ -60,7 +60,7 @@ class ActingLane(RegionLane):
 
     id = "acting"
     preferred_height_px = 134
-    least_height_px = 96
+    least_height_px = 70
     least_row_px = 19.0
 
     def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:

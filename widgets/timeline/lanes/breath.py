@@ -32,8 +32,8 @@ class BreathLane(RegionLane):
     """Breaths as hills as high as they are deep, rising to the onset they serve; preparations as low slopes."""
 
     id = "breath"
-    preferred_height_px = 44
-    least_height_px = 30
+    preferred_height_px = 40
+    least_height_px = 28
 
     def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
         super().__init__(session, axis, parent)

@@ -175,8 +175,8 @@ class FingeringLane(Lane):
     """The fingerings of the player in front. A click on a note shows what else could be played there."""
 
     id = "fingering"
-    preferred_height_px = 76
-    least_height_px = 48
+    preferred_height_px = 72
+    least_height_px = 46
 
     def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
         super().__init__(session, axis, parent)

@@ -49,14 +49,14 @@ class RowNames(QWidget):
         painter.setFont(small_font(self.font()))
         painter.setPen(QColor(self._lane.session.tokens.text_dim))
         height = QFontMetricsF(painter.font()).height()
-        title_px = QFontMetricsF(self._lane.title.font()).horizontalAdvance(self._lane.title.text()) + 34.0
+        title_px = QFontMetricsF(self._lane.title.font()).horizontalAdvance(self._lane.title.text()) + 30.0
         free_from = -height
         for text, middle in self._names():
             if not 0.0 <= middle <= self.height():
                 # The row is scrolled out of sight.
                 continue
             top = min(max(middle - height / 2, 0.0), max(self.height() - height, 0.0))
-            left = title_px if top < TITLE_PX - 4.0 else 4.0
+            left = title_px if top < TITLE_PX - 6.0 else 4.0
             width = self.width() - 6.0 - left
             if top < free_from - 2.0 or width < QFontMetricsF(painter.font()).horizontalAdvance(text) * 0.6:
                 continue

@@ -24,6 +24,7 @@ from widgets.timeline.lanes.number_field import NumberField
 DRAG_PX = 3.0
 FINE = 0.1
 """With Shift the offset follows the mouse this slowly."""
+EMPTY_PX, LEAST_PX, PREFERRED_PX = 28, 32, 48
 DECIMALS = 3
 
 
@@ -80,8 +81,7 @@ class WaveformLane(Lane):
     """The recording. Dragging it moves it against the score; a double click on it types the offset."""
 
     id = "audio"
-    preferred_height_px = 40
-    least_height_px = 32
+    preferred_height_px, least_height_px = EMPTY_PX, EMPTY_PX
 
     def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
         super().__init__(session, axis, parent)
@@ -89,7 +89,13 @@ class WaveformLane(Lane):
         self.waveform = _Waveform(self)
         self.editor = NumberField(self)
         session.listening.waveform_changed.connect(self.update_items)
+        self._ask_room()
         self.retranslate()
+
+    def _ask_room(self) -> None:
+        """Thin while there is nothing to see."""
+        empty = self.session.project.audio is None
+        self.ask_height(EMPTY_PX if empty else PREFERRED_PX, EMPTY_PX if empty else LEAST_PX)
 
     def retranslate(self) -> None:
         self.title.setText(self.tr("Recording"))
@@ -127,6 +133,7 @@ class WaveformLane(Lane):
     def project_changed(self, change: Change) -> None:
         if change.opened or change.before.audio is not change.after.audio:
             self.editor.close_field()
+            self._ask_room()
             self.update_items()
 
     # The mouse
