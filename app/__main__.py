@@ -8,12 +8,15 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from argparse import Namespace
 
 NO_DISPLAY = 3
+OPENED = (".suisou", ".mid", ".midi")
+"""A file that is named alone, as a desktop does, opens in the editor."""
 
 
 def main() -> int:
@@ -26,10 +29,13 @@ def run(arguments: Sequence[str]) -> int:
     from app.cli import BAD_INPUT, BAD_USE, parser
     from app.cli import main as command_line
 
-    if arguments and arguments[0] != "edit":
-        return command_line(arguments)
+    wanted = list(arguments)
+    if not wanted or Path(wanted[0]).suffix.lower() in OPENED:
+        wanted.insert(0, "edit")
+    if wanted[0] != "edit":
+        return command_line(wanted)
     try:
-        parsed = parser().parse_args(["edit", *arguments[1:]])
+        parsed = parser().parse_args(wanted)
     except SystemExit as stop:  # argparse: --help ends with 0, bad use with 2
         return stop.code if isinstance(stop.code, int) else BAD_USE
     from app.shell.display import why_no_display

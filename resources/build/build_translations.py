@@ -1,7 +1,7 @@
 """Collects the texts of the editor into resources/translations/<room>_ja.ts and releases suisou_ja.qm from them.
 
-Run from the repository, in the environment of the tests: ``python resources/build/build_translations.py``. Texts that are
-new stand in the .ts files as unfinished: translate them there (an editor for texts or Qt Linguist) and run this again.
+Run from the repository, in the environment of the tests: ``python resources/build/build_translations.py``. Texts that
+are new stand in the .ts files as unfinished: translate them there (in a text editor or Qt Linguist), then run it again.
 """
 
 from __future__ import annotations

@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 import numpy as np
+import pytest
 from PySide6.QtGui import QImage
 
 from tests.gui.conftest import QUARTET
@@ -64,8 +65,9 @@ def test_a_file_that_cannot_be_read_is_told(tmp_path: Path) -> None:
     assert not (tmp_path / "window.png").exists()
 
 
-def test_without_a_display_it_says_so() -> None:
-    done = suisou(DISPLAY="", WAYLAND_DISPLAY="", QT_QPA_PLATFORM="")
+@pytest.mark.parametrize("arguments", [(), ("edit",), ("piece.suisou",), ("PIECE.MID",)])
+def test_without_a_display_it_says_so(arguments: tuple[str, ...]) -> None:
+    done = suisou(*arguments, DISPLAY="", WAYLAND_DISPLAY="", QT_QPA_PLATFORM="")
     assert done.returncode == 3
     assert "needs a display" in done.stderr
     assert "Traceback" not in done.stderr
