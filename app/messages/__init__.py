@@ -25,10 +25,23 @@ TEMPLATES: Final[dict[str, str]] = {
     **work.TEMPLATES,
 }
 
+PITCHES: Final[dict[str, tuple[str, ...]]] = {
+    "note.pitch_outside": ("pitch", "low", "high"),
+    "fingering.out_of_range": ("pitch", "low", "high", "played_pitch"),
+    "gesture.bell_height": ("pitch", "mean_pitch"),
+    "embouchure.register": ("pitch", "low", "high"),
+    "expression.low_loud": ("pitch", "easy_low"),
+    "score.outside_ranges": ("lowest", "highest"),
+}
+"""Arguments that are MIDI numbers of pitches: here they are told as such, the editor names them."""
+
 
 def text(message: Message) -> str:
     """The message as an English sentence."""
-    return TEMPLATES[message.id].format(**message.arguments)
+    arguments = dict(message.arguments)
+    for name in PITCHES.get(message.id, ()):
+        arguments[name] = f"MIDI {arguments[name]}"
+    return TEMPLATES[message.id].format(**arguments)
 
 
 def error_text(error: AppError) -> str:

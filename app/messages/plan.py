@@ -11,7 +11,7 @@ TEMPLATES: Final[dict[str, str]] = {
     "fingering.speed": "{label} instead of {first}: less motion where a note has {time_ms} ms",
     "fingering.by_hand": "{label}: set by hand",
     "fingering.out_of_range": (
-        "note {note} (MIDI {pitch}) lies outside the range {low}-{high} of this instrument; "
+        "note {note}: {pitch} lies outside the range of this instrument, {low} to {high}; "
         "shown with the fingering of {played_pitch}"
     ),
     "fingering.starts_early": (
@@ -51,14 +51,14 @@ TEMPLATES: Final[dict[str, str]] = {
     ),
     "gesture.sway": "half a swing in {beats:g} beats of {beat_s:g} s",
     "gesture.weight_shift": "a shift of weight to the {side} foot",
-    "gesture.bell_height": "the melody is around MIDI {pitch:g}; the line's mean is {mean_pitch:g}",
+    "gesture.bell_height": "the melody is around {pitch}; the line's mean is {mean_pitch}",
     "gesture.lower_instrument": "{rest_s:g} s of rest: the instrument comes down and is up again before the entry",
     "gesture.lower_at_end": "{after_s:g} s after the last note the instrument comes down",
     "gesture.lower_at_start": "the entry is {rest_s:g} s away: the instrument is still down",
-    "embouchure.register": "MIDI {pitch} in a range of {low}-{high}, loudness {loudness:g}",
+    "embouchure.register": "{pitch} in a range of {low} to {high}, loudness {loudness:g}",
     "expression.default": "the face at rest",
     "expression.effort": "effort {effort:g} (from {threshold:g}): high, loud or long",
-    "expression.low_loud": "MIDI {pitch} lies below {easy_low} and is loud ({loudness:g})",
+    "expression.low_loud": "{pitch} lies below {easy_low} and is loud ({loudness:g})",
     "expression.gives_entry": "gives the entry",
     "expression.takes_entry": "comes in after {rest_s:g} s of rest",
     "expression.end": "the last note is over",

@@ -43,7 +43,7 @@ TEMPLATES: Final[dict[str, str]] = {
     "score.not_wind": "{instrument} is not a wind instrument",
     "score.outside_ranges": (
         "neither its name nor its program says what it is, and no instrument map reaches its notes "
-        "(MIDI {lowest} to {highest})"
+        "({lowest} to {highest})"
     ),
     "score.substituted": "{part}: there is no instrument map for {instrument}; {map} plays it instead",
     "score.chosen_by_range": (

@@ -169,7 +169,7 @@ class StatusLine(QStatusBar):
 
     def _show_notice(self) -> None:
         message, severity = self._log[-1]
-        text = sentence(message)
+        text = sentence(message, self._session)
         room_px = max(self.width() // 2, 240)
         first = text.splitlines()[0] if text else ""
         self._notice.setText(
@@ -191,7 +191,7 @@ class StatusLine(QStatusBar):
     @property
     def notice_text(self) -> str:
         """The notice that is shown; empty: none."""
-        return "" if self._notice.isHidden() else message_text(self._log[-1][0])
+        return "" if self._notice.isHidden() else message_text(self._log[-1][0], self._session)
 
     def _unfold(self) -> None:
         self._details.open_over(self._notice, tuple(self._log))
@@ -292,9 +292,9 @@ def problem_count(session: Session) -> int:
     return sum(len(performance.plan(player).problems) for player in performance.project.players)
 
 
-def sentence(message: Message) -> str:
+def sentence(message: Message, session: Session) -> str:
     """A message that stands alone begins with a capital, unless with a name."""
-    text = message_text(message)
+    text = message_text(message, session)
     return text if TEMPLATES[message.id].startswith("{") else text[:1].upper() + text[1:]
 
 
@@ -372,13 +372,13 @@ class _Details(QFrame):
                 widget.hide()
                 widget.deleteLater()
         newest = tuple(reversed(log))[:12]
-        self._text = "\n".join(sentence(message) for message, _ in newest)
+        self._text = "\n".join(sentence(message, self._session) for message, _ in newest)
         tokens = self._session.tokens
         for message, severity in newest:
             row = QWidget()
             line = QHBoxLayout(row)
             line.setContentsMargins(0, 0, 0, 0)
-            mark, text = QLabel(), QLabel(sentence(message))
+            mark, text = QLabel(), QLabel(sentence(message, self._session))
             mark.setPixmap(pixmap(severity.value, 16, severity_colour(severity, tokens), self.devicePixelRatioF()))
             text.setWordWrap(True)
             text.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)

@@ -97,6 +97,26 @@
         <source>Pose</source>
         <translation>ポーズ</translation>
     </message>
+    <message>
+        <source>Fingering</source>
+        <translation>運指</translation>
+    </message>
+    <message>
+        <source>Removal</source>
+        <translation>削除</translation>
+    </message>
+    <message>
+        <source>Embouchure</source>
+        <translation>アンブシュア</translation>
+    </message>
+    <message>
+        <source>Gesture</source>
+        <translation>ジェスチャー</translation>
+    </message>
+    <message>
+        <source>Performed anew</source>
+        <translation>演奏し直し</translation>
+    </message>
 </context>
 <context>
     <name>Expression</name>
@@ -175,6 +195,41 @@
     <message>
         <source>Torso</source>
         <translation>胴</translation>
+    </message>
+</context>
+<context>
+    <name>Told</name>
+    <message>
+        <source>{pitch} (bar {bar}, beat {beat})</source>
+        <translation>{pitch}（{bar} 小節 {beat} 拍）</translation>
+    </message>
+    <message>
+        <source>left</source>
+        <translation>左</translation>
+    </message>
+    <message>
+        <source>right</source>
+        <translation>右</translation>
+    </message>
+    <message>
+        <source>up and down</source>
+        <translation>上下</translation>
+    </message>
+    <message>
+        <source>to the side</source>
+        <translation>左右</translation>
+    </message>
+    <message>
+        <source>leaning</source>
+        <translation>傾き</translation>
+    </message>
+    <message>
+        <source>chosen as leader</source>
+        <translation>リーダー指定</translation>
+    </message>
+    <message>
+        <source>the highest part</source>
+        <translation>最高声部</translation>
     </message>
 </context>
 <context>

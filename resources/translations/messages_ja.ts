@@ -564,8 +564,8 @@
             <translation>{label}: 手で指定</translation>
         </message>
         <message>
-            <source>note {note} (MIDI {pitch}) lies outside the range {low}-{high} of this instrument; shown with the fingering of {played_pitch}</source>
-            <translation>音符 {note}（MIDI {pitch}）はこの楽器の音域 {low}～{high} の外です。{played_pitch} の運指で表示します</translation>
+            <source>note {note}: {pitch} lies outside the range of this instrument, {low} to {high}; shown with the fingering of {played_pitch}</source>
+            <translation>音符 {note}：{pitch} はこの楽器の音域 {low}～{high} の外です。{played_pitch} の運指で表示します</translation>
         </message>
         <message>
             <source>the way to {label} takes {needed_ms} ms, but only {available_ms} ms are free before note {note}; it starts earlier</source>
@@ -628,8 +628,8 @@
             <translation>{side} の足への重心移動</translation>
         </message>
         <message>
-            <source>the melody is around MIDI {pitch:g}; the line's mean is {mean_pitch:g}</source>
-            <translation>旋律は MIDI {pitch:g} のあたり。パートの平均は {mean_pitch:g}</translation>
+            <source>the melody is around {pitch}; the line's mean is {mean_pitch}</source>
+            <translation>旋律は {pitch} のあたり。パートの平均は {mean_pitch}</translation>
         </message>
         <message>
             <source>{rest_s:g} s of rest: the instrument comes down and is up again before the entry</source>
@@ -644,8 +644,8 @@
             <translation>入りまで {rest_s:g} 秒あるため、楽器はまだ下ろしています</translation>
         </message>
         <message>
-            <source>MIDI {pitch} in a range of {low}-{high}, loudness {loudness:g}</source>
-            <translation>音域 {low}～{high} の中の MIDI {pitch}、音量 {loudness:g}</translation>
+            <source>{pitch} in a range of {low} to {high}, loudness {loudness:g}</source>
+            <translation>音域 {low}～{high} の中の {pitch}、音量 {loudness:g}</translation>
         </message>
         <message>
             <source>the face at rest</source>
@@ -656,8 +656,8 @@
             <translation>負担 {effort:g}（{threshold:g} 以上）: 高い・強い・長い音</translation>
         </message>
         <message>
-            <source>MIDI {pitch} lies below {easy_low} and is loud ({loudness:g})</source>
-            <translation>MIDI {pitch} は {easy_low} より低く、強い音です（{loudness:g}）</translation>
+            <source>{pitch} lies below {easy_low} and is loud ({loudness:g})</source>
+            <translation>{pitch} は {easy_low} より低く、強い音です（{loudness:g}）</translation>
         </message>
         <message>
             <source>gives the entry</source>
@@ -972,8 +972,8 @@
             <translation>{instrument} は管楽器ではありません</translation>
         </message>
         <message>
-            <source>neither its name nor its program says what it is, and no instrument map reaches its notes (MIDI {lowest} to {highest})</source>
-            <translation>名前からもプログラム番号からも楽器が分からず、音域（MIDI {lowest}～{highest}）に合うマップもありません</translation>
+            <source>neither its name nor its program says what it is, and no instrument map reaches its notes ({lowest} to {highest})</source>
+            <translation>名前からもプログラム番号からも楽器が分からず、音域（{lowest}～{highest}）に合うマップもありません</translation>
         </message>
         <message>
             <source>{part}: there is no instrument map for {instrument}; {map} plays it instead</source>

@@ -2,15 +2,143 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
+
 from PySide6.QtCore import QCoreApplication
 
-from app.errors import Message
-from app.messages import TEMPLATES
-from widgets.common.argument_words import WORDED, argument_word
+from app.errors import Argument, Message
+from app.messages import PITCHES, TEMPLATES
+from app.project.model import Player
+from app.score.model import Note, Score
+from instrument_maps.load import bundled_maps
+from widgets.common.event_names import kind_name, pose_name
+from widgets.common.musical_time import beat_ticks, place_text
+from widgets.common.pitch import pitch_text
+from widgets.common.session import Session
+
+NOTES = frozenset({"note", "other", "after_note", "anchor"})
+"""Arguments that name a note by its id; an anchor may also be an event or a name."""
 
 
-def message_text(message: Message) -> str:
-    """A message as a sentence in the language of the editor."""
+def message_text(message: Message, session: Session | None = None, player_id: str | None = None) -> str:
+    """A message as a sentence in the language of the editor.
+
+    Parameters
+    ----------
+    message : Message
+    session : Session or None
+        With it notes are told by pitch and place, as the person wants pitches named; without it by their ids.
+    player_id : str or None
+        Whose message it is; None: that of the player in front.
+    """
     template = QCoreApplication.translate("Message", TEMPLATES[message.id])
-    words = {name: argument_word(str(message.arguments[name])) for name in WORDED if name in message.arguments}
-    return template.format(**{**message.arguments, **words})
+    return template.format(**{name: _told(message, name, session, player_id) for name in message.arguments})
+
+
+def note_text(session: Session, note: Note, player: Player | None) -> str:
+    """A note as a person finds it: its pitch, and bar and beat."""
+    score = session.project.score
+    bar = score.bar_of_tick(note.onset_tick)
+    start_tick = score.tick_of_bar(bar)
+    beat = 1 + (note.onset_tick - start_tick) / beat_ticks(score, start_tick)
+    return QCoreApplication.translate("Told", "{pitch} (bar {bar}, beat {beat})").format(
+        pitch=_pitch(session, note.pitch, player), bar=bar, beat=f"{beat:.2f}".rstrip("0").rstrip(".")
+    )
+
+
+def _told(message: Message, name: str, session: Session | None, player_id: str | None) -> Argument:
+    value = message.arguments[name]
+    if session is not None:
+        player = _player(session, player_id)
+        if name in PITCHES.get(message.id, ()):
+            return _pitch(session, float(value), player)
+        if name in NOTES and isinstance(value, str):
+            return _anchor(session, value, player)
+    elif name in PITCHES.get(message.id, ()):
+        return f"MIDI {value}"
+    words = _WORDS.get(name)
+    return words().get(str(value), value) if words is not None else value
+
+
+def _player(session: Session, player_id: str | None) -> Player | None:
+    players = session.project.players
+    return next((player for player in players if player.id == player_id), None) if player_id else session.player
+
+
+def _pitch(session: Session, pitch: float, player: Player | None) -> str:
+    instrument = bundled_maps().get(player.instrument_id) if player is not None else None
+    semitones = instrument.transposition_semitones if instrument is not None else 0
+    return pitch_text(session.pitch_display, round(pitch), semitones)
+
+
+def _anchor(session: Session, id: str, player: Player | None) -> str:
+    """A note's id as the note; an event's as its kind and its note or place; a name as it is."""
+    note = _note(session.project.score, id, player)
+    if note is not None:
+        return note_text(session, note, player)
+    kind, colon, rest = id.partition(":")
+    if not colon or kind_name(kind) == kind:
+        return id
+    note = _note(session.project.score, rest, player)
+    place = rest
+    if note is not None:
+        place = note_text(session, note, player)
+    elif rest.startswith("@") and rest[1:].lstrip("-").isdecimal():
+        place = place_text(session.project.score, int(rest[1:]))
+    return f"{kind_name(kind)} {place}"
+
+
+_indexed: dict[str, tuple[tuple[Note, ...], dict[str, Note]]] = {}
+"""Notes by id of each part that somebody asked for, by part; made anew where the part has other notes."""
+
+
+def _note(score: Score, id: str, player: Player | None) -> Note | None:
+    """The note of an id: the player's part is asked first."""
+    first = player.part_id if player is not None else None
+    for part in sorted(score.parts, key=lambda part: part.id != first):
+        known = _indexed.get(part.id)
+        if known is None or known[0] is not part.notes:
+            known = _indexed[part.id] = (part.notes, {note.id: note for note in part.notes})
+        if id in known[1]:
+            return known[1][id]
+    return None
+
+
+def _corrections() -> dict[str, str]:
+    return {
+        "pin_fingering": QCoreApplication.translate("Event", "Fingering"),
+        "remove": QCoreApplication.translate("Event", "Removal"),
+        "set_breath": kind_name("breath"),
+        "set_cue": kind_name("cue"),
+        "set_embouchure": QCoreApplication.translate("Event", "Embouchure"),
+        "change_gesture": QCoreApplication.translate("Event", "Gesture"),
+        "add_gesture": QCoreApplication.translate("Event", "Gesture"),
+        "change_expression": kind_name("expression"),
+        "add_expression": kind_name("expression"),
+        "pose": kind_name("pose"),
+        "vary": QCoreApplication.translate("Event", "Performed anew"),
+    }
+
+
+def _targets() -> dict[str, str]:
+    return {name: pose_name(name).lower() for name in ("bell", "head", "left_elbow", "right_elbow", "torso")}
+
+
+_WORDS: Mapping[str, Callable[[], dict[str, str]]] = {
+    "kind": lambda: {tag: word.lower() for tag, word in _corrections().items()},
+    "target": _targets,
+    "side": lambda: {
+        "left": QCoreApplication.translate("Told", "left"),
+        "right": QCoreApplication.translate("Told", "right"),
+    },
+    "angle": lambda: {
+        "up": QCoreApplication.translate("Told", "up and down"),
+        "left": QCoreApplication.translate("Told", "to the side"),
+        "roll": QCoreApplication.translate("Told", "leaning"),
+    },
+    "leader_reason": lambda: {
+        "chosen": QCoreApplication.translate("Told", "chosen as leader"),
+        "highest": QCoreApplication.translate("Told", "the highest part"),
+    },
+}
+"""Arguments that are one of a few words."""

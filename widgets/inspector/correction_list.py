@@ -145,7 +145,11 @@ class CorrectionList(QWidget):
         if place.generated is None:
             detail = self.tr("added by hand: {yours}").format(yours=now) if now else self.tr("added by hand")
         else:
-            reason = message_text(place.generated.reason) if hasattr(place.generated, "reason") else ""
+            reason = (
+                message_text(place.generated.reason, self._session, player.id)
+                if hasattr(place.generated, "reason")
+                else ""
+            )
             detail = self.tr("generated {before} ({reason})").format(before=before, reason=reason)
             if now and now != before:
                 detail = self.tr("yours {now} · {generated}").format(now=now, generated=detail)

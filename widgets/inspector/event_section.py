@@ -195,7 +195,11 @@ class EventSection(QWidget):
         corrected = [event for event in self._events if event.corrected]
         reason = made if made is not None and first.corrected else first
         template = self.tr("The generator: {reason}") if reason is not first else self.tr("Why: {reason}")
-        self._why.setText(template.format(reason=message_text(reason.reason)))
+        self._why.setText(
+            template.format(
+                reason=message_text(reason.reason, self._session, self._plan.player_id if self._plan else None)
+            )
+        )
         if not corrected:
             self._by_hand.hide()
             return

@@ -161,7 +161,8 @@ class NoteSection(QWidget):
         self._show_fingering(shown, plan, bare, instrument)
         self._show_lips(shown, plan, bare)
         told = [problem for problem in plan.problems if problem.note_id in shown.own_ids]
-        self._problems.setText("\n".join(f"⚠ {message_text(problem.message)}" for problem in told[:5]))
+        words = (message_text(problem.message, self._session, player.id) for problem in told[:5])
+        self._problems.setText("\n".join(f"⚠ {text}" for text in words))
         self._problems.setVisible(bool(told))
 
     def _plan(self, shown: SelectedNotes) -> PlayerPlan | None:
@@ -187,7 +188,7 @@ class NoteSection(QWidget):
             self.tr("The generator: {reason}") if pinned is not None and made is not None else self.tr("Why: {reason}")
         )
         reason = made.reason if pinned is not None and made is not None else event.reason
-        self._why.setText(by_whom.format(reason=message_text(reason)))
+        self._why.setText(by_whom.format(reason=message_text(reason, self._session, plan.player_id)))
         if pinned is not None:
             self._fingering_by_hand.show_values(
                 None if made is None else _spaced(made.label, instrument), _spaced(pinned, instrument)

@@ -64,6 +64,7 @@ class ProblemList(QWidget):
         session.performance_changed.connect(self.show_problems)
         session.players_changed.connect(self._players_changed)
         session.theme_changed.connect(self.show_problems)
+        session.pitch_display.changed.connect(self.show_problems)
         self.retranslate()
 
     def show_problems(self) -> None:
@@ -88,7 +89,7 @@ class ProblemList(QWidget):
             if kind not in (ALL, None, _kind(problem)):
                 continue
             tick = round(project.score.tempo_map.ticks(problem.start_s))
-            text = message_text(problem.message)
+            text = message_text(problem.message, self._session, player.id)
             colour = self._session.colour(current[player.id]) if player.id in current else ""
             lines.append(
                 Line((player.id, problem), player.name, place_text(project.score, tick), text, colour, "warning")

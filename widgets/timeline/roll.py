@@ -453,7 +453,7 @@ class PianoRoll(Lane):
             player = self.session.player
             plan = self.plan_of(player) if player is not None else None
             found = [problem for problem in plan.problems if problem.note_id == note.id] if plan is not None else []
-            problems = "\n".join(message_text(problem.message) for problem in found)
+            problems = "\n".join(message_text(problem.message, self.session) for problem in found)
         self.told.emit(text)
         if self.plot.toolTip() != problems:
             self.plot.setToolTip(problems)

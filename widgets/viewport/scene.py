@@ -219,7 +219,9 @@ class Scene(QObject):
         if loaded.stage.shown.any():
             return ""
         if loaded.absent and not loaded.stage.members:
-            return "\n".join(message_text(reason) for reason in loaded.absent.values())
+            return "\n".join(
+                message_text(reason, self._session, player_id) for player_id, reason in loaded.absent.items()
+            )
         return self.tr("Making the first motion …")
 
     def _reading(self) -> str:

@@ -370,7 +370,7 @@ class CurvesLane(Lane):
         for kind, steps in self.controllers.items():
             if (value := steps.at(mouse.time_s)) is not None:
                 lines.append(f"{self.curve_name(kind)} {value:.2f}")
-        self.plot.setToolTip("\n".join((*lines, message_text(event.reason))))
+        self.plot.setToolTip("\n".join((*lines, message_text(event.reason, self.session))))
 
     def context_menu(self, mouse: LaneMouse) -> QMenu | None:
         event = self.event_at(mouse.time_s)

@@ -351,7 +351,9 @@ class FingeringLane(Lane):
         event = self.event_at(mouse.time_s) if mouse is not None else None
         if event is not self._hovered:
             self._hovered = event
-            self.plot.setToolTip(f"{event.label}\n{message_text(event.reason)}" if event is not None else "")
+            self.plot.setToolTip(
+                f"{event.label}\n{message_text(event.reason, self.session)}" if event is not None else ""
+            )
 
     def context_menu(self, mouse: LaneMouse) -> QMenu | None:
         event = self.event_at(mouse.time_s)

@@ -169,4 +169,4 @@ class ProblemsLane(Lane):
 
     def hover(self, mouse: LaneMouse | None) -> None:
         problem = self.problem_at(mouse) if mouse is not None else None
-        self.plot.setToolTip(message_text(problem.message) if problem is not None else "")
+        self.plot.setToolTip(message_text(problem.message, self.session) if problem is not None else "")

@@ -451,7 +451,7 @@ class RegionLane(Lane):
         if region.removed:
             lines = [self.kind_name(region.kind), self.tr("deleted by hand")]
         elif region.reason is not None:
-            lines.append(message_text(region.reason))
+            lines.append(message_text(region.reason, self.session, region.player_id))
         return "\n".join(lines)
 
     def kind_name(self, kind: str) -> str:

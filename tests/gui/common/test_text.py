@@ -1,0 +1,104 @@
+"""Messages in the editor: notes and pitches by the names that a person knows."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import pytest
+from PySide6.QtWidgets import QApplication
+
+from app.errors import Message
+from app.messages import PITCHES, TEMPLATES, text
+from app.project.edit.notes import move
+from app.score.model import Note
+from tests.gui.japanese import FromFiles
+from widgets.common.session import Session
+from widgets.common.text import message_text
+
+OUTSIDE = {"low": 54, "high": 82, "played_pitch": 54}
+
+
+@pytest.fixture
+def note(session: Session) -> Note:
+    """A note of the player in front that is not on the first beat."""
+    assert session.player is not None
+    notes = session.project.part(session.player).notes
+    score = session.project.score
+    return next(item for item in notes if item.onset_tick == score.tick_of_bar(2) + 2 * score.ticks_per_quarter)
+
+
+@pytest.fixture
+def japanese(qt_app: QApplication) -> Iterator[None]:
+    translator = FromFiles("common", "messages", parent=qt_app)
+    qt_app.installTranslator(translator)
+    yield
+    qt_app.removeTranslator(translator)
+
+
+def test_a_note_is_told_by_pitch_and_place(session: Session, note: Note) -> None:
+    told = message_text(Message("breath.inside_note", {"note": note.id}), session)
+    assert told.endswith("note F4 (bar 2, beat 2)"), told
+    assert note.id not in told
+
+
+def test_pitches_are_named_as_the_person_wants(session: Session, note: Note) -> None:
+    message = Message("fingering.out_of_range", {"note": note.id, "pitch": 45, **OUTSIDE})
+    assert "A2 lies outside the range of this instrument, F♯3 to B♭5" in message_text(message, session)
+    session.pitch_display.set(middle_c_octave=3)
+    assert "A1 lies outside the range of this instrument, F♯2 to B♭4" in message_text(message, session)
+    session.pitch_display.set(middle_c_octave=4, written=True)
+    # A trumpet in B flat reads a whole tone above what sounds.
+    assert "B2 lies outside the range of this instrument, A♭3 to C6" in message_text(message, session)
+
+
+def test_the_command_line_keeps_ids_and_numbers(note: Note) -> None:
+    told = text(Message("fingering.out_of_range", {"note": note.id, "pitch": 45, **OUTSIDE}))
+    assert told.startswith(f"note {note.id}: MIDI 45 lies outside the range of this instrument, MIDI 54 to MIDI 82")
+
+
+def test_a_note_of_another_player_is_found(session: Session) -> None:
+    other = session.project.players[-1]
+    note = session.project.part(other).notes[0]
+    message = Message("note.overlaps", {"note": note.id, "other": "99:1", "overlap_ms": 5})
+    told = message_text(message, session)
+    assert "(bar 1, beat " in told
+    # A note that is gone is told by what is known of it.
+    assert "when 99:1 begins" in told
+    assert message_text(message, session, other.id) == told
+
+
+def test_an_edited_part_is_read_anew(session: Session, note: Note) -> None:
+    assert session.player is not None
+    message = Message("breath.inside_note", {"note": note.id})
+    message_text(message, session)
+    session.attempt(Message("edit.move_notes", {"count": 1}), lambda project: move(project, (note.id,), 0, 2))
+    assert "note G4 (bar 2, beat 2)" in message_text(message, session)
+
+
+def test_an_anchor_is_a_note_an_event_or_a_name(session: Session, note: Note) -> None:
+    def told(anchor: str) -> str:
+        return message_text(Message("correction.orphaned", {"kind": "set_breath", "anchor": anchor}), session)
+
+    assert told(note.id).startswith("the correction (breath) for F4 (bar 2, beat 2)")
+    assert told(f"breath:{note.id}").startswith("the correction (breath) for Breath F4 (bar 2, beat 2)")
+    assert told("lower_instrument:@960").startswith("the correction (breath) for Instrument lowered 1.2")
+    assert told("added-3").startswith("the correction (breath) for added-3")
+
+
+@pytest.mark.usefixtures("japanese")
+def test_in_japanese_no_english_word_is_left(session: Session, note: Note) -> None:
+    told = message_text(Message("breath.inside_note", {"note": note.id}), session)
+    assert "F4（2 小節 2 拍）" in told
+    for message in (
+        Message("cue.start", {"leader_reason": "highest", "beat_s": 0.5}),
+        Message("gesture.weight_shift", {"side": "left"}),
+        Message("correction.orphaned", {"kind": "change_gesture", "anchor": f"sway:{note.id}"}),
+        Message("pose.beyond_reach", {"target": "head", "angle": "roll", "asked_deg": 80.0, "most_deg": 30.0}),
+    ):
+        told = message_text(message, session)
+        assert not any("a" <= letter <= "z" for letter in told), told
+
+
+def test_pitches_of_messages_are_their_fields() -> None:
+    for id, names in PITCHES.items():
+        assert all("{" + name + "}" in TEMPLATES[id] for name in names), id
