@@ -77,9 +77,7 @@ def _player(performance: Performance, player: Player) -> Table:
         "instrument": player.instrument_id,
         "part": part.name,
         # Of notes struck together only one is played; the others are among what to look at.
-        "notes": [
-            _note(note, fingerings[note.id], instrument, clock) for note in part.notes if note.id in fingerings
-        ],
+        "notes": [_note(note, fingerings[note.id], instrument, clock) for note in part.notes if note.id in fingerings],
         "breaths": [
             {"kind": event.kind, **span, "reason": text(event.reason)}
             for event, span in zip(plan.breaths, _spans(plan.breaths, clock), strict=True)

@@ -26,9 +26,14 @@ from instrument_maps.load import bundled_maps
 MIDI = Path(__file__).parents[2] / "data" / "midi"
 FILES = [
     MIDI / "ensemble" / f"{name}.mid"
-    for name in ("brass_quartet_lutkin_2tpt_tbn_tuba", "brass_quintet_pezel_sonata21", "concert_band_hall_tenth_regiment_march",
-                 "cornets_sackbuts_speer_sonata", "oboe_bassoon_devienne_sonata2")
-]  # fmt: skip
+    for name in (
+        "brass_quartet_lutkin_2tpt_tbn_tuba",
+        "brass_quintet_pezel_sonata21",
+        "concert_band_hall_tenth_regiment_march",
+        "cornets_sackbuts_speer_sonata",
+        "oboe_bassoon_devienne_sonata2",
+    )
+]
 MAPS = bundled_maps()
 QUARTER = 480
 
