@@ -27,6 +27,10 @@
         <translation>対象が見つからず、効いていません。音符を選んで付け直すか、元に戻してください。</translation>
     </message>
     <message>
+        <source>with other chances, up to {end}</source>
+        <translation>{end} まで、別の偶然で</translation>
+    </message>
+    <message>
         <source>added by hand: {yours}</source>
         <translation>手作業で追加: {yours}</translation>
     </message>
@@ -363,13 +367,13 @@
         <source>Embouchure</source>
         <translation>アンブシュア</translation>
     </message>
-    <message>
-        <source>Other chances</source>
-        <translation>別の偶然</translation>
-    </message>
 </context>
 <context>
     <name>InspectorPanel</name>
+    <message>
+        <source>These bars are performed anew, with other chances. Ctrl+G on the selected bars chooses again; Backspace brings the first performance back.</source>
+        <translation>この小節は別の偶然で演奏し直されています。小節を選択して Ctrl+G でもう一度選び直し、Backspace で最初の演奏に戻します。</translation>
+    </message>
     <message>
         <source>Problems ({count})</source>
         <translation>問題 ({count})</translation>

@@ -16,6 +16,10 @@
         <translation>ポーズ</translation>
     </message>
     <message>
+        <source>These bars are performed anew, with other chances; Backspace brings the first performance back</source>
+        <translation>この小節は別の偶然で演奏し直されています。Backspace で最初の演奏に戻ります</translation>
+    </message>
+    <message>
         <source>Another expression</source>
         <translation>別の表情にする</translation>
     </message>

@@ -17,6 +17,7 @@ def kind_name(kind: str) -> str:
         "bell_height": QCoreApplication.translate("Event", "Bell height"),
         "lower_instrument": QCoreApplication.translate("Event", "Instrument lowered"),
         "pose": QCoreApplication.translate("Event", "Pose"),
+        "vary": QCoreApplication.translate("Event", "Performed anew"),
     }
     return names.get(kind, kind)
 

@@ -116,7 +116,7 @@ def _corrections() -> dict[str, str]:
         "change_expression": kind_name("expression"),
         "add_expression": kind_name("expression"),
         "pose": kind_name("pose"),
-        "vary": QCoreApplication.translate("Event", "Performed anew"),
+        "vary": kind_name("vary"),
     }
 
 

@@ -8,7 +8,7 @@ from PySide6.QtCore import QEvent, Qt
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from app.errors import Message
-from app.plan.corrections import Correction, PinFingering, SetEmbouchure
+from app.plan.corrections import Correction, PinFingering, SetEmbouchure, Vary
 from app.plan.model import Event, PlayerPlan
 from app.project.edit import events as edit
 from app.project.edit.corrections import take_back
@@ -126,6 +126,8 @@ class CorrectionList(QWidget):
 
     def _tick(self, place: Place) -> int:
         event = place.event or place.generated
+        if isinstance(place.correction, Vary):
+            return place.correction.start_tick
         if event is None:
             return LATE_TICK
         start = getattr(event, "start_tick", None)
@@ -141,6 +143,10 @@ class CorrectionList(QWidget):
         if place.orphan:
             detail = self.tr("Lost its place: it does nothing. Select a note and re-attach it, or revert it.")
             return Line(place, title, "", detail, self._session.colour(player), "warning")
+        if isinstance(place.correction, Vary):
+            start, end = (place_text(score, tick) for tick in (place.correction.start_tick, place.correction.end_tick))
+            return Line(place, title, start, self.tr("with other chances, up to {end}").format(end=end),
+                        self._session.colour(player), "by_hand")  # fmt: skip
         now, before = self._value(place.correction, place.event), self._value(place.correction, place.generated)
         if place.generated is None:
             detail = self.tr("added by hand: {yours}").format(yours=now) if now else self.tr("added by hand")
@@ -177,6 +183,9 @@ class CorrectionList(QWidget):
         item, event = key.correction, key.event or key.generated
         if isinstance(item, PinFingering | SetEmbouchure):
             self._session.select(Selection(notes=frozenset((item.note_id,))))
+        elif isinstance(item, Vary):
+            self._session.select(Selection(events=frozenset((EventKey(key.player_id, edit.event_id_of(item)),))))
+            self._session.reveal(self._session.project.score.tempo_map.seconds(float(item.start_tick)))
         elif key.event is not None:
             self._session.select(Selection(events=frozenset((EventKey(key.player_id, key.event.id),))))
         if event is not None:

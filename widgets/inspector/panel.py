@@ -91,6 +91,20 @@ class InspectorPanel(QWidget):
         """Show the selected notes and events."""
         notes, events = self._notes.show_notes(), self._events.show_events()
         self._empty.setVisible(not notes and not events and not self._maker.is_open)
+        varied = any(key.event_id.startswith("vary:") for key in self._session.selection.events)
+        self._empty.setText(self._varied_text() if varied else self._empty_text())
+
+    def _varied_text(self) -> str:
+        return self.tr(
+            "These bars are performed anew, with other chances. Ctrl+G on the selected bars chooses again; Backspace "
+            "brings the first performance back."
+        )
+
+    def _empty_text(self) -> str:
+        return self.tr(
+            "Click a note in the timeline to see and change its fingering, or a breath, a cue, a gesture or an "
+            "expression to see why it is there."
+        )
 
     def _changed(self, change: Change) -> None:
         if change.before.score.parts is not change.after.score.parts or change.opened:
@@ -123,12 +137,6 @@ class InspectorPanel(QWidget):
 
     def retranslate(self) -> None:
         """Set every text in the language of the editor."""
-        self._empty.setText(
-            self.tr(
-                "Click a note in the timeline to see and change its fingering, or a breath, a cue, a gesture or an "
-                "expression to see why it is there."
-            )
-        )
         self._show_tab_texts()
         self.show_selection()
 

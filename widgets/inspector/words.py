@@ -110,6 +110,6 @@ def correction_title(item: Correction) -> str:
         case AddExpression():
             return expression_name(item.expression)
         case Vary():
-            return QCoreApplication.translate("Inspector", "Other chances")
+            return kind_name("vary")
         case PoseCorrection():
             return QCoreApplication.translate("Inspector", "Pose: {name}").format(name=pose_name(item.target))

@@ -30,6 +30,7 @@ from app.plan.corrections import (
     SetBreath,
     SetCue,
     SetEmbouchure,
+    Vary,
 )
 from app.plan.cue import LEAD_BEATS
 from app.plan.model import BreathEvent, CueEvent, ExpressionEvent, GestureEvent, PlayerPlan, PoseEvent
@@ -240,6 +241,10 @@ def remove(project: Project, plan: PlayerPlan, event_ids: Iterable[str]) -> Proj
     """Leave events out: what a person added is forgotten, what the generator made is marked as removed."""
     player_id = plan.player_id
     note_ids = frozenset(note.id for note in _notes(project, player_id))
+    event_ids = tuple(event_ids)
+    # Bars performed anew are no event of the plan.
+    varied = [item for item in corrections_of(project, player_id, event_ids) if isinstance(item, Vary)]
+    project = take_back(project, player_id, varied) if varied else project
     for event in placed_events(plan, event_ids):
         said = corrections_of(project, player_id, (event.id,))
         project = take_back(project, player_id, said)

@@ -21,6 +21,8 @@ from app.project.edit.events import (
     add_gesture,
     set_expression,
 )
+from app.project.edit.found_events import event_id_of
+from app.project.edit.generation import variations
 from app.project.model import Project
 from app.score.tempo import TempoMap
 from widgets.common.event_names import expression_name, kind_name, pose_name
@@ -43,6 +45,8 @@ GROUPS: tuple[tuple[str, ...], ...] = (
     ("sway",),
 )
 """Kinds that share rows, from the top."""
+VARIED = "vary"
+"""Bars performed anew: not an event, but a person chose it; its row is there only with them, above all others."""
 STRIPS = ("bell_height", "weight_shift", "sway")
 """Kinds of which there are so many that what is generated is drawn as one calm strip."""
 BASE = "expression:neutral"
@@ -91,7 +95,9 @@ class ActingLane(RegionLane):
 
     def make_regions(self, plan: PlayerPlan) -> tuple[list[Region], int]:
         project = self.session.project
+        varied = self._varied(plan.player_id)
         made = [
+            *varied,
             *(_cue(event, project.player(plan.player_id).name, "{name} →") for event in plan.cues),
             *self._guests(plan),
             *(_expression(plan.player_id, event) for event in plan.expressions),
@@ -101,7 +107,8 @@ class ActingLane(RegionLane):
         result: list[Region] = []
         self.groups, row = [], 0
         clock = project.score.tempo_map
-        for kinds in GROUPS:
+        groups = ((VARIED,), *GROUPS) if varied else GROUPS
+        for kinds in groups:
             members = [region for region in made if region.kind in kinds]
             packed = sorted(
                 ((*_extent(item, clock), item.event_id, item) for item in members if item.event_id != BASE),
@@ -114,7 +121,7 @@ class ActingLane(RegionLane):
             result += [_in_row(item[3], row + own) for item, own in zip(packed, rows.tolist(), strict=True)]
             self.groups.append((kinds[0], row, count))
             row += count
-        first = {kind: start for (_, start, _), kinds in zip(self.groups, GROUPS, strict=True) for kind in kinds}
+        first = {kind: start for (_, start, _), kinds in zip(self.groups, groups, strict=True) for kind in kinds}
         removed = self.removed_regions(plan, (*GESTURE_KINDS, "cue", "expression"), first.__getitem__)
         self._strips = {kind: _strip(result, kind, first[kind]) for kind in STRIPS}
         return result + removed, row
@@ -122,8 +129,28 @@ class ActingLane(RegionLane):
     def shown_beside(self, plan: PlayerPlan | None) -> tuple[object, ...]:
         if plan is None:
             return ()
-        plans = self.session.performance.plans
-        return (self.session.project.players, *(other.cues for other in plans.values() if other is not plan))
+        plans, project = self.session.performance.plans, self.session.project
+        said = project.corrections.get(plan.player_id)
+        return (project.players, said, *(other.cues for other in plans.values() if other is not plan))
+
+    def _varied(self, player_id: str) -> list[Region]:
+        """The bars that a person let the player perform anew."""
+        clock = self.session.project.score.tempo_map
+        return [
+            Region(
+                player_id, event_id_of(item), VARIED, item.start_tick, item.end_tick,
+                clock.seconds(float(item.start_tick)), clock.seconds(float(item.end_tick)),
+                label=kind_name(VARIED), by_hand=True, steady=True, fixed=True,
+            )
+            for item in variations(self.session.project, player_id)
+        ]  # fmt: skip
+
+    def tip(self, region: Region) -> str:
+        if region.kind == VARIED:
+            return self.tr(
+                "These bars are performed anew, with other chances; Backspace brings the first performance back"
+            )
+        return super().tip(region)
 
     def _guests(self, plan: PlayerPlan) -> list[Region]:
         """The cues that other players give."""
@@ -172,6 +199,13 @@ class ActingLane(RegionLane):
             return
         colour = self.session.colour(player)
         axis = self.axis
+        for region in self.regions:
+            if region.kind != VARIED:
+                continue
+            box = self.box(region)
+            painter.fillRect(
+                QRectF(box.left(), box.top(), box.width(), exposed.bottom() - box.top()), shade(colour, 22)
+            )
         for kind, first, _ in self.groups:
             if kind not in self._strips:
                 continue
@@ -215,6 +249,8 @@ class ActingLane(RegionLane):
         painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
         if region.kind == "cue":
             self._paint_cue(painter, region, box, colour)
+        elif region.kind == VARIED:
+            self._paint_varied(painter, region, box, colour, selected)
         elif region.kind in STRIPS:
             self._paint_bar(painter, region, box, colour, selected)
         else:
@@ -233,6 +269,14 @@ class ActingLane(RegionLane):
         painter.drawLine(QPointF(box.right(), box.top()), QPointF(box.right(), box.bottom()))
         painter.setPen(QColor(tokens.text_dim if region.guest else tokens.text))
         draw_text(painter, QRectF(box.right() + 4.0, box.top(), 130.0, box.height()), region.label)
+
+    def _paint_varied(self, painter: QPainter, region: Region, box: QRectF, colour: str, selected: bool) -> None:
+        painter.setPen(QPen(QColor(colour), 1.6 if selected else 1.0))
+        painter.setBrush(shade(colour, 110 if selected else 60))
+        painter.drawRoundedRect(box.adjusted(0.5, 0.5, -0.5, -0.5), 2.0, 2.0)
+        painter.setPen(QColor(self.session.tokens.text))
+        inside = QRectF(QPointF(max(box.left(), 0.0), box.top()), box.bottomRight())
+        draw_text(painter, inside.adjusted(10.0, 0.0, -4.0, 0.0), region.label)
 
     def _paint_bar(self, painter: QPainter, region: Region, box: QRectF, colour: str, selected: bool) -> None:
         middle = box.center().y()

@@ -31,6 +31,8 @@ class Region(msgspec.Struct):
         It has no amount that could be dragged.
     guest : bool
         It is another player's, shown because it matters here.
+    fixed : bool
+        It stays where it is: it can only be taken back.
     removed : bool
         A person took it out: only its place is shown.
     """
@@ -55,6 +57,7 @@ class Region(msgspec.Struct):
     fades_outside: bool = False
     peak_s: float = 0.0
     guest: bool = False
+    fixed: bool = False
     removed: bool = False
 
     @property

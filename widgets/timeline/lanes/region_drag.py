@@ -114,7 +114,7 @@ class RegionDrag:
         region = self.region
         if region is None:
             return "lasso"
-        if region.removed or not self._plans:
+        if region.removed or region.fixed or not self._plans:
             return "none"
         if self._zone != "body":
             return self._zone

@@ -220,7 +220,7 @@ class RegionLane(Lane):
         return ""
 
     def _zone(self, region: Region, box: QRectF, place: QPointF) -> str:
-        if region.removed:
+        if region.removed or region.fixed:
             return "body"
         if box.width() >= 3 * EDGE_PX:
             if place.x() <= box.left() + EDGE_PX:

@@ -1,0 +1,104 @@
+"""Bars performed anew: seen in the acting lane, taken back from there, listed among what was done by hand."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication
+from pytestqt.qtbot import QtBot
+
+from app.plan.corrections import Vary
+from app.shell.actions import ActionTable
+from app.shell.commands import edit, events, generate
+from app.shell.settings import Settings
+from tests.gui.timeline.lane_hands import click, drag, middle, region_of, shown_panel
+from widgets.common.selection import EventKey, Selection
+from widgets.common.session import Session
+from widgets.inspector.correction_list import CorrectionList
+from widgets.inspector.generated import Generated
+from widgets.timeline.lanes.acting import VARIED, ActingLane
+from widgets.timeline.panel import TimelinePanel
+
+SPAN = (3840, 7680)
+
+
+@pytest.fixture
+def panel(session: Session, qtbot: QtBot, tmp_path: Path) -> Iterator[TimelinePanel]:
+    result = shown_panel(session)
+    qtbot.addWidget(result)
+    table = ActionTable(session, Settings(tmp_path / "editor.ini"), [*edit.ACTIONS, *events.ACTIONS, *generate.ACTIONS])
+    table.attach("timeline", result)
+    result.axis.show(-3.0, 27.0)
+    session.select(Selection(span=SPAN))
+    table.refresh()
+    session.actions["generate.bars"].trigger()
+    session.select(Selection())
+    result.activateWindow()
+    qtbot.waitUntil(result.isActiveWindow)
+    yield result
+    table.deleteLater()
+
+
+def acting(panel: TimelinePanel) -> ActingLane:
+    lane = panel.lanes["acting"]
+    assert isinstance(lane, ActingLane)
+    return lane
+
+
+def said(session: Session) -> tuple[Vary, ...]:
+    assert session.player is not None
+    return tuple(item for item in session.project.corrections.get(session.player.id, ()) if isinstance(item, Vary))
+
+
+def test_bars_performed_anew_are_seen_where_they_are(panel: TimelinePanel, session: Session) -> None:
+    lane = acting(panel)
+    region = next(region for region in lane.regions if region.kind == VARIED)
+    assert (region.start_tick, region.end_tick) == SPAN
+    assert region.by_hand
+    assert lane.groups[0][0] == VARIED
+    box = lane.box(region)
+    assert box.left() == pytest.approx(lane.axis.x_px(session.project.score.tempo_map.seconds(SPAN[0])))
+    assert "Backspace" in lane.tip(region)
+
+
+@pytest.mark.parametrize("key", [Qt.Key.Key_Backspace, Qt.Key.Key_Delete])
+def test_a_key_brings_the_first_performance_back(panel: TimelinePanel, session: Session, key: Qt.Key) -> None:
+    lane = acting(panel)
+    assert said(session)
+    click(lane, middle(lane, region_id(lane)))
+    QApplication.processEvents()
+    QTest.keyClick(lane.plot, key)
+    assert not said(session)
+    assert not [region for region in lane.regions if region.kind == VARIED]
+    assert lane.groups[0][0] == "cue"
+    session.document.undo()
+    assert said(session)
+    assert region_of(lane, region_id(lane)).by_hand
+
+
+def test_it_cannot_be_dragged(panel: TimelinePanel, session: Session) -> None:
+    lane, before = acting(panel), session.project
+    for dx, dy in ((60.0, 0.0), (0.0, -12.0)):
+        drag(lane, middle(lane, region_id(lane)), dx, dy)
+    assert session.project is before
+
+
+def test_the_list_of_what_was_done_by_hand_has_it(panel: TimelinePanel, session: Session, qtbot: QtBot) -> None:
+    words = CorrectionList(session, Generated(session))
+    qtbot.addWidget(words)
+    words.resize(320, 400)
+    words.show()
+    line = words.list.lines.lines[0]
+    assert (line.title, line.tone) == ("Performed anew", "by_hand")
+    assert line.place == "2.2"
+    words.list.opened.emit(line.key)
+    assert session.player is not None
+    assert session.selection.events == frozenset({EventKey(session.player.id, region_id(acting(panel)))})
+
+
+def region_id(lane: ActingLane) -> str:
+    return next(region.event_id for region in lane.regions if region.kind == VARIED)
