@@ -368,7 +368,7 @@ ACTIONS: tuple[Action, ...] = (
         "notes.select_pitch",
         QT_TRANSLATE_NOOP("Action", "Select Same Pitch"),
         select_pitch,
-        "Alt+P",
+        "Alt+S",
         "",
         "Edit/Select",
     ),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 from PySide6.QtCore import Qt
+from PySide6.QtGui import QKeySequence
 from PySide6.QtWidgets import QApplication, QPushButton
 from pytestqt.qtbot import QtBot
 
@@ -166,3 +167,21 @@ def focus(window: Window, panel: str, qtbot: QtBot) -> None:
             if QApplication.focusWidget() is not None and widget.isAncestorOf(QApplication.focusWidget()):
                 return
     pytest.fail(f"nothing in {panel} takes the keyboard")
+
+
+@pytest.mark.parametrize("code", ["en", "ja"])
+def test_no_shortcut_is_the_key_of_a_menu(program: Program, code: str) -> None:
+    """Qt would do neither of the two."""
+    program.editor.speak(code)
+    menus = {
+        QKeySequence.mnemonic(action.text()).toString()
+        for action in program.window.menuBar().actions()
+        if action.isVisible()
+    }
+    assert len(menus) == 7
+    taken = {
+        row.id: keys
+        for row in program.editor.table.rows.values()
+        if (keys := menus & {sequence.toString() for sequence in sequences(row.shortcut)})
+    }
+    assert taken == {}
