@@ -96,7 +96,10 @@ class ReimportDialog(QDialog):
         self._heading.setText(
             self.tr("{file} says nothing new.").format(file=self._file)
             if outcome.project is self._before
-            else self.tr("What {file} changes. Everything done by hand stays with its notes.").format(file=self._file)
+            else self.tr(
+                "What {file} changes. Fingerings, breaths and all else set by hand stay with their notes; notes that "
+                "were moved in the editor stand again where the file has them. Undo takes it all back."
+            ).format(file=self._file)
         )
         self._table.setHorizontalHeaderLabels([self.tr("Part"), self.tr("Kept"), self.tr("New"), self.tr("Gone")])
         self._table.setRowCount(len(outcome.parts))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Literal, cast
@@ -25,14 +25,6 @@ Floats = npt.NDArray[np.float64]
 Angle = Literal["up_deg", "left_deg", "roll_deg"]
 
 TARGETS: tuple[PoseTarget, ...] = ("bell", "head", "left_elbow", "right_elbow", "torso")
-MOST_DEG: dict[PoseTarget, float] = {
-    "bell": 45.0,
-    "head": 35.0,
-    "left_elbow": 50.0,
-    "right_elbow": 50.0,
-    "torso": 25.0,
-}
-"""Farther no player holds these from where they are, whatever the handle says."""
 HEAD_ARM_M, ROLL_ARM_M = 0.25, 0.25
 """A drag as far as this is one radian where the handle itself hardly moves."""
 _SMALL, _DAMPING = 1e-4, 0.06
@@ -203,13 +195,17 @@ def fresh_correction(project: Project, player_id: str, target: PoseTarget, span:
     )
 
 
-def turned(correction: PoseCorrection, angles_deg: dict[Angle, float]) -> PoseCorrection:
-    """The correction with angles added, as far as a player can go; to a tenth of a degree."""
-    most = MOST_DEG[correction.target]
-    changes = {
-        angle: round(min(max(getattr(correction, angle) + value, -most), most), 1)
-        for angle, value in angles_deg.items()
-    }
+Limits = Mapping[str, tuple[float, float]]
+"""Lowest and highest degrees of every angle, as of `app.plan.pose.pose_limits`."""
+
+
+def turned(correction: PoseCorrection, angles_deg: dict[Angle, float], limits: Limits) -> PoseCorrection:
+    """The correction with angles added, as far as the body and the hold let a player go; to a tenth of a degree."""
+    changes = {}
+    for angle, value in angles_deg.items():
+        low, high = limits.get(angle, (0.0, 0.0))
+        wanted = min(max(getattr(correction, angle) + value, low), high)
+        changes[angle] = math.trunc(10.0 * wanted) / 10.0 if wanted in (low, high) else round(wanted, 1)
     return msgspec.structs.replace(correction, **changes)
 
 

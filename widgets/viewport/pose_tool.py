@@ -6,8 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from app.errors import Message
+from app.performance.motion import body_of
 from app.plan.corrections import PoseCorrection
 from app.plan.model import PoseTarget
+from app.plan.pose import pose_limits
 from app.project.model import Project
 from widgets.common.session import Session
 from widgets.viewport.camera import Camera
@@ -15,6 +17,7 @@ from widgets.viewport.handles import (
     FINER,
     Angle,
     Handle,
+    Limits,
     correction_at,
     dragged,
     fresh_correction,
@@ -42,6 +45,7 @@ class _Drag:
     project: Project
     before: PoseCorrection
     token: object
+    limits: Limits
     right_px: float = 0.0
     down_px: float = 0.0
     after: PoseCorrection | None = None
@@ -86,7 +90,10 @@ class PoseTool:
         if before is None:
             span = span_of(project, self._session.selection.span, self._tick())
             before = fresh_correction(project, player_id, handle.target, span)
-        self._drag = _Drag(handle, player_id, project, before, object())
+        player = project.player(player_id)
+        instrument = self._session.performance.instrument(player)
+        limits = pose_limits(handle.target, instrument, player.parameters, body_of(player))
+        self._drag = _Drag(handle, player_id, project, before, object(), limits)
         return True
 
     def drag(self, camera: Camera, right_px: float, down_px: float, height_px: float, fine: bool, lean: bool) -> None:
@@ -98,7 +105,7 @@ class PoseTool:
         drag.right_px += worth * right_px
         drag.down_px += worth * down_px
         angles: dict[Angle, float] = dragged(drag.handle, camera, drag.right_px, drag.down_px, height_px, lean)
-        after = turned(drag.before, angles)
+        after = turned(drag.before, angles, drag.limits)
         drag.after = after
         player_id, before, start = drag.player_id, drag.before, drag.project
         name = _NAMES[drag.handle.target]

@@ -3,15 +3,21 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
+import msgspec
 import numpy as np
 import pytest
 
+from app.performance.ensemble import Performance
 from app.plan.corrections import PoseCorrection
+from app.plan.model import PoseTarget
+from app.plan.pose import pose_limits
+from instrument_maps.load import bundled_maps
+from metadata.load import load_body
 from tests.unit.viewport.poses import posed_stage, quartet
 from widgets.viewport.camera import Camera
 from widgets.viewport.handles import (
-    MOST_DEG,
     TARGETS,
     Handle,
     correction_at,
@@ -25,6 +31,7 @@ from widgets.viewport.handles import (
 from widgets.viewport.views import turn_rad, view_camera
 
 HEIGHT = 720.0
+FREE = {"up_deg": (-90.0, 90.0)}
 
 
 def handle(target: str, row: int = 0) -> Handle:
@@ -111,9 +118,11 @@ def test_a_correction_covers_the_chosen_span_or_the_bar_at_the_playhead() -> Non
 def test_the_correction_in_force_is_found_and_the_names_differ() -> None:
     project = quartet()
     player_id = project.players[0].id
-    first = turned(fresh_correction(project, player_id, "bell", span_of(project, (0, 960), 0)), {"up_deg": 5.0})
+    first = turned(fresh_correction(project, player_id, "bell", span_of(project, (0, 960), 0)), {"up_deg": 5.0}, FREE)
     project = with_correction(project, player_id, first, first)
-    second = turned(fresh_correction(project, player_id, "bell", span_of(project, (960, 1920), 0)), {"up_deg": 7.0})
+    second = turned(
+        fresh_correction(project, player_id, "bell", span_of(project, (960, 1920), 0)), {"up_deg": 7.0}, FREE
+    )
     project = with_correction(project, player_id, second, second)
     assert first.name != second.name
     assert len(project.corrections[player_id]) == 2
@@ -129,15 +138,29 @@ def test_a_pose_of_no_angles_is_no_correction() -> None:
     player_id = project.players[0].id
     fresh = fresh_correction(project, player_id, "head", span_of(project, None, 0))
     assert with_correction(project, player_id, fresh, fresh) is project
-    held = with_correction(project, player_id, fresh, turned(fresh, {"up_deg": 3.0}))
+    held = with_correction(project, player_id, fresh, turned(fresh, {"up_deg": 3.0}, FREE))
     assert player_id not in with_correction(held, player_id, fresh, fresh).corrections
 
 
-def test_nobody_is_turned_farther_than_people_go() -> None:
-    for target in TARGETS:
-        start = PoseCorrection("x", target, 0, 10)
-        assert turned(start, {"up_deg": 500.0}).up_deg == MOST_DEG[target]
-        assert turned(start, {"up_deg": -500.0}).up_deg == -MOST_DEG[target]
+@pytest.mark.parametrize("posture", ["standing", "seated"])
+@pytest.mark.parametrize("target", TARGETS)
+def test_nobody_is_turned_farther_than_the_plan_lets_them(target: PoseTarget, posture: str) -> None:
+    project = quartet()
+    for player in project.players:
+        parameters = msgspec.structs.replace(player.parameters, posture=posture)
+        limits = pose_limits(target, bundled_maps()[player.instrument_id], parameters, load_body())
+        start = PoseCorrection("x", target, 0, 1920)
+        for angle in limits:
+            for way in (-500.0, 500.0):
+                held = turned(start, {angle: way}, limits)  # type: ignore[dict-item]
+                assert getattr(held, angle) != 0.0
+                changed = replace(
+                    project,
+                    players=(msgspec.structs.replace(player, parameters=parameters),),
+                    corrections={player.id: (held,)},
+                )
+                problems = Performance(changed).plan(changed.players[0]).problems
+                assert "pose.beyond_reach" not in {problem.message.id for problem in problems}
 
 
 @pytest.mark.parametrize("row", range(4))
