@@ -14,6 +14,10 @@ SPACING_M = 1.3
 ARC_RAD = math.radians(150.0)
 """How much of a circle the players stand on at most; the open side is the audience's."""
 LEAST_RADIUS_M = 1.1
+MOST_IN_ARC = 12
+"""More stand in rows, as a band does."""
+FRONT_RADIUS_M, ROW_DEPTH_M = 2.6, 1.5
+"""Radius of the first of several rows, and room behind it for a slide and a stand."""
 
 NATURAL_AMPLITUDE = 0.5
 AMPLITUDE_SPREAD = 0.12
@@ -37,18 +41,29 @@ def stage_arc(count: int) -> tuple[StagePosition, ...]:
     """Places of an ensemble on an arc open to the audience, in the order of the score from the audience's left (-X).
 
     Everyone stands a neighbour's distance apart and faces the middle of the arc's opening, half way between a
-    colleague across and the audience.
+    colleague across and the audience. More players than one arc holds stand in rows behind one another, the first of
+    the score in front.
     """
     if count < 2:
         return (StagePosition(0.0, 0.0, 0.0),) * count
-    # The arc grows with its players: first in angle at the least radius, then in radius.
-    step = min(ARC_RAD / (count - 1), 2.0 * math.asin(min(1.0, SPACING_M / 2.0 / LEAST_RADIUS_M)))
-    radius = max(LEAST_RADIUS_M, SPACING_M / (2.0 * math.sin(step / 2.0)))
-    places = []
-    for index in range(count):
-        angle = (index - (count - 1) / 2.0) * step
-        places.append(StagePosition(radius * math.sin(angle), -radius * math.cos(angle), -angle / 2.0))
+    if count <= MOST_IN_ARC:
+        # The arc grows with its players: first in angle at the least radius, then in radius.
+        step = min(ARC_RAD / (count - 1), 2.0 * math.asin(min(1.0, SPACING_M / 2.0 / LEAST_RADIUS_M)))
+        return _row(count, step, max(LEAST_RADIUS_M, SPACING_M / (2.0 * math.sin(step / 2.0))))
+    places: list[StagePosition] = []
+    radius = FRONT_RADIUS_M
+    while len(places) < count:
+        step = 2.0 * math.asin(SPACING_M / 2.0 / radius)
+        room = int(ARC_RAD / step) + 1
+        places += _row(min(room, count - len(places)), step, radius)
+        radius += ROW_DEPTH_M
     return tuple(places)
+
+
+def _row(count: int, step: float, radius: float) -> tuple[StagePosition, ...]:
+    """Players on one arc, ``step`` radians apart."""
+    angles = [(index - (count - 1) / 2.0) * step for index in range(count)]
+    return tuple(StagePosition(radius * math.sin(angle), -radius * math.cos(angle), -angle / 2.0) for angle in angles)
 
 
 def chance(*parts: str | int) -> float:
