@@ -50,6 +50,21 @@ def test_the_instrument_is_up_again_when_the_gesture_ends() -> None:
     np.testing.assert_allclose(values[[0, 1, 2, 3, 4, 5, 6, 8]], [0, 1, 1, 1, 0, 0, 0, 0], atol=1e-9)
 
 
+def test_lowerings_that_overlap_are_one() -> None:
+    whole, within = gesture("lower_instrument", 0.0, 20.0, 0.4), gesture("lower_instrument", 0.0, 5.0)
+    after = gesture("lower_instrument", 18.0, 25.0, 0.2)
+    curve = lowering([whole, within, after, gesture("lower_instrument", 30.0, 30.0)], 1.0, 1.0)
+    values = curve.sample(np.array([0.0, 1.0, 5.0, 19.9, 24.0, 25.0, 30.0]))
+    np.testing.assert_allclose(values, [0, 1, 1, 1, 1, 0, 0], atol=1e-9)
+
+
+def test_sways_that_begin_together_are_the_last_of_them() -> None:
+    times_s = np.linspace(0.0, 10.0, 300)
+    both = [gesture("sway", 1.0, 4.0, 0.2), gesture("sway", 1.0, 6.0)]
+    np.testing.assert_array_equal(Bobbing.of(both, TICKS).sample(times_s), Bobbing.of(both[1:], TICKS).sample(times_s))
+    np.testing.assert_array_equal(follow(both, "sway").sample(times_s), follow(both[1:], "sway").sample(times_s))
+
+
 def test_the_lungs_fill_over_a_breath_and_empty_over_the_phrase() -> None:
     full, lean = lungs((breath(0.0, 0.5, 0.4, "preparation"), breath(0.5, 1.0, 1.0), breath(6.0, 6.3, 0.2)))
     values = full.sample(np.array([0.5, 0.97, 1.0, 4.0, 6.0, 6.28]))
