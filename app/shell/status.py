@@ -23,12 +23,11 @@ from PySide6.QtWidgets import (
 )
 
 from app.errors import Message
-from app.messages import TEMPLATES
 from app.shell.files import Files
 from app.shell.tasks import Task, ThreadTasks
 from widgets.common.icons import icon, pixmap
 from widgets.common.session import Session, Severity
-from widgets.common.text import message_text
+from widgets.common.text import message_text, sentence
 from widgets.common.tokens import LEAST_TARGET_PX, Tokens
 
 POLL_MS = 100
@@ -155,6 +154,8 @@ class StatusLine(QStatusBar):
                 row.stop.clicked.connect(partial(self._tasks.cancel, task))
                 self._rows[task] = row
                 self._work_line.addWidget(row)
+        # Beside one another at the left, however much room there is.
+        self._work_line.setAlignment(Qt.AlignmentFlag.AlignLeft)
         self._work.setVisible(bool(shown))
 
     # Notices
@@ -290,12 +291,6 @@ def problem_count(session: Session) -> int:
     """Problems of all players, as far as plans are there."""
     performance = session.performance
     return sum(len(performance.plan(player).problems) for player in performance.project.players)
-
-
-def sentence(message: Message, session: Session) -> str:
-    """A message that stands alone begins with a capital, unless with a name."""
-    text = message_text(message, session)
-    return text if TEMPLATES[message.id].startswith("{") else text[:1].upper() + text[1:]
 
 
 def severity_colour(severity: Severity, tokens: Tokens) -> str:

@@ -16,6 +16,8 @@ from PySide6.QtWidgets import QApplication, QStyleFactory
 from widgets.common.icons import source
 from widgets.common.tokens import LEAST_TARGET_PX, LEAST_TEXT_PT, Tokens
 
+FAINT = 0.6
+"""How much of dim text is left in what cannot be used now."""
 FONT_SIZE_PT = 9.5
 JAPANESE_FAMILIES = (
     "Noto Sans CJK JP",
@@ -90,10 +92,8 @@ def palette(tokens: Tokens) -> QPalette:
         (role.Accent, tokens.accent),
     ):
         result.setColor(colour_role, QColor(colour))
-    faint = QColor(tokens.text_dim)
-    faint.setAlphaF(0.55)
     for colour_role in (role.WindowText, role.Text, role.ButtonText, role.HighlightedText):
-        result.setColor(group.Disabled, colour_role, faint)
+        result.setColor(group.Disabled, colour_role, QColor(faint(tokens)))
     result.setColor(group.Disabled, role.Highlight, QColor(tokens.line))
     return result
 
@@ -102,7 +102,9 @@ def palette(tokens: Tokens) -> QPalette:
 class Marks:
     """Drawings that a style sheet can only name as files."""
 
+    up: str
     down: str
+    down_faint: str
     check: str
     dot: str
 
@@ -119,19 +121,38 @@ def marks(tokens: Tokens) -> Marks:
     """The drawings in a theme's colours."""
     written = {}
     for name, colour in (
+        ("chevron_up", tokens.text_dim),
         ("chevron_down", tokens.text_dim),
+        ("chevron_down", faint(tokens)),
         ("check", tokens.accent_text),
         ("by_hand", tokens.accent_text),
     ):
-        path = _folder() / f"{name}_{tokens.name}.svg"
+        path = _folder() / f"{name}_{tokens.name}_{colour[1:]}.svg"
         path.write_bytes(source(name, colour))
-        written[name] = path.as_posix()
-    return Marks(down=written["chevron_down"], check=written["check"], dot=written["by_hand"])
+        written[name, colour] = path.as_posix()
+    return Marks(
+        up=written["chevron_up", tokens.text_dim],
+        down=written["chevron_down", tokens.text_dim],
+        down_faint=written["chevron_down", faint(tokens)],
+        check=written["check", tokens.accent_text],
+        dot=written["by_hand", tokens.accent_text],
+    )
+
+
+def faint(tokens: Tokens) -> str:
+    """The colour of what cannot be used now: between dim text and the surface."""
+    text, ground = QColor(tokens.text_dim), QColor(tokens.surface)
+    mixed = QColor.fromRgbF(
+        FAINT * text.redF() + (1.0 - FAINT) * ground.redF(),
+        FAINT * text.greenF() + (1.0 - FAINT) * ground.greenF(),
+        FAINT * text.blueF() + (1.0 - FAINT) * ground.blueF(),
+    )
+    return mixed.name()
 
 
 def style_sheet(t: Tokens, marks: Marks) -> str:
     """Rules for what Fusion draws too loudly: flat, quiet, one accent."""
-    hover = t.line
+    hover, off = t.line, faint(t)
     return f"""
 * {{ outline: none; }}
 QToolTip {{ background: {t.raised}; color: {t.text}; border: 1px solid {t.line_strong}; padding: 3px 5px; }}
@@ -144,9 +165,10 @@ QMenuBar::item:selected {{ background: {t.line}; }}
 QMenu {{ background: {t.raised}; color: {t.text}; border: 1px solid {t.line_strong}; padding: 4px; }}
 QMenu::item {{ padding: 5px 26px 5px 10px; border-radius: 3px; min-height: 16px; }}
 QMenu::item:selected {{ background: {t.accent}; color: {t.accent_text}; }}
-QMenu::item:disabled {{ color: {t.text_dim}; background: transparent; }}
+QMenu::item:disabled {{ color: {off}; background: transparent; }}
 QMenu::separator {{ height: 1px; background: {t.line}; margin: 4px 6px; }}
-QMenu::icon {{ padding-left: 6px; }}
+QMenu::icon {{ margin-left: 3px; padding: 3px; border: 1px solid transparent; border-radius: 4px; }}
+QMenu::icon:checked {{ background: {t.sunken}; border-color: {t.accent}; }}
 QMenu::indicator {{ width: 14px; height: 14px; margin-left: 6px; }}
 QToolBar {{ background: {t.surface}; border: none; border-bottom: 1px solid {t.line}; spacing: 2px; padding: 2px; }}
 QStatusBar {{ background: {t.surface}; border-top: 1px solid {t.line}; }}
@@ -170,7 +192,7 @@ QPushButton {{ background: {t.raised}; color: {t.text}; border: 1px solid {t.lin
 QPushButton:hover {{ border-color: {t.text_dim}; }}
 QPushButton:pressed {{ background: {t.sunken}; }}
 QPushButton:checked {{ background: {t.sunken}; border-color: {t.accent}; }}
-QPushButton:disabled {{ color: {t.text_dim}; border-color: {t.line}; background: {t.surface}; }}
+QPushButton:disabled {{ color: {off}; border-color: {t.line}; background: {t.surface}; }}
 QPushButton:focus {{ border-color: {t.accent}; }}
 QPushButton:default {{ background: {t.accent}; color: {t.accent_text}; border-color: {t.accent}; }}
 QPushButton:default:focus {{ border-color: {t.text}; }}
@@ -183,14 +205,25 @@ QLineEdit, QPlainTextEdit, QTextEdit, QAbstractSpinBox {{ background: {t.sunken}
 QLineEdit, QAbstractSpinBox {{ min-height: {LEAST_TARGET_PX - 6}px; }}
 QLineEdit:hover, QAbstractSpinBox:hover {{ border-color: {t.line_strong}; }}
 QLineEdit:focus, QPlainTextEdit:focus, QTextEdit:focus, QAbstractSpinBox:focus {{ border-color: {t.accent}; }}
-QLineEdit:disabled, QAbstractSpinBox:disabled {{ color: {t.text_dim}; }}
+QLineEdit:disabled, QAbstractSpinBox:disabled {{ color: {off}; background: {t.surface}; }}
+QAbstractSpinBox {{ padding-right: 20px; }}
+QAbstractSpinBox QLineEdit {{ background: transparent; border: none; padding: 0 0 0 4px; min-height: 0; }}
+QAbstractSpinBox::up-button, QAbstractSpinBox::down-button {{ subcontrol-origin: border; width: 18px; border: none;
+  background: transparent; }}
+QAbstractSpinBox::up-button {{ subcontrol-position: top right; }}
+QAbstractSpinBox::down-button {{ subcontrol-position: bottom right; }}
+QAbstractSpinBox::up-button:hover, QAbstractSpinBox::down-button:hover {{ background: {hover}; }}
+QAbstractSpinBox::up-arrow {{ image: url("{marks.up}"); width: 10px; height: 10px; }}
+QAbstractSpinBox::down-arrow {{ image: url("{marks.down}"); width: 10px; height: 10px; }}
 QAbstractItemView QLineEdit {{ padding: 0 3px; min-height: 0; }}
 QComboBox {{ background: {t.raised}; color: {t.text}; border: 1px solid {t.line}; border-radius: 4px;
   padding: 2px 6px 2px 8px; min-height: {LEAST_TARGET_PX - 6}px; }}
 QComboBox:hover {{ border-color: {t.line_strong}; }}
 QComboBox:focus {{ border-color: {t.accent}; }}
+QComboBox:disabled {{ color: {off}; background: {t.surface}; border-color: {t.line}; }}
 QComboBox::drop-down {{ border: none; width: 20px; }}
 QComboBox::down-arrow {{ image: url("{marks.down}"); width: 14px; height: 14px; }}
+QComboBox::down-arrow:disabled {{ image: url("{marks.down_faint}"); }}
 QComboBox QAbstractItemView {{ background: {t.raised}; border: 1px solid {t.line_strong};
   selection-background-color: {t.accent}; selection-color: {t.accent_text}; padding: 3px; }}
 QAbstractItemView {{ background: {t.sunken}; alternate-background-color: {t.surface}; border: 1px solid {t.line};
@@ -215,9 +248,10 @@ QGroupBox {{ border: 1px solid {t.line}; border-radius: 5px; margin-top: 9px; pa
 QGroupBox::title {{ subcontrol-origin: margin; left: 8px; padding: 0 4px; color: {t.text_dim}; }}
 QCheckBox, QRadioButton {{ min-height: {LEAST_TARGET_PX}px; spacing: 7px; }}
 QCheckBox::indicator, QRadioButton::indicator, QAbstractItemView::indicator {{ width: 14px; height: 14px;
-  background: {t.sunken}; border: 1px solid {t.line_strong}; border-radius: 3px; }}
+  background: {t.sunken}; border: 1px solid {t.text_dim}; border-radius: 3px; }}
 QRadioButton::indicator {{ border-radius: 8px; }}
-QCheckBox::indicator:hover, QRadioButton::indicator:hover {{ border-color: {t.text_dim}; }}
+QCheckBox::indicator:hover, QRadioButton::indicator:hover {{ border-color: {t.text}; }}
+QCheckBox:disabled, QRadioButton:disabled {{ color: {off}; }}
 QCheckBox::indicator:focus, QRadioButton::indicator:focus {{ border-color: {t.accent}; }}
 QCheckBox:focus, QRadioButton:focus {{ color: {t.accent}; }}
 QCheckBox::indicator:checked, QAbstractItemView::indicator:checked {{ background: {t.accent}; border-color: {t.accent};

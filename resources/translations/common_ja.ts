@@ -204,6 +204,10 @@
         <translation>{pitch}（{bar} 小節 {beat} 拍）</translation>
     </message>
     <message>
+        <source>a note that is gone</source>
+        <translation>なくなった音符</translation>
+    </message>
+    <message>
         <source>left</source>
         <translation>左</translation>
     </message>

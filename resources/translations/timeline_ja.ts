@@ -12,6 +12,10 @@
         <translation>ドラッグで移動、上下で強さ、端で長さ、角でフェードを変更します。ダブルクリックで追加します</translation>
     </message>
     <message>
+        <source>Anew</source>
+        <translation>やり直し</translation>
+    </message>
+    <message>
         <source>Pose</source>
         <translation>ポーズ</translation>
     </message>

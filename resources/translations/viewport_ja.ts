@@ -142,8 +142,8 @@
 <context>
     <name>ViewportPanel</name>
     <message>
-        <source>Drag a handle; Shift finer, Alt leans, double-click gives back</source>
-        <translation>ハンドルをドラッグ：Shift で微調整、Alt で傾き、ダブルクリックで元に戻す</translation>
+        <source>Drag a handle · Shift: finely · Alt: lean · double-click: back</source>
+        <translation>ハンドルをドラッグ · Shift：微調整 · Alt：傾き · ダブルクリック：元に戻す</translation>
     </message>
     <message>
         <source>Viewport</source>

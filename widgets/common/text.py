@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping
 
 from PySide6.QtCore import QCoreApplication
@@ -35,6 +36,12 @@ def message_text(message: Message, session: Session | None = None, player_id: st
     return template.format(**{name: _told(message, name, session, player_id) for name in message.arguments})
 
 
+def sentence(message: Message, session: Session | None = None, player_id: str | None = None) -> str:
+    """A message that stands alone begins with a capital, unless with a name."""
+    text = message_text(message, session, player_id)
+    return text if TEMPLATES[message.id].startswith("{") else text[:1].upper() + text[1:]
+
+
 def note_text(session: Session, note: Note, player: Player | None) -> str:
     """A note as a person finds it: its pitch, and bar and beat."""
     score = session.project.score
@@ -53,7 +60,7 @@ def _told(message: Message, name: str, session: Session | None, player_id: str |
         if name in PITCHES.get(message.id, ()):
             return _pitch(session, float(value), player)
         if name in NOTES and isinstance(value, str):
-            return _anchor(session, value, player)
+            return _anchor(session, value, player, is_anchor=name == "anchor")
     elif name in PITCHES.get(message.id, ()):
         return f"MIDI {value}"
     words = _WORDS.get(name)
@@ -71,11 +78,13 @@ def _pitch(session: Session, pitch: float, player: Player | None) -> str:
     return pitch_text(session.pitch_display, round(pitch), semitones)
 
 
-def _anchor(session: Session, id: str, player: Player | None) -> str:
+def _anchor(session: Session, id: str, player: Player | None, is_anchor: bool) -> str:
     """A note's id as the note; an event's as its kind and its note or place; a name as it is."""
     note = _note(session.project.score, id, player)
     if note is not None:
         return note_text(session, note, player)
+    if is_anchor and _NOTE_ID.fullmatch(id):
+        return QCoreApplication.translate("Told", "a note that is gone")
     kind, colon, rest = id.partition(":")
     if not colon or kind_name(kind) == kind:
         return id
@@ -87,6 +96,8 @@ def _anchor(session: Session, id: str, player: Player | None) -> str:
         place = place_text(session.project.score, int(rest[1:]))
     return f"{kind_name(kind)} {place}"
 
+
+_NOTE_ID = re.compile(r"\d+:\d+")
 
 _indexed: dict[str, tuple[tuple[Note, ...], dict[str, Note]]] = {}
 """Notes by id of each part that somebody asked for, by part; made anew where the part has other notes."""

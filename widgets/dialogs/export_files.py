@@ -36,6 +36,7 @@ from app.performance.span import bars_span, whole_span
 from widgets.common.session import Session
 from widgets.common.tasks import Progress, StopWanted
 from widgets.common.text import message_text
+from widgets.common.tokens import LEAST_TARGET_PX
 
 RATES = tuple(map(Fraction, ("24", "25", "30000/1001", "30", "48", "50", "60000/1001", "60", "120")))
 _WHOLE, _BARS, _SELECTION = "whole", "bars", "selection"
@@ -77,6 +78,7 @@ class ExportDialog(QDialog):
             item.setData(Qt.ItemDataRole.UserRole, player.id)
             item.setFlags(Qt.ItemFlag.ItemIsEnabled | Qt.ItemFlag.ItemIsUserCheckable | Qt.ItemFlag.ItemIsSelectable)
             item.setCheckState(Qt.CheckState.Checked)
+            item.setSizeHint(QSize(0, LEAST_TARGET_PX))
             self._players.addItem(item)
         self._everybody = QPushButton()
         self._everybody.setObjectName("export_everybody")
@@ -159,6 +161,7 @@ class ExportDialog(QDialog):
         left.addLayout(top)
         left.addWidget(self._players, 1)
         formats = QHBoxLayout()
+        formats.setSpacing(18)
         for box in self._formats.values():
             formats.addWidget(box)
         formats.addStretch()
@@ -180,6 +183,7 @@ class ExportDialog(QDialog):
         form.addRow(self._labels["folder"], folder)
         form.addRow(self._labels["outcome"], self._files)
         columns = QHBoxLayout()
+        columns.setSpacing(18)
         columns.addLayout(left, 1)
         columns.addLayout(form, 2)
         layout = QVBoxLayout(self)

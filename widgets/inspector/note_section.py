@@ -20,7 +20,7 @@ from widgets.common.number_slider import NumberSlider
 from widgets.common.pitch import pitch_text
 from widgets.common.section import Section
 from widgets.common.session import Session
-from widgets.common.text import message_text
+from widgets.common.text import message_text, sentence
 from widgets.inspector.by_hand import ByHandLine
 from widgets.inspector.fingering_diagram import FingeringDiagram
 from widgets.inspector.generated import Generated
@@ -161,7 +161,7 @@ class NoteSection(QWidget):
         self._show_fingering(shown, plan, bare, instrument)
         self._show_lips(shown, plan, bare)
         told = [problem for problem in plan.problems if problem.note_id in shown.own_ids]
-        words = (message_text(problem.message, self._session, player.id) for problem in told[:5])
+        words = (sentence(problem.message, self._session, player.id) for problem in told[:5])
         self._problems.setText("\n".join(f"⚠ {text}" for text in words))
         self._problems.setVisible(bool(told))
 

@@ -10,7 +10,7 @@ from widgets.common.combo import Combo, Option
 from widgets.common.musical_time import place_text
 from widgets.common.selection import Selection
 from widgets.common.session import Session
-from widgets.common.text import message_text
+from widgets.common.text import sentence
 from widgets.inspector.rows import Line, LineList
 
 EVERYONE, SELECTED, ALL = "everyone", "selected", "all"
@@ -89,7 +89,7 @@ class ProblemList(QWidget):
             if kind not in (ALL, None, _kind(problem)):
                 continue
             tick = round(project.score.tempo_map.ticks(problem.start_s))
-            text = message_text(problem.message, self._session, player.id)
+            text = sentence(problem.message, self._session, player.id)
             colour = self._session.colour(current[player.id]) if player.id in current else ""
             lines.append(
                 Line((player.id, problem), player.name, place_text(project.score, tick), text, colour, "warning")

@@ -17,7 +17,7 @@ from instrument_maps.model import InstrumentMap
 from widgets.common.pitch import pitch_text
 from widgets.common.selection import Selection
 from widgets.common.session import Session
-from widgets.common.text import message_text
+from widgets.common.text import sentence
 from widgets.common.timeline_view import Ghosts, Tool
 from widgets.common.tokens import LEAST_TEXT_PT
 from widgets.timeline.axis import TimeAxis
@@ -453,7 +453,7 @@ class PianoRoll(Lane):
             player = self.session.player
             plan = self.plan_of(player) if player is not None else None
             found = [problem for problem in plan.problems if problem.note_id == note.id] if plan is not None else []
-            problems = "\n".join(message_text(problem.message, self.session) for problem in found)
+            problems = "\n".join(sentence(problem.message, self.session) for problem in found)
         self.told.emit(text)
         if self.plot.toolTip() != problems:
             self.plot.setToolTip(problems)

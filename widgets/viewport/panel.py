@@ -436,7 +436,7 @@ class ViewportPanel(QWidget):
     def _show_note(self) -> None:
         note = ""
         if self._session.viewport.posing:
-            note = self.tr("Drag a handle; Shift finer, Alt leans, double-click gives back")
+            note = self.tr("Drag a handle · Shift: finely · Alt: lean · double-click: back")
         self.header.set_note(note)
 
     def retranslate(self) -> None:

@@ -82,6 +82,7 @@ def test_an_anchor_is_a_note_an_event_or_a_name(session: Session, note: Note) ->
     assert told(note.id).startswith("the correction (breath) for F4 (bar 2, beat 2)")
     assert told(f"breath:{note.id}").startswith("the correction (breath) for Breath F4 (bar 2, beat 2)")
     assert told("lower_instrument:@960").startswith("the correction (breath) for Instrument lowered 1.2")
+    assert told("99:1").startswith("the correction (breath) for a note that is gone has lost")
     assert told("added-3").startswith("the correction (breath) for added-3")
 
 

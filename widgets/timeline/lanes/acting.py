@@ -89,6 +89,8 @@ class ActingLane(RegionLane):
 
     def group_name(self, kind: str) -> str:
         """What a group of rows is called, after its first kind."""
+        if kind == VARIED:
+            return self.tr("Anew")
         return self.tr("Pose") if kind == "lower_instrument" else kind_name(kind)
 
     # Regions

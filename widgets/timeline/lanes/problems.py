@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
 from app.plan.model import PlayerPlan, Problem
 from widgets.common.selection import Selection
 from widgets.common.session import Session, Severity
-from widgets.common.text import message_text
+from widgets.common.text import sentence
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.lane import Lane, LaneItem, LaneMouse
 from widgets.timeline.lanes.drawing import shade
@@ -169,4 +169,4 @@ class ProblemsLane(Lane):
 
     def hover(self, mouse: LaneMouse | None) -> None:
         problem = self.problem_at(mouse) if mouse is not None else None
-        self.plot.setToolTip(message_text(problem.message, self.session) if problem is not None else "")
+        self.plot.setToolTip(sentence(problem.message, self.session) if problem is not None else "")
