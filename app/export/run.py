@@ -25,8 +25,9 @@ from app.formats.atomic import atomic_write
 from app.formats.bvh import encode_bvh
 from app.formats.fbx.read import read_scene
 from app.formats.fbx.write import write_scene
+from app.performance.bodies import body_of, character_of, model_of
 from app.performance.ensemble import Performance
-from app.performance.motion import body_of, character_of, model_of, player_motion
+from app.performance.motion import player_motion
 from app.performance.span import FrameSpan
 from app.project.model import Player
 from app.project.names import file_stems

@@ -23,6 +23,10 @@ TEMPLATES: Final[dict[str, str]] = {
         "note {note} is struck together with the higher note {other}: only one can sound, and it is left out"
     ),
     "note.overlaps": "note {note} still sounds for {overlap_ms} ms when {other} begins: it ends there",
+    "contact.out_of_reach": (
+        "{label} is out of this player's reach: the hand stays {gap_mm} mm away; "
+        "take another fingering, or a character with longer arms"
+    ),
     # The plan: breaths
     "breath.first": "the first breath, in the {beats:g} beats before the entry",
     "breath.rest_whole": (

@@ -14,6 +14,7 @@ import msgspec
 
 from app.errors import AppError, MapError, Message
 from app.performance.loudness import note_loudness
+from app.performance.reach import reach_problems
 from app.plan.corrections import RemoveEvent, SetBreath, SetCue, Vary
 from app.plan.generate import BREATH_PARAMETERS, EnsemblePlan, Line, Piece, frame_around, plan_ensemble
 from app.plan.memo import Memo
@@ -163,13 +164,30 @@ class Performance:
         if player.character_id not in known:
             problems.append(("project.character_missing", player.character_id))
         if plan is not None and not problems:
-            return plan
+            return self._reaching(player, plan)
         told = tuple(
             Problem(Message(id, {"player": player.name, "id": what}), None, frame.first_frame_s, frame.end_s)
             for id, what in problems
         )
         return self._memo.step(
             f"told:{player.id}", lambda: _with_problems(player, plan, frame, told), plan, frame, told
+        )
+
+    def _reaching(self, player: Player, plan: PlayerPlan) -> PlayerPlan:
+        """The plan with what the player's hands do not reach."""
+        instrument = self.instrument(player)
+        unreached = self._memo.step(
+            f"reach:{player.id}",
+            lambda: reach_problems(player, instrument, plan),
+            plan.fingerings,
+            instrument,
+            player.character_id,
+            player.parameters.posture,
+        )
+        if not unreached:
+            return plan
+        return self._memo.step(
+            f"told:{player.id}", lambda: _with_problems(player, plan, self.time_frame, unreached), plan, unreached
         )
 
     @cached_property
@@ -232,4 +250,5 @@ def _work(line: Line, before: Line | None) -> int:
 def _with_problems(player: Player, plan: PlayerPlan | None, frame: TimeFrame, told: tuple[Problem, ...]) -> PlayerPlan:
     if plan is None:
         return PlayerPlan(player.id, frame, (), (), (), (), (), (), (), told)
-    return msgspec.structs.replace(plan, problems=told + plan.problems)
+    problems = tuple(sorted(told + plan.problems, key=lambda problem: problem.start_s))
+    return msgspec.structs.replace(plan, problems=problems)

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from app.performance.motion import body_of, character_of, model_of
+from app.performance.bodies import body_of, character_of, model_of
 from app.project.casting import StagePosition
 from app.project.model import Player
 from app.rig import quaternion

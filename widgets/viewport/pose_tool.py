@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from app.errors import Message
-from app.performance.motion import body_of
+from app.performance.bodies import body_of
 from app.plan.corrections import PoseCorrection
 from app.plan.model import PoseTarget
 from app.plan.pose import pose_limits

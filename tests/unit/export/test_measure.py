@@ -18,8 +18,9 @@ from app.export.penetration import Hands
 from app.export.playback import Playback, Surface
 from app.export.proxy import signed_distance
 from app.formats.fbx.scene import FbxScene
+from app.performance.bodies import body_of, character_of, model_of
 from app.performance.ensemble import Performance
-from app.performance.motion import body_of, character_of, model_of, player_motion
+from app.performance.motion import player_motion
 from app.performance.span import cut_span
 from app.plan.model import FingeringEvent
 from app.project.model import map_choices, project_from_score

@@ -8,7 +8,7 @@ import msgspec
 import numpy as np
 import pytest
 
-from app.performance.motion import model_of
+from app.performance.bodies import model_of
 from app.rig.instrument import node_transforms
 from app.rig.quaternion import rotate
 from app.rig.skeleton import forward

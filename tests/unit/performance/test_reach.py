@@ -1,0 +1,87 @@
+"""Who cannot reach a place is told, note by note; against the exported motion's own hands."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+from pathlib import Path
+
+import msgspec
+import numpy as np
+import pytest
+
+from app.performance.bodies import character_of, hold_of
+from app.performance.ensemble import Performance
+from app.performance.motion import player_motion
+from app.performance.span import whole_span
+from app.plan.corrections import PinFingering
+from app.project.edit.corrections import put
+from app.project.model import Project, map_choices, project_from_score
+from app.rig.hold import hand_targets
+from app.rig.skeleton import forward
+from app.score.read import read_midi
+from instrument_maps.load import bundled_maps
+
+AIR = Path(__file__).parents[2] / "data" / "midi" / "ensemble" / "trombone_quartet_bach_air.mid"
+FPS = Fraction(25)
+
+
+def played_by(character_id: str) -> Project:
+    maps = bundled_maps()
+    project = project_from_score(read_midi(AIR, maps=map_choices(maps.values())), maps)
+    players = tuple(msgspec.structs.replace(player, character_id=character_id) for player in project.players)
+    return replace(project, players=players)
+
+
+def unreached(project: Project, player_id: str) -> set[str | None]:
+    problems = Performance(project).plan(project.player(player_id)).problems
+    return {problem.note_id for problem in problems if problem.message.id == "contact.out_of_reach"}
+
+
+def test_long_arms_reach_everything() -> None:
+    project = played_by("man_adult")
+    assert all(unreached(project, player.id) == set() for player in project.players)
+
+
+@pytest.mark.parametrize("index", [0, 3])
+def test_what_is_told_is_what_the_motion_shows(index: int) -> None:
+    """In the motion itself, the slide hand is off its grip at the notes told, and at no other."""
+    project = played_by("woman_adult")
+    player = project.players[index]
+    performance = Performance(project)
+    motion = player_motion(performance, player, whole_span(performance.time_frame, FPS))
+    hold = hold_of(player, performance.instrument(player))
+    skeleton = character_of(player).skeleton
+    off_m = np.zeros(motion.frames)
+    for hand in hold.hands:
+        wrist = skeleton.index(f"{hand.side}Hand")
+        reached_m, _ = forward(skeleton, motion.rotations, motion.hips_m, (wrist,)).of(wrist)
+        wanted_m, _ = hand_targets(hand, motion.instrument_position_m, motion.instrument_rotation, motion.controls)
+        off_m = np.maximum(off_m, np.linalg.norm(reached_m - wanted_m, axis=1))
+    told = unreached(project, player.id)
+    assert bool(told) == (index == 3)
+    for event in performance.plan(player).fingerings:
+        frame = int(np.ceil((event.start_s - motion.first_frame_s) * FPS))
+        if event.note_id in told:
+            assert off_m[frame] > 0.03
+        else:
+            assert off_m[frame] < 0.02
+
+
+def test_another_fingering_settles_it() -> None:
+    project = played_by("woman_adult")
+    player = project.players[3]
+    instrument = Performance(project).instrument(player)
+    pitches = {note.id: note.pitch for note in project.part(player).notes}
+    before = unreached(project, player.id)
+    near = {
+        note_id: fingering.label
+        for note_id in before
+        if note_id is not None
+        for fingering in instrument.fingerings
+        if fingering.written_pitch - instrument.transposition_semitones == pitches[note_id]
+        and fingering.label.startswith("T")
+    }
+    assert near
+    pinned = put(project, player.id, [PinFingering(note_id, label) for note_id, label in near.items()])
+    assert unreached(pinned, player.id) == before - set(near)
