@@ -23,6 +23,9 @@ TEMPLATES: Final[dict[str, str]] = {
         "{file} was not saved, it could not be opened again: {place}: {detail}; undo the last edit, then save"
     ),
     "project.read_only": "{file} is write-protected; save it under another name or allow writing",
+    "project.open_elsewhere": (
+        "{file} is open in another window too; what is saved here and there replaces each other"
+    ),
     "project.encoding": "--encoding says how the texts of a MIDI file are read; {file} is a project and needs none",
     "project.instrument_missing": (
         "{player} plays the instrument {id!r}, which is not installed; choose another one or install it"

@@ -69,10 +69,17 @@ class Autosave:
         return self._document
 
     @property
+    def is_shared(self) -> bool:
+        """Whether another living editor works on the same file."""
+        return self._document is not None and is_open_elsewhere(
+            self._document, self.presence.folder, self.presence.token
+        )
+
+    @property
     def path(self) -> Path:
         """Where the unsaved work goes."""
         own = self.presence.folder / f"{self.presence.token}{SUFFIX}"
-        if self._document is None or is_open_elsewhere(self._document, self.presence.folder, self.presence.token):
+        if self._document is None or self.is_shared:
             return own
         beside = autosave_path(self._document)
         # What a crash left there stays until the person has decided about it.

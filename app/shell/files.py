@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import time
 from collections.abc import Callable
 from importlib.resources import as_file, files
@@ -53,12 +54,15 @@ class Files(QObject):
         There is newer unsaved work on the file that was just opened.
     missing(Path)
         The recording of the project that was just opened is not where it was.
+    overtaken(Path, Then or None)
+        The project was not saved: somebody else wrote its file since it was opened. `save_over` would replace that.
     """
 
     changed = Signal()
     opened = Signal()
     found = Signal(object)
     missing = Signal(object)
+    overtaken = Signal(object, object)
 
     def __init__(
         self, session: Session, settings: Settings, questions: Questions, autosave: Autosave | None = None
@@ -69,6 +73,8 @@ class Files(QObject):
         self.questions = questions
         self.autosave = autosave
         self.path: Path | None = None
+        self._stamp: Stamp | None = None
+        """Of the file as this editor read or wrote it last."""
         self.is_open = False
         self.saved_s: float | None = None
         """When the project, or unsaved work on it, was written last; of `time.monotonic`."""
@@ -153,12 +159,16 @@ class Files(QObject):
         folder = self.autosave.presence.folder if self.autosave is not None else None
 
         def work(progress: Callable[[float], None], stop_wanted: Callable[[], bool]) -> Opened:
+            stamp = stamp_of(path)
             project = storage.load(path)
-            return project, recoverable_of(path, folder) if folder is not None else None
+            return project, recoverable_of(path, folder) if folder is not None else None, stamp
 
         def done(opened: Opened) -> None:
-            project, item = opened
+            project, item, stamp = opened
             self._become(project, path)
+            self._stamp = stamp
+            if self.autosave is not None and self.autosave.is_shared:
+                self.session.notice(Message("project.open_elsewhere", {"file": path.name}), Severity.WARNING)
             for problem in storage.missing(project):
                 self.session.notice(problem, Severity.WARNING)
             lost = storage.missing_media(project)
@@ -199,13 +209,15 @@ class Files(QObject):
     def _failed(self, path: Path) -> Callable[[AppError], None]:
         def failed(error: AppError) -> None:
             self.session.notice(error.message, Severity.ERROR)
-            if not path.exists():
+            # Unlike `Path.exists`, it is no error where the name cannot be any file's.
+            if not os.path.exists(path):  # noqa: PTH110
                 self.changed.emit()
 
         return failed
 
     def _become(self, project: Project, path: Path | None, saved: bool = True) -> None:
         self.path = path
+        self._stamp = stamp_of(path) if path is not None else None
         self.is_open = True
         self.saved_s = None
         if path is not None:
@@ -258,10 +270,19 @@ class Files(QObject):
     # Saving
 
     def save(self, then: Then | None = None) -> None:
-        """Save to the project's file; one without a file is asked where."""
+        """Save to the project's file; one without a file is asked where, and work of others is not written over."""
         if self.path is None:
             self.save_as(then)
+            return
+        found = stamp_of(self.path)
+        if found is not None and found != self._stamp:
+            self.overtaken.emit(self.path, then)
         else:
+            self._save(self.path, then)
+
+    def save_over(self, then: Then | None = None) -> None:
+        """Save to the project's file, whoever wrote it last."""
+        if self.path is not None:
             self._save(self.path, then)
 
     def save_as(self, then: Then | None = None) -> None:
@@ -281,13 +302,14 @@ class Files(QObject):
     def _save(self, path: Path, then: Then | None) -> None:
         project = self.session.project
 
-        def work(progress: Callable[[float], None], stop_wanted: Callable[[], bool]) -> None:
+        def work(progress: Callable[[float], None], stop_wanted: Callable[[], bool]) -> Stamp | None:
             if stop_wanted():
                 raise Cancelled("work.stopped")
             storage.save(project, path)
+            return stamp_of(path)
 
-        def done(nothing: None) -> None:
-            self.path = path
+        def done(stamp: Stamp | None) -> None:
+            self.path, self._stamp = path, stamp
             self.session.document.mark_saved(project)
             self.settings.add_recent(path)
             self.settings.folder = str(path.parent)
@@ -380,5 +402,15 @@ class Files(QObject):
         self.changed.emit()
 
 
-Opened = tuple[Project, Recoverable | None]
+def stamp_of(path: Path) -> Stamp | None:
+    """By what a file that was written since is known; None: it is not there."""
+    try:
+        found = path.stat()
+    except OSError:
+        return None
+    return found.st_mtime_ns, found.st_size
+
+
+Stamp = tuple[int, int]
+Opened = tuple[Project, Recoverable | None, Stamp | None]
 Read = tuple[MidiContents, Project | None]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 from typing import Final
@@ -135,6 +136,7 @@ class Window(QMainWindow):
         self._files.opened.connect(self._show_page)
         self._files.found.connect(self._offer_recovery)
         self._files.missing.connect(self._ask_for_media)
+        self._files.overtaken.connect(self._ask_to_save_over)
         self.session.theme_changed.connect(self._dress)
         self.status.problems_asked.connect(self._next_problem)
         generator.ready_changed.connect(self.status.set_ready)
@@ -313,6 +315,17 @@ class Window(QMainWindow):
                 (self.tr("Find It..."), self.tr("Remove It")),
             ),
             (partial(self._find_media, path), self._remove_media),
+        )
+
+    def _ask_to_save_over(self, path: Path, then: Callable[[], None] | None) -> None:
+        self.banner.ask(
+            lambda: (
+                self.tr("{name} was changed by somebody else since it was opened. It was not saved.").format(
+                    name=path.name
+                ),
+                (self.tr("Save As..."), self.tr("Replace It")),
+            ),
+            (partial(self._files.save_as, then), partial(self._files.save_over, then)),
         )
 
     def _find_media(self, path: Path) -> None:

@@ -410,8 +410,8 @@
         <translation>{file} に変更はありません。</translation>
     </message>
     <message>
-        <source>What {file} changes. Everything done by hand stays with its notes.</source>
-        <translation>{file} による変更です。手で直したものは、それぞれの音符に残ります。</translation>
+        <source>What {file} changes. Fingerings, breaths and all else set by hand stay with their notes; notes that were moved in the editor stand again where the file has them. Undo takes it all back.</source>
+        <translation>{file} による変更です。手で直した運指やブレスなどはそれぞれの音符に残ります。エディターで動かした音符はファイルの位置に戻ります。すべて元に戻せます。</translation>
     </message>
     <message>
         <source>Part</source>

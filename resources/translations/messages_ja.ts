@@ -580,6 +580,10 @@
             <translation>音符 {note} は {other} が始まってからも {overlap_ms} ms 鳴っているため、そこで終わらせます</translation>
         </message>
         <message>
+            <source>{label} is out of this player's reach: the hand stays {gap_mm} mm away; take another fingering, or a character with longer arms</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>the first breath, in the {beats:g} beats before the entry</source>
             <translation>最初のブレス。入りの前の {beats:g} 拍で吸います</translation>
         </message>
@@ -718,6 +722,10 @@
         <message>
             <source>{file} is write-protected; save it under another name or allow writing</source>
             <translation>{file} は書き込み禁止です。別の名前で保存するか、書き込みを許可してください</translation>
+        </message>
+        <message>
+            <source>{file} is open in another window too; what is saved here and there replaces each other</source>
+            <translation>{file}は別のウィンドウでも開かれています。両方で保存すると互いに上書きされます</translation>
         </message>
         <message>
             <source>--encoding says how the texts of a MIDI file are read; {file} is a project and needs none</source>

@@ -1012,6 +1012,18 @@
         <translation>外す</translation>
     </message>
     <message>
+        <source>{name} was changed by somebody else since it was opened. It was not saved.</source>
+        <translation>{name}は開いた後に別の場所で変更されています。保存していません。</translation>
+    </message>
+    <message>
+        <source>Save As...</source>
+        <translation>名前を付けて保存...</translation>
+    </message>
+    <message>
+        <source>Replace It</source>
+        <translation>上書きする</translation>
+    </message>
+    <message>
         <source>Find {name}</source>
         <translation>{name} を探す</translation>
     </message>
