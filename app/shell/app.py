@@ -229,6 +229,7 @@ def picture(start: Start, target: Path) -> int:
                 window.reset_layout()
             # Flights of the camera and late layouts.
             _wait(application, lambda: False, 1.2)
+            _wait(application, lambda: not _working(program), READY_S)
             image = window.grab().toImage()
             if not image.save(str(target)):
                 raise AppError("file.cannot_write", file=str(target), reason=_why_not(target))

@@ -72,6 +72,8 @@ class StatusLine(QStatusBar):
         self._work_line = QHBoxLayout(self._work)
         self._work_line.setContentsMargins(4, 0, 0, 0)
         self._work_line.setSpacing(10)
+        # Beside one another at the left, however much room there is.
+        self._work_line.addStretch(1)
         self._notice = QPushButton()
         self._notice.setObjectName("notice")
         self._notice.setFlat(True)
@@ -153,9 +155,7 @@ class StatusLine(QStatusBar):
                 row = _TaskRow(task, self._session.tokens)
                 row.stop.clicked.connect(partial(self._tasks.cancel, task))
                 self._rows[task] = row
-                self._work_line.addWidget(row)
-        # Beside one another at the left, however much room there is.
-        self._work_line.setAlignment(Qt.AlignmentFlag.AlignLeft)
+                self._work_line.insertWidget(self._work_line.count() - 1, row)
         self._work.setVisible(bool(shown))
 
     # Notices
