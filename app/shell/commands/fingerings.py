@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from weakref import WeakKeyDictionary
 
-from app.errors import Message
+from app.errors import AppError, Message
 from app.project.edit.events import pin_fingerings
 from app.project.model import Player, Project
 from app.score.model import Note
@@ -33,7 +33,11 @@ _typed: WeakKeyDictionary[Session, _Typed] = WeakKeyDictionary()
 
 def choices(session: Session, player: Player, note: Note) -> tuple[Fingering, ...]:
     """Every fingering of a note on the player's instrument, first choice first."""
-    return session.performance.instrument(player).fingerings_for(note.pitch)
+    try:
+        return session.performance.instrument(player).fingerings_for(note.pitch)
+    except AppError:
+        # The instrument is not installed.
+        return ()
 
 
 def type_fingering(session: Session, sign: str, now_s: float | None = None) -> None:

@@ -10,8 +10,10 @@ from PySide6.QtCore import QPoint, QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QKeyEvent, QPainter, QPen
 from PySide6.QtWidgets import QMenu, QWidget
 
+from app.errors import AppError
 from app.plan.model import FingeringEvent, PlayerPlan
 from app.project.document import Change
+from app.project.model import Player
 from instrument_maps.model import Control, InstrumentMap
 from widgets.common.selection import Selection
 from widgets.common.session import Session
@@ -211,8 +213,8 @@ class FingeringLane(Lane):
             # New plans are on their way: what is shown stays until they are there.
             return
         self._plan, self.data, self.places = plan, None, ()
-        if player is not None and plan is not None:
-            instrument = self.session.performance.instrument(player)
+        instrument = self._instrument(player) if player is not None else None
+        if instrument is not None and plan is not None:
             pitched = [control for control in instrument.controls if control.role == "pitch"]
             self._pressable = tuple(control for control in pitched if control.kind != "slide")
             self._slides = tuple(control for control in pitched if control.kind == "slide")
@@ -223,6 +225,13 @@ class FingeringLane(Lane):
         if hasattr(self, "_names"):
             self._names.update()
         self.update_items()
+
+    def _instrument(self, player: Player) -> InstrumentMap | None:
+        """What a player plays; None where it is not installed."""
+        try:
+            return self.session.performance.instrument(player)
+        except AppError:
+            return None
 
     def row_names(self) -> list[tuple[str, float]]:
         """Signs of the controls and places of the slide, and where they stand."""
