@@ -682,6 +682,14 @@
         <translation>該当する問題はありません。上でプレイヤーや種類を変えてください。</translation>
     </message>
     <message>
+        <source>Whose problems</source>
+        <translation>誰の問題を表示するか</translation>
+    </message>
+    <message>
+        <source>Problems of which kind</source>
+        <translation>どの種類の問題を表示するか</translation>
+    </message>
+    <message>
         <source>All players</source>
         <translation>全プレイヤー</translation>
     </message>

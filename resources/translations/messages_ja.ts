@@ -581,7 +581,7 @@
         </message>
         <message>
             <source>{label} is out of this player's reach: the hand stays {gap_mm} mm away; take another fingering, or a character with longer arms</source>
-            <translation type="unfinished" />
+            <translation>{label} はこの奏者の手が届きません(あと {gap_mm} mm)。別の運指か、腕の長いキャラクターにしてください</translation>
         </message>
         <message>
             <source>the first breath, in the {beats:g} beats before the entry</source>

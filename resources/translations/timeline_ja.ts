@@ -157,6 +157,17 @@
     </message>
 </context>
 <context>
+    <name>Lane</name>
+    <message>
+        <source>Unfold</source>
+        <translation>展開する</translation>
+    </message>
+    <message>
+        <source>Fold</source>
+        <translation>折りたたむ</translation>
+    </message>
+</context>
+<context>
     <name>PianoRoll</name>
     <message>
         <source>Nobody plays yet: open a MIDI file, or add a player.</source>
