@@ -31,6 +31,8 @@ from widgets.common.text import message_text, sentence
 from widgets.common.tokens import LEAST_TARGET_PX, Tokens
 
 POLL_MS = 100
+NAME_PX = 48
+"""The name of work may become this narrow."""
 QUIET_S = 0.25
 """Work that is done sooner is not shown: a flash tells nothing."""
 INFORMATION_S = 6.0
@@ -76,6 +78,7 @@ class StatusLine(QStatusBar):
         self._work_line.addStretch(1)
         self._notice = QPushButton()
         self._notice.setObjectName("notice")
+        self._notice.setMinimumWidth(120)
         self._notice.setFlat(True)
         self._notice.setStyleSheet("text-align: left; padding: 2px 6px;")
         self._notice.clicked.connect(self._unfold)
@@ -311,6 +314,8 @@ class _TaskRow(QWidget):
         line.setContentsMargins(0, 0, 0, 0)
         line.setSpacing(6)
         self._name = QLabel()
+        # What stands at the right has room before the names of work.
+        self._name.setMinimumWidth(NAME_PX)
         self._bar = QProgressBar()
         self._bar.setTextVisible(False)
         self._bar.setFixedWidth(110)
@@ -325,6 +330,7 @@ class _TaskRow(QWidget):
         """Set texts and colours."""
         name = message_text(task.name)
         self._name.setText(name[:1].upper() + name[1:])
+        self._name.setToolTip(self._name.text())
         self.stop.setIcon(icon("close", tokens))
         self.stop.setToolTip(self.tr("Stop"))
 

@@ -119,6 +119,10 @@ class ProblemList(QWidget):
 
     def retranslate(self) -> None:
         """Set every text in the language of the editor."""
+        self._who.setAccessibleName(self.tr("Whose problems"))
+        self._kind.setAccessibleName(self.tr("Problems of which kind"))
+        for combo in (self._who, self._kind):
+            combo.setToolTip(combo.accessibleName())
         who, kind = self._who.shown or EVERYONE, self._kind.shown or ALL
         self._who.set_options([Option(EVERYONE, self.tr("All players")), Option(SELECTED, self.tr("Selected players"))])
         words = {

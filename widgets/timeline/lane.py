@@ -6,7 +6,7 @@ seconds and the lane's own values, through ``view_box.addItem``), and answers th
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent, QPoint, QPointF, QRectF, QSize, Qt, QTimer, Signal
+from PySide6.QtCore import QCoreApplication, QEvent, QPoint, QPointF, QRectF, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import (
     QColor,
     QKeyEvent,
@@ -102,6 +102,7 @@ class Lane(QWidget):
         self.fold_button.setFixedSize(QSize(24, 24))
         self.fold_button.setArrowType(Qt.ArrowType.DownArrow)
         self.fold_button.clicked.connect(self._toggle_fold)
+        self._name_fold()
         self.title = QLabel(self.header)
         self.title.setObjectName("lane_title")
         self.title.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
@@ -266,7 +267,15 @@ class Lane(QWidget):
         self.fold_button.setArrowType(Qt.ArrowType.RightArrow if folded else Qt.ArrowType.DownArrow)
         self.setMinimumHeight(FOLDED_PX if folded else self.least_height_px)
         self.setMaximumHeight(FOLDED_PX if folded else 16777215)
+        self._name_fold()
         self.fold_changed.emit()
+
+    def _name_fold(self) -> None:
+        text = (
+            QCoreApplication.translate("Lane", "Unfold") if self._folded else QCoreApplication.translate("Lane", "Fold")
+        )
+        self.fold_button.setToolTip(text)
+        self.fold_button.setAccessibleName(text)
 
     def ask_height(self, preferred_px: int, least_px: int) -> None:
         """Ask for another height; one that a person set stays."""
@@ -451,6 +460,7 @@ class Lane(QWidget):
     def changeEvent(self, event: QEvent) -> None:
         if event.type() == QEvent.Type.LanguageChange:
             self.retranslate()
+            self._name_fold()
         super().changeEvent(event)
 
     def sizeHint(self) -> QSize:
