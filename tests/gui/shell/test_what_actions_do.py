@@ -1,0 +1,799 @@
+"""Every row of the table of actions in the whole editor, by its shortcut where it has one, judged by what it did."""
+
+from __future__ import annotations
+
+import dataclasses
+import traceback
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+import soundfile
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QKeySequence
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication, QDialog, QWidget
+from pytestqt.qtbot import QtBot
+
+from app.errors import Message
+from app.plan.corrections import AddGesture, PinFingering, RemoveEvent, SetBreath, SetCue, Vary
+from app.plan.model import PlayerPlan
+from app.project.autosave import Autosave
+from app.project.casting import StagePosition
+from app.project.edit.piece import set_audio
+from app.project.edit.players import place
+from app.project.grid import Grid
+from app.project.model import Player, Project
+from app.project.presence import Presence
+from app.score.model import Note
+from app.shell.actions import rows
+from app.shell.app import Program
+from app.shell.settings import Settings
+from app.shell.sound import sound_of
+from tests.gui.conftest import QUARTET, delete_now
+from tests.gui.shell.conftest import Answers
+from tests.support.tasks import ImmediateTasks
+from widgets.common.selection import EventKey, Selection
+from widgets.common.tokens import DARK
+from widgets.timeline.panel import TimelinePanel
+from widgets.viewport.panel import ViewportPanel
+
+
+class Desk:
+    """The editor, what was open before the action, and short words for what is there."""
+
+    def __init__(self, program: Program, answers: Answers, folder: Path) -> None:
+        self.program = program
+        self.session = program.session
+        self.answers = answers
+        self.folder = folder
+        self.before: Project = self.session.project
+        self.seen: dict[str, object] = {}
+
+    @property
+    def project(self) -> Project:
+        return self.session.project
+
+    @property
+    def player(self) -> Player:
+        assert self.session.player is not None
+        return self.session.player
+
+    @property
+    def plan(self) -> PlayerPlan:
+        return self.session.performance.plan(self.player)
+
+    @property
+    def timeline(self) -> TimelinePanel:
+        return self.program.window.timeline
+
+    @property
+    def viewport(self) -> ViewportPanel:
+        return self.program.window.viewport
+
+    def notes(self, project: Project | None = None) -> tuple[Note, ...]:
+        """The notes of whoever was in front before."""
+        held = self.project if project is None else project
+        return held.part(held.players[0]).notes
+
+    def chosen(self) -> list[tuple[Note, Note | None]]:
+        """What was selected, before and after."""
+        after = {note.id: note for note in self.notes()}
+        ids = self.seen["notes"]
+        assert isinstance(ids, frozenset)
+        return [(note, after.get(note.id)) for note in self.notes(self.before) if note.id in ids]
+
+    def made(self, kind: type) -> list[object]:
+        """Corrections of a kind that were not there before."""
+        old = self.before.corrections.get(self.before.players[0].id, ())
+        return [
+            item
+            for item in self.project.corrections.get(self.before.players[0].id, ())
+            if isinstance(item, kind) and item not in old
+        ]
+
+    def dialog(self, name: str) -> bool:
+        """Whether a dialog is up; it is closed."""
+        found = [
+            widget for widget in QApplication.topLevelWidgets() if isinstance(widget, QDialog) and widget.isVisible()
+        ]
+        names = [widget.objectName() for widget in found]
+        for widget in found:
+            widget.close()
+        return names == [name]
+
+    def menu(self, *entries: str) -> bool:
+        """Whether a menu is up that has these entries; it is closed."""
+        popup = QApplication.activePopupWidget()
+        if popup is None:
+            return False
+        names = [action.objectName() for action in popup.actions()]
+        popup.close()
+        return set(entries) <= set(names)
+
+    def settle(self) -> None:
+        """Let the window do what it does later."""
+        for _ in range(3):
+            QApplication.processEvents()
+
+
+Deed = Callable[[Desk], object]
+Right = Callable[[Desk], bool]
+
+
+@dataclasses.dataclass(frozen=True)
+class Case:
+    """What an action must do.
+
+    Attributes
+    ----------
+    right : callable
+        Whether it did it.
+    ready : callable
+        What the person did before.
+    edits : bool
+        Whether the project is another one afterwards; then undo gives back the very same.
+    """
+
+    right: Right
+    ready: Deed = lambda desk: None
+    edits: bool = False
+
+
+def each(desk: Desk, true: Callable[[Note, Note], bool]) -> bool:
+    pairs = desk.chosen()
+    return bool(pairs) and all(after is not None and true(note, after) for note, after in pairs)
+
+
+def pitch_by(by: int) -> Case:
+    return Case(lambda d: each(d, lambda a, b: b.pitch - a.pitch == by), edits=True)
+
+
+def louder_by(by: int) -> Case:
+    return Case(lambda d: each(d, lambda a, b: b.velocity - a.velocity == by), edits=True)
+
+
+def moved(sign: int, quarters: float | None) -> Case:
+    def right(desk: Desk) -> bool:
+        score = desk.project.score
+        fps = float(desk.project.fps)
+
+        def true(a: Note, b: Note) -> bool:
+            if quarters is not None:
+                return b.onset_tick - a.onset_tick == round(sign * quarters * score.ticks_per_quarter)
+            seconds = score.tempo_map.seconds
+            return abs(seconds(float(b.onset_tick)) - seconds(float(a.onset_tick)) - sign / fps) < 0.004
+
+        return each(desk, true)
+
+    return Case(right, edits=True)
+
+
+def typed(desk: Desk, label: str) -> None:
+    """Select a note that has a fingering of this label; there may be none in the piece."""
+    for player in desk.project.players:
+        instrument = desk.session.performance.instrument(player)
+        for note in desk.project.part(player).notes:
+            labels = [fingering.label for fingering in instrument.fingerings_for(note.pitch)]
+            if label in labels:
+                desk.session.set_players((player.id,))
+                desk.session.select(Selection(frozenset({note.id})))
+                desk.seen["typed"] = (player.id, note.id)
+                return
+    desk.seen["typed"] = None
+
+
+def type_case(sign: str) -> Case:
+    def right(desk: Desk) -> bool:
+        if desk.seen["typed"] is None:
+            # No instrument here has it: nothing happens, and the person is told or it is the beginning of a longer one.
+            return desk.project is desk.before
+        player_id, note_id = desk.seen["typed"]  # type: ignore[misc]
+        return PinFingering(note_id, sign) in desk.project.corrections[player_id]
+
+    return Case(right, lambda desk: typed(desk, sign))
+
+
+def gesture_case(kind: str) -> Case:
+    return Case(lambda d: [item.kind for item in d.made(AddGesture)] == [kind], edits=True)  # type: ignore[attr-defined]
+
+
+def pinned(desk: Desk) -> None:
+    ids = sorted(desk.session.selection.notes)
+    desk.session.actions["fingering.cycle"].trigger()
+    assert desk.session.selection.notes == frozenset(ids)
+    if not desk.project.corrections.get(desk.player.id):
+        desk.session.actions["events.breath"].trigger()
+
+
+def several(desk: Desk) -> None:
+    desk.session.set_players(tuple(player.id for player in desk.project.players[:2]))
+
+
+def has_recording(desk: Desk) -> None:
+    path = desk.folder / "tone.wav"
+    if not path.exists():
+        tone = 0.1 * np.sin(np.arange(22_050) * 0.1)
+        soundfile.write(path, tone, 22_050)
+    desk.session.attempt(Message("edit.set_audio"), lambda project: set_audio(project, path))
+
+
+def at(seconds: float) -> Deed:
+    return lambda desk: desk.session.set_playhead(seconds)
+
+
+def remember(name: str, value: Callable[[Desk], object]) -> Deed:
+    def keep(desk: Desk) -> None:
+        desk.seen[name] = value(desk)
+
+    return keep
+
+
+def span_s(desk: Desk) -> float:
+    return desk.timeline.axis.span_s
+
+
+def axis(ready: Deed, right: Callable[[float, float], bool]) -> Case:
+    def begin(desk: Desk) -> None:
+        ready(desk)
+        desk.seen["span"] = span_s(desk)
+
+    return Case(lambda d: right(d.seen["span"], span_s(d)), begin)  # type: ignore[arg-type]
+
+
+def playing(desk: Desk) -> bool:
+    was = desk.session.playing
+    assert desk.session.playback is not None
+    desk.session.playback.stop()
+    return was
+
+
+def toggled(action_id: str, state: Callable[[Desk], object]) -> Case:
+    return Case(lambda d: state(d) != d.seen["state"], remember("state", state))
+
+
+def becomes(state: Callable[[Desk], object], wanted: object, ready: Deed = lambda desk: None) -> Case:
+    def begin(desk: Desk) -> None:
+        ready(desk)
+        assert state(desk) != wanted, f"it is {wanted} already"
+
+    return Case(lambda d: state(d) == wanted, begin)
+
+
+def command(action_id: str) -> Deed:
+    return lambda desk: desk.session.actions[action_id].trigger()
+
+
+def tool(name: str) -> Case:
+    other = "draw" if name == "select" else "select"
+    return becomes(lambda d: d.timeline.tool.value, name, command(f"notes.tool_{other}"))
+
+
+def ghosts(name: str) -> Case:
+    other = "all" if name == "ghosts" else "ghosts"
+    return becomes(lambda d: d.timeline.ghosts.value, name, command(f"timeline.{other}"))
+
+
+def view(name: str) -> Case:
+    other = "front" if name == "ensemble" else "ensemble"
+    return becomes(lambda d: d.session.viewport.view, name, command(f"viewport.{other}"))
+
+
+def problem(desk: Desk) -> None:
+    """A note that nobody can play, twice."""
+    notes = desk.notes()
+    for note in (notes[4], notes[10]):
+        desk.session.select(Selection(frozenset({note.id})))
+        for _ in range(4):
+            desk.session.actions["notes.octave_up"].trigger()
+    desk.session.select(Selection())
+    desk.session.set_playhead(0.0)
+
+
+def a_breath(desk: Desk) -> None:
+    desk.session.select(Selection(events=frozenset({EventKey(desk.player.id, desk.plan.breaths[1].id)})))
+
+
+def event_gone(desk: Desk) -> bool:
+    return [item.event_id for item in desk.made(RemoveEvent)] == [desk.seen["event"]]  # type: ignore[attr-defined]
+
+
+def chosen_event(desk: Desk) -> None:
+    a_breath(desk)
+    (key,) = desk.session.selection.events
+    desk.seen["event"] = key.event_id
+
+
+def paste_ready(desk: Desk) -> None:
+    desk.session.actions["notes.copy"].trigger()
+    desk.session.set_playhead(desk.project.score.tempo_map.seconds(float(desk.project.score.end_tick)))
+
+
+def own_source(desk: Desk) -> None:
+    assert desk.project.source
+
+
+def set_language(code: str) -> Deed:
+    return lambda desk: desk.program.editor.speak(code)
+
+
+def looping(desk: Desk) -> bool:
+    score, notes = desk.project.score, [note for note, _ in desk.chosen()]
+    seconds = score.tempo_map.seconds
+    wanted = (seconds(float(notes[0].onset_tick)), seconds(float(max(note.end_tick for note in notes))))
+    return desk.session.loop_s is not None and np.allclose(desk.session.loop_s, wanted)
+
+
+def bar_s(desk: Desk, bar: int) -> float:
+    score = desk.project.score
+    return score.tempo_map.seconds(float(score.tick_of_bar(bar)))
+
+
+def go(ready_s: Callable[[Desk], float], wanted_s: Callable[[Desk], float]) -> Case:
+    return Case(lambda d: abs(d.session.playhead_s - wanted_s(d)) < 1e-6, lambda d: d.session.set_playhead(ready_s(d)))
+
+
+def onset_s(desk: Desk, index: int) -> float:
+    return desk.project.score.tempo_map.seconds(float(desk.notes()[index].onset_tick))
+
+
+CASES: dict[str, Case] = {
+    # Files
+    "file.new": Case(lambda d: not d.project.players and d.program.editor.files.is_open),
+    "file.open": Case(
+        lambda d: d.answers.asked == ["open", "import"] and len(d.project.players) == 4 and d.project is not d.before,
+        lambda d: setattr(d.answers, "path", QUARTET),
+    ),
+    "file.open_example": Case(lambda d: len(d.project.players) == 4 and d.project is not d.before),
+    "file.save": Case(
+        lambda d: (d.folder / "saved.suisou").is_file() and d.session.document.is_saved,
+        lambda d: setattr(d.answers, "path", d.folder / "saved.suisou"),
+    ),
+    "file.save_as": Case(
+        lambda d: (d.folder / "other.suisou").is_file() and d.program.editor.files.path == d.folder / "other.suisou",
+        lambda d: setattr(d.answers, "path", d.folder / "other"),
+    ),
+    "file.import_midi": Case(
+        lambda d: "import" in d.answers.asked and len(d.project.players) == 4 and d.project is not d.before,
+        lambda d: setattr(d.answers, "path", QUARTET),
+    ),
+    "file.reimport": Case(lambda d: d.dialog("reimport_midi"), own_source),
+    "file.reimport_other": Case(
+        lambda d: d.answers.asked == ["open"] and d.dialog("reimport_midi"),
+        lambda d: setattr(d.answers, "path", QUARTET),
+    ),
+    "file.add_audio": Case(
+        lambda d: d.project.audio is not None and d.project.audio.path.endswith("tone.wav"),
+        lambda d: (has_recording(d), d.session.document.undo(), setattr(d.answers, "path", d.folder / "tone.wav")),
+        edits=True,
+    ),
+    "file.close": Case(lambda d: not d.program.editor.files.is_open and d.program.window.start_page.isVisible()),
+    "export.files": Case(lambda d: d.dialog("export_files")),
+    "export.playblast": Case(lambda d: d.dialog("playblast")),
+    # Notes
+    "edit.undo": Case(lambda d: d.project is d.seen["first"], lambda d: (d.seen.update(first=d.project), louder(d))),
+    "edit.redo": Case(
+        lambda d: d.project is d.seen["louder"],
+        lambda d: (louder(d), d.seen.update(louder=d.project), d.session.document.undo()),
+    ),
+    "notes.cut": Case(lambda d: all(after is None for _, after in d.chosen()), edits=True),
+    "notes.copy": Case(
+        lambda d: QApplication.clipboard().mimeData().hasFormat("application/x-suisou-notes+json"),
+        lambda d: QApplication.clipboard().clear(),
+    ),
+    "notes.paste": Case(
+        lambda d: len(d.notes()) == len(d.notes(d.before)) + 3 and len(d.session.selection.notes) == 3,
+        paste_ready,
+        edits=True,
+    ),
+    "notes.duplicate": Case(lambda d: len(d.notes()) == len(d.notes(d.before)) + 3, edits=True),
+    "notes.select_all": Case(lambda d: d.session.selection.notes == {note.id for note in d.notes()}),
+    "notes.select_none": Case(lambda d: not d.session.selection),
+    "notes.select_pitch": Case(
+        lambda d: (
+            d.session.selection.notes
+            == {note.id for note in d.notes() if note.pitch in {note.pitch for note, _ in d.chosen()}}
+        )
+    ),
+    "notes.select_bar": Case(
+        lambda d: (
+            d.session.selection.notes
+            == {
+                note.id
+                for note in d.notes()
+                if d.project.score.bar_of_tick(note.onset_tick)
+                in {d.project.score.bar_of_tick(chosen.onset_tick) for chosen, _ in d.chosen()}
+            }
+        )
+    ),
+    "notes.select_span": Case(
+        lambda d: (
+            d.session.selection.notes
+            == {note.id for note in d.notes() if note.onset_tick < d.project.score.tick_of_bar(3)}
+        ),
+        lambda d: d.session.select(Selection(span=(0, d.project.score.tick_of_bar(3)))),
+    ),
+    **{f"notes.tool_{name}": tool(name) for name in ("select", "draw", "erase", "split")},
+    "notes.split": Case(
+        lambda d: len(d.notes()) == len(d.notes(d.before)) + 1,
+        lambda d: d.session.set_playhead(
+            d.project.score.tempo_map.seconds(float(d.notes()[4].onset_tick + d.notes()[4].duration_tick // 2))
+        ),
+        edits=True,
+    ),
+    "notes.join": Case(
+        lambda d: len(d.notes()) == len(d.notes(d.before)) - 1,
+        lambda d: (
+            d.session.set_playhead(
+                d.project.score.tempo_map.seconds(float(d.notes()[4].onset_tick + d.notes()[4].duration_tick // 2))
+            ),
+            d.session.select(Selection(frozenset({d.notes()[4].id}))),
+            d.session.actions["notes.split"].trigger(),
+        ),
+        edits=True,
+    ),
+    "notes.quantise": Case(lambda d: quantise_asked(d)),
+    "notes.up": pitch_by(1),
+    "notes.down": pitch_by(-1),
+    "notes.octave_up": pitch_by(12),
+    "notes.octave_down": pitch_by(-12),
+    "notes.earlier": moved(-1, 0.25),
+    "notes.later": moved(1, 0.25),
+    "notes.frame_earlier": moved(-1, None),
+    "notes.frame_later": moved(1, None),
+    "notes.louder": louder_by(8),
+    "notes.softer": louder_by(-8),
+    "fingering.cycle": Case(
+        lambda d: bool(d.made(PinFingering)), lambda d: d.session.select(Selection(with_alternates(d))), edits=True
+    ),
+    **{f"fingering.type_{sign.lower()}": type_case(sign) for sign in "01234567T"},
+    # Events
+    "edit.delete": Case(event_gone, chosen_event, edits=True),
+    "events.give_back": Case(
+        lambda d: not d.project.corrections.get(d.player.id),
+        lambda d: (d.session.select(Selection(with_alternates(d))), d.session.actions["fingering.cycle"].trigger()),
+        edits=True,
+    ),
+    "events.give_back_player": Case(lambda d: not d.project.corrections.get(d.player.id), pinned, edits=True),
+    "events.breath": Case(
+        lambda d: bool(d.made(SetBreath)),
+        lambda d: d.session.select(Selection(frozenset({unbreathed(d)}))),
+        edits=True,
+    ),
+    "events.preparation": Case(lambda d: bool(d.made(SetBreath) or d.made(RemoveEvent)), a_breath, edits=True),
+    "events.cue": Case(lambda d: bool(d.made(SetCue)), edits=True),
+    "events.gesture": Case(lambda d: d.menu("gesture.sway", "gesture.bell_height")),
+    "events.expression": Case(lambda d: d.menu("expression_strained")),
+    "gesture.sway": gesture_case("sway"),
+    "gesture.weight_shift": gesture_case("weight_shift"),
+    "gesture.bell_height": gesture_case("bell_height"),
+    "gesture.lower_instrument": gesture_case("lower_instrument"),
+    # Players
+    "players.add": Case(lambda d: len(d.project.players) == len(d.before.players) + 1, edits=True),
+    "players.duplicate": Case(lambda d: len(d.project.players) == len(d.before.players) + 1, edits=True),
+    "players.remove": Case(
+        lambda d: [p.id for p in d.project.players] == [p.id for p in d.before.players[1:]], edits=True
+    ),
+    "players.mute": Case(lambda d: [p.muted for p in d.project.players] == [True, False, False, False], edits=True),
+    "players.solo": Case(lambda d: [p.soloed for p in d.project.players] == [True, False, False, False], edits=True),
+    "players.hear_everyone": Case(
+        lambda d: not any(p.muted or p.soloed for p in d.project.players), command("players.mute"), edits=True
+    ),
+    "players.next": Case(lambda d: d.player is d.project.players[1]),
+    "players.previous": Case(lambda d: d.player is d.project.players[-1]),
+    "players.posture": Case(
+        lambda d: d.project.players[0].parameters.posture != d.before.players[0].parameters.posture, edits=True
+    ),
+    "players.randomise": Case(
+        lambda d: all(a.parameters != b.parameters for a, b in zip(d.before.players, d.project.players, strict=True)),
+        edits=True,
+    ),
+    "players.arrange": Case(
+        lambda d: d.project.players == d.seen["on the arc"],
+        lambda d: place_by_hand(d),
+        edits=True,
+    ),
+    "players.select_all": Case(lambda d: len(d.session.players) == 4),
+    "players.reset": Case(
+        lambda d: d.project.players[0].parameters == d.seen["as cast"],
+        lambda d: (d.seen.update({"as cast": d.player.parameters}), d.session.actions["players.randomise"].trigger()),
+        edits=True,
+    ),
+    # How the timeline is seen
+    "timeline.zoom_in": axis(lambda d: d.timeline.fit(), lambda a, b: b < 0.95 * a),
+    "timeline.zoom_out": axis(lambda d: d.timeline.axis.show(4.0, 8.0), lambda a, b: b > 1.05 * a),
+    "timeline.fit": axis(lambda d: d.timeline.axis.show(4.0, 8.0), lambda a, b: b > 10.0),
+    "timeline.zoom_selection": Case(
+        lambda d: (
+            d.timeline.axis.start_s <= onset_s(d, 3)
+            and onset_s(d, 5) < d.timeline.axis.end_s
+            and span_s(d) < d.seen["span"]  # type: ignore[operator]
+        ),
+        lambda d: (d.timeline.fit(), d.seen.update(span=span_s(d))),
+    ),
+    **{f"timeline.{name}": ghosts(name) for name in ("ghosts", "all", "alone")},
+    **{
+        f"timeline.count_{name}": becomes(
+            lambda d: d.session.time_display,
+            name,
+            command("timeline.count_seconds" if name == "bars" else "timeline.count_bars"),
+        )
+        for name in ("bars", "seconds", "frames")
+    },
+    # The viewport
+    **{f"viewport.{name}": view(name) for name in ("ensemble", "front", "side", "top", "hands", "mouth", "feet")},
+    "viewport.frame": Case(lambda d: d.seen["framed"] == [True], lambda d: framed(d)),
+    "viewport.frame_all": Case(lambda d: d.seen["framed"] == [False], lambda d: framed(d)),
+    **{
+        f"viewport.{name}": toggled(f"viewport.{name}", lambda d, name=name: d.session.viewport.shows(name))  # type: ignore[misc]
+        for name in ("names", "skeleton", "contacts", "wireframe")
+    },
+    "viewport.pose": toggled("viewport.pose", lambda d: d.session.viewport.posing),
+    # Playing
+    "play.toggle": Case(playing),
+    "play.bar": Case(
+        lambda d: d.session.playhead_s - bar_s(d, 3) < 1.0 and playing(d),
+        lambda d: d.session.set_playhead(bar_s(d, 3) + 0.4),
+    ),
+    "play.stop": Case(
+        lambda d: not d.session.playing,
+        lambda d: (d.session.actions["play.toggle"].trigger(), d.seen.update(playing=d.session.playing)),
+    ),
+    "play.loop": Case(looping),
+    "play.to_start": go(lambda d: 5.0, lambda d: d.session.performance.time_frame.first_frame_s),
+    "play.to_end": go(lambda d: 5.0, lambda d: d.project.score.tempo_map.seconds(float(d.project.score.end_tick))),
+    "play.frame_back": go(lambda d: 60 / float(d.project.fps), lambda d: 59 / float(d.project.fps)),
+    "play.frame_on": go(lambda d: 60 / float(d.project.fps), lambda d: 61 / float(d.project.fps)),
+    "play.note_back": go(lambda d: onset_s(d, 4), lambda d: onset_s(d, 3)),
+    "play.note_on": go(lambda d: onset_s(d, 4), lambda d: onset_s(d, 5)),
+    "play.bar_back": go(lambda d: bar_s(d, 4), lambda d: bar_s(d, 3)),
+    "play.bar_on": go(lambda d: bar_s(d, 4), lambda d: bar_s(d, 5)),
+    **{
+        f"play.speed_{percent}": becomes(
+            lambda d: round(100 * d.session.listening.speed),
+            percent,
+            command("play.speed_75" if percent == 100 else "play.speed_100"),
+        )
+        for percent in (25, 50, 75, 100, 150, 200)
+    },
+    **{
+        f"play.source_{source}": becomes(
+            lambda d: d.session.listening.source,
+            source,
+            lambda d, source=source: (  # type: ignore[misc]
+                has_recording(d),
+                d.session.listening.set(source="both" if source == "recording" else "recording"),
+            ),
+        )
+        for source in ("recording", "synthesiser", "both")
+    },
+    "play.click": toggled("play.click", lambda d: d.session.listening.click),
+    "play.scrub": toggled("play.scrub", lambda d: d.session.listening.scrub_sound),
+    "play.follow": toggled("play.follow", lambda d: d.session.follow),
+    "play.estimate_offset": Case(lambda d: "estimate" in last_work(d), has_recording),
+    "play.fit_tempo": Case(lambda d: "estimate" in last_work(d), has_recording),
+    "play.remove_recording": Case(lambda d: d.project.audio is None, has_recording, edits=True),
+    # Generating
+    "generate.everyone": Case(lambda d: d.project.seed != d.before.seed, edits=True),
+    "generate.players": Case(
+        lambda d: [a != b for a, b in zip(d.before.players, d.project.players, strict=True)] == [True] + 3 * [False],
+        edits=True,
+    ),
+    "generate.bars": Case(lambda d: bool(d.made(Vary)), edits=True),
+    "generate.bars_back": Case(
+        lambda d: not d.project.corrections.get(d.player.id), command("generate.bars"), edits=True
+    ),
+    "problems.next": Case(lambda d: d.session.selection.notes == {d.notes()[4].id}, problem),
+    "problems.previous": Case(
+        lambda d: len(d.session.selection.notes) == 1 and d.session.selection.notes != {d.notes()[4].id}, problem
+    ),
+    # The editor itself
+    "application.palette": Case(lambda d: shown(d, d.program.window.palette_popup)),
+    "application.full_screen": Case(
+        lambda d: d.program.window.is_full_screen and not d.program.window.docks["timeline"].isVisible()
+    ),
+    **{
+        f"panel.{name}": toggled(f"panel.{name}", lambda d, name=name: d.program.window.is_panel_shown(name))  # type: ignore[misc]
+        for name in ("players", "inspector", "timeline")
+    },
+    "application.reset_layout": becomes(
+        lambda d: [dock.isVisible() and not dock.isFloating() for dock in d.program.window.docks.values()],
+        [True, True, True],
+        lambda d: (d.program.window.docks["players"].hide(), d.program.window.docks["timeline"].setFloating(True)),
+    ),
+    "pitch.concert": becomes(lambda d: d.session.pitch_display.written, False, command("pitch.written")),
+    "pitch.written": becomes(lambda d: d.session.pitch_display.written, True),
+    "pitch_octave.c4": becomes(lambda d: d.session.pitch_display.middle_c_octave, 4, command("pitch_octave.c3")),
+    "pitch_octave.c3": becomes(lambda d: d.session.pitch_display.middle_c_octave, 3),
+    "pitch_names.letters": becomes(
+        lambda d: d.session.pitch_display.syllables, False, command("pitch_names.syllables")
+    ),
+    "pitch_names.syllables": becomes(lambda d: d.session.pitch_display.syllables, True),
+    "theme.dark": becomes(lambda d: d.session.tokens.name, "dark", command("theme.light")),
+    "theme.light": becomes(lambda d: d.session.tokens.name, "light"),
+    "language.en": becomes(lambda d: d.session.actions["file.save"].text(), "Save", set_language("ja")),
+    "language.ja": becomes(lambda d: d.session.actions["file.save"].text(), "保存"),
+    "application.preferences": Case(lambda d: d.dialog("preferences")),
+    "application.shortcuts": Case(lambda d: d.dialog("preferences")),
+    "application.about": Case(lambda d: d.dialog("about")),
+    # Last: it ends the editor.
+    "file.quit": Case(lambda d: not d.program.window.isVisible()),
+}
+
+
+def louder(desk: Desk) -> None:
+    desk.session.actions["notes.louder"].trigger()
+    assert len(desk.session.document.done) == 1
+
+
+def with_alternates(desk: Desk) -> frozenset[str]:
+    instrument = desk.session.performance.instrument(desk.player)
+    found = [note.id for note in desk.notes() if len(instrument.fingerings_for(note.pitch)) > 1]
+    return frozenset(found[:1])
+
+
+def unbreathed(desk: Desk) -> str:
+    """A note that no breath comes before."""
+    breathed = {breath.id.partition(":")[2] for breath in desk.plan.breaths}
+    return next(note.id for note in desk.notes()[4:] if note.id not in breathed)
+
+
+def place_by_hand(desk: Desk) -> None:
+    desk.seen["on the arc"] = desk.project.players
+    there = {desk.player.id: StagePosition(0.3, 1.2, 0.25)}
+    desk.session.attempt(Message("edit.place_players", {"count": 1}), lambda project: place(project, there))
+
+
+def framed(desk: Desk) -> None:
+    told: list[object] = []
+    desk.seen["framed"] = told
+    desk.session.viewport.framed.connect(told.append)
+
+
+def last_work(desk: Desk) -> str:
+    tasks = desk.program.tasks
+    assert isinstance(tasks, ImmediateTasks)
+    return " ".join(name.id for name in tasks.names[-4:])
+
+
+def shown(desk: Desk, widget: QWidget) -> bool:
+    was = widget.isVisible()
+    widget.hide()
+    return was
+
+
+def quantise_asked(desk: Desk) -> bool:
+    popup = QApplication.activePopupWidget()
+    found = [popup] if popup is not None else []
+    found += [w for w in QApplication.topLevelWidgets() if isinstance(w, QDialog) and w.isVisible()]
+    for widget in found:
+        widget.close()
+    return len(found) == 1
+
+
+@pytest.fixture
+def desk(qtbot: QtBot, qt_app: QApplication, settings: Settings, answers: Answers, tmp_path: Path) -> Iterator[Desk]:
+    """The whole editor, which plays without a sound."""
+    program = Program(settings, ImmediateTasks(), answers, Autosave(Presence(tmp_path / "recovery")), heard=False)
+    sound = sound_of(program.session)
+    assert sound is not None
+    # It plays in time, but no synthesiser works for it.
+    program.session.playback = sound.playback
+    program.window.show()
+    program.window.activateWindow()
+    qtbot.waitUntil(program.window.isActiveWindow)
+    yield Desk(program, answers, tmp_path)
+    program.window.hide()
+    program.end()
+    program.generator.deleteLater()
+    program.editor.files.end()
+    program.language.set("en")
+    program.window.deleteLater()
+    program.session.deleteLater()
+    delete_now()
+
+
+def afresh(desk: Desk, opened: Project | None) -> Project:
+    """Everything as it was at first, with some notes selected."""
+    program, session = desk.program, desk.session
+    if session.playback is not None:
+        session.playback.stop()
+    program.window.set_full_screen(False)
+    while (popup := QApplication.activePopupWidget()) is not None:
+        popup.close()
+    for widget in QApplication.topLevelWidgets():
+        if isinstance(widget, QDialog) and widget.isVisible():
+            widget.close()
+    program.editor.speak("en")
+    session.set_tokens(DARK)
+    session.pitch_display.set(False, 4, False)
+    session.set_time_display("bars")
+    session.listening.set(source="recording", speed=1.0)
+    session.viewport.set_posing(False)
+    session.set_grid(Grid())
+    desk.answers.answer, desk.answers.path = "discard", None
+    if session.project is not opened and session.document.done and session.document.done[0].before is opened:
+        while session.document.undo() is not None:
+            pass
+    if opened is None or session.project is not opened or program.editor.files.path is not None:
+        program.editor.files.open(QUARTET, ask=False)
+    session.document._undone.clear()
+    for dock in program.window.docks.values():
+        dock.show()
+    desk.answers.asked.clear()
+    desk.seen.clear()
+    front = session.project.players[0].id
+    session.set_players((front,))
+    session.set_loop(None)
+    notes = desk.notes()
+    session.select(Selection(frozenset(note.id for note in notes[3:6])))
+    session.set_playhead(onset_s(desk, 3))
+    desk.seen["notes"] = session.selection.notes
+    desk.settle()
+    return session.project
+
+
+def focus(desk: Desk, context: str) -> QWidget:
+    """Bring the keyboard to where the shortcut holds."""
+    window = desk.program.window
+    window.activateWindow()
+    if context == "timeline":
+        target: QWidget = desk.timeline.roll.plot
+    elif context == "viewport":
+        canvas = desk.viewport.canvas_widget()
+        target = canvas if canvas is not None else desk.viewport
+    elif context in window.panels:
+        panel = window.panels[context]
+        target = next(
+            child
+            for child in panel.findChildren(QWidget)
+            if child.isVisible() and child.focusPolicy() & Qt.FocusPolicy.TabFocus and child.isEnabled()
+        )
+    else:
+        target = window.palette_field
+    target.setFocus()
+    QApplication.processEvents()
+    return target
+
+
+def do(desk: Desk, action_id: str) -> None:
+    """By its shortcut where it has one, else from its menu or the palette."""
+    row = desk.program.editor.table.rows[action_id]
+    keys = desk.program.editor.table.keys(action_id)
+    desk.program.editor.table.refresh()
+    action = desk.session.actions[action_id]
+    assert action.isEnabled(), "greyed out"
+    if keys:
+        target = focus(desk, row.context)
+        sequence = QKeySequence.fromString(keys.split(";")[0], QKeySequence.SequenceFormat.PortableText)[0]
+        QTest.keyClick(target, sequence.key(), sequence.keyboardModifiers())
+    else:
+        action.trigger()
+    desk.settle()
+
+
+def test_every_action_does_what_it_says(desk: Desk) -> None:
+    table = [row.id for row in rows()]
+    assert set(table) == set(CASES), "an action without an expectation, or the other way round"
+    wrong: list[str] = []
+    opened: Project | None = None
+    for action_id, case in CASES.items():
+        opened = afresh(desk, opened)
+        try:
+            case.ready(desk)
+            desk.settle()
+            desk.before = desk.project
+            steps = len(desk.session.document.done)
+            do(desk, action_id)
+            if not case.right(desk):
+                wrong.append(f"{action_id}: not done")
+            elif case.edits:
+                assert len(desk.session.document.done) == steps + 1, f"{action_id}: one step"
+                desk.session.document.undo()
+                assert desk.project is desk.before, f"{action_id}: undo gives back the very same project"
+            elif desk.session.document.is_saved and action_id.split(".")[0] in ("timeline", "viewport", "play"):
+                assert desk.project is desk.before, f"{action_id}: it is no edit"
+        except Exception:  # noqa: BLE001 - all that is wrong is told at once
+            wrong.append(f"{action_id}: {traceback.format_exc(limit=-2)}")
+    assert not wrong, "\n".join(wrong)

@@ -1,0 +1,420 @@
+"""A restless person: clicks, drags, turns the wheel and presses keys all over the whole editor, by a seed.
+
+``python -m tests.support.restless SEED STEPS``: a long run in a process of its own, with real threads.
+"""
+
+from __future__ import annotations
+
+import random
+import sys
+import tempfile
+import time
+import traceback
+from collections.abc import Callable
+from pathlib import Path
+from types import TracebackType
+
+import msgspec
+from PySide6.QtCore import (
+    QEvent,
+    QMessageLogContext,
+    QPoint,
+    QPointF,
+    QRect,
+    Qt,
+    QTimer,
+    QtMsgType,
+    qInstallMessageHandler,
+)
+from PySide6.QtGui import QContextMenuEvent, QKeySequence, QMouseEvent, QWheelEvent
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication, QDialog, QMainWindow, QMenu, QMenuBar, QWidget
+
+from app.performance.ensemble import Performance
+from app.project.autosave import Autosave
+from app.project.model import Project
+from app.project.presence import Presence
+from app.project.storage import load, save
+from app.shell.app import Program, make_application
+from app.shell.settings import Settings
+from app.shell.tasks import ThreadTasks
+
+QUARTET = Path(__file__).parents[2] / "resources" / "examples" / "quartet.mid"
+
+LEFT_ALONE = frozenset(("file.quit",))
+"""The one thing this person never does."""
+ASKS_THE_SYSTEM = frozenset(("export_browse", "playblast_browse", "swatch"))
+"""Buttons that open a dialog of the system, which no test can close."""
+KEYS = (
+    *(Qt.Key.Key_Left, Qt.Key.Key_Right, Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_Home, Qt.Key.Key_End),
+    *(Qt.Key.Key_Tab, Qt.Key.Key_Backtab, Qt.Key.Key_Escape, Qt.Key.Key_Return, Qt.Key.Key_Space),
+    *(Qt.Key.Key_Delete, Qt.Key.Key_Backspace, Qt.Key.Key_PageUp, Qt.Key.Key_PageDown, Qt.Key.Key_F2, Qt.Key.Key_Menu),
+    *(Qt.Key.Key_1, Qt.Key.Key_2, Qt.Key.Key_3, Qt.Key.Key_0, Qt.Key.Key_Minus, Qt.Key.Key_Period, Qt.Key.Key_T),
+)
+MODIFIERS = (
+    *([Qt.KeyboardModifier.NoModifier] * 5),
+    Qt.KeyboardModifier.ShiftModifier,
+    Qt.KeyboardModifier.ControlModifier,
+    Qt.KeyboardModifier.AltModifier,
+)
+BUTTONS = (*([Qt.MouseButton.LeftButton] * 8), Qt.MouseButton.MiddleButton, Qt.MouseButton.RightButton)
+
+
+class Restless:
+    """A person at the whole editor who knows no fear.
+
+    Parameters
+    ----------
+    program : Program
+        With a piece open.
+    seed : int
+    """
+
+    def __init__(self, program: Program, seed: int) -> None:
+        self.program = program
+        self.session = program.session
+        self.random = random.Random(seed)
+        self.deeds: list[str] = []
+        self.slowest_s: list[tuple[float, str]] = []
+        self._busy = False
+        self._closer = QTimer()
+        self._closer.setInterval(100)
+        self._closer.timeout.connect(self._end_loops)
+        self._closer.start()
+
+    def _end_loops(self) -> None:
+        """A menu or dialog of Qt's own that runs a loop inside a click is closed from outside."""
+        if not self._busy:
+            return
+        popup = QApplication.activePopupWidget()
+        modal = QApplication.activeModalWidget()
+        if popup is not None:
+            popup.close()
+        elif isinstance(modal, QDialog):
+            modal.reject()
+
+    def step(self) -> None:
+        """Do one thing."""
+        if not self.program.editor.files.is_open:
+            self.program.editor.files.open(QUARTET, ask=False)
+            QApplication.processEvents()
+        deed = self.random.choices(
+            (self.click, self.drag, self.wheel, self.press, self.command, self.context_menu, self.play_on),
+            (8, 6, 3, 5, 6, 2, 1),
+        )[0]
+        start_s = time.perf_counter()
+        self._busy = True
+        deed()
+        self._busy = False
+        QApplication.processEvents()
+        self.slowest_s.append((time.perf_counter() - start_s, self.deeds[-1] if self.deeds else ""))
+        self.look_away()
+
+    def look_away(self) -> None:
+        """Sometimes close what asks something; a menu left open would take every other event."""
+        popup = QApplication.activePopupWidget()
+        if popup is not None and self.random.random() < 0.7:
+            if isinstance(popup, QMenu):
+                self._choose(popup)
+            popup.close()
+        for widget in QApplication.topLevelWidgets():
+            if isinstance(widget, QDialog) and widget.isVisible() and self.random.random() < 0.15:
+                self.deeds.append(f"close {widget.objectName()}")
+                widget.close()
+
+    def _choose(self, menu: QMenu) -> None:
+        entries = [action for action in menu.actions() if action.isEnabled() and not action.isSeparator()]
+        if not entries:
+            return
+        entry = self.random.choice(entries)
+        if entry.menu() is not None or entry.objectName() in LEFT_ALONE:
+            return
+        self.deeds.append(f"choose {entry.objectName() or entry.text()}")
+        menu.close()
+        entry.trigger()
+
+    # Where
+
+    def _widget(self) -> QWidget | None:
+        """Any visible widget, small or large, of any window."""
+        windows = [
+            widget
+            for widget in QApplication.topLevelWidgets()
+            if widget.isVisible() and isinstance(widget, QMainWindow | QDialog)
+        ]
+        if not windows:
+            return None
+        modal = QApplication.activeModalWidget()
+        window = modal if modal is not None else self.random.choice(windows)
+        found = [
+            child
+            for child in window.findChildren(QWidget)
+            if child.isVisible()
+            and child.isEnabled()
+            and not isinstance(child, QMenuBar | QMenu)
+            and not child.visibleRegion().isEmpty()
+            and self._is_harmless(child)
+        ]
+        return self.random.choice(found) if found else None
+
+    @staticmethod
+    def _is_harmless(widget: QWidget) -> bool:
+        name = widget.objectName()
+        return (
+            not any(part in name for part in ("browse", "swatch", "folder", "show_in", "log"))
+            and type(widget).__name__ not in ("Swatch", "QDialogButtonBox")
+            and "start" not in name
+        )
+
+    def _place(self, widget: QWidget) -> QPoint:
+        bounds: QRect = widget.visibleRegion().boundingRect()
+        return QPoint(
+            self.random.randint(bounds.left(), max(bounds.left(), bounds.right())),
+            self.random.randint(bounds.top(), max(bounds.top(), bounds.bottom())),
+        )
+
+    def _told(self, what: str, widget: QWidget, place: QPoint) -> None:
+        self.deeds.append(f"{what} {type(widget).__name__} {widget.objectName()} {place.x()},{place.y()}")
+
+    # What
+
+    def click(self) -> None:
+        """Click or double-click something."""
+        widget = self._widget()
+        if widget is None:
+            return
+        place, button, keys = self._place(widget), self.random.choice(BUTTONS), self.random.choice(MODIFIERS)
+        twice = self.random.random() < 0.2
+        self._told("double-click" if twice else "click", widget, place)
+        QTest.mouseMove(widget, place)
+        if twice:
+            QTest.mouseDClick(widget, button, keys, place)
+        else:
+            QTest.mouseClick(widget, button, keys, place)
+
+    def drag(self) -> None:
+        """Press somewhere, go somewhere, perhaps press Escape, let go."""
+        widget = self._widget()
+        if widget is None:
+            return
+        place, button, keys = self._place(widget), self.random.choice(BUTTONS), self.random.choice(MODIFIERS)
+        self._told("drag", widget, place)
+        gone = [False]
+        widget.destroyed.connect(lambda: gone.__setitem__(0, True))
+        self._mouse(widget, QEvent.Type.MouseButtonPress, place, button, button, keys)
+        for _ in range(self.random.randint(1, 4)):
+            place = place + QPoint(self.random.randint(-120, 120), self.random.randint(-60, 60))
+            if not gone[0]:
+                self._mouse(widget, QEvent.Type.MouseMove, place, Qt.MouseButton.NoButton, button, keys)
+            QApplication.processEvents()
+        if self.random.random() < 0.15 and not gone[0]:
+            self.deeds.append("escape")
+            QTest.keyClick(widget, Qt.Key.Key_Escape)
+        if not gone[0]:
+            self._mouse(widget, QEvent.Type.MouseButtonRelease, place, button, Qt.MouseButton.NoButton, keys)
+
+    @staticmethod
+    def _mouse(
+        widget: QWidget,
+        kind: QEvent.Type,
+        place: QPoint,
+        button: Qt.MouseButton,
+        held: Qt.MouseButton,
+        keys: Qt.KeyboardModifier,
+    ) -> None:
+        screen = QPointF(widget.mapToGlobal(place))
+        QApplication.sendEvent(widget, QMouseEvent(kind, QPointF(place), screen, button, held, keys))
+
+    def wheel(self) -> None:
+        """Turn the wheel."""
+        widget = self._widget()
+        if widget is None:
+            return
+        place, keys = self._place(widget), self.random.choice(MODIFIERS)
+        self._told("wheel", widget, place)
+        event = QWheelEvent(
+            QPointF(place),
+            QPointF(widget.mapToGlobal(place)),
+            QPoint(),
+            QPoint(0, self.random.choice((-240, -120, 120, 240))),
+            Qt.MouseButton.NoButton,
+            keys,
+            Qt.ScrollPhase.NoScrollPhase,
+            False,
+        )
+        QApplication.sendEvent(widget, event)
+
+    def press(self) -> None:
+        """Press a key where the keyboard is; sometimes somewhere else first."""
+        if self.random.random() < 0.5:
+            widget = self._widget()
+            if widget is not None and widget.focusPolicy() != Qt.FocusPolicy.NoFocus:
+                widget.setFocus()
+        target = QApplication.focusWidget() or self.program.window
+        key, keys = self.random.choice(KEYS), self.random.choice(MODIFIERS)
+        if key == Qt.Key.Key_Return and "start" in target.objectName():
+            return
+        if key in (Qt.Key.Key_Return, Qt.Key.Key_Space) and not self._is_harmless(target):
+            return
+        self.deeds.append(f"key {key.name} {keys} in {type(target).__name__} {target.objectName()}")
+        QTest.keyClick(target, key, keys)
+
+    def command(self) -> None:
+        """Do what an action does, by its key where it has one."""
+        table = self.program.editor.table
+        action_id = self.random.choice([row for row in table.rows if row not in LEFT_ALONE])
+        if action_id == "file.close" and self.random.random() < 0.8:
+            return
+        self.deeds.append(f"command {action_id}")
+        keys = table.keys(action_id)
+        target = QApplication.focusWidget()
+        if keys and target is not None and self.random.random() < 0.5:
+            first = QKeySequence.fromString(keys.split(";")[0], QKeySequence.SequenceFormat.PortableText)[0]
+            QTest.keyClick(target, first.key(), first.keyboardModifiers())
+            return
+        table.refresh()
+        if self.session.actions[action_id].isEnabled():
+            self.session.actions[action_id].trigger()
+
+    def context_menu(self) -> None:
+        """Ask for the menu of something."""
+        widget = self._widget()
+        if widget is None:
+            return
+        place = self._place(widget)
+        self._told("menu", widget, place)
+        event = QContextMenuEvent(QContextMenuEvent.Reason.Mouse, place, widget.mapToGlobal(place))
+        QApplication.sendEvent(widget, event)
+        QApplication.processEvents()
+        popup = QApplication.activePopupWidget()
+        if isinstance(popup, QMenu):
+            self._choose(popup)
+            popup.close()
+
+    def play_on(self) -> None:
+        """Wait a moment: what is slow catches up."""
+        self.deeds.append("wait")
+        QTest.qWait(self.random.randint(1, 40))
+
+    # What must be true
+
+    def calm_down(self) -> None:
+        """Close whatever is open, end whatever plays, end full screen."""
+        for _ in range(5):
+            popup = QApplication.activePopupWidget()
+            if popup is not None:
+                popup.close()
+        for widget in QApplication.topLevelWidgets():
+            if isinstance(widget, QDialog) and widget.isVisible():
+                widget.close()
+        if self.session.playback is not None and self.session.playback.is_playing:
+            self.session.playback.stop()
+        self.program.window.set_full_screen(False)
+        QApplication.processEvents()
+
+    def judge(self, folder: Path) -> None:
+        """The document is sound: a file holds it, its plans are what they would be made anew, and undo leads back to
+        the very first project, redo to the very last."""
+        self.calm_down()
+        end_s = time.monotonic() + 90.0
+        while self.session.performance.project is not self.session.project:
+            assert time.monotonic() < end_s, "plans never came"
+            QApplication.processEvents()
+            time.sleep(0.002)
+        project: Project = self.session.project
+        held = folder / "held.suisou"
+        save(project, held)
+        assert by_hand(load(held)) == by_hand(project)
+        fresh = Performance(project)
+        for player in project.players:
+            mine, anew = self.session.performance.plan(player), fresh.plan(player)
+            assert mine == anew, f"{player.name}: plans differ from those made anew"
+        document = self.session.document
+        steps = document.done
+        first = steps[0].before if steps else project
+        while document.undo() is not None:
+            pass
+        assert document.project is first
+        while document.redo() is not None:
+            pass
+        assert document.project is project
+
+
+def by_hand(project: Project) -> object:
+    """Everything a person decides, as a value."""
+    return (
+        tuple((part.id, part.notes) for part in project.score.parts),
+        project.players,
+        {player: frozenset(map(msgspec.json.encode, items)) for player, items in project.corrections.items() if items},
+        project.expressions,
+        project.audio,
+    )
+
+
+class Complaints:
+    """What Qt logs and what nobody caught."""
+
+    def __init__(self) -> None:
+        self.found: list[str] = []
+
+    def install(self) -> None:
+        """Listen from now on."""
+        sys.excepthook = self._uncaught
+        qInstallMessageHandler(self._logged)
+
+    def take(self, error: BaseException) -> None:
+        """Note it down."""
+        self.found.append("".join(traceback.format_exception(error)))
+
+    def _uncaught(self, kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:
+        self.found.append("".join(traceback.format_exception(kind, error, trace)))
+
+    def _logged(self, kind: QtMsgType, context: QMessageLogContext, text: str) -> None:
+        self.found.append(f"Qt: {text}")
+
+
+def long_run(seed: int, steps: int, chatty: Callable[[str], None] = print) -> int:
+    """A long run; every complaint is printed with what was done before it."""
+    from tests.gui.shell.conftest import Answers
+
+    application = make_application()
+    complaints = Complaints()
+    complaints.install()
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        settings = Settings(folder / "editor.ini")
+        settings.language = "en"
+        answers = Answers()
+        answers.answer = "discard"
+        answers.path = folder / "of the seed.suisou"
+        program = Program(settings, questions=answers, autosave=Autosave(Presence(folder / "recovery")), heard=False)
+        tasks = program.tasks
+        assert isinstance(tasks, ThreadTasks)
+        tasks.unexpected.connect(complaints.take)
+        program.window.resize(1600, 1000)
+        program.window.show()
+        program.editor.files.open(QUARTET, ask=False)
+        while not program.editor.files.is_open:
+            application.processEvents()
+        person = Restless(program, seed)
+        told = 0
+        for number in range(steps):
+            before = len(person.deeds)
+            person.step()
+            if len(complaints.found) > told:
+                told = len(complaints.found)
+                chatty(f"--- seed {seed} step {number}: {person.deeds[max(0, before - 4) :]}\n{complaints.found[-1]}")
+            if number % 250 == 249:
+                try:
+                    person.judge(folder)
+                except Exception:  # noqa: BLE001 - all of it is to be seen
+                    chatty(f"--- seed {seed} step {number}: judged\n{traceback.format_exc()}\n{person.deeds[-250:]}")
+        slow = sorted(person.slowest_s, reverse=True)[:12]
+        chatty(f"seed {seed}: {steps} steps, {told} complaints; slowest: {[(round(s, 2), d) for s, d in slow]}")
+        program.end()
+        program.window.hide()
+    return told
+
+
+if __name__ == "__main__":
+    sys.exit(min(long_run(int(sys.argv[1]), int(sys.argv[2])), 1))
