@@ -245,12 +245,16 @@ def lungs(breaths: Sequence[BreathEvent]) -> tuple[Curve, Curve]:
     full: list[tuple[float, float, float]] = []
     lean: list[tuple[float, float, float]] = []
     level = 0.0
-    drawn = [breath for breath in breaths if breath.kind == "breath"]
+    drawn = sorted((breath for breath in breaths if breath.kind == "breath"), key=lambda breath: breath.start_s)
     for breath, following in zip_longest(drawn, drawn[1:]):
-        top_s = max(breath.end_s - BREATH_LEAD_S, 0.5 * (breath.start_s + breath.end_s))
+        # Breaths that were moved onto each other by hand: the later one goes on from where the one before is full.
+        start_s = max(breath.start_s, full[-1][1]) if full else breath.start_s
+        if breath.end_s <= start_s:
+            continue
+        top_s = max(breath.end_s - BREATH_LEAD_S, 0.5 * (start_s + breath.end_s))
         rise = 0.5 + 0.5 * breath.depth
         level = min(FULLEST, level + rise)
-        full.append((breath.start_s, top_s, level))
+        full.append((start_s, top_s, level))
         until_s = breath.end_s + EXHALE_S if following is None else min(breath.end_s + EXHALE_S, following.start_s)
         if until_s > breath.end_s:
             level = min(level * (1.0 - min(1.0, (until_s - breath.end_s) / 1.5)), FULLEST - LEAST_DRAWN)

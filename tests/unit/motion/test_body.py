@@ -77,3 +77,12 @@ def test_breaths_that_follow_each_other_closely_all_show() -> None:
     full, _ = lungs(breaths)
     rises = [full.sample(np.array([each.start_s, each.end_s])) for each in breaths]
     assert min(end - start for start, end in rises) > 0.29
+
+
+def test_breaths_that_overlap_fill_the_lungs_once() -> None:
+    breaths = (breath(0.0, 1.0, 0.5), breath(0.2, 0.6, 0.5), breath(0.9, 1.4, 1.0), breath(0.95, 0.96, 1.0))
+    full, _ = lungs(breaths)
+    times_s = np.linspace(-1.0, 3.0, 400)
+    values = full.sample(times_s)
+    assert np.isfinite(values).all()
+    assert full.sample(np.array([0.0, 1.4]))[1] > 0.9
