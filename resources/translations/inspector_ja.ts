@@ -674,6 +674,10 @@
 <context>
     <name>ProblemList</name>
     <message>
+        <source>And {count} more: choose players or a kind above.</source>
+        <translation>ほかに {count} 件あります。上でプレイヤーか種類を選んでください。</translation>
+    </message>
+    <message>
         <source>No problems: everything can be played as it is planned.</source>
         <translation>問題はありません。すべて計画どおりに演奏できます。</translation>
     </message>

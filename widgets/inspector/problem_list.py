@@ -23,6 +23,9 @@ _KINDS = {
     "project": "project",
 }
 
+MOST_LINES = 300
+"""Nobody reads more; a large score that does not fit its instruments has thousands."""
+
 
 class ProblemList(QWidget):
     """Problems, by player and kind; a click shows where.
@@ -82,12 +85,13 @@ class ProblemList(QWidget):
         chosen = set(self._session.players) if self._who.shown == SELECTED else None
         kind = self._kind.shown
         current = {player.id: player for player in self._session.project.players}
+        wanted = [
+            (player, problem)
+            for player, problem in sorted(found, key=lambda item: item[1].start_s)
+            if (chosen is None or player.id in chosen) and kind in (ALL, None, _kind(problem))
+        ]
         lines = []
-        for player, problem in sorted(found, key=lambda item: item[1].start_s):
-            if chosen is not None and player.id not in chosen:
-                continue
-            if kind not in (ALL, None, _kind(problem)):
-                continue
+        for player, problem in wanted[:MOST_LINES]:
             tick = round(project.score.tempo_map.ticks(problem.start_s))
             text = sentence(problem.message, self._session, player.id)
             colour = self._session.colour(current[player.id]) if player.id in current else ""
@@ -96,12 +100,16 @@ class ProblemList(QWidget):
             )
         self.list.lines.show_lines(lines)
         self.list.setVisible(bool(lines))
-        self._empty.setVisible(not lines)
-        self._empty.setText(
-            self.tr("No problems: everything can be played as it is planned.")
-            if not found
-            else self.tr("None of these. Choose other players or kinds above.")
-        )
+        more = len(wanted) - len(lines)
+        self._empty.setVisible(not lines or more > 0)
+        if more > 0:
+            self._empty.setText(self.tr("And {count} more: choose players or a kind above.").format(count=more))
+        else:
+            self._empty.setText(
+                self.tr("No problems: everything can be played as it is planned.")
+                if not found
+                else self.tr("None of these. Choose other players or kinds above.")
+            )
 
     def _players_changed(self) -> None:
         if self._who.shown == SELECTED:
