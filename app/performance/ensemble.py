@@ -178,7 +178,7 @@ class Performance:
         instrument = self.instrument(player)
         unreached = self._memo.step(
             f"reach:{player.id}",
-            lambda: reach_problems(player, instrument, plan),
+            lambda: self._unreached(player, instrument, plan),
             plan.fingerings,
             instrument,
             player.character_id,
@@ -189,6 +189,13 @@ class Performance:
         return self._memo.step(
             f"told:{player.id}", lambda: _with_problems(player, plan, self.time_frame, unreached), plan, unreached
         )
+
+    def _unreached(self, player: Player, instrument: InstrumentMap, plan: PlayerPlan) -> tuple[Problem, ...]:
+        try:
+            return reach_problems(player, instrument, plan)
+        except AppError as error:
+            # A model or character that cannot be read is this player's problem; the others play on.
+            return (Problem(error.message, None, self.time_frame.first_frame_s, self.time_frame.end_s),)
 
     @cached_property
     def plans(self) -> dict[str, PlayerPlan]:

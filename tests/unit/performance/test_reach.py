@@ -10,17 +10,19 @@ import msgspec
 import numpy as np
 import pytest
 
+from app.errors import FileError
 from app.performance.bodies import character_of, hold_of
 from app.performance.ensemble import Performance
 from app.performance.motion import player_motion
 from app.performance.span import whole_span
 from app.plan.corrections import PinFingering
 from app.project.edit.corrections import put
-from app.project.model import Project, map_choices, project_from_score
-from app.rig.hold import hand_targets
+from app.project.model import Player, Project, map_choices, project_from_score
+from app.rig.hold import Hold, hand_targets
 from app.rig.skeleton import forward
 from app.score.read import read_midi
 from instrument_maps.load import bundled_maps
+from instrument_maps.model import InstrumentMap
 
 AIR = Path(__file__).parents[2] / "data" / "midi" / "ensemble" / "trombone_quartet_bach_air.mid"
 FPS = Fraction(25)
@@ -85,3 +87,19 @@ def test_another_fingering_settles_it() -> None:
     assert near
     pinned = put(project, player.id, [PinFingering(note_id, label) for note_id, label in near.items()])
     assert unreached(pinned, player.id) == before - set(near)
+
+
+def test_a_model_that_cannot_be_read_is_a_problem_of_its_player_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    project = played_by("man_adult")
+    ill = project.players[1].id
+
+    def hold(player: Player, instrument: InstrumentMap) -> Hold:
+        if player.id == ill:
+            raise FileError("model.invalid", file="x.glb", detail="damaged")
+        return hold_of(player, instrument)
+
+    monkeypatch.setattr("app.performance.reach.hold_of", hold)
+    plans = Performance(project).plans
+    told = {id_: [problem.message.id for problem in plan.problems] for id_, plan in plans.items()}
+    assert told == {player.id: ["model.invalid"] if player.id == ill else [] for player in project.players}
+    assert all(plan.fingerings for plan in plans.values())
