@@ -1,0 +1,205 @@
+"""The whole editor on fifty players and a hundred thousand notes, and what a frame of it costs the window's thread.
+
+GL is not judged: where the bench runs, the processor does the card's work. Python's part of every GL command is done
+and counted, but nothing reaches the driver (`still_gl`). What is left of it is Qt's own composing of the window, which
+holds a GL widget: `floor_s` measures that by repainting a single point; frames are given without it.
+"""
+
+from __future__ import annotations
+
+import resource
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+from unittest.mock import patch
+
+from PySide6.QtCore import QCoreApplication, QEventLoop
+from PySide6.QtWidgets import QApplication
+from vispy.gloo.gl import use_gl
+
+from app.project import storage
+from app.project.autosave import Autosave
+from app.project.presence import Presence
+from app.shell.app import Program
+from app.shell.garbage import Garbage
+from app.shell.settings import Settings
+from app.shell.tasks import ThreadTasks
+from tests.bench.performance.large import large_project
+from tests.gui.shell.conftest import Answers
+from widgets.timeline.panel import TimelinePanel
+from widgets.viewport.canvas import Canvas
+from widgets.viewport.panel import ViewportPanel
+
+PATIENCE_S = 240.0
+QUIET_S = 120.0
+"""Sound and motion that are made beforehand get this long; then the editor is used while they are made."""
+
+
+@dataclass
+class Turn:
+    """One turn of the event loop, or several: CPU of the window's thread and wall time, seconds."""
+
+    cpu_s: float = 0.0
+    wall_s: float = 0.0
+    drawing_s: float = 0.0
+    """Of the CPU: Python's part of drawing the players."""
+
+
+@dataclass
+class Stall:
+    """The longest turn of the event loop in a phase."""
+
+    cpu_s: float = 0.0
+    wall_s: float = 0.0
+
+
+@dataclass
+class LargeEditor:
+    """The editor as a person has it, with settings and recovery folder of nobody.
+
+    Parameters
+    ----------
+    folder : Path
+    """
+
+    folder: Path
+    stalls: dict[str, Stall] = field(default_factory=dict)
+    phase: str = "open"
+
+    def __post_init__(self) -> None:
+        application = QApplication.instance()
+        assert isinstance(application, QApplication)
+        self.application = application
+        settings = Settings(self.folder / "editor.ini")
+        settings.language = "en"
+        self._drawing_s = 0.0
+        self.program = Program(
+            settings, questions=Answers(), autosave=Autosave(Presence(self.folder / "recovery")), heard=True
+        )
+        self.garbage = Garbage()
+        self.session = self.program.session
+        self.window = self.program.window
+        self.window.resize(1600, 1000)
+        self.window.show()
+
+    def close(self) -> None:
+        """End the editor."""
+        self.garbage.close()
+        self.program.end()
+        self.window.hide()
+        self.program.generator.deleteLater()
+        self.program.editor.files.end()
+        self.window.deleteLater()
+        self.session.deleteLater()
+
+    @property
+    def timeline(self) -> TimelinePanel:
+        """The timeline."""
+        return self.window.timeline
+
+    @property
+    def viewport(self) -> ViewportPanel:
+        """The viewport."""
+        return self.window.viewport
+
+    # Time
+
+    def turn(self, act: Callable[[], None] = lambda: None) -> Turn:
+        """Do something, and everything that follows at once from it."""
+        drawn_s, cpu_s, wall_s = self._drawing_s, time.thread_time(), time.perf_counter()
+        act()
+        self.application.processEvents()
+        QCoreApplication.sendPostedEvents()
+        self.application.processEvents(QEventLoop.ProcessEventsFlag.AllEvents)
+        spent = Turn(time.thread_time() - cpu_s, time.perf_counter() - wall_s, self._drawing_s - drawn_s)
+        stall = self.stalls.setdefault(self.phase, Stall())
+        stall.cpu_s = max(stall.cpu_s, spent.cpu_s)
+        stall.wall_s = max(stall.wall_s, spent.wall_s)
+        return spent
+
+    def until(self, ready: Callable[[], bool], most_s: float = PATIENCE_S) -> Turn:
+        """Let the editor work until something is so, or for some time."""
+        whole, began_s = Turn(), time.perf_counter()
+        while not ready() and time.perf_counter() - began_s < most_s:
+            spent = self.turn()
+            whole.cpu_s += spent.cpu_s
+            whole.drawing_s += spent.drawing_s
+            time.sleep(0.002)
+        whole.wall_s = time.perf_counter() - began_s
+        return whole
+
+    def floor_s(self) -> float:
+        """What the window's composing costs where nothing but a point has changed: median CPU, seconds."""
+        label = self.window.status
+
+        def point() -> None:
+            label.update(0, 0, 1, 1)
+
+        spent = sorted(self.turn(point).cpu_s for _ in range(31))
+        return spent[15]
+
+    # The piece
+
+    def open(self) -> Turn:
+        """Open the large piece from a file; until its plans and the poses at the playhead are there."""
+        path = self.folder / "large.suisou"
+        storage.save(large_project(), path)
+        began_s, cpu_s = time.perf_counter(), time.thread_time()
+        self.program.editor.files.open(path, ask=False)
+        self.until(lambda: len(self.session.project.players) == len(large_project().players))
+        self.until(self.is_planned)
+        self.until(lambda: not self.viewport.message() and self.is_right(self.session.players[0]))
+        return Turn(time.thread_time() - cpu_s, time.perf_counter() - began_s)
+
+    def is_planned(self) -> bool:
+        """Whether the plans are those of the project."""
+        return self.session.performance.project is self.session.project
+
+    def is_right(self, player_id: str) -> bool:
+        """Whether the viewport has a player's newest pose at the playhead."""
+        live, at_s = self.program.generator.live, self.session.playhead_s
+        if live.performance is not self.session.performance or not self.is_planned():
+            return False
+        if not any(start_s <= at_s < end_s for start_s, end_s in live.ready_spans(player_id)):
+            return False
+        scene = self.viewport.scene
+        return scene.stage is not None and not scene.is_outdated(at_s)
+
+    def rest(self) -> str:
+        """Wait until nothing is made in the background; says how long that took."""
+        tasks, generator = self.program.tasks, self.program.generator
+        assert isinstance(tasks, ThreadTasks)
+
+        def is_quiet() -> bool:
+            return not tasks.running and generator.ready_share >= 1.0
+
+        waited = self.until(is_quiet, QUIET_S)
+        return f"{'quiet after' if is_quiet() else 'not quiet after'} {waited.wall_s:.0f} s"
+
+    @contextmanager
+    def still_gl(self) -> Iterator[None]:
+        """Nothing reaches the driver meanwhile; Python's part of drawing is timed."""
+        draw = Canvas._draw
+
+        def timed(canvas: Canvas, width: int, height: int) -> None:
+            began_s = time.thread_time()
+            draw(canvas, width, height)
+            self._drawing_s += time.thread_time() - began_s
+
+        with (
+            patch("vispy.gloo.gl.dummy.DummyProxy.__call__", lambda *arguments: 0),
+            patch.object(Canvas, "_draw", timed),
+        ):
+            use_gl("dummy")
+            try:
+                yield
+            finally:
+                use_gl("gl2")
+
+
+def memory_mb() -> tuple[float, float]:
+    """Memory of the process now and at its most, MB."""
+    pages = int(Path("/proc/self/statm").read_text().split()[1])
+    return pages * resource.getpagesize() / 2**20, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0
