@@ -2,27 +2,23 @@
 
 A part is cut into phrases of some bars' length that sound independently of one another, so that a piece is heard as
 soon as its first phrases are made, and only the phrases that an edit touched are made again: what a phrase is made from
-(its MIDI bytes) is its identity. A phrase takes some 25 ms, during which midirenderer 0.1.3 lets no other Python run;
-whole parts would stop the window. It also stops at the last event, so silence follows that lets the tail sound.
+(its MIDI bytes) is its identity. midirenderer stops at the last event, so silence follows that lets the tail sound.
 
 Parts are rendered without regard to who else plays; loudness and place are the mixer's.
 """
 
 from __future__ import annotations
 
-import io
 import struct
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cache
-from pathlib import Path
 from typing import Final, TypeAlias
 
-import midirenderer
 import numpy as np
 import numpy.typing as npt
-import soundfile
 
+from app.audio.rendering import rendered, soundfont
 from app.audio.track import RATE_HZ, Piece, Samples
 from app.performance.loudness import speaking_curve
 from app.score.model import CurveKind, Note, Part
@@ -31,8 +27,6 @@ from instrument_maps.model import InstrumentMap
 from instrument_maps.vocabulary import vocabulary
 
 Integers: TypeAlias = npt.NDArray[np.int64]
-
-SOUNDFONT: Final = Path(__file__).parents[2] / "resources" / "soundfont" / "winds.sf2"
 
 TICKS_PER_QUARTER: Final = 24000
 """At MIDI's own 120 quarters per minute a tick is a sample at 48 kHz."""
@@ -64,9 +58,16 @@ class Phrase:
 
 
 class Synthesiser:
-    """Renders phrases and remembers them."""
+    """Renders phrases and remembers them.
 
-    def __init__(self) -> None:
+    Parameters
+    ----------
+    render : callable
+        What makes sound of a MIDI file: in this process, or in another, so that other work goes on.
+    """
+
+    def __init__(self, render: Callable[[bytes], Samples] = rendered) -> None:
+        self._render = render
         self._sounds: dict[bytes, Samples] = {}
         self._bytes = 0
 
@@ -79,20 +80,20 @@ class Synthesiser:
         """A phrase as sound: int16, mono. May be called from a worker."""
         piece = self.ready(phrase)
         if piece is None:
-            samples = _render(phrase.midi)
+            samples = self._render(phrase.midi)
             self._sounds[phrase.midi] = samples
             self._bytes += samples.nbytes
             piece = Piece(phrase.start, samples)
         return piece
 
     def forget(self, used: Iterable[Phrase]) -> None:
-        """Let go of the oldest sounds that nobody uses, where they take more than their room."""
-        if self._bytes <= _MOST_CACHED_BYTES:
-            return
-        kept = {phrase.midi for phrase in used}
+        """Let go of the oldest sounds that nobody uses, until what is to be rendered has room."""
+        lengths = {phrase.midi: phrase.end - phrase.start for phrase in used}
+        # Samples of two bytes.
+        coming = sum(2 * length for midi, length in lengths.items() if midi not in self._sounds)
         # A copy: another worker that is being stopped may still add a sound.
-        for midi in [midi for midi in list(self._sounds) if midi not in kept]:
-            if self._bytes <= _MOST_CACHED_BYTES:
+        for midi in [midi for midi in list(self._sounds) if midi not in lengths]:
+            if self._bytes + coming <= _MOST_CACHED_BYTES:
                 break
             self._bytes -= self._sounds.pop(midi).nbytes
 
@@ -143,16 +144,11 @@ def program_of(part: Part, instrument: InstrumentMap) -> int:
 @cache
 def programs() -> frozenset[int]:
     """The programs that the bundled soundfont has."""
-    data = _soundfont()
+    data = soundfont()
     at = data.index(b"phdr")
     size = struct.unpack_from("<I", data, at + 4)[0]
     rows = struct.iter_unpack("<20sHHHIII", data[at + 8 : at + 8 + size])
     return frozenset([row[1] for row in rows][:-1])
-
-
-@cache
-def _soundfont() -> bytes:
-    return SOUNDFONT.read_bytes()
 
 
 def _controls(part: Part, tempo_map: TempoMap) -> tuple[tuple[Integers, tuple[bytes, ...]], ...]:
@@ -230,14 +226,3 @@ def _variable_length(number: int) -> bytes:
 
 def _samples(tempo_map: TempoMap, ticks: Integers) -> Integers:
     return np.round(tempo_map.seconds(ticks) * RATE_HZ).astype(np.int64)
-
-
-def _render(midi: bytes) -> Samples:
-    wave = midirenderer.render_wave_from(_soundfont(), midi)
-    stereo, rate_hz = soundfile.read(io.BytesIO(wave), dtype="int16", always_2d=True)
-    if rate_hz != RATE_HZ:
-        raise RuntimeError(f"the synthesiser renders at {rate_hz} Hz")
-    mono = (stereo.astype(np.int32).sum(axis=1) // 2).astype(np.int16)
-    heard = np.flatnonzero(np.abs(mono) > 1)
-    sound: Samples = mono[: int(heard[-1]) + 1 if len(heard) else 0].copy()
-    return sound

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from math import inf
@@ -10,6 +9,7 @@ from math import inf
 from PySide6.QtCore import QObject, QTimer, Signal
 
 from app.audio.mix import player_gains, player_phrases
+from app.audio.render_process import RenderProcess
 from app.audio.synth import Phrase, Synthesiser
 from app.audio.track import RATE_HZ, Track
 from app.errors import Cancelled, MapError, Message
@@ -20,13 +20,11 @@ _SETTLE_MS = 120
 """Rendering waits until a drag rests for so long."""
 _LOOK_MS = 250
 """How often what was rendered meanwhile is added to what is heard."""
-_MOST_BYTES = 768 * 1024 * 1024
-"""Of sound that is wanted: four players for half an hour, fifty for two and a half minutes. Of what is longer, the part
-that is heard next is kept, and the window moves along."""
+_MOST_BYTES = 256 * 1024 * 1024
+"""Of sound that is wanted: four players for ten minutes, fifty for fifty seconds. Of what is longer, the part that is
+heard next is kept, and the window moves along."""
 _AHEAD_S = 20.0
 """The next window is begun so long before the end of this one is heard."""
-_BREATHE_S = 0.003
-"""Between phrases the window has its turn: the synthesiser lets no other Python run."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,7 +72,7 @@ class Stems(QObject):
     def __init__(self, tasks: Tasks, parent: QObject) -> None:
         super().__init__(parent)
         self._tasks = tasks
-        self._synthesiser = Synthesiser()
+        self._synthesiser = Synthesiser(RenderProcess())
         self._made: dict[str, _Made] = {}
         self._job: _Job | None = None
         self._wanted: tuple[Project, float] | None = None
@@ -161,7 +159,6 @@ class Stems(QObject):
                         raise Cancelled("work.stopped")
                     synthesiser.render(phrase)
                     progress((index + 1) / len(missing))
-                    time.sleep(_BREATHE_S)
             finally:
                 job.has_ended = True
 

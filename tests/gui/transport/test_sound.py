@@ -12,6 +12,7 @@ from pytestqt.qtbot import QtBot
 
 from app.audio.mix import mixdown
 from app.audio.playback import Playback
+from app.audio.render_process import RenderProcess
 from app.audio.track import RATE_HZ
 from app.errors import Message
 from app.project.edit.piece import set_audio, set_offset
@@ -111,11 +112,9 @@ def test_mute_and_solo_are_heard_at_once(ready: Sound, session: Session, tasks: 
 def test_after_an_edit_only_what_changed_is_rendered(
     ready: Sound, session: Session, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    import app.audio.synth as synth
-
     rendered = []
-    real = synth._render
-    monkeypatch.setattr(synth, "_render", lambda midi: rendered.append(midi) or real(midi))
+    real = RenderProcess.__call__
+    monkeypatch.setattr(RenderProcess, "__call__", lambda self, midi: rendered.append(midi) or real(self, midi))
     before = heard(ready, 0.0, 1.0)
     project = session.project
     other = melody((1920, 960, 60))

@@ -10,7 +10,8 @@ import msgspec
 import numpy as np
 import pytest
 
-from app.audio.synth import SOUNDFONT, Synthesiser, phrases, program_of, programs
+from app.audio.rendering import SOUNDFONT
+from app.audio.synth import Synthesiser, phrases, program_of, programs
 from app.audio.track import RATE_HZ
 from app.score.model import ControllerCurve
 from app.score.tempo import TempoChange, TempoMap

@@ -1,0 +1,119 @@
+"""Phrases rendered by a process of their own: the synthesiser lets no other Python run, and would stop the window.
+
+The child is this module, run as a program: it reads MIDI files from its input, writes their sound to its output, both
+with their lengths before them, and ends when its input does, so that it never outlives the editor.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import signal
+import struct
+import subprocess
+import sys
+import weakref
+from threading import Lock
+from typing import IO, Final
+
+import numpy as np
+
+from app.audio.rendering import rendered
+from app.audio.track import Samples
+
+_LENGTH: Final = struct.Struct("<I")
+_NICENESS: Final = 5
+"""Where the processor is short, whoever works with the window goes first."""
+
+
+class RenderProcess:
+    """Renders in a child that is started with the first phrase.
+
+    Where no process can be started, or it was killed, phrases are rendered here: they sound the same, and the window
+    is less smooth.
+    """
+
+    def __init__(self) -> None:
+        self._lock = Lock()
+        self._child: subprocess.Popen[bytes] | None = None
+        self._has_child = True
+
+    def __call__(self, midi: bytes) -> Samples:
+        """A MIDI file as sound: int16, mono. One at a time; may be called from any thread."""
+        with self._lock:
+            if self._has_child:
+                try:
+                    return self._asked(midi)
+                except OSError:
+                    self._has_child = False
+        return rendered(midi)
+
+    def _asked(self, midi: bytes) -> Samples:
+        if self._child is None:
+            self._child = _started()
+            weakref.finalize(self, _end, self._child)
+        to, back = self._child.stdin, self._child.stdout
+        assert to is not None
+        assert back is not None
+        _write(to, midi)
+        return np.frombuffer(_read(back), np.int16)
+
+
+def _started() -> subprocess.Popen[bytes]:
+    # The child finds the same packages, wherever it is started.
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+    return subprocess.Popen(
+        [sys.executable, "-m", __name__],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        env=environment,
+        creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),
+    )
+
+
+def _end(child: subprocess.Popen[bytes]) -> None:
+    assert child.stdin is not None
+    assert child.stdout is not None
+    # It may have been killed with something unsaid; the stream is closed all the same.
+    with contextlib.suppress(OSError):
+        child.stdin.close()
+    # Who still reads from it, in a thread, is told first that nothing comes.
+    child.wait()
+    child.stdout.close()
+
+
+def _write(stream: IO[bytes], data: bytes) -> None:
+    stream.write(_LENGTH.pack(len(data)))
+    stream.write(data)
+    stream.flush()
+
+
+def _read(stream: IO[bytes]) -> bytes:
+    """What was written with its length. Raises BrokenPipeError where the other side has ended."""
+    (length,) = _LENGTH.unpack(_exactly(stream, _LENGTH.size))
+    return _exactly(stream, length)
+
+
+def _exactly(stream: IO[bytes], count: int) -> bytes:
+    data = stream.read(count)
+    if len(data) < count:
+        raise BrokenPipeError("the other side has ended")
+    return data
+
+
+def main() -> None:
+    """Render whatever is asked for."""
+    # Ctrl-C in the terminal is meant for the editor, which ends this process by ending.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    if hasattr(os, "nice"):
+        os.nice(_NICENESS)
+    while True:
+        try:
+            midi = _read(sys.stdin.buffer)
+            _write(sys.stdout.buffer, rendered(midi).tobytes())
+        except BrokenPipeError:
+            return
+
+
+if __name__ == "__main__":
+    main()
