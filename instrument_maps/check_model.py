@@ -37,12 +37,16 @@ def model_problems(instrument: InstrumentMap, path: Path) -> Iterator[Problem]:
         return
     missing = set()
     places = root_from_node(model, names[ROOT])
-    for index, control in enumerate(instrument.controls):
-        if control.node not in names:
-            missing.add(control.node)
-            yield f"controls[{index}].node", f"'{instrument.model}' has no node named '{control.node}'"
-        elif not np.allclose(places[names[control.node]][:3, :3], np.eye(3), atol=1e-4):
-            yield f"controls[{index}].node", f"'{control.node}' must rest unturned and unscaled in '{instrument.model}'"
+    moving = [(f"controls[{index}].node", control.node) for index, control in enumerate(instrument.controls)]
+    moving += [(f"links[{index}].node", link.node) for index, link in enumerate(instrument.links)]
+    for key, node in moving:
+        if node is None:
+            continue
+        if node not in names:
+            missing.add(node)
+            yield key, f"'{instrument.model}' has no node named '{node}'"
+        elif not np.allclose(places[names[node]][:3, :3], np.eye(3), atol=1e-4):
+            yield key, f"'{node}' must rest unturned and unscaled in '{instrument.model}'"
     yield from _touches(instrument, model, missing)
 
 
@@ -90,7 +94,7 @@ def node_triangles(instrument: InstrumentMap, model: GltfModel) -> dict[str, Flo
     """Triangles (T, 3, 3) that move with each node the map speaks of, in the frame of that node."""
     names = {node.name: index for index, node in enumerate(model.nodes)}
     places = root_from_node(model, names[ROOT])
-    wanted = {names[name]: name for name in (ROOT, *(control.node for control in instrument.controls)) if name in names}
+    wanted = {names[name]: name for name in (ROOT, *instrument.nodes) if name in names}
     found: dict[str, list[FloatArray]] = {name: [] for name in wanted.values()}
     for index, node in enumerate(model.nodes):
         owner = index

@@ -19,10 +19,13 @@ import tomllib
 from collections.abc import Iterable, Mapping
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import msgspec
 
 from app.errors import MapError, Message
+from instrument_maps.extend import BASE, extended
+from instrument_maps.fingering_label import controls_of
 from instrument_maps.model import InstrumentMap
 from instrument_maps.validate import problems
 
@@ -161,9 +164,27 @@ def _text(path: Path) -> str:
 
 
 def _shaped(text: str, file: str) -> InstrumentMap:
-    """Parse and convert: everything that types alone can tell."""
+    """Parse, extend and convert: everything that types alone can tell."""
+    table = _extended(_parsed(text, file), file, ())
     try:
-        table = tomllib.loads(text)
+        instrument = msgspec.convert(table, InstrumentMap)
+    except msgspec.ValidationError as error:
+        place = _SCHEMA_PLACE.search(str(error))
+        path = place.group(1) if place else ""
+        detail = _SCHEMA_PLACE.sub("", str(error))
+        raise MapError("map.invalid", file=file, path=path or "(top level)", detail=detail) from error
+    told = [
+        msgspec.structs.replace(fingering, controls=controls_of(fingering.label, instrument.controls) or {})
+        if not fingering.controls
+        else fingering
+        for fingering in instrument.fingerings
+    ]
+    return msgspec.structs.replace(instrument, fingerings=tuple(told))
+
+
+def _parsed(text: str, file: str) -> dict[str, Any]:
+    try:
+        return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         place = _SYNTAX_PLACE.search(str(error))
         line, column = _place(text, place)
@@ -171,13 +192,23 @@ def _shaped(text: str, file: str) -> InstrumentMap:
         raise MapError("map.syntax", file=file, line=line, column=column, detail=detail) from error
     except RecursionError as error:
         raise MapError("map.syntax", file=file, line=1, column=1, detail="nested too deeply") from error
-    try:
-        return msgspec.convert(table, InstrumentMap)
-    except msgspec.ValidationError as error:
-        place = _SCHEMA_PLACE.search(str(error))
-        path = place.group(1) if place else ""
-        detail = _SCHEMA_PLACE.sub("", str(error))
-        raise MapError("map.invalid", file=file, path=path or "(top level)", detail=detail) from error
+
+
+def _extended(table: dict[str, Any], file: str, above: tuple[str, ...]) -> dict[str, Any]:
+    """A map's table laid over the one it extends, which is looked for beside it and then among the bundled maps."""
+    if BASE not in table:
+        return table
+    base = table[BASE]
+    if not isinstance(base, str) or not base.isidentifier():
+        raise MapError("map.invalid", file=file, path=BASE, detail=f"{base!r} is not the id of a map")
+    if base in above or base == Path(file).stem:
+        raise MapError("map.invalid", file=file, path=BASE, detail=f"'{base}' extends itself")
+    paths = [folder / f"{base}.toml" for folder in (Path(file).parent, FOLDER)]
+    path = next((path for path in paths if path.is_file()), None)
+    if path is None:
+        raise MapError("map.invalid", file=file, path=BASE, detail=f"there is no map named '{base}'")
+    below = _extended(_parsed(_text(path), str(path)), str(path), (*above, base))
+    return extended(below, table)
 
 
 def _place(text: str, found: re.Match[str] | None) -> tuple[int, int]:

@@ -15,7 +15,7 @@ At rest the frames of all nodes of a model differ from the root's by a translati
 
 from __future__ import annotations
 
-from typing import Literal, TypeAlias
+from typing import Literal, NamedTuple, TypeAlias, TypeVar
 
 import msgspec
 
@@ -27,6 +27,8 @@ ROOT = "root"
 
 Vector: TypeAlias = tuple[float, float, float]
 Hand: TypeAlias = Literal["left", "right"]
+Posture: TypeAlias = Literal["standing", "seated"]
+_Kind = TypeVar("_Kind")
 
 FINGERS = ("thumb", "index", "middle", "ring", "little")
 PLACES = ("pad", "side", "pad_middle", "side_middle")
@@ -42,7 +44,7 @@ MOVERS = frozenset(f"{hand}.{mover}" for hand in ("left", "right") for mover in 
 """What may move a control: a finger, or a whole hand (a playing slide)."""
 
 
-class _Table(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+class _Table(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
     """A table of the file: immutable, and a key it does not know is an error."""
 
 
@@ -66,19 +68,29 @@ class Range(_Table, frozen=True):
     easy_high: int
 
 
+EmbouchureKind: TypeAlias = Literal["cup", "single_reed", "double_reed", "air_jet", "fipple"]
+
+
 class Embouchure(_Table, frozen=True):
     """How the lips meet the instrument.
 
     Attributes
     ----------
     kind : str
-        ``"cup"``: both lips inside a cup mouthpiece.
+        ``"cup"``: both lips inside a cup mouthpiece. ``"single_reed"``: upper teeth on the mouthpiece, lower lip over
+        the lower teeth under the reed. ``"double_reed"``: both lips drawn over the teeth around the reed.
+        ``"air_jet"``: the plate under the lower lip, a small opening between the lips blows across the hole.
+        ``"fipple"``: a beak between relaxed lips.
     upper_lip_share : float
-        Part of the rim's diameter that lies on the upper lip, 0..1.
+        Part of the rim's diameter that lies on the upper lip, 0..1; of what is between the lips, the part above the
+        line where they would meet.
+    lips_apart_m : float
+        Height of what lies between the lips where they close around it; 0 for a cup and an air jet.
     """
 
-    kind: Literal["cup"]
+    kind: EmbouchureKind
     upper_lip_share: float
+    lips_apart_m: float = 0.0
 
 
 class Mouthpiece(_Table, frozen=True):
@@ -87,6 +99,10 @@ class Mouthpiece(_Table, frozen=True):
     ``position_m`` is the centre of the rim plane, ``air_axis`` the direction of the air stream,
     ``up_axis`` up as played (unit vectors, orthogonal); ``rim_radius_m`` is the crest of the rim, where
     it presses on the lips, ``rim_outer_radius_m`` its outer edge.
+
+    Of a reed or a beak the position is the middle of what the lips close around, there where they close (the tip lies
+    behind it, in the mouth); of an air jet it is the edge of the plate where the lower lip rests. The radii are then
+    half the width of mouthpiece, reed or plate that the lips meet.
     """
 
     position_m: Vector
@@ -109,26 +125,34 @@ class Motion(_Table, frozen=True):
     pivot_m: Vector | None = None
 
 
+ControlKind: TypeAlias = Literal["press", "lever", "slide", "key", "hole"]
+
+
 class Control(_Table, frozen=True):
-    """Something the player moves: a valve, a slide, a lever.
+    """Something the player moves: a valve, a slide, a lever, a key; or a hole a finger covers.
 
     Attributes
     ----------
     name : str
         Unique; also the bone's name in an exported file.
     kind : str
-        ``"press"`` goes down under a finger, ``"lever"`` turns under one, ``"slide"`` is pushed and pulled.
+        ``"press"`` goes down under a finger, ``"lever"`` turns under one, ``"slide"`` is pushed and pulled; ``"key"``
+        is a woodwind's key, ``"hole"`` a hole that the finger itself closes (with or without a ring that goes down).
     role : str
         ``"pitch"``: named by the fingerings. ``"intonation"``: corrects a note that is held long enough.
-    node : str
-        The model's node it moves.
-    motion : Motion
-        How.
     finger : str
         What moves it, one of `MOVERS`.
+    node : str or None
+        The model's node it moves; None for a hole without a moving part.
+    motion : Motion or None
+        How; None exactly where ``node`` is.
     label : str
-        Its sign in the short form of a fingering (``"1"``, ``"T"``); empty where the place itself is the
+        Its sign in the short form of a fingering (``"1"``, ``"T"``, ``"L1"``); empty where the place itself is the
         label (a slide) or where it has none.
+    half_value : float or None
+        A hole that may be half closed: its value then, 0..1. The label is then the hole's with ``"h"`` after it.
+    hover_m : float
+        How high over its key or hole a finger that plays nothing waits; 0 where it stays on it (a valve).
     rest_value : float
         Where it is when nothing is played, 0..1.
     move_window_s : float
@@ -144,18 +168,59 @@ class Control(_Table, frozen=True):
     """
 
     name: str
-    kind: Literal["press", "lever", "slide"]
+    kind: ControlKind
     role: Literal["pitch", "intonation"]
-    node: str
-    motion: Motion
     finger: str
+    node: str | None = None
+    motion: Motion | None = None
     label: str = ""
+    half_value: float | None = None
+    hover_m: float = 0.0
     rest_value: float = 0.0
     move_window_s: float = 0.06
     move_note_share: float = 0.4
     max_speed_m_s: float | None = None
     used_with: tuple[str, ...] = ()
     held_min_s: float | None = None
+
+    @property
+    def travel_m(self) -> float:
+        """How far its node is pushed or pulled; 0 for what turns and for what does not move."""
+        return 0.0 if self.motion is None or self.motion.travel_m is None else self.motion.travel_m
+
+
+class Link(_Table, frozen=True):
+    """A part that other controls move: the pad a key's rod closes far from the finger, the ring of a neighbouring hole.
+
+    Attributes
+    ----------
+    node : str
+        The model's node that moves along; not the node of a control.
+    motion : Motion
+        How.
+    controls : tuple of str
+        Names of the controls that move it.
+    when : str
+        ``"any"``: it goes as far as the furthest of them. ``"all"``: as far as the least of them.
+    """
+
+    node: str
+    motion: Motion
+    controls: tuple[str, ...]
+    when: Literal["any", "all"] = "any"
+
+
+class MovingPart(NamedTuple):
+    """A node of the model that moves, whatever moves it.
+
+    ``name`` is its bone's in a file: the control's that moves it, or the node's own for a link.
+    """
+
+    name: str
+    node: str
+    motion: Motion
+    controls: tuple[str, ...]
+    when: Literal["any", "all"] = "any"
 
 
 class Contact(_Table, frozen=True):
@@ -170,7 +235,10 @@ class Contact(_Table, frozen=True):
     position_m, normal : vector
         A point of the surface and the unit normal that points out of it, towards the skin.
     control : str or None
-        The control this touch works, if any.
+        The control this touch works, if any. A finger may work several, each with a touch of its own; the first in
+        the file is where it is at home. Thumb and little fingers go from one to the other.
+    together : tuple of str
+        Other controls that the same finger works at the same time in this place (a thumb on hole and register key).
     when : str
         ``"always"``; ``"pressed"``: only while the control is away from rest; ``"released"``: only at rest.
     grip : str
@@ -183,6 +251,7 @@ class Contact(_Table, frozen=True):
     position_m: Vector
     normal: Vector
     control: str | None = None
+    together: tuple[str, ...] = ()
     when: Literal["always", "pressed", "released"] = "always"
     grip: Literal["firm", "resting"] = "firm"
 
@@ -193,6 +262,7 @@ class HandSeed(_Table, frozen=True):
     ``palm_position_m`` is the middle of the palm's skin, ``palm_normal`` points out of the palm,
     ``finger_direction`` from the wrist to the knuckles; in the frame of ``node``. ``curl`` is the bend of the
     fingers without a contact: 0 straight, 1 a fist; in the order index, middle, ring, little.
+    ``elbow_off_ribs_deg`` is the swing of the elbow to the outside; None as the body's posture has it.
     """
 
     hand: Hand
@@ -201,6 +271,7 @@ class HandSeed(_Table, frozen=True):
     palm_normal: Vector
     finger_direction: Vector
     curl: tuple[float, float, float, float] = (0.35, 0.4, 0.45, 0.45)
+    elbow_off_ribs_deg: float | None = None
 
 
 class Capsule(_Table, frozen=True, tag="capsule", tag_field="shape"):
@@ -261,11 +332,17 @@ class Carriage(_Table, frozen=True):
     From the horizontal, straight ahead of the player: ``pitch_down_deg`` bell below the mouthpiece,
     ``yaw_left_deg`` bell to the player's left, ``roll_left_deg`` the instrument's up leaning to the left.
     Applied in the order yaw, pitch, roll.
+
+    How the player turns to it, in degrees: ``head_left_deg`` the head to the left of the trunk, ``head_lean_left_deg``
+    its ear towards the left shoulder, ``trunk_left_deg`` the shoulders to the left of the feet.
     """
 
     pitch_down_deg: Vector
     yaw_left_deg: Vector
     roll_left_deg: Vector
+    head_left_deg: float = 0.0
+    head_lean_left_deg: float = 0.0
+    trunk_left_deg: float = 0.0
 
 
 class Lowered(_Table, frozen=True):
@@ -285,14 +362,37 @@ class Hold(_Table, frozen=True):
     """How a trained player carries the instrument.
 
     ``support_hand`` bears its weight. ``standing`` and ``seated`` are for playing; the two ``lowered``
-    tables are for long rests.
+    tables are for long rests. An instrument that is only played seated has no tables for standing, and the other way
+    round.
     """
 
     support_hand: Hand
-    standing: Carriage
-    seated: Carriage
-    lowered_standing: Lowered
-    lowered_seated: Lowered
+    standing: Carriage | None = None
+    seated: Carriage | None = None
+    lowered_standing: Lowered | None = None
+    lowered_seated: Lowered | None = None
+
+    @property
+    def postures(self) -> tuple[Posture, ...]:
+        """In what the instrument is played, the usual one first."""
+        both: tuple[tuple[Posture, Carriage | None], ...] = (("standing", self.standing), ("seated", self.seated))
+        return tuple(posture for posture, carriage in both if carriage is not None)
+
+    def carriage(self, posture: Posture) -> Carriage:
+        """Return how it is carried, in the only posture it is played in where the wanted one is not possible."""
+        return self._either(posture, self.standing, self.seated)
+
+    def lowered(self, posture: Posture) -> Lowered:
+        """Return where it is in a long rest; likewise."""
+        return self._either(posture, self.lowered_standing, self.lowered_seated)
+
+    @staticmethod
+    def _either(posture: Posture, standing: _Kind | None, seated: _Kind | None) -> _Kind:
+        wanted, other = (seated, standing) if posture == "seated" else (standing, seated)
+        found = other if wanted is None else wanted
+        if found is None:
+            raise ValueError("a map without any posture")
+        return found
 
 
 class Acoustics(_Table, frozen=True):
@@ -327,9 +427,12 @@ class Fingering(_Table, frozen=True):
     rank : int
         1 = first choice; alternates count on without gaps.
     label : str
-        The usual short form: ``"0"``, ``"13"``, ``"T12"``; of a slide ``"1"``..``"7"``, ``"T1"``.
+        The usual short form: ``"0"``, ``"13"``, ``"T12"``; of a slide ``"1"``..``"7"``, ``"T1"``; of keys and holes
+        their labels, sorted, one space between, ``"(open)"`` for none.
     controls : dict of str to float
-        Value 0..1 of every pitch control away from its rest.
+        Value 0..1 of every pitch control away from its rest. A file may leave it out where the label says it.
+    fingers : dict of str to str
+        Controls that another finger than usual works here, and which.
     cents : float
         How far the note is from equal temperament when it is simply blown, after what ``controls`` does.
     correction : dict of str to float
@@ -344,7 +447,16 @@ class Fingering(_Table, frozen=True):
     controls: dict[str, float] = {}
     cents: float = 0.0
     correction: dict[str, float] = {}
+    fingers: dict[str, str] = {}
     tags: tuple[str, ...] = ()
+
+
+class Air(_Table, frozen=True):
+    """How long one full breath of an adult lasts on the instrument, seconds of playing by dynamic."""
+
+    piano_s: float
+    mezzoforte_s: float
+    forte_s: float
 
 
 class InstrumentMap(_Table, frozen=True):
@@ -370,6 +482,12 @@ class InstrumentMap(_Table, frozen=True):
         Concert pitches.
     model : str
         File name of the glTF binary.
+    clef : str
+        The clef its parts are written in.
+    breaks : tuple of int
+        Written pitches at which a new register begins; a line crosses the break between such a note and the one below.
+    air : Air or None
+        None: as the body's lungs say, whatever the instrument.
     fingerings : tuple of Fingering
         Sorted by written pitch and rank.
     """
@@ -391,6 +509,10 @@ class InstrumentMap(_Table, frozen=True):
     hold: Hold
     fingerings: tuple[Fingering, ...]
     substitutes_for: tuple[str, ...] = ()
+    clef: Literal["treble", "bass", "alto", "tenor"] = "treble"
+    links: tuple[Link, ...] = ()
+    breaks: tuple[int, ...] = ()
+    air: Air | None = None
     acoustics: Acoustics | None = None
     sources: tuple[str, ...] = ()
 
@@ -400,6 +522,22 @@ class InstrumentMap(_Table, frozen=True):
             if control.name == name:
                 return control
         raise KeyError(name)
+
+    @property
+    def moving_parts(self) -> tuple[MovingPart, ...]:
+        """What moves in the model: the parts of the controls, then the linked ones."""
+        own = [
+            MovingPart(control.name, control.node, control.motion, (control.name,))
+            for control in self.controls
+            if control.node is not None and control.motion is not None
+        ]
+        along = [MovingPart(link.node, link.node, link.motion, link.controls, link.when) for link in self.links]
+        return (*own, *along)
+
+    @property
+    def nodes(self) -> tuple[str, ...]:
+        """The nodes of `moving_parts`."""
+        return tuple(part.node for part in self.moving_parts)
 
     def in_range(self, concert_pitch: int) -> bool:
         """Whether the table has fingerings for this concert pitch."""

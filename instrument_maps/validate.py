@@ -7,6 +7,7 @@ from collections import Counter, defaultdict
 from collections.abc import Callable, Iterator
 from typing import TypeAlias
 
+from instrument_maps.fingering_label import WORDS, says_words, words_of
 from instrument_maps.model import (
     MOVERS,
     PARTS,
@@ -21,6 +22,7 @@ from instrument_maps.model import (
     Cylinder,
     Fingering,
     InstrumentMap,
+    Motion,
     Proxy,
     Ring,
     Vector,
@@ -38,15 +40,21 @@ _HARMONIC_SEMITONES = 0.6
 """The furthest that a harmonic in use is from its note: the eleventh, half a semitone."""
 
 
+LIPS_MEET = frozenset({"cup", "air_jet"})
+"""Kinds of embouchure with nothing between the lips."""
+
+
 def problems(instrument: InstrumentMap) -> Iterator[Problem]:
     """Yield every problem of a map whose types are right, in the order of its tables."""
     yield from _head(instrument)
     yield from _mouthpiece(instrument)
     yield from _controls(instrument)
+    yield from _links(instrument)
     yield from _contacts(instrument)
     yield from _proxies(instrument)
     yield from _hold(instrument)
     yield from _acoustics(instrument)
+    yield from _air(instrument)
     yield from _fingerings(instrument)
 
 
@@ -83,15 +91,24 @@ def _mouthpiece(instrument: InstrumentMap) -> Iterator[Problem]:
     yield from _unit("mouthpiece.up_axis", mouthpiece.up_axis)
     if abs(_dot(mouthpiece.air_axis, mouthpiece.up_axis)) > _UNIT_TOLERANCE:
         yield "mouthpiece.up_axis", "is not at a right angle to air_axis"
+    apart_m = instrument.embouchure.lips_apart_m
+    if instrument.embouchure.kind in LIPS_MEET:
+        if apart_m:
+            yield "embouchure.lips_apart_m", f"has no meaning for the kind '{instrument.embouchure.kind}'"
+    elif not 0 < apart_m < 0.05:
+        yield "embouchure.lips_apart_m", "must be more than 0 and less than 0.05: something is between the lips"
     if not 0 < mouthpiece.rim_radius_m <= mouthpiece.rim_outer_radius_m < 0.1:
         yield "mouthpiece.rim_radius_m", "must be 0 < rim_radius_m <= rim_outer_radius_m < 0.1"
 
 
 def _controls(instrument: InstrumentMap) -> Iterator[Problem]:
     labels = {fingering.label for fingering in instrument.fingerings}
-    for key, seen in (("name", defaultdict[str, int](int)), ("node", defaultdict[str, int](int))):
+    for key in ("name", "node", "label"):
+        seen: dict[str, int] = defaultdict(int)
         for index, control in enumerate(instrument.controls):
             value = getattr(control, key)
+            if not value:
+                continue
             seen[value] += 1
             if seen[value] > 1:
                 yield f"controls[{index}].{key}", f"'{value}' is used twice"
@@ -103,27 +120,54 @@ def _controls(instrument: InstrumentMap) -> Iterator[Problem]:
             yield f"{path}.node", f"'{ROOT}' is the instrument itself and does not move"
         if control.finger not in MOVERS:
             yield f"{path}.finger", f"'{control.finger}' is not a finger"
-        yield from _motion(path, control)
+        if (control.node is None) != (control.motion is None):
+            yield f"{path}.motion", "belongs to a control with a node, and every node needs one"
+        elif control.motion is None and control.kind != "hole":
+            yield f"{path}.node", "is missing: only a hole may be without a moving part"
+        if control.motion is not None:
+            yield from _motion(f"{path}.motion", control.motion)
+        if control.half_value is not None:
+            yield from _within(f"{path}.half_value", control.half_value, 0.05, 0.95)
+            if control.kind != "hole":
+                yield f"{path}.half_value", "belongs to controls of the kind 'hole'"
+        if control.kind in WORDS and control.role == "pitch" and (not control.label or " " in control.label):
+            yield f"{path}.label", "must be one word: the label of a fingering is made of it"
+        yield from _within(f"{path}.hover_m", control.hover_m, 0, 0.02)
         yield from _timing(path, control)
         yield from _role(path, control, labels)
 
 
-def _motion(path: str, control: Control) -> Iterator[Problem]:
-    motion = control.motion
-    yield from _unit(f"{path}.motion.axis", motion.axis)
+def _motion(path: str, motion: Motion) -> Iterator[Problem]:
+    yield from _unit(f"{path}.axis", motion.axis)
     if (motion.travel_m is None) == (motion.angle_rad is None):
-        yield f"{path}.motion", "needs either travel_m or angle_rad"
+        yield path, "needs either travel_m or angle_rad"
     if motion.travel_m is not None and not 0 < motion.travel_m < _REACH_M:
-        yield f"{path}.motion.travel_m", f"{motion.travel_m} m is not a travel"
+        yield f"{path}.travel_m", f"{motion.travel_m} m is not a travel"
     if motion.angle_rad is not None:
         if not 0 < abs(motion.angle_rad) < math.pi:
-            yield f"{path}.motion.angle_rad", f"{motion.angle_rad} rad is not the turn of a lever"
+            yield f"{path}.angle_rad", f"{motion.angle_rad} rad is not the turn of a lever"
         if motion.pivot_m is None:
-            yield f"{path}.motion.pivot_m", "is missing: a turn needs a pivot"
+            yield f"{path}.pivot_m", "is missing: a turn needs a pivot"
         else:
-            yield from _point(f"{path}.motion.pivot_m", motion.pivot_m)
+            yield from _point(f"{path}.pivot_m", motion.pivot_m)
     elif motion.pivot_m is not None:
-        yield f"{path}.motion.pivot_m", "has no meaning without angle_rad"
+        yield f"{path}.pivot_m", "has no meaning without angle_rad"
+
+
+def _links(instrument: InstrumentMap) -> Iterator[Problem]:
+    taken = {control.node for control in instrument.controls} | {ROOT}
+    names = {control.name for control in instrument.controls}
+    for index, link in enumerate(instrument.links):
+        path = f"links[{index}]"
+        if link.node in taken:
+            yield f"{path}.node", f"'{link.node}' is moved by something else already"
+        taken.add(link.node)
+        yield from _motion(f"{path}.motion", link.motion)
+        if not link.controls:
+            yield f"{path}.controls", "is empty: this part would never move"
+        for place, name in enumerate(link.controls):
+            if name not in names:
+                yield f"{path}.controls[{place}]", f"there is no control named '{name}'"
 
 
 def _timing(path: str, control: Control) -> Iterator[Problem]:
@@ -132,7 +176,7 @@ def _timing(path: str, control: Control) -> Iterator[Problem]:
     yield from _within(f"{path}.move_note_share", control.move_note_share, 0.01, 1)
     if control.max_speed_m_s is not None:
         yield from _within(f"{path}.max_speed_m_s", control.max_speed_m_s, 0.05, 20)
-        if control.motion.travel_m is None:
+        if not control.travel_m:
             yield f"{path}.max_speed_m_s", "has no meaning for a turn"
 
 
@@ -155,9 +199,9 @@ def _role(path: str, control: Control, labels: set[str]) -> Iterator[Problem]:
 
 
 def _contacts(instrument: InstrumentMap) -> Iterator[Problem]:
-    nodes = {ROOT, *(control.node for control in instrument.controls)}
+    nodes = {ROOT, *instrument.nodes}
     controls = {control.name: control for control in instrument.controls}
-    seen: set[tuple[str, str]] = set()
+    seen: set[tuple[str, str, frozenset[str]]] = set()
     for index, contact in enumerate(instrument.contacts):
         path = f"contacts[{index}]"
         if contact.part not in PARTS:
@@ -170,9 +214,13 @@ def _contacts(instrument: InstrumentMap) -> Iterator[Problem]:
             yield f"{path}.control", f"there is no control named '{contact.control}'"
         elif contact.control is None and contact.when != "always":
             yield f"{path}.when", f"'{contact.when}' needs a control"
-        if (contact.part, contact.when) in seen:
+        for place, name in enumerate(contact.together):
+            if name not in controls or name == contact.control or contact.control is None:
+                yield f"{path}.together[{place}]", f"'{name}' is no other control beside '{contact.control}'"
+        station = frozenset((*([contact.control] if contact.control else []), *contact.together))
+        if (contact.part, contact.when, station) in seen:
             yield f"{path}.part", f"'{contact.part}' touches twice"
-        seen.add((contact.part, contact.when))
+        seen.add((contact.part, contact.when, station))
     for index, control in enumerate(instrument.controls):
         if control.finger in MOVERS and not any(_works(contact, control) for contact in instrument.contacts):
             yield f"controls[{index}].finger", f"no contact says where '{control.finger}' touches '{control.name}'"
@@ -197,6 +245,8 @@ def _hands(instrument: InstrumentMap, nodes: set[str]) -> Iterator[Problem]:
         yield from _point(f"{path}.palm_position_m", seed.palm_position_m)
         yield from _unit(f"{path}.palm_normal", seed.palm_normal)
         yield from _unit(f"{path}.finger_direction", seed.finger_direction)
+        if seed.elbow_off_ribs_deg is not None:
+            yield from _within(f"{path}.elbow_off_ribs_deg", seed.elbow_off_ribs_deg, 0, 120)
         for finger, curl in enumerate(seed.curl):
             yield from _within(f"{path}.curl[{finger}]", curl, 0, 1)
     for index, contact in enumerate(instrument.contacts):
@@ -206,7 +256,7 @@ def _hands(instrument: InstrumentMap, nodes: set[str]) -> Iterator[Problem]:
 
 
 def _proxies(instrument: InstrumentMap) -> Iterator[Problem]:
-    nodes = {ROOT, *(control.node for control in instrument.controls)}
+    nodes = {ROOT, *instrument.nodes}
     for index, proxy in enumerate(instrument.proxy):
         path = f"proxy[{index}]"
         if proxy.node not in nodes:
@@ -245,15 +295,27 @@ def _proxy(proxy: Proxy) -> Iterator[Problem]:
 
 def _hold(instrument: InstrumentMap) -> Iterator[Problem]:
     hold = instrument.hold
-    for name, carriage in (("standing", hold.standing), ("seated", hold.seated)):
-        for key in Carriage.__struct_fields__:
-            low, usual, high = getattr(carriage, key)
-            if not -180 <= low <= usual <= high <= 180:
-                yield f"hold.{name}.{key}", "must be [lowest, usual, highest] in degrees"
-    for name, lowered in (("lowered_standing", hold.lowered_standing), ("lowered_seated", hold.lowered_seated)):
-        yield from _point(f"hold.{name}.offset_m", lowered.offset_m)
-        for key in ("pitch_down_deg", "yaw_left_deg", "roll_left_deg"):
-            yield from _within(f"hold.{name}.{key}", getattr(lowered, key), -180, 180)
+    if not hold.postures:
+        yield "hold", "says neither how it is played standing nor how seated"
+    for name in ("standing", "seated"):
+        carriage, lowered = getattr(hold, name), getattr(hold, f"lowered_{name}")
+        if (carriage is None) != (lowered is None):
+            yield f"hold.lowered_{name}", f"must be there exactly where hold.{name} is"
+        if carriage is not None:
+            yield from _carriage(f"hold.{name}", carriage)
+        if lowered is not None:
+            yield from _point(f"hold.lowered_{name}.offset_m", lowered.offset_m)
+            for key in ("pitch_down_deg", "yaw_left_deg", "roll_left_deg"):
+                yield from _within(f"hold.lowered_{name}.{key}", getattr(lowered, key), -180, 180)
+
+
+def _carriage(path: str, carriage: Carriage) -> Iterator[Problem]:
+    for key in ("pitch_down_deg", "yaw_left_deg", "roll_left_deg"):
+        low, usual, high = getattr(carriage, key)
+        if not -180 <= low <= usual <= high <= 180:
+            yield f"{path}.{key}", "must be [lowest, usual, highest] in degrees"
+    for key, most in (("head_left_deg", 60), ("head_lean_left_deg", 25), ("trunk_left_deg", 45)):
+        yield from _within(f"{path}.{key}", getattr(carriage, key), -most, most)
 
 
 def _acoustics(instrument: InstrumentMap) -> Iterator[Problem]:
@@ -265,13 +327,26 @@ def _acoustics(instrument: InstrumentMap) -> Iterator[Problem]:
     for name, semitones in acoustics.semitones.items():
         if name not in controls:
             yield f"acoustics.semitones.{name}", f"there is no control named '{name}' that changes the pitch"
-        yield from _within(f"acoustics.semitones.{name}", semitones, 1, 12)
+        if semitones == 0:
+            yield f"acoustics.semitones.{name}", "is 0: such a control does not change the pitch"
+        yield from _within(f"acoustics.semitones.{name}", semitones, -12, 24)
     if acoustics.slide_control is not None and acoustics.slide_control not in controls:
         yield "acoustics.slide_control", f"there is no control named '{acoustics.slide_control}'"
 
 
+def _air(instrument: InstrumentMap) -> Iterator[Problem]:
+    air = instrument.air
+    if air is not None and not 60 >= air.piano_s >= air.mezzoforte_s >= air.forte_s >= 1:
+        yield "air", "must be 60 >= piano_s >= mezzoforte_s >= forte_s >= 1"
+    shift = instrument.transposition_semitones
+    for index, written in enumerate(instrument.breaks):
+        if not instrument.range.low + shift < written <= instrument.range.high + shift:
+            yield f"breaks[{index}]", f"written pitch {written} is not within the range"
+
+
 def _fingerings(instrument: InstrumentMap) -> Iterator[Problem]:
     ranks: dict[int, list[int]] = defaultdict(list)
+    labels: dict[int, list[str]] = defaultdict(list)
     shift = instrument.transposition_semitones
     low, high = instrument.range.low + shift, instrument.range.high + shift
     previous = (-1, 0)
@@ -284,6 +359,9 @@ def _fingerings(instrument: InstrumentMap) -> Iterator[Problem]:
         if place <= previous:
             yield path, "is out of order: fingerings are sorted by written pitch, then rank"
         previous = place
+        if any(fingering.label == other for other in labels[fingering.written_pitch]):
+            yield f"{path}.label", f"'{fingering.label}' is there twice for this note"
+        labels[fingering.written_pitch].append(fingering.label)
         ranks[fingering.written_pitch].append(fingering.rank)
     for written, found in ranks.items():
         if sorted(found) != list(range(1, len(found) + 1)):
@@ -310,15 +388,47 @@ def _fingering(path: str, fingering: Fingering, instrument: InstrumentMap) -> It
     known = all(roles.get(name) == "pitch" and 0 <= value <= 1 for name, value in fingering.controls.items())
     if fingering.label and known:
         yield from _label(f"{path}.label", fingering, instrument)
+        yield from _fingers(path, fingering, instrument)
         yield from _harmonic(f"{path}.controls", fingering, instrument)
     for name in fingering.correction:
         if name in used_with and roles[name] == "intonation" and fingering.label not in used_with[name]:
             yield f"{path}.correction.{name}", f"'{name}' is not used with '{fingering.label}' (controls, used_with)"
 
 
+def _fingers(path: str, fingering: Fingering, instrument: InstrumentMap) -> Iterator[Problem]:
+    """No finger is asked for two things at once, unless a contact says where it does both."""
+    asked: dict[str, set[str]] = defaultdict(set)
+    for control in instrument.controls:
+        finger = fingering.fingers.get(control.name, control.finger)
+        if fingering.controls.get(control.name, control.rest_value) > 0 and not finger.endswith(".hand"):
+            asked[finger].add(control.name)
+    for name, finger in fingering.fingers.items():
+        if fingering.controls.get(name, 0.0) <= 0:
+            yield f"{path}.fingers.{name}", "is not among the controls of this fingering"
+        if finger not in MOVERS:
+            yield f"{path}.fingers.{name}", f"'{finger}' is not a finger"
+    for finger, names in asked.items():
+        if not any(names == _station(contact) for contact in instrument.contacts if _of(contact, finger)):
+            wanted = " and ".join(f"'{name}'" for name in sorted(names))
+            yield f"{path}.controls", f"no contact lets '{finger}' work {wanted}{' together' if len(names) > 1 else ''}"
+
+
+def _station(contact: Contact) -> set[str]:
+    return {contact.control or "", *contact.together}
+
+
+def _of(contact: Contact, finger: str) -> bool:
+    return contact.part.startswith(f"{finger}.")
+
+
 def _label(path: str, fingering: Fingering, instrument: InstrumentMap) -> Iterator[Problem]:
     """The short form names what moves: the signs of the controls in any order, the place of a slide, or 0 for none."""
     pitch = [control for control in instrument.controls if control.role == "pitch"]
+    if says_words(pitch):
+        named = words_of(fingering.controls, pitch)
+        if fingering.label != named:
+            yield path, f"'{fingering.label}' does not name what the controls say, '{named}'"
+        return
     moved = [control for control in pitch if fingering.controls.get(control.name, control.rest_value) > 0]
     signed = [control for control in moved if control.kind != "slide"]
     if not all(control.label for control in signed):

@@ -1,7 +1,7 @@
 """An instrument and its moving parts as the scene of a file, in the same space as its player.
 
 The root bone is the instrument's place in the world; every moving part is a bone below it that bears the name of the
-control that moves it.
+control that moves it, or of its own node where it only moves along.
 """
 
 from __future__ import annotations
@@ -14,8 +14,9 @@ from app.formats.fbx.join import join_meshes
 from app.formats.fbx.scene import FbxBone, FbxClip, FbxScene
 from app.motion.model import Motion
 from app.rig import quaternion
+from app.rig.instrument import part_transform, part_values
 from app.rig.model import InstrumentModel
-from instrument_maps.model import Control, InstrumentMap
+from instrument_maps.model import InstrumentMap
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -50,7 +51,7 @@ def instrument_scene(
 
 def instrument_bones(instrument: InstrumentMap, model: InstrumentModel) -> tuple[FbxBone, ...]:
     """One bone per node; a node that a control moves is named after the control."""
-    by_node = {control.node: control.name for control in instrument.controls}
+    by_node = {part.node: part.name for part in instrument.moving_parts}
     unturned = np.array([0.0, 0.0, 0.0, 1.0])
     root_m = model.node_positions_m[0]
     return tuple(
@@ -70,36 +71,11 @@ def instrument_clip(instrument: InstrumentMap, model: InstrumentModel, motion: M
     rotations[..., 3] = 1.0
     rotations[:, 0] = motion.instrument_rotation
     translations_cm = {0: motion.instrument_position_m.astype(np.float64) * CENTIMETRES}
-    for control in instrument.controls:
-        node = model.node_names.index(control.node)
-        values = motion.controls[control.name].astype(np.float64)
+    for part in instrument.moving_parts:
+        node = model.node_names.index(part.node)
         rest_m = model.node_positions_m[node] - model.node_positions_m[0]
-        position_m, rotation = part_motion(control, rest_m, values)
+        moved_m, rotation = part_transform(part.motion, part_values(part, motion.controls, motion.frames))
+        position_m = quaternion.rotate(rotation, rest_m) + moved_m
         translations_cm[node] = position_m * CENTIMETRES
         rotations[:, node] = rotation
     return FbxClip(name, motion.fps, motion.frames, rotations, translations_cm)
-
-
-def part_motion(control: Control, rest_m: FloatArray, values: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """A moving part in the instrument's frame, for values 0..1 of its control.
-
-    Parameters
-    ----------
-    control : Control
-    rest_m : (3,) float64
-        Where the part's frame is at value 0.
-    values : (F,) float64
-
-    Returns
-    -------
-    position_m : (F, 3) float64
-    rotation : (F, 4) float64
-        Quaternions xyzw.
-    """
-    axis = np.asarray(control.motion.axis)
-    if control.motion.travel_m is not None:
-        unturned = np.tile(quaternion.IDENTITY, (len(values), 1))
-        return rest_m + (values * control.motion.travel_m)[:, None] * axis, unturned
-    pivot_m = rest_m if control.motion.pivot_m is None else np.asarray(control.motion.pivot_m)
-    rotation = quaternion.from_axis_angle(axis, values * (control.motion.angle_rad or 0.0))
-    return pivot_m + quaternion.rotate(rotation, rest_m - pivot_m), rotation

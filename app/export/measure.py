@@ -206,11 +206,13 @@ def control_values(instrument: InstrumentMap, held: Playback) -> dict[str, Float
     rotations, translations_m = held.rotations(0, frames), held.translations_m(0, frames)
     result = {}
     for control in instrument.controls:
+        if control.motion is None:
+            continue
         bone = held.bone_names.index(control.name)
         axis = np.asarray(control.motion.axis)
-        if control.motion.travel_m is not None:
+        if control.travel_m:
             moved_m = (translations_m[:, bone] - held.rest_m[bone]) @ axis
-            result[control.name] = moved_m / control.motion.travel_m
+            result[control.name] = moved_m / control.travel_m
         else:
             angles = quaternion.twist_angle(rotations[:, bone], axis)
             result[control.name] = angles / (control.motion.angle_rad or math.nan)
@@ -244,8 +246,8 @@ class ControlJudge:
     def in_place(self, control: Control, values: FloatArray, targets: FloatArray) -> BoolArray:
         """Whether values are near enough to their targets."""
         off = np.abs(values - targets)
-        if control.kind == "slide" and control.motion.travel_m is not None:
-            return off * control.motion.travel_m <= SLIDE_M
+        if control.kind == "slide" and control.travel_m:
+            return off * control.travel_m <= SLIDE_M
         return off <= 1.0 - PRESSED + 1e-9
 
     def working(self, control: Control, values: FloatArray) -> tuple[BoolArray, BoolArray]:
@@ -289,8 +291,8 @@ class ControlJudge:
         if index + 1 == len(targets):
             return note.end_s
         needed_s = 0.0
-        if control.max_speed_m_s and control.motion.travel_m:
-            needed_s = abs(targets[index + 1] - targets[index]) * control.motion.travel_m / control.max_speed_m_s
+        if control.max_speed_m_s and control.travel_m:
+            needed_s = abs(targets[index + 1] - targets[index]) * control.travel_m / control.max_speed_m_s
         next_s = self._notes[index + 1].start_s
         # A note may sound on under the next one (legato); its control belongs to it until then only.
         end_s = min(note.end_s, next_s)
@@ -326,7 +328,7 @@ def _trace(
     wanted = {contact.part for contact in instrument.contacts} | {*_SOLES, _LIPS, _UPPER_LIP}
     surfaces = {name: _landmark_surface(player, character, name) for name in sorted(wanted)}
     hands = _hands(player, character, instrument)
-    bone_of_node = {control.node: control.name for control in instrument.controls} | {ROOT: held.bone_names[0]}
+    bone_of_node = {part.node: part.name for part in instrument.moving_parts} | {ROOT: held.bone_names[0]}
     node_bones = {node: held.bone_names.index(bone) for node, bone in bone_of_node.items()}
     landmarks = {name: np.empty((frames, 3)) for name in surfaces}
     nodes = {node: np.empty((frames, 4, 4)) for node in node_bones}

@@ -38,9 +38,9 @@ CARRY_BACK_SHARE = 0.5
 
 def need_s(control: Control, distance: float) -> float:
     """Least time of a move over ``distance`` (0..1 of the travel); 0 where the map gives no speed."""
-    if control.max_speed_m_s is None or control.motion.travel_m is None:
+    if control.max_speed_m_s is None or not control.travel_m:
         return 0.0
-    return abs(distance) * control.motion.travel_m / control.max_speed_m_s
+    return abs(distance) * control.travel_m / control.max_speed_m_s
 
 
 def window_s(control: Control, distance: float, duration_s: float, gap_s: float) -> float:
@@ -70,8 +70,8 @@ def unseen_s(control: Control, distance: float, window: float) -> float:
     What looks like standing still is where finger or hand gathers speed, so that it need not jerk.
     """
     share = STILL_PRESSED
-    if control.kind == "slide" and control.motion.travel_m is not None:
-        share = min(STILL_IN_PLACE_M / (abs(distance) * control.motion.travel_m), STILL_SHARE)
+    if control.kind == "slide" and control.travel_m:
+        share = min(STILL_IN_PLACE_M / (abs(distance) * control.travel_m), STILL_SHARE)
     phase = _phase(share)
     return window * phase / (1.0 - phase)
 

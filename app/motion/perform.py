@@ -151,8 +151,7 @@ def prepare(
     if before is not None and not _comparable(before, plan, parameters, instrument_map, body, beat_ticks):
         before = None
     known = load_expressions() if expressions is None else expressions
-    seated = parameters.posture == "seated"
-    carriage = instrument_map.hold.seated if seated else instrument_map.hold.standing
+    carriage = instrument_map.hold.carriage(parameters.posture)
     posture = with_head(body.postures[parameters.posture], carriage)
     tension = parameters.embouchure_tension
     if before is None:
@@ -185,7 +184,7 @@ def prepare(
             hold=hold,
             place=place,
             carriage=carriage,
-            lowered=instrument_map.hold.lowered_seated if seated else instrument_map.hold.lowered_standing,
+            lowered=instrument_map.hold.lowered(parameters.posture),
             still=still,
             base=trunk(skeleton, *hips_path(place, skeleton, still), still),
             grip_of_lips_m=_grip_of_lips(hold, body),

@@ -92,7 +92,7 @@ def plan_tongues(
     """
     if not notes:
         return ()
-    slides = [(control.name, control.motion.travel_m or 0.0) for control in instrument.controls
+    slides = [(control.name, control.travel_m) for control in instrument.controls
               if control.role == "pitch" and control.kind == "slide"]  # fmt: skip
     slurred = np.zeros(len(notes), dtype=bool)
     slurred[1:] = times.overlaps_next[:-1] & (np.diff(times.pitch) != 0)

@@ -116,7 +116,7 @@ def pose_limits(
         ranges = {"up_deg": flexion, "left_deg": twist, "roll_deg": sideways}
         own = HANDS_FOLLOW_DEG[target]
         return {angle: _narrowest((*rows, own[angle])) for angle, rows in ranges.items()}
-    carriage = instrument.hold.seated if parameters.posture == "seated" else instrument.hold.standing
+    carriage = instrument.hold.carriage(parameters.posture)
     low, usual, high = carriage.pitch_down_deg
     share = BELL_ROOM / BELL_UP["bell"]
     up = (-share * (high - usual), share * (usual - low))

@@ -152,7 +152,7 @@ class FingeringProblem:
         for place, control in enumerate(self.controls):
             delta = change[..., place]
             if control.kind == "slide":
-                distance = np.abs(delta) * (control.motion.travel_m or 0.0)
+                distance = np.abs(delta) * control.travel_m
                 takes = distance / (control.max_speed_m_s or SLIDE_MAX_SPEED_M_S)
                 available = np.maximum(gap + control.move_note_share * played, 1e-3)[:, None, None]
                 part = takes / available

@@ -205,7 +205,7 @@ def with_settings(project: Project, settings: Sequence[Setting]) -> Project:
 def characters_for(instruments: Sequence[InstrumentMap]) -> tuple[str, ...]:
     """A character for each instrument, by the reach it asks for."""
     travels_m = [
-        max((control.motion.travel_m or 0.0 for control in instrument.controls if _by_hand(control)), default=0.0)
+        max((control.travel_m for control in instrument.controls if _by_hand(control)), default=0.0)
         for instrument in instruments
     ]
     return choose_characters(travels_m, {id: _arm_m(bundled_character(id)) for id in characters()})

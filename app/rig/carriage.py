@@ -57,7 +57,7 @@ def with_head(posture: Posture, carriage: Carriage) -> Posture:
 
 def upright(character: Character, instrument_map: InstrumentMap, body: Body, lips: Lips) -> Upright:
     """Stand a character up with its instrument, as its posture and the instrument's usual carriage say."""
-    skeleton, carriage = character.skeleton, instrument_map.hold.standing
+    skeleton, carriage = character.skeleton, instrument_map.hold.carriage("standing")
     posture = with_head(body.postures["standing"], carriage)
     rotations = np.tile(quaternion.IDENTITY, (1, len(skeleton.names), 1))
     for name, degrees in posture.spine_deg.items():

@@ -143,8 +143,10 @@ def _fit_hand(
     return hold, _reach(problem, values, position, carrier, stand.instrument_rotation)
 
 
-def _node_motion(control: Control) -> NodeMotion:
+def _node_motion(control: Control) -> NodeMotion | None:
     motion = control.motion
+    if motion is None:
+        return None
     return NodeMotion(
         control=control.name,
         travel_m=travel(control),

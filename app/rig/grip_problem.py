@@ -16,7 +16,7 @@ from app.rig import quaternion
 from app.rig.carriage import Upright
 from app.rig.hand import FINGERS, HandModel, hand_model, rest_landmark
 from app.rig.hold import Side
-from app.rig.instrument import control_transform, node_transforms
+from app.rig.instrument import node_transforms, part_transform
 from app.rig.model import Character, InstrumentModel
 from app.rig.proxy import Bodies, bodies, near
 from instrument_maps.model import ROOT, Contact, Control, HandSeed, InstrumentMap
@@ -243,9 +243,9 @@ def contact_at(
     """Place (S, 3) and normal (S, 3) of a contact in the instrument's frame for values of the control that moves it."""
     place = model.node_positions_m[model.node_names.index(contact.node)] + contact.position_m
     normal = np.asarray(contact.normal, dtype=np.float64)
-    if control is None:
+    if control is None or control.motion is None:
         return np.tile(place, (len(values), 1)), np.tile(normal, (len(values), 1))
-    moved, turn = control_transform(control, values)
+    moved, turn = part_transform(control.motion, values)
     return quaternion.rotate(turn, place) + moved, quaternion.rotate(turn, normal)
 
 
@@ -269,4 +269,6 @@ def nodes_at(
 
 
 def travel(control: Control) -> FloatArray:
-    return np.asarray(control.motion.axis, dtype=np.float64) * (control.motion.travel_m or 0.0)
+    """Way of what a control pushes or pulls, (3,); zero for what turns."""
+    axis = (0.0, 0.0, 0.0) if control.motion is None else control.motion.axis
+    return np.asarray(axis, dtype=np.float64) * control.travel_m

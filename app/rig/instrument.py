@@ -18,7 +18,8 @@ from app.rig import quaternion
 from app.rig.model import InstrumentModel, Mesh
 from app.rig.source import build_mesh, invalid, moved_mesh, read_source
 from instrument_maps.load import model_path
-from instrument_maps.model import ROOT, Control, InstrumentMap
+from instrument_maps.model import ROOT, InstrumentMap, MovingPart
+from instrument_maps.model import Motion as MotionOfPart
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -37,7 +38,7 @@ def load_instrument(path: Path, instrument_map: InstrumentMap) -> InstrumentMode
     source = read_source(path)
     try:
         nodes = source.gltf.nodes
-        names = [ROOT, *dict.fromkeys(control.node for control in instrument_map.controls)]
+        names = [ROOT, *instrument_map.nodes]
         by_name = {node.name: index for index, node in enumerate(nodes)}
         absent = [name for name in names if name not in by_name]
         if absent:
@@ -73,12 +74,19 @@ def bundled_instrument(instrument_map: InstrumentMap) -> InstrumentModel:
     return load_instrument(model_path(instrument_map), instrument_map)
 
 
-def control_transform(control: Control, values: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
-    """How a control's values move its node, in the root's frame.
+def part_values(part: MovingPart, controls: Mapping[str, npt.NDArray[np.floating]], frames: int) -> FloatArray:
+    """How far a part goes, (F,) of 0..1, for values of the controls by name; an absent control is at 0."""
+    values = [np.asarray(controls.get(name, np.zeros(frames)), dtype=np.float64) for name in part.controls]
+    together: FloatArray = (np.minimum if part.when == "all" else np.maximum).reduce(values)
+    return together
+
+
+def part_transform(motion: MotionOfPart, values: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
+    """How a part moves, in the root's frame.
 
     Parameters
     ----------
-    control : Control
+    motion : instrument_maps.model.Motion
     values : (F,)
         0..1.
 
@@ -88,7 +96,6 @@ def control_transform(control: Control, values: npt.ArrayLike) -> tuple[FloatArr
         A point p of the node at rest goes to ``rotate(rotation, p) + translation``.
     """
     values = np.asarray(values, dtype=np.float64)
-    motion = control.motion
     axis = np.asarray(motion.axis, dtype=np.float64)
     if motion.angle_rad is not None:
         pivot = np.asarray(motion.pivot_m, dtype=np.float64)
@@ -117,10 +124,10 @@ def node_transforms(
     """
     positions = np.tile(model.node_positions_m, (frames, 1, 1))
     rotations = np.tile(quaternion.IDENTITY, (frames, len(model.node_names), 1))
-    for control in instrument_map.controls:
-        if control.name in controls:
-            node = model.node_names.index(control.node)
-            moved, turned = control_transform(control, controls[control.name])
+    for part in instrument_map.moving_parts:
+        if any(name in controls for name in part.controls):
+            node = model.node_names.index(part.node)
+            moved, turned = part_transform(part.motion, part_values(part, controls, frames))
             positions[:, node] = quaternion.rotate(turned, positions[:, node]) + moved
             rotations[:, node] = quaternion.multiply(turned, rotations[:, node])
     return positions, rotations

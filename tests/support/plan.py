@@ -112,11 +112,11 @@ def valves() -> InstrumentMap:
     motion = Motion(axis=(0.0, -1.0, 0.0), travel_m=0.016)
     fingers = ("index", "middle", "ring")
     controls_ = tuple(
-        Control(f"valve_{n + 1}", "press", "pitch", f"valve_{n + 1}", motion, f"right.{fingers[n]}", str(n + 1))
+        Control(f"valve_{n + 1}", "press", "pitch", f"right.{fingers[n]}", f"valve_{n + 1}", motion, str(n + 1))
         for n in range(3)
     )
     ring = Control(
-        "ring", "slide", "intonation", "ring", Motion(axis=(0.0, 0.0, 1.0), travel_m=0.03), "left.ring",
+        "ring", "slide", "intonation", "left.ring", "ring", Motion(axis=(0.0, 0.0, 1.0), travel_m=0.03),
         used_with=("13", "123"), held_min_s=0.4,
     )  # fmt: skip
     return InstrumentMap(
@@ -148,12 +148,12 @@ def slide() -> InstrumentMap:
             fingerings.append(Fingering(pitch, rank, label, controls, cents))
     controls_ = (
         Control(
-            "slide", "slide", "pitch", "slide", Motion(axis=(0.0, 0.0, 1.0), travel_m=0.62), "right.hand",
+            "slide", "slide", "pitch", "right.hand", "slide", Motion(axis=(0.0, 0.0, 1.0), travel_m=0.62),
             move_note_share=0.5, max_speed_m_s=2.5,
         ),
         Control(
-            "trigger", "lever", "pitch", "trigger",
-            Motion(axis=(1.0, 0.0, 0.0), angle_rad=0.3, pivot_m=(0.0, 0.0, 0.0)), "left.thumb", "T",
+            "trigger", "lever", "pitch", "left.thumb", "trigger",
+            Motion(axis=(1.0, 0.0, 0.0), angle_rad=0.3, pivot_m=(0.0, 0.0, 0.0)), "T",
         ),
     )  # fmt: skip
     return InstrumentMap(

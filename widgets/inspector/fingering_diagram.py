@@ -209,8 +209,8 @@ class FingeringDiagram(QWidget):
         painter.setPen(QColor(tokens.text_dim))
         below = QRectF(8.0, middle + 8.0, self.width() - 16.0, line_px)
         painter.drawText(below, Qt.AlignmentFlag.AlignLeft, finger_text(control.finger))
-        travel_m = control.motion.travel_m
-        if travel_m is not None:
+        travel_m = control.travel_m
+        if travel_m:
             length = QCoreApplication.translate("Fingering", "{cm} cm").format(cm=f"{value * travel_m * 100.0:.1f}")
             painter.setPen(QColor(tokens.text))
             painter.drawText(below, Qt.AlignmentFlag.AlignRight, length)

@@ -210,7 +210,7 @@ def event(start_s: float, end_s: float, value: float) -> FingeringEvent:
 
 
 def control(**changes: object) -> Control:
-    plain = Control("c", "press", "pitch", "c", Motion((0.0, -1.0, 0.0), travel_m=0.016), "right.index")
+    plain = Control("c", "press", "pitch", "right.index", "c", Motion((0.0, -1.0, 0.0), travel_m=0.016))
     return msgspec.structs.replace(plain, **changes)
 
 

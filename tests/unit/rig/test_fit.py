@@ -11,7 +11,7 @@ from app.rig.character import bundled_character, characters
 from app.rig.fit import fit_hold, fit_lips
 from app.rig.hold import HandHold, Hold, finger_rotations, hand_targets
 from app.rig.hold_file import hold_for
-from app.rig.instrument import bundled_instrument, control_transform, node_transforms
+from app.rig.instrument import bundled_instrument, part_transform, node_transforms
 from app.rig.model import Character, InstrumentModel
 from app.rig.skeleton import JointTransforms, forward
 from instrument_maps.load import bundled_maps
@@ -62,7 +62,7 @@ def _touch(held: Held, contact: Contact) -> np.ndarray:
     mover = next((control for control in held.instrument.controls if control.node == contact.node), None)
     if mover is None:
         return np.tile(place, (len(GRID), 1))
-    moved, turn = control_transform(mover, GRID)
+    moved, turn = part_transform(mover.motion, GRID)
     return quaternion.rotate(turn, place) + moved
 
 

@@ -1,0 +1,64 @@
+"""One map that extends another: a clarinet in A says only where it differs from the one in B flat."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+BASE = "extends"
+"""Key of the id of the map that is extended."""
+
+
+def extended(base: Mapping[str, Any], own: Mapping[str, Any]) -> dict[str, Any]:
+    """Lay a map's own tables over those of the map it extends.
+
+    Tables are merged key by key and lists of named tables (controls) name by name. Own fingerings replace all that the
+    base has for the same written pitch, and what the base has outside the own range is left out. Everything else that
+    the map says replaces what the base says.
+
+    Parameters
+    ----------
+    base, own : mapping
+        As TOML gives them; ``base`` is itself extended already. Neither is changed.
+    """
+    merged = _merged(base, {key: value for key, value in own.items() if key not in (BASE, "fingerings")})
+    merged["fingerings"] = _fingerings(merged, base.get("fingerings", []), own.get("fingerings", []))
+    return merged
+
+
+def _merged(base: Mapping[str, Any], own: Mapping[str, Any]) -> dict[str, Any]:
+    result = dict(base)
+    for key, value in own.items():
+        before = result.get(key)
+        if isinstance(value, Mapping) and isinstance(before, Mapping):
+            result[key] = _merged(before, value)
+        elif isinstance(before, list) and _named(value) and _named(before):
+            rows = {row["name"]: row for row in before}
+            for row in value:
+                rows[row["name"]] = _merged(rows.get(row["name"], {}), row)
+            result[key] = list(rows.values())
+        else:
+            result[key] = value
+    return result
+
+
+def _named(value: object) -> bool:
+    return isinstance(value, list) and bool(value) and all(isinstance(row, Mapping) and "name" in row for row in value)
+
+
+def _fingerings(merged: Mapping[str, Any], base: Any, own: Any) -> Any:
+    if not isinstance(base, list) or not isinstance(own, list):
+        return own or base
+    replaced = {_written(row) for row in own}
+    limits, shift = merged.get("range"), merged.get("transposition_semitones")
+    kept = [row for row in base if _written(row) not in replaced]
+    if isinstance(limits, Mapping) and isinstance(shift, int):
+        low, high = limits.get("low"), limits.get("high")
+        if isinstance(low, int) and isinstance(high, int):
+            kept = [row for row in kept if low + shift <= (_written(row) or 0) <= high + shift]
+    return sorted([*kept, *own], key=lambda row: _written(row) or 0)
+
+
+def _written(row: object) -> int | None:
+    written = row.get("written_pitch") if isinstance(row, Mapping) else None
+    return written if isinstance(written, int) else None
