@@ -27,6 +27,26 @@ TEMPLATES: Final[dict[str, str]] = {
         "{label} is out of this player's reach: the hand stays {gap_mm} mm away; "
         "take another fingering, or a character with longer arms"
     ),
+    # The motion: contacts
+    "contact.hand_off": (
+        "the {side} hand comes off the instrument: it stays {gap_mm} mm from its place; "
+        "lessen the pose correction here, or take a character of another size"
+    ),
+    "contact.finger_off": (
+        "the {touch} misses {control} by {gap_mm} mm; "
+        "lessen the pose correction here, or take a character of another size"
+    ),
+    "contact.grip_off": (
+        "the {touch} does not touch the instrument: {gap_mm} mm are missing; "
+        "lessen the pose correction here, or take a character of another size"
+    ),
+    "contact.lips_off": (
+        "the lips are {gap_mm} mm off the mouthpiece while a note sounds; "
+        "move or remove the gesture that lowers the instrument here"
+    ),
+    "contact.foot_off": (
+        "the {side} foot leaves its place on the floor by {gap_mm} mm; lessen sway, weight shift or the pose correction"
+    ),
     # The plan: breaths
     "breath.first": "the first breath, in the {beats:g} beats before the entry",
     "breath.rest_whole": (

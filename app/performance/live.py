@@ -23,9 +23,11 @@ from app.errors import AppError, Message
 from app.motion.model import Motion
 from app.motion.perform import Playing, frame_count
 from app.motion.solve import padding
+from app.performance.bodies import character_of, model_of
+from app.performance.contacts import Break, ContactJudge, contact_problems
 from app.performance.ensemble import Performance
 from app.performance.motion import playing_of
-from app.plan.model import PlayerPlan, TimeFrame
+from app.plan.model import PlayerPlan, Problem, TimeFrame
 from app.project.model import Player
 
 Floats = npt.NDArray[np.float32]
@@ -190,6 +192,12 @@ class _Track:
         Why the player cannot be seen.
     prepared : Playing or None
         What ``playing`` will be, once the chunks are proven.
+    judged : set of int
+        Chunks whose contacts were judged as ``playing`` (before it is proven: ``basis``) makes them.
+    breaks : dict of int to tuple of Break
+        The contacts that chunks break; of those that are not judged (again) yet, as they were.
+    problems : tuple of Problem
+        The same, told.
     """
 
     player: Player
@@ -201,17 +209,29 @@ class _Track:
     outdated: dict[int, _Chunk] = field(default_factory=dict)
     error: Message | None = None
     prepared: Playing | None = None
+    judge: ContactJudge | None = None
+    judged: set[int] = field(default_factory=set)
+    breaks: dict[int, tuple[Break, ...]] = field(default_factory=dict)
+    problems: tuple[Problem, ...] = ()
 
     @property
     def bytes(self) -> int:
         kinds = (self.chunks, self.unproven, self.outdated)
         return sum(chunk.bytes for chunks in kinds for chunk in tuple(chunks.values()))
 
-    def after(self, player: Player, plan: PlayerPlan) -> _Track:
-        """The track of the same player after an edit."""
-        if self.playing is None:
-            return _Track(player, plan, basis=self.basis, unproven=self.unproven, outdated=self.outdated)
-        return _Track(player, plan, basis=self.playing, unproven=self.chunks, outdated=self.outdated)
+    def after(self, player: Player, plan: PlayerPlan, same_chunks: int) -> _Track:
+        """The track of the same player after an edit; chunks from ``same_chunks`` on have other frames now."""
+        proven = self.playing is not None
+        return _Track(
+            player,
+            plan,
+            basis=self.playing if proven else self.basis,
+            unproven=self.chunks if proven else self.unproven,
+            outdated=self.outdated,
+            judged={index for index in tuple(self.judged) if index < same_chunks},
+            breaks=dict(self.breaks),
+            problems=self.problems,
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -238,6 +258,8 @@ class LiveMotion:
         self._lock = Lock()
         self._wanted: tuple[float, float, tuple[str, ...]] = (0.0, SEEN_S, ())
         self._todo: Iterator[tuple[str, int]] | None = None
+        self._unjudged: Iterator[tuple[_Track, int]] | None = None
+        self._broken: dict[str, tuple[Problem, ...]] = {}
         self._chunk_bytes = 0
         self._shown = _Shown(performance, _Grid.of(performance.time_frame, performance.project.fps), {})
         self.show(performance)
@@ -254,6 +276,9 @@ class LiveMotion:
             before = self._shown
             same_frames = grid.same_frames(before.grid)
             same_faces = performance.expressions is before.performance.expressions
+            same_chunks = min(grid.frames, before.grid.frames) // grid.length
+            if grid.frames == before.grid.frames:
+                same_chunks = grid.chunks
             tracks = {}
             for player in performance.project.players:
                 plan, old = performance.plan(player), before.tracks.get(player.id)
@@ -262,9 +287,10 @@ class LiveMotion:
                 elif plan is old.plan and same_faces and _looks_same(player, old.player):
                     tracks[player.id] = old
                 else:
-                    tracks[player.id] = old.after(player, plan)
+                    tracks[player.id] = old.after(player, plan, same_chunks)
             self._shown = _Shown(performance, grid, tracks)
-            self._todo = None
+            self._todo = self._unjudged = None
+            self._tell(self._shown)
 
     def want(self, time_s: float, span_s: float = SEEN_S, player_ids: tuple[str, ...] = ()) -> None:
         """Say what is looked at: from a time on, for some seconds, these players before the others (empty: all)."""
@@ -332,13 +358,70 @@ class LiveMotion:
                 continue
             if not self._make_room(shown, track, index):
                 return False
-            chunk = _Chunk.of(track.playing.motion(shown.grid.fps, *shown.grid.span(index)))
+            motion = track.playing.motion(shown.grid.fps, *shown.grid.span(index))
+            chunk = _Chunk.of(motion)
             with self._lock:
                 track.chunks[index] = chunk
                 track.outdated.pop(index, None)
                 self._chunk_bytes = chunk.bytes
+            if index not in track.judged:
+                self._judge(track, index, motion)
             return True
         return False
+
+    def judge(self, stop_wanted: StopWanted = lambda: False) -> bool:
+        """Judge the contacts of some frames that there is no room to keep, once `work` is done; whether there were any.
+
+        Of the same thread as `work`.
+        """
+        with self._lock:
+            shown = self._shown
+            if self._unjudged is None:
+                tracks = tuple(shown.tracks.values())
+                self._unjudged = ((track, index) for track in tracks for index in range(shown.grid.chunks))
+            unjudged = self._unjudged
+        for track, index in unjudged:
+            if stop_wanted():
+                with self._lock:
+                    self._unjudged = None
+                return True
+            if track.playing is None or track.basis is not None:
+                self._prove(shown, track)
+            if track.playing is None or index in track.judged:
+                continue
+            self._judge(track, index, track.playing.motion(shown.grid.fps, *shown.grid.span(index)))
+            return True
+        return False
+
+    @property
+    def broken(self) -> dict[str, tuple[Problem, ...]]:
+        """By player the contacts that the motion breaks, as far as it was made; another dict where anything is new."""
+        return self._broken
+
+    def _judge(self, track: _Track, index: int, motion: Motion) -> None:
+        assert track.playing is not None
+        if track.judge is None:
+            instrument = track.playing.instrument_map
+            track.judge = ContactJudge(track.playing, character_of(track.player), model_of(instrument))
+        breaks = track.judge.breaks(motion)
+        track.judged.add(index)
+        if breaks or index in track.breaks:
+            track.breaks[index] = breaks
+            self._name_breaks(track)
+
+    def _name_breaks(self, track: _Track) -> None:
+        breaks = [item for index in sorted(track.breaks) for item in track.breaks[index]]
+        instrument = None if track.playing is None else track.playing.instrument_map
+        problems = contact_problems(breaks, track.plan, instrument) if breaks and instrument is not None else ()
+        if problems != track.problems:
+            track.problems = problems
+            with self._lock:
+                self._tell(self._shown)
+
+    def _tell(self, shown: _Shown) -> None:
+        broken = {player_id: track.problems for player_id, track in shown.tracks.items() if track.problems}
+        if broken != self._broken:
+            self._broken = broken
 
     @property
     def ready_share(self) -> float:
@@ -386,6 +469,8 @@ class LiveMotion:
         playing = self._playing(shown, track)
         if playing is None:
             track.unproven, track.outdated, track.basis = {}, {}, None
+            track.breaks = {}
+            self._name_breaks(track)
             return
         kept: dict[int, _Chunk] = {}
         if track.basis is not None:
@@ -393,8 +478,12 @@ class LiveMotion:
             for index, chunk in track.unproven.items():
                 right = index < len(touched) and not touched[index] and chunk.frames == shown.grid.span(index)[1]
                 (kept if right else track.outdated)[index] = chunk
+            track.judged -= {index for index in track.judged if index >= len(touched) or touched[index]}
+            track.breaks = {index: breaks for index, breaks in track.breaks.items() if index < shown.grid.chunks}
         with self._lock:
             track.playing, track.chunks, track.basis, track.unproven = playing, kept, None, {}
+        if track.breaks or track.problems:
+            self._name_breaks(track)
 
     def _missing(self, shown: _Shown) -> Iterator[tuple[str, int]]:
         """Players and chunks, the most wanted first: what is looked at, then the rest by its distance in time."""

@@ -148,6 +148,7 @@ class ActionTable(QObject):
         for signal in (
             session.changed,
             session.performance_changed,
+            session.problems_changed,
             session.selection_changed,
             session.players_changed,
             session.playing_changed,

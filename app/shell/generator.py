@@ -29,6 +29,10 @@ SWITCH_S = 0.001
 """The window gets the interpreter back from the worker within this time."""
 TELL_S = 0.04
 """The window is told of new motion this often."""
+TELL_BROKEN_S = 0.5
+"""Of contacts that are found broken while much is made, this often: every list of problems shows them anew."""
+REST_WHILE_JUDGING = 1.0
+"""Contacts of motion that nobody looks at are judged resting this many times as long as it worked."""
 REST_WHILE_PLAYING = 1.0
 """While the performance plays the worker rests this many times as long as it worked."""
 
@@ -69,6 +73,7 @@ class Generator(QObject):
         teller.planned.connect(self._planned)
         teller.fell.connect(self._fell)
         teller.worked.connect(self._worked)
+        teller.judged.connect(session.set_broken)
         self._worker = _Worker(self.live, teller)
         self._end = weakref.finalize(self, self._worker.close)
         session.changed.connect(self._project_changed)
@@ -184,6 +189,7 @@ class _Teller(QObject):
     planned = Signal(object, int, object)
     fell = Signal(object)
     worked = Signal(float)
+    judged = Signal(object)
 
 
 class _Worker:
@@ -201,6 +207,10 @@ class _Worker:
         self._closed = False
         self._playing = False
         self._told_s = 0.0
+        self._judging = True
+        """Whether there may be contacts to judge beside what is made to be seen."""
+        self._told_broken = live.broken
+        self._told_broken_s = 0.0
         self._thread = threading.Thread(target=self._run, name="generator", daemon=True)
         self._switch_s = sys.getswitchinterval()
 
@@ -247,18 +257,24 @@ class _Worker:
         try:
             while not self._closed:
                 with self._changed:
-                    while self._met == self._wishes and self._pending is None and not self._closed:
+                    while self._idle and not self._judging:
                         self._changed.wait()
                     job, self._pending = self._pending, None
                     self._planning = job is not None
                     self._dropped.clear()
                 if job is not None:
                     self._make_plans(*job)
-                elif not self._closed:
+                elif not self._idle:
                     self._make_motion()
+                elif not self._closed:
+                    self._judge()
         except RuntimeError:
             # The window has gone meanwhile: nobody is left to tell.
             return
+
+    @property
+    def _idle(self) -> bool:
+        return self._met == self._wishes and self._pending is None and not self._closed
 
     def _make_plans(self, performance: Performance, number: int) -> None:
         failed: AppError | None = None
@@ -286,11 +302,33 @@ class _Worker:
         now_s = time.monotonic()
         if not more:
             self._met = wishes
+            self._judging = True
+        self._tell_broken(now_s, not more)
         if now_s - self._told_s >= TELL_S or not more:
             self._told_s = now_s
             self._teller.worked.emit(self._live.ready_share)
         if self._playing:
             time.sleep(REST_WHILE_PLAYING * (now_s - start_s))
+
+    def _judge(self) -> None:
+        start_s = time.monotonic()
+        try:
+            self._judging = self._live.judge(lambda: not self._idle)
+        except Exception as fault:  # noqa: BLE001 - told in the window's thread
+            self._judging = False
+            self._teller.fell.emit(fault)
+            return
+        now_s = time.monotonic()
+        self._tell_broken(now_s, not self._judging)
+        with self._changed:
+            if self._judging and self._idle:
+                self._changed.wait(REST_WHILE_JUDGING * (now_s - start_s))
+
+    def _tell_broken(self, now_s: float, at_once: bool) -> None:
+        broken = self._live.broken
+        if broken is not self._told_broken and (at_once or now_s - self._told_broken_s >= TELL_BROKEN_S):
+            self._told_broken, self._told_broken_s = broken, now_s
+            self._teller.judged.emit(broken)
 
     def _interrupted(self) -> bool:
         return self._closed or self._pending is not None

@@ -80,7 +80,7 @@ class StatusLine(QStatusBar):
         self._notice.setObjectName("notice")
         self._notice.setMinimumWidth(120)
         self._notice.setFlat(True)
-        self._notice.setStyleSheet("text-align: left; padding: 2px 6px;")
+        self._notice.setStyleSheet("text-align: left; padding: 3px 6px;")
         self._notice.clicked.connect(self._unfold)
         self._notice.hide()
         self._dismiss = _tool("dismiss_notice")
@@ -92,7 +92,7 @@ class StatusLine(QStatusBar):
         self._problems = QPushButton()
         self._problems.setObjectName("problems")
         self._problems.setFlat(True)
-        self._problems.setStyleSheet("padding: 2px 6px;")
+        self._problems.setStyleSheet("padding: 3px 6px;")
         self._problems.clicked.connect(self.problems_asked)
         self._saved, self._rate, self._motion = QLabel(), QLabel(), QLabel()
         self._saved.setObjectName("saved")
@@ -119,6 +119,7 @@ class StatusLine(QStatusBar):
 
         session.noticed.connect(self.tell)
         session.performance_changed.connect(self._tell_problems)
+        session.problems_changed.connect(self._tell_problems)
         session.theme_changed.connect(self.retranslate)
         session.playing_changed.connect(self._played)
         files.changed.connect(self._tell_saved)
@@ -292,8 +293,7 @@ class StatusLine(QStatusBar):
 
 def problem_count(session: Session) -> int:
     """Problems of all players, as far as plans are there."""
-    performance = session.performance
-    return sum(len(performance.plan(player).problems) for player in performance.project.players)
+    return sum(len(session.problems(player.id)) for player in session.performance.project.players)
 
 
 def severity_colour(severity: Severity, tokens: Tokens) -> str:

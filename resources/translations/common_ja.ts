@@ -208,6 +208,50 @@
         <translation>なくなった音符</translation>
     </message>
     <message>
+        <source>{side} thumb</source>
+        <translation>{side}手の親指</translation>
+    </message>
+    <message>
+        <source>{side} index finger</source>
+        <translation>{side}手の人差し指</translation>
+    </message>
+    <message>
+        <source>{side} middle finger</source>
+        <translation>{side}手の中指</translation>
+    </message>
+    <message>
+        <source>{side} ring finger</source>
+        <translation>{side}手の薬指</translation>
+    </message>
+    <message>
+        <source>{side} little finger</source>
+        <translation>{side}手の小指</translation>
+    </message>
+    <message>
+        <source>{side} palm</source>
+        <translation>{side}の手のひら</translation>
+    </message>
+    <message>
+        <source>web of the {side} thumb</source>
+        <translation>{side}手の親指の付け根</translation>
+    </message>
+    <message>
+        <source>valve {number}</source>
+        <translation>{number}番ピストン</translation>
+    </message>
+    <message>
+        <source>the slide of valve {number}</source>
+        <translation>{number}番抜差管</translation>
+    </message>
+    <message>
+        <source>the slide</source>
+        <translation>スライド</translation>
+    </message>
+    <message>
+        <source>the trigger</source>
+        <translation>レバー</translation>
+    </message>
+    <message>
         <source>left</source>
         <translation>左</translation>
     </message>

@@ -115,8 +115,8 @@
         <translation>MIDI の読み込み</translation>
     </message>
     <message>
-        <source>{title} · {minutes}:{seconds:02d} · {tempo:g} quarters a minute · {metre}</source>
-        <translation>{title} · {minutes}:{seconds:02d} · 毎分 {tempo:g} 四分音符 · {metre}</translation>
+        <source>{title} · {minutes}:{seconds:02d} · ♩= {tempo:g} · {metre}</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
         <source>Play</source>

@@ -584,6 +584,26 @@
             <translation>{label} はこの奏者の手が届きません(あと {gap_mm} mm)。別の運指か、腕の長いキャラクターにしてください</translation>
         </message>
         <message>
+            <source>the {side} hand comes off the instrument: it stays {gap_mm} mm from its place; lessen the pose correction here, or take a character of another size</source>
+            <translation>{side}手が楽器から離れています（本来の位置から {gap_mm} mm）。ここのポーズ補正を弱めるか、体格の違うキャラクターを選んでください</translation>
+        </message>
+        <message>
+            <source>the {touch} misses {control} by {gap_mm} mm; lessen the pose correction here, or take a character of another size</source>
+            <translation>{touch}が{control}に {gap_mm} mm 届いていません。ここのポーズ補正を弱めるか、体格の違うキャラクターを選んでください</translation>
+        </message>
+        <message>
+            <source>the {touch} does not touch the instrument: {gap_mm} mm are missing; lessen the pose correction here, or take a character of another size</source>
+            <translation>{touch}が楽器に触れていません（{gap_mm} mm 離れています）。ここのポーズ補正を弱めるか、体格の違うキャラクターを選んでください</translation>
+        </message>
+        <message>
+            <source>the lips are {gap_mm} mm off the mouthpiece while a note sounds; move or remove the gesture that lowers the instrument here</source>
+            <translation>音が鳴っている間に唇がマウスピースから {gap_mm} mm 離れています。ここで楽器を下ろすジェスチャーを移動するか削除してください</translation>
+        </message>
+        <message>
+            <source>the {side} foot leaves its place on the floor by {gap_mm} mm; lessen sway, weight shift or the pose correction</source>
+            <translation>{side}足が床の位置から {gap_mm} mm ずれています。揺れ・体重移動・ポーズ補正のいずれかを弱めてください</translation>
+        </message>
+        <message>
             <source>the first breath, in the {beats:g} beats before the entry</source>
             <translation>最初のブレス。入りの前の {beats:g} 拍で吸います</translation>
         </message>

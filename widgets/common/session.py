@@ -14,6 +14,7 @@ from PySide6.QtGui import QAction
 
 from app.errors import AppError, Message
 from app.performance.ensemble import Performance
+from app.plan.model import Problem
 from app.project.document import Change, Document
 from app.project.grid import Grid
 from app.project.model import Player, Project
@@ -70,6 +71,8 @@ class Session(QObject):
         The document's project is another value now.
     performance_changed()
         `performance` is another: new plans are there. It may lag behind the project by a moment.
+    problems_changed()
+        `problems` of some players are others, and the plans are the same: the motion was made, and looked at.
     selection_changed(), players_changed(), playhead_changed(float), playing_changed(bool), loop_changed(),
     grid_changed(), theme_changed(), time_display_changed(), follow_changed()
         The value of that name is another one.
@@ -85,6 +88,7 @@ class Session(QObject):
 
     changed = Signal(object)
     performance_changed = Signal()
+    problems_changed = Signal()
     selection_changed = Signal()
     players_changed = Signal()
     playhead_changed = Signal(float)
@@ -113,6 +117,8 @@ class Session(QObject):
         self.timeline_view: TimelineView | None = None
         """The timeline, for commands that mean it; the panel sets it."""
         self._performance = Performance(project)
+        self._broken: Mapping[str, tuple[Problem, ...]] = {}
+        self._problems: dict[str, tuple[tuple[Problem, ...], tuple[Problem, ...], tuple[Problem, ...]]] = {}
         self._selection = Selection()
         self._players: tuple[str, ...] = tuple(player.id for player in project.players[:1])
         self._playhead_s = 0.0
@@ -145,6 +151,25 @@ class Session(QObject):
         if performance is not self._performance:
             self._performance = performance
             self.performance_changed.emit()
+
+    def problems(self, player_id: str) -> tuple[Problem, ...]:
+        """What is wrong with a player's plan and, as far as it was made, motion, by time; the same tuple until that
+        changes, and none before there are plans."""
+        plan = self._performance.plans.get(player_id) if self._performance.planned else None
+        planned, broken = () if plan is None else plan.problems, self._broken.get(player_id, ())
+        if not broken or plan is None:
+            return planned
+        known = self._problems.get(player_id)
+        if known is None or known[0] is not planned or known[1] is not broken:
+            together = tuple(sorted(planned + broken, key=lambda problem: problem.start_s))
+            known = self._problems[player_id] = (planned, broken, together)
+        return known[2]
+
+    def set_broken(self, broken: Mapping[str, tuple[Problem, ...]]) -> None:
+        """By player the contacts that the motion breaks, as the worker found."""
+        if broken != self._broken:
+            self._broken = broken
+            self.problems_changed.emit()
 
     def apply(
         self, name: Message, project: Project, gesture: object | None = None, origin: object | None = None

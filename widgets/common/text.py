@@ -12,6 +12,7 @@ from app.messages import PITCHES, TEMPLATES
 from app.project.model import Player
 from app.score.model import Note, Score
 from instrument_maps.load import bundled_maps
+from instrument_maps.model import PARTS
 from widgets.common.event_names import kind_name, pose_name
 from widgets.common.musical_time import beat_ticks, place_text
 from widgets.common.pitch import pitch_text
@@ -64,7 +65,7 @@ def _told(message: Message, name: str, session: Session | None, player_id: str |
     elif name in PITCHES.get(message.id, ()):
         return f"MIDI {value}"
     words = _WORDS.get(name)
-    return words().get(str(value), value) if words is not None else value
+    return words().get(str(value), str(value).replace("_", " ")) if words is not None else value
 
 
 def _player(session: Session, player_id: str | None) -> Player | None:
@@ -135,6 +136,35 @@ def _targets() -> dict[str, str]:
     return {name: pose_name(name).lower() for name in ("bell", "head", "left_elbow", "right_elbow", "torso")}
 
 
+def _touches() -> dict[str, str]:
+    """Parts of a hand; of a finger it does not matter which side of it touches."""
+    templates = {
+        "thumb": QCoreApplication.translate("Told", "{side} thumb"),
+        "index": QCoreApplication.translate("Told", "{side} index finger"),
+        "middle": QCoreApplication.translate("Told", "{side} middle finger"),
+        "ring": QCoreApplication.translate("Told", "{side} ring finger"),
+        "little": QCoreApplication.translate("Told", "{side} little finger"),
+        "palm": QCoreApplication.translate("Told", "{side} palm"),
+        "thumb_web": QCoreApplication.translate("Told", "web of the {side} thumb"),
+    }
+    sides = _WORDS["side"]()
+    return {part: templates[part.split(".")[1]].format(side=sides[part.split(".")[0]]) for part in PARTS}
+
+
+def _controls() -> dict[str, str]:
+    """Controls of instruments as people call them; one that is not here is called what its map calls it."""
+    valve = QCoreApplication.translate("Told", "valve {number}")
+    slide = QCoreApplication.translate("Told", "the slide of valve {number}")
+    names = {f"valve_{number}": valve.format(number=number) for number in range(1, 7)}
+    names |= {
+        f"{word}_slide": slide.format(number=1 + index) for index, word in enumerate(("first", "second", "third"))
+    }
+    return names | {
+        "slide": QCoreApplication.translate("Told", "the slide"),
+        "trigger": QCoreApplication.translate("Told", "the trigger"),
+    }
+
+
 _WORDS: Mapping[str, Callable[[], dict[str, str]]] = {
     "kind": lambda: {tag: word.lower() for tag, word in _corrections().items()},
     "target": _targets,
@@ -142,6 +172,8 @@ _WORDS: Mapping[str, Callable[[], dict[str, str]]] = {
         "left": QCoreApplication.translate("Told", "left"),
         "right": QCoreApplication.translate("Told", "right"),
     },
+    "touch": _touches,
+    "control": _controls,
     "angle": lambda: {
         "up": QCoreApplication.translate("Told", "up and down"),
         "left": QCoreApplication.translate("Told", "to the side"),

@@ -65,6 +65,7 @@ class ProblemList(QWidget):
         self._who.chosen.connect(lambda _: self.show_problems())
         self._kind.chosen.connect(lambda _: self.show_problems())
         session.performance_changed.connect(self.show_problems)
+        session.problems_changed.connect(self.show_problems)
         session.players_changed.connect(self._players_changed)
         session.theme_changed.connect(self.show_problems)
         session.pitch_display.changed.connect(self.show_problems)
@@ -72,13 +73,8 @@ class ProblemList(QWidget):
 
     def show_problems(self) -> None:
         """Show what the newest plans have."""
-        performance = self._session.performance
-        plans = performance.plans if performance.planned else {}
-        project = performance.project
-        found = [
-            (player, problem) for player in project.players if player.id in plans
-            for problem in plans[player.id].problems
-        ]  # fmt: skip
+        project = self._session.performance.project
+        found = [(player, problem) for player in project.players for problem in self._session.problems(player.id)]
         self.counted.emit(len(found))
         if not self.isVisible():
             return

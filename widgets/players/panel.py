@@ -138,6 +138,7 @@ class PlayersPanel(QWidget):
         session = self._session
         session.changed.connect(self._changed)
         session.performance_changed.connect(self._show_list)
+        session.problems_changed.connect(self._show_list)
         session.players_changed.connect(self._players_changed)
         session.theme_changed.connect(self._dress)
         self.list.chosen.connect(session.set_players)
@@ -192,14 +193,13 @@ class PlayersPanel(QWidget):
         maps = bundled_maps()
         rows = []
         for player in project.players:
-            plan = plans.get(player.id)
             instrument = maps.get(player.instrument_id)
             rows.append(
                 Row(
                     player,
                     self._session.colour(player),
                     instrument_name(instrument) if instrument is not None else player.instrument_id,
-                    len(plan.problems) if plan is not None else 0,
+                    len(self._session.problems(player.id)),
                     player.id == leader,
                 )
             )

@@ -15,15 +15,7 @@ _visited: WeakKeyDictionary[Session, tuple[str, Problem]] = WeakKeyDictionary()
 
 def problems(session: Session) -> list[tuple[str, Problem]]:
     """The problems of all players with their player's id, in the order of time."""
-    if not session.performance.planned:
-        return []
-    plans = session.performance.plans
-    found = [
-        (player.id, problem)
-        for player in session.project.players
-        if player.id in plans
-        for problem in plans[player.id].problems
-    ]
+    found = [(player.id, problem) for player in session.project.players for problem in session.problems(player.id)]
     return sorted(found, key=lambda item: item[1].start_s)
 
 
@@ -52,7 +44,7 @@ def go_to_problem(session: Session, step: int) -> None:
 
 
 def _has_problems(session: Session) -> bool:
-    return session.performance.planned and any(plan.problems for plan in session.performance.plans.values())
+    return any(session.problems(player.id) for player in session.project.players)
 
 
 ACTIONS: tuple[Action, ...] = (

@@ -11,12 +11,16 @@ from pytestqt.qtbot import QtBot
 
 from app.errors import Message
 from app.performance.ensemble import Performance
-from app.plan.corrections import AddExpression, SetEmbouchure
+from app.plan.corrections import AddExpression, AddGesture, SetEmbouchure
 from app.project.edit.corrections import put
 from app.shell import generator as module
+from app.shell.commands.problems import go_to_problem
 from app.shell.generator import Generator
 from app.shell.tasks import ThreadTasks
 from widgets.common.session import Session, Severity
+from widgets.common.text import message_text
+from widgets.timeline.axis import TimeAxis
+from widgets.timeline.lanes.problems import ProblemsLane
 
 EDIT = Message("edit.test")
 
@@ -136,3 +140,31 @@ def test_a_piece_that_cannot_be_played_is_told_and_the_last_performance_stays(
     assert session.performance is before
     session.document.undo()
     assert generator.up_to_date
+
+
+def test_a_broken_contact_is_listed_walked_and_gone_when_it_is_mended(
+    session: Session, generator: Generator, qtbot: QtBot
+) -> None:
+    """Lowered by hand while it plays, the instrument leaves the lips: the lane and F8 show it, undo takes it away."""
+    player = session.project.players[0]
+    qtbot.waitUntil(lambda: generator.ready_share == 1.0, timeout=60_000)
+    before = session.problems(player.id)
+    lane = ProblemsLane(session, TimeAxis())
+    qtbot.addWidget(lane)
+    notes = session.project.part(player).notes
+    gesture = AddGesture("low", "lower_instrument", notes[20].onset_tick, notes[26].onset_tick, 1.0)
+    with qtbot.waitSignal(session.problems_changed, timeout=60_000):
+        session.apply(EDIT, put(session.project, player.id, [gesture]))
+    broken = [problem for problem in session.problems(player.id) if problem.message.id == "contact.lips_off"]
+    assert len(broken) == 1
+    assert [problem for problem in session.problems(player.id) if problem not in broken] == list(before)
+    assert broken[0] in lane.problems
+    assert lane.count.text() == str(len(before) + 1)
+    session.set_playhead(broken[0].start_s - 0.001)
+    go_to_problem(session, 1)
+    assert session.selection.notes == {broken[0].note_id}
+    assert "mouthpiece" in message_text(broken[0].message, session)
+    with qtbot.waitSignal(session.problems_changed, timeout=60_000):
+        session.document.undo()
+    assert session.problems(player.id) == before
+    assert lane.problems == before

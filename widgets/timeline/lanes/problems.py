@@ -7,7 +7,7 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
 from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
 
-from app.plan.model import PlayerPlan, Problem
+from app.plan.model import Problem
 from widgets.common.selection import Selection
 from widgets.common.session import Session, Severity
 from widgets.common.text import sentence
@@ -33,15 +33,15 @@ class ProblemMarks(LaneItem):
     def __init__(self, lane: Lane, rooms: tuple[str, ...]) -> None:
         super().__init__(lane, 50.0)
         self._rooms = rooms
-        self._plan: PlayerPlan | None = None
+        self._problems: tuple[Problem, ...] = ()
         self._spans = Spans(np.empty(0), np.empty(0))
 
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
         lane, player = self.lane, self.lane.session.player
-        plan = lane.plan_of(player) if player is not None else None
-        if plan is not self._plan:
-            self._plan = plan
-            self._spans = spans_of(problems_in(plan, self._rooms) if plan is not None else ())
+        problems = lane.session.problems(player.id) if player is not None else ()
+        if problems is not self._problems:
+            self._problems = problems
+            self._spans = spans_of(problems_in(problems, self._rooms))
         axis, colour = lane.axis, QColor(lane.session.tokens.warning)
         bottom = lane.plot_rect.height()
         for index in self._spans.between(axis.seconds(exposed.left()), axis.seconds(exposed.right())).tolist():
@@ -50,9 +50,9 @@ class ProblemMarks(LaneItem):
             painter.fillRect(QRectF(left, bottom - 2.0, right - left, 2.0), colour)
 
 
-def problems_in(plan: PlayerPlan, rooms: tuple[str, ...] = ()) -> tuple[Problem, ...]:
+def problems_in(problems: tuple[Problem, ...], rooms: tuple[str, ...] = ()) -> tuple[Problem, ...]:
     """The problems whose messages belong to these rooms; all without rooms."""
-    return tuple(problem for problem in plan.problems if not rooms or problem.message.id.split(".")[0] in rooms)
+    return tuple(problem for problem in problems if not rooms or problem.message.id.split(".")[0] in rooms)
 
 
 def spans_of(problems: tuple[Problem, ...]) -> Spans:
@@ -109,7 +109,8 @@ class ProblemsLane(Lane):
         super().__init__(session, axis, parent)
         self.problems: tuple[Problem, ...] = ()
         self.spans = spans_of(())
-        self._plan: PlayerPlan | None = None
+        self._player_id: str | None = None
+        session.problems_changed.connect(self.refresh)
         self.count = QLabel(self.header)
         self.count.setObjectName("problem_count")
         self.count.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
@@ -126,13 +127,14 @@ class ProblemsLane(Lane):
     def refresh(self) -> None:
         """Show the problems of the player in front."""
         player = self.session.player
-        plan = self.plan_of(player) if player is not None else None
-        if plan is self._plan and plan is not None:
+        if player is not None and player.id == self._player_id and self.plan_of(player) is None:
+            # Of who is being planned again, what was known stays until the plans are there.
             return
-        if plan is None and player is not None and self._plan is not None and self._plan.player_id == player.id:
+        problems = self.session.problems(player.id) if player is not None else ()
+        self._player_id = player.id if player is not None else None
+        if problems is self.problems:
             return
-        self._plan = plan
-        self.problems = plan.problems if plan is not None else ()
+        self.problems = problems
         self.spans = spans_of(self.problems)
         self.count.setText(str(len(self.problems)) if self.problems else "")
         self.plot.setToolTip("")
