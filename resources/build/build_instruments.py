@@ -2,6 +2,8 @@
 
     python -m resources.build.build_instruments [trumpet_Bb | trombone_tenor_F_attachment ...]
 
+Every module of `FAMILIES` has a table ``INSTRUMENTS``: id -> (what builds the model, what tells its contacts).
+
 The model goes to ``resources/instruments/<id>.glb``. In ``instrument_maps/<id>.toml`` everything below the line
 ``# --- from the model`` (contacts and collision bodies) is written anew, so that map and model cannot drift
 apart; what stands above that line is a musician's and is not touched.
@@ -10,6 +12,7 @@ apart; what stands above that line is a musician's and is not touched.
 from __future__ import annotations
 
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -20,19 +23,25 @@ from resources.build.instrument_mesh import Model
 
 ROOT = Path(__file__).parents[2]
 MARK = "# --- from the model"
-INSTRUMENTS = {"trumpet_Bb": instrument_trumpet, "trombone_tenor_F_attachment": instrument_trombone}
+FAMILIES = (
+    instrument_trombone,
+    instrument_trumpet,
+)
+INSTRUMENTS: dict[str, tuple[Callable[[], Model], Callable[[], list[dict[str, object]]]]] = {
+    name: makers for family in FAMILIES for name, makers in family.INSTRUMENTS.items()
+}
 
 
 def main(names: list[str]) -> None:
     """Build the named instruments, all of them without names."""
     for name in names or list(INSTRUMENTS):
-        source = INSTRUMENTS[name]
-        model = source.build()
+        build, contacts = INSTRUMENTS[name]
+        model = build()
         path = ROOT / "resources" / "instruments" / f"{name}.glb"
         write(model, path)
         table = ROOT / "instrument_maps" / f"{name}.toml"
         head = table.read_text("utf-8").partition(MARK)[0]
-        table.write_text(head + from_model(model, source.contacts()), "utf-8")
+        table.write_text(head + from_model(model, contacts()), "utf-8")
         triangles = sum(len(part.shape.faces) for part in model.parts)
         print(f"{name}: {triangles} triangles, {path.stat().st_size / 1e6:.2f} MB")
 
@@ -50,6 +59,10 @@ def from_model(model: Model, contacts: list[dict[str, object]]) -> str:
         lines += [f"position_m = {_vector(point)}", f"normal = {_vector(np.asarray(contact['normal']))}"]
         if contact["control"]:
             lines.append(f'control = "{contact["control"]}"')
+        if contact.get("together"):
+            lines.append("together = [" + ", ".join(f'"{name}"' for name in contact["together"]) + "]")
+        if contact.get("when", "always") != "always":
+            lines.append(f'when = "{contact["when"]}"')
         lines.append(f'grip = "{contact["grip"]}"')
     for part in model.parts:
         for proxy in part.shape.proxies:

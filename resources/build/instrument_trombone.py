@@ -279,3 +279,6 @@ def contacts() -> list[dict[str, object]]:
     # ring and little finger close around the lower leg as far as the hand's size lets them: no fixed touch
     touch("left.middle.pad", "root", INNER_BRACE_Z * Z + 0.050 * DOWN, STAY_R, Z - 0.8 * LEFT)
     return found
+
+
+INSTRUMENTS = {"trombone_tenor_F_attachment": (build, contacts)}

@@ -335,3 +335,6 @@ def contacts() -> list[dict[str, object]]:
     ahead = np.array([0, 0.6, -0.8])
     touch("left.thumb.pad", "first_slide", (SADDLE - (SADDLE_R - SADDLE_THICK) * ahead, ahead), "first_slide")
     return found
+
+
+INSTRUMENTS = {"trumpet_Bb": (build, contacts)}
