@@ -2,14 +2,22 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from functools import partial
 
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QToolButton, QWidget
+from PySide6.QtCore import QSize
+from PySide6.QtGui import QResizeEvent
+from PySide6.QtWidgets import QBoxLayout, QFrame, QHBoxLayout, QLabel, QPushButton, QToolButton, QWidget
 
 from widgets.common.icons import icon, pixmap
 from widgets.common.session import Session
 from widgets.common.tokens import LEAST_TARGET_PX
+
+NARROW_PX = 560
+"""In a banner narrower than this the answers stand below the question."""
+LEAST_PX = 240
+_BREAKS = re.compile(r"([_./-])")
 
 Texts = Callable[[], tuple[str, tuple[str, ...]]]
 """The question and the answers in the language of the editor."""
@@ -29,7 +37,7 @@ class Banner(QFrame):
         self._session = session
         self._texts: Texts | None = None
         self._buttons: list[QPushButton] = []
-        self._line = QHBoxLayout(self)
+        self._line = QBoxLayout(QBoxLayout.Direction.LeftToRight, self)
         self._line.setContentsMargins(12, 5, 6, 5)
         self._mark, self._text = QLabel(), QLabel()
         self._text.setObjectName("banner_text")
@@ -38,16 +46,20 @@ class Banner(QFrame):
         self._close.setObjectName("banner_close")
         self._close.setFixedSize(LEAST_TARGET_PX, LEAST_TARGET_PX)
         self._close.clicked.connect(self.hide)
-        self._line.addWidget(self._mark)
-        self._line.addWidget(self._text, 1)
-        self._line.addWidget(self._close)
+        self._question, self._answers = QHBoxLayout(), QHBoxLayout()
+        self._question.addWidget(self._mark)
+        self._question.addWidget(self._text, 1)
+        self._answers.addStretch(1)
+        self._answers.addWidget(self._close)
+        self._line.addLayout(self._question, 1)
+        self._line.addLayout(self._answers)
         self.hide()
         session.theme_changed.connect(self.retranslate)
 
     def ask(self, texts: Texts, answers: tuple[Callable[[], None], ...]) -> None:
         """Ask; whatever is answered, the banner goes."""
         for button in self._buttons:
-            self._line.removeWidget(button)
+            self._answers.removeWidget(button)
             button.hide()
             button.deleteLater()
         self._buttons = []
@@ -56,7 +68,7 @@ class Banner(QFrame):
             button = QPushButton()
             button.setObjectName(f"banner_answer_{place}")
             button.clicked.connect(partial(self._answered, answer))
-            self._line.insertWidget(2 + place, button)
+            self._answers.insertWidget(1 + place, button)
             self._buttons.append(button)
         self.retranslate()
         self.show()
@@ -74,6 +86,19 @@ class Banner(QFrame):
         self._close.setToolTip(self.tr("Not now"))
         if self._texts is not None:
             text, answers = self._texts()
-            self._text.setText(text)
+            # Names of files may break where a person would break them.
+            self._text.setText(_BREAKS.sub("\\1\u200b", text))
             for button, answer in zip(self._buttons, answers, strict=True):
                 button.setText(answer)
+
+    # Qt's own names
+
+    def minimumSizeHint(self) -> QSize:
+        """Narrow: what lies beside the banner keeps its width."""
+        return QSize(LEAST_PX, super().minimumSizeHint().height())
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """The answers beside the question, or below it."""
+        super().resizeEvent(event)
+        narrow = self.width() < NARROW_PX
+        self._line.setDirection(QBoxLayout.Direction.TopToBottom if narrow else QBoxLayout.Direction.LeftToRight)

@@ -175,6 +175,7 @@ QStatusBar {{ background: {t.surface}; border-top: 1px solid {t.line}; }}
 QStatusBar::item {{ border: none; }}
 QDockWidget {{ color: {t.text_dim}; titlebar-close-icon: none; titlebar-normal-icon: none; }}
 QDockWidget > QWidget {{ border: none; }}
+QTabBar {{ qproperty-drawBase: 0; }}
 QTabBar::tab {{ background: transparent; color: {t.text_dim}; padding: 5px 12px; border: none;
   border-bottom: 2px solid transparent; min-height: 16px; }}
 QTabBar::tab:selected {{ color: {t.text}; border-bottom: 2px solid {t.accent}; }}
@@ -184,7 +185,7 @@ QTabWidget::pane {{ border: none; border-top: 1px solid {t.line}; }}
 QToolButton {{ background: transparent; border: 1px solid transparent; border-radius: 4px; padding: 3px; }}
 QToolButton:hover {{ background: {hover}; }}
 QToolButton:pressed {{ background: {t.sunken}; }}
-QToolButton:checked {{ background: {t.sunken}; border-color: {t.line_strong}; }}
+QToolButton:checked {{ background: {t.sunken}; border-color: {t.line_strong}; color: {t.accent}; }}
 QToolButton:focus {{ border-color: {t.accent}; }}
 QToolButton::menu-indicator {{ width: 0; height: 0; image: none; }}
 QPushButton {{ background: {t.raised}; color: {t.text}; border: 1px solid {t.line_strong}; border-radius: 4px;
@@ -196,6 +197,7 @@ QPushButton:disabled {{ color: {off}; border-color: {t.line}; background: {t.sur
 QPushButton:focus {{ border-color: {t.accent}; }}
 QPushButton:default {{ background: {t.accent}; color: {t.accent_text}; border-color: {t.accent}; }}
 QPushButton:default:focus {{ border-color: {t.text}; }}
+QPushButton:default:disabled {{ color: {off}; border-color: {t.line}; background: {t.surface}; }}
 QPushButton:flat {{ background: transparent; border-color: transparent; }}
 QPushButton:flat:hover {{ background: {hover}; }}
 QPushButton:flat:focus {{ border-color: {t.accent}; }}
@@ -240,7 +242,8 @@ QScrollBar::handle:horizontal {{ min-width: 28px; }}
 QScrollBar::handle:hover {{ background: {t.text_dim}; }}
 QScrollBar::add-line, QScrollBar::sub-line {{ width: 0; height: 0; }}
 QScrollBar::add-page, QScrollBar::sub-page {{ background: transparent; }}
-QProgressBar {{ background: {t.sunken}; border: none; border-radius: 3px; max-height: 6px; min-height: 6px; }}
+QProgressBar {{ background: {t.sunken}; color: transparent; border: none; border-radius: 3px; max-height: 6px;
+  min-height: 6px; }}
 QProgressBar::chunk {{ background: {t.accent}; border-radius: 3px; }}
 QSplitter::handle {{ background: {t.line}; }}
 QSplitter::handle:hover {{ background: {t.accent}; }}

@@ -42,6 +42,8 @@ PLAYERS_PX: Final = 300
 INSPECTOR_PX: Final = 320
 TIMELINE_SHARE: Final = 0.52
 """Of the window's height: the work is done there; what is left shows the players."""
+SHORT_PX: Final = 880
+"""In a window lower than this the inspector has the whole height: above the timeline it could show two rows."""
 SIDES: Final = {
     "players": Qt.DockWidgetArea.LeftDockWidgetArea,
     "inspector": Qt.DockWidgetArea.RightDockWidgetArea,
@@ -103,9 +105,6 @@ class Window(QMainWindow):
             self.addDockWidget(area, dock)
             dock.visibilityChanged.connect(self._table.refresh_soon)
             self.docks[name] = dock
-        # The timeline has the whole width: time is read from edge to edge.
-        for corner in (Qt.Corner.BottomLeftCorner, Qt.Corner.BottomRightCorner):
-            self.setCorner(corner, Qt.DockWidgetArea.BottomDockWidgetArea)
         self.bar = QToolBar()
         self.bar.setObjectName("transport_bar")
         self.bar.setMovable(False)
@@ -164,6 +163,14 @@ class Window(QMainWindow):
 
     def _size_docks(self) -> None:
         """As large as panels are in a window of this size where nobody said otherwise."""
+        # The timeline has the whole width: time is read from edge to edge.
+        self.setCorner(Qt.Corner.BottomLeftCorner, Qt.DockWidgetArea.BottomDockWidgetArea)
+        right = (
+            Qt.DockWidgetArea.RightDockWidgetArea
+            if self.height() < SHORT_PX
+            else Qt.DockWidgetArea.BottomDockWidgetArea
+        )
+        self.setCorner(Qt.Corner.BottomRightCorner, right)
         sides = [self.docks["players"], self.docks["inspector"]]
         self.resizeDocks(sides, [PLAYERS_PX, INSPECTOR_PX], Qt.Orientation.Horizontal)
         height = round(TIMELINE_SHARE * self.height())
@@ -214,6 +221,9 @@ class Window(QMainWindow):
             self.start_page.refresh()
         self._pages.setCurrentWidget(self.viewport if is_open else self.start_page)
         self.bar.setVisible(is_open)
+        if is_open and not shown:
+            # Keys belong to the notes, not to whichever button Qt finds first.
+            self.timeline.setFocus(Qt.FocusReason.OtherFocusReason)
         self._table.refresh_soon()
         self._tell_title()
 

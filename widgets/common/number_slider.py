@@ -375,7 +375,13 @@ class NumberSlider(QWidget):
         unit = f" {self._unit}" if self._unit and not self._mixed else ""
         middle = Qt.AlignmentFlag.AlignVCenter
         unit_px, number_px = self._text_width(unit), self._text_width(number)
-        painter.setPen(QColor(tokens.text_dim))
+        # Upon the fill a dim unit could not be read.
+        covered = (
+            self._slides
+            and not self._mixed
+            and box.left() + self._share(self._value) * box.width() > (inner.right() - unit_px)
+        )
+        painter.setPen(QColor(tokens.text if covered and enabled else tokens.text_dim))
         painter.drawText(inner, middle | Qt.AlignmentFlag.AlignRight, unit)
         painter.setPen(QColor(tokens.text if enabled else tokens.text_dim))
         painter.drawText(inner.adjusted(0, 0, -unit_px, 0), middle | Qt.AlignmentFlag.AlignRight, number)

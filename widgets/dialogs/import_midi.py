@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import msgspec
-from PySide6.QtCore import QEvent, QRectF, QSize, Qt
+from PySide6.QtCore import QEvent, QPoint, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QIcon, QPainter, QPaintEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
@@ -34,7 +34,7 @@ from instrument_maps.model import InstrumentMap
 from widgets.common.instrument_name import character_name, instrument_name
 from widgets.common.pitch import pitch_name
 from widgets.common.text import message_text
-from widgets.common.tokens import Tokens
+from widgets.common.tokens import LEAST_TARGET_PX, Tokens
 
 _USE, _NAME, _PREVIEW, _NOTES, _SPLIT, _INSTRUMENT, _CHARACTER = range(7)
 _ROW_PX = 40
@@ -81,8 +81,6 @@ class ImportDialog(QDialog):
         header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
         header.setSectionResizeMode(_PREVIEW, QHeaderView.ResizeMode.Stretch)
         header.setMinimumSectionSize(40)
-        header.setSectionResizeMode(_INSTRUMENT, QHeaderView.ResizeMode.Interactive)
-        header.resizeSection(_INSTRUMENT, 230)
         header.setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
         self._merge = QPushButton()
         self._merge.setObjectName("merge")
@@ -154,7 +152,7 @@ class ImportDialog(QDialog):
         contents = self._contents
         length_s = contents.tempo_map.seconds(float(self._end_tick))
         self._heading.setText(
-            self.tr("{title} · {minutes}:{seconds:02d} · {tempo:g} quarters a minute · {metre}").format(
+            self.tr("{title} · {minutes}:{seconds:02d} · ♩= {tempo:g} · {metre}").format(
                 title=contents.title,
                 minutes=int(length_s) // 60,
                 seconds=int(length_s) % 60,
@@ -193,7 +191,7 @@ class ImportDialog(QDialog):
         self._show_outcome()
 
     def _fill_row(self, place: int, row: ImportRow) -> None:
-        use = QCheckBox()
+        use = _Tick()
         use.setObjectName(f"play_{place}")
         use.setChecked(row.wanted)
         use.toggled.connect(lambda wanted: self._set(place, wanted=wanted))
@@ -201,7 +199,7 @@ class ImportDialog(QDialog):
 
         name = QLineEdit(row.wish.name or self._name(row))
         name.setObjectName(f"name_{place}")
-        name.setMinimumWidth(150)
+        name.setMinimumWidth(130)
         name.textEdited.connect(lambda text: self._wish(place, name=text.strip()))
         self._table.setCellWidget(place, _NAME, name)
 
@@ -231,6 +229,8 @@ class ImportDialog(QDialog):
             instrument.addItem(instrument_name(table), id_)
         instrument.setCurrentIndex(max(instrument.findData(row.wish.map_id), 0))
         instrument.currentIndexChanged.connect(lambda _, box=instrument: self._wish(place, map_id=box.currentData()))
+        instrument.setToolTip(instrument.currentText())
+        instrument.currentTextChanged.connect(instrument.setToolTip)
         self._table.setCellWidget(place, _INSTRUMENT, instrument)
 
         character = QComboBox()
@@ -321,6 +321,17 @@ class NotesPreview(QWidget):
             width = max(area.width() * note.duration_tick / self._end_tick, 1.0)
             top = area.bottom() - (note.pitch - low + 1) * height
             painter.fillRect(QRectF(left, top, width, max(height, 1.5)), colour)
+
+
+class _Tick(QCheckBox):
+    """A box without a word: all of it can be clicked, not the small square alone."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.setMinimumSize(LEAST_TARGET_PX, LEAST_TARGET_PX)
+
+    def hitButton(self, pos: QPoint) -> bool:
+        return self.rect().contains(pos)
 
 
 def _centred(widget: QWidget) -> QWidget:

@@ -212,7 +212,8 @@ class _RowDelegate(QStyledItemDelegate):
             at = room.left() + round(QFontMetricsF(font).horizontalAdvance(name)) + 4
             icon("crown", tokens, tokens.by_hand).paint(painter, QRect(at, upper.center().y() - 7, 16, 16))
         painter.setFont(small)
-        painter.setPen(QColor(tokens.text_dim))
+        # Dim text would be lost upon the selection.
+        painter.setPen(QColor(tokens.text if in_front else tokens.text_dim))
         lower = QRect(room.left(), room.top() + half, right - room.left(), room.height() - half)
         instrument = QFontMetricsF(small).elidedText(row.instrument, Qt.TextElideMode.ElideRight, lower.width())
         painter.drawText(lower, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft, instrument)
