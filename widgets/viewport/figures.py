@@ -3,25 +3,30 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from app.errors import AppError, Message
 from app.project.model import Player, Project
 from widgets.common.tasks import Progress, StopWanted
 from widgets.viewport.cast import Kit, Stage, kit_of, member_of
-from widgets.viewport.renderer import Shapes, shapes_of
+from widgets.viewport.geometry import Crowd
+from widgets.viewport.renderer import Shapes, crowd_of, shapes_of
 
 CastKey = tuple[tuple[str, str, str, str, float, float, float], ...]
 
 
 @dataclass(frozen=True, eq=False)
 class Loaded:
-    """Who can be drawn, from what, and who cannot be, with the reason."""
+    """Who can be drawn, from what, and who cannot be, with the reason.
+
+    ``crowd`` is there until the card has it: it is large.
+    """
 
     key: CastKey
     stage: Stage
     shapes: Shapes
     absent: Mapping[str, Message]
+    crowd: Crowd | None
 
 
 def cast_key(project: Project) -> CastKey:
@@ -62,8 +67,10 @@ def load(project: Project, before: Shapes | None, progress: Progress, stop_wante
         progress(0.5 * (index + 1) / len(project.players))
     stage = Stage(members)
     shapes = shapes_of(stage, before)
+    progress(0.9)
+    everyone = crowd_of(stage, shapes) if members else None
     progress(1.0)
-    return Loaded(cast_key(project), stage, shapes, absent)
+    return Loaded(cast_key(project), stage, shapes, absent, everyone)
 
 
 def moved(project: Project, loaded: Loaded) -> Loaded:
@@ -72,4 +79,4 @@ def moved(project: Project, loaded: Loaded) -> Loaded:
     members = [member_of(players[member.player_id], member.kit) for member in loaded.stage.members]
     stage = Stage(members)
     stage.pose({member.player_id: pose for member, pose in zip(members, loaded.stage.poses, strict=True)})
-    return Loaded(cast_key(project), stage, loaded.shapes, loaded.absent)
+    return replace(loaded, key=cast_key(project), stage=stage)

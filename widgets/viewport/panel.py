@@ -18,7 +18,7 @@ from widgets.common.viewport_state import SHOWN, VIEWS, View
 from widgets.viewport.camera import Camera, frame, triple
 from widgets.viewport.canvas import Canvas, Picture, pixels, why_no_gl
 from widgets.viewport.eye import Eye
-from widgets.viewport.figures import cast_key
+from widgets.viewport.figures import Loaded, cast_key
 from widgets.viewport.header import Header
 from widgets.viewport.layer import Layer
 from widgets.viewport.look import look_of
@@ -26,7 +26,7 @@ from widgets.viewport.overlay import paint
 from widgets.viewport.pointer import Pointer
 from widgets.viewport.pose_tool import PoseTool
 from widgets.viewport.poses import Poses
-from widgets.viewport.renderer import Emphasis
+from widgets.viewport.renderer import Emphasis, Renderer
 from widgets.viewport.scene import Scene
 from widgets.viewport.views import bounds, in_the_way, tracked, view_camera
 
@@ -379,8 +379,12 @@ class ViewportPanel(QWidget):
         if self._canvas is None or self._pointer is None or loaded is None:
             return
         self._pointer.forget()
-        self._canvas.prepare(lambda renderer: renderer.set_stage(loaded.stage, loaded.shapes))
+        self._canvas.prepare(lambda renderer: self._send(renderer, loaded))
         self.refresh()
+
+    def _send(self, renderer: Renderer, loaded: Loaded) -> None:
+        renderer.set_stage(loaded.stage, loaded.shapes, loaded.crowd)
+        self.scene.sent(loaded.shapes)
 
     def _performance_changed(self) -> None:
         self._settle_until_s = perf_counter() + SETTLED_S

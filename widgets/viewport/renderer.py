@@ -19,7 +19,17 @@ from vispy.gloo import gl
 from widgets.viewport import shaders
 from widgets.viewport.camera import Camera
 from widgets.viewport.cast import Stage
-from widgets.viewport.geometry import LEVELS, Geometry, character_levels, edges, instrument_levels, joined, stool
+from widgets.viewport.geometry import (
+    LEVELS,
+    Crowd,
+    Geometry,
+    character_levels,
+    crowd,
+    crowd_edges,
+    edges,
+    instrument_levels,
+    stool,
+)
 from widgets.viewport.limbs import HELD, LIMBS, SHADING, Limbs
 from widgets.viewport.look import Color, Look
 
@@ -83,6 +93,17 @@ def shapes_of(stage: Stage, before: Shapes | None = None) -> Shapes:
     return Shapes(characters, instruments, stool(stage.seat_bone, height_m))
 
 
+def crowd_of(stage: Stage, shapes: Shapes) -> Crowd:
+    """The coarsest shapes of everyone, end to end."""
+    parts: list[tuple[int, Geometry]] = []
+    for row, member in enumerate(stage.members):
+        parts.append((row, shapes.characters[member.kit.character.id][-1]))
+        parts.append((row, shapes.instruments[member.kit.map.id][-1]))
+        if member.seat_m is not None:
+            parts.append((row, shapes.stool))
+    return crowd(parts)
+
+
 def _looks_same(one: Stage, other: Stage) -> bool:
     return len(one.members) == len(other.members) and all(
         own.kit is its.kit and (own.seat_m is None) == (its.seat_m is None)
@@ -90,7 +111,7 @@ def _looks_same(one: Stage, other: Stage) -> bool:
     )
 
 
-def _sides(geometry: Geometry) -> tuple[tuple[bool, Any], ...]:
+def _sides(geometry: Geometry | Crowd) -> tuple[tuple[bool, Any], ...]:
     """The triangles seen from one side, and those seen from both: whether their backs are left out, and indices."""
     parts = ((True, geometry.triangles[: geometry.one_sided]), (False, geometry.triangles[geometry.one_sided :]))
     return tuple((culled, gloo.IndexBuffer(part)) for culled, part in parts if len(part))
@@ -148,8 +169,17 @@ class Renderer:
         self._limbs: Limbs | None = None
         self._software: bool | None = None
 
-    def set_stage(self, stage: Stage, shapes: Shapes) -> None:
-        """Draw this stage from now on."""
+    def set_stage(self, stage: Stage, shapes: Shapes, everyone: Crowd | None) -> None:
+        """Draw this stage from now on.
+
+        Parameters
+        ----------
+        stage : Stage
+        shapes : Shapes
+        everyone : Crowd or None
+            Of this stage and these shapes (`crowd_of`), made away from the window's thread. None: as the stage before,
+            whose players stand at other places now.
+        """
         same = self._stage is not None and shapes is self._shapes and _looks_same(stage, self._stage)
         self._stage, self._shapes = stage, shapes
         if same:
@@ -164,6 +194,8 @@ class Renderer:
         count = len(stage.members)
         if not count:
             return
+        if everyone is None:
+            raise ValueError("other figures need their crowd")
         self._limbs = Limbs(stage)
         self._bone_rows = np.zeros((count, 3 * stage.bones.shape[1] + 1, 4), np.float32)
         self._bones = gloo.Texture2D(self._bone_rows, internalformat="rgba32f", interpolation="nearest")
@@ -188,7 +220,7 @@ class Renderer:
         corners[:, :, :2] = square
         corners[:, :, 2] = np.arange(count)[:, None]
         self._shadows["a_corner"] = corners.reshape(-1, 3)
-        self._fill_batch(stage, shapes)
+        self._fill_batch(everyone)
 
     def _draws_without_card(self) -> bool:
         if self._software is None:
@@ -196,22 +228,14 @@ class Renderer:
             self._software = any(part in name for part in SOFTWARE)
         return self._software
 
-    def _fill_batch(self, stage: Stage, shapes: Shapes) -> None:
-        """The coarsest shapes of everyone, end to end."""
-        parts, rows = [], []
-        for row, member in enumerate(stage.members):
-            own = [shapes.characters[member.kit.character.id][-1], shapes.instruments[member.kit.map.id][-1]]
-            if member.seat_m is not None:
-                own.append(shapes.stool)
-            parts += own
-            rows.append(np.full(sum(len(part.shape) for part in own), row, np.float32))
-        whole = joined(parts)
-        self._batch.bind(gloo.VertexBuffer(whole.shape))
-        self._batch.bind(gloo.VertexBuffer(whole.surface))
-        self._batch["a_row"] = gloo.VertexBuffer(np.concatenate(rows))
-        self._batch_triangles = _sides(whole)
+    def _fill_batch(self, everyone: Crowd) -> None:
+        """Send the crowd to the card; nothing of it is kept here."""
+        self._batch.bind(gloo.VertexBuffer(everyone.shape))
+        self._batch.bind(gloo.VertexBuffer(everyone.surface))
+        self._batch["a_row"] = gloo.VertexBuffer(everyone.rows)
+        self._batch_triangles = _sides(everyone)
         self._batch_edges: Any = None
-        self._batch_shape = whole
+        self._batch_parts = everyone.parts
 
     def draw(self, camera: Camera, size_px: tuple[int, int], look: Look, emphasis: Emphasis) -> None:
         """Draw one picture of this size into the bound framebuffer."""
@@ -368,7 +392,7 @@ class Renderer:
             program["u_lift"] = lift_m
         if (level == LEVELS - 1).any():
             if self._batch_edges is None:
-                self._batch_edges = gloo.IndexBuffer(edges(self._batch_shape))
+                self._batch_edges = gloo.IndexBuffer(crowd_edges(self._batch_parts))
             self._batch.draw("lines", self._batch_edges)
         self._draw_near(stage, shapes, level, "lines")
         for program in (self._figures, self._batch):

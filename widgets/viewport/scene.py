@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 import numpy.typing as npt
@@ -21,6 +22,7 @@ from widgets.viewport.look import Color, rgb
 from widgets.viewport.overlay import Marks, Name, over_head_m
 from widgets.viewport.pose_tool import PoseTool
 from widgets.viewport.poses import Posed, Poses, same
+from widgets.viewport.renderer import Shapes
 from widgets.viewport.worn_face import WornFaces
 
 Floats = npt.NDArray[np.float64]
@@ -84,6 +86,11 @@ class Scene(QObject):
             self._arrived,
             key="viewport.load",
         )
+
+    def sent(self, shapes: Shapes) -> None:
+        """The card has these shapes and their crowd."""
+        if self._loaded is not None and self._loaded.shapes is shapes:
+            self._loaded = replace(self._loaded, crowd=None)
 
     def _arrived(self, loaded: Loaded | None) -> None:
         if loaded is None:

@@ -20,7 +20,7 @@ from pytestqt.qtbot import QtBot
 
 from app.errors import AppError, Message
 from app.plan.corrections import PoseCorrection
-from tests.gui.viewport.conftest import AT_S, MadeNow
+from tests.gui.viewport.conftest import AT_S, SIZE, MadeNow
 from widgets.common.session import Session
 from widgets.common.tokens import LIGHT
 from widgets.common.viewport_state import VIEWS
@@ -211,6 +211,35 @@ def test_who_is_moved_on_the_stage_stands_there_at_once(viewport: ViewportPanel,
     assert viewport.scene.loaded.shapes is loaded.shapes
     before, after = loaded.stage.joint_m(0, "head"), viewport.scene.stage.joint_m(0, "head")
     assert after - before == pytest.approx([-1.0, 0.0, 0.0], abs=1e-6)
+
+
+def test_the_windows_thread_copies_no_figures(
+    session: Session, poses: MadeNow, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What all players are drawn from is made with the figures, beside the window, and forgotten once it is sent."""
+    session.set_playhead(AT_S)
+    panel = ViewportPanel(session, poses)
+    qtbot.addWidget(panel)
+    loaded = panel.scene.loaded
+    assert loaded is not None
+    assert loaded.crowd is not None
+    assert {row for row, _ in loaded.crowd.parts} == set(range(len(loaded.stage.members)))
+    made = []
+    monkeypatch.setattr("widgets.viewport.renderer.crowd", lambda parts: made.append(parts))
+    panel.resize(*SIZE)
+    panel.show()
+    qtbot.waitExposed(panel)
+    panel.render_image(64, 36, AT_S)
+    player = session.project.players[0]
+    place = msgspec.structs.replace(player.stage, x_m=player.stage.x_m + 0.4)
+    players = (msgspec.structs.replace(player, stage=place), *session.project.players[1:])
+    session.apply(Message("edit.place_players", {"count": 1}), replace(session.project, players=players))
+    panel.render_image(64, 36, AT_S)
+    assert panel.has_gl, panel.message()
+    assert panel.scene.loaded is not None
+    assert panel.scene.loaded is not loaded
+    assert panel.scene.loaded.crowd is None
+    assert made == []
 
 
 def test_nobody_is_drawn_before_there_is_a_pose(qtbot: QtBot, session: Session, poses: MadeNow) -> None:

@@ -10,7 +10,16 @@ import pytest
 from app.rig.character import bundled_character, characters
 from app.rig.instrument import bundled_instrument
 from instrument_maps.load import bundled_maps
-from widgets.viewport.geometry import Geometry, character_levels, instrument_levels, joined, stool
+from widgets.viewport.geometry import (
+    Geometry,
+    character_levels,
+    crowd,
+    crowd_edges,
+    edges,
+    instrument_levels,
+    joined,
+    stool,
+)
 
 CHARACTERS = tuple(characters())
 
@@ -151,6 +160,24 @@ def test_joined_shapes_keep_their_triangles() -> None:
     last = whole.shape["a_position"][whole.triangles[-1]]
     assert (last == parts[1].shape["a_position"][parts[1].triangles[-1]]).all()
     assert set(whole.surface["a_bones"][:, 0]) == {3.0, 5.0}
+
+
+def test_a_crowd_is_its_parts_end_to_end() -> None:
+    instrument = next(iter(bundled_maps().values()))
+    things = [instrument_levels(bundled_instrument(instrument), 60)[-1], stool(3, 0.4)]
+    parts = [(0, things[0]), (0, things[1]), (1, things[0]), (2, things[1])]
+    everyone = crowd(parts)
+    assert (everyone.shape == np.concatenate([part.shape for _, part in parts])).all()
+    assert (everyone.surface == np.concatenate([part.surface for _, part in parts])).all()
+    assert everyone.rows.tolist() == [row for row, part in parts for _ in part.shape]
+    starts = np.cumsum([0, *(len(part.shape) for _, part in parts)])
+    one = [part.triangles[: part.one_sided] + start for (_, part), start in zip(parts, starts, strict=False)]
+    both = [part.triangles[part.one_sided :] + start for (_, part), start in zip(parts, starts, strict=False)]
+    assert everyone.one_sided == sum(map(len, one))
+    assert (everyone.triangles == np.concatenate(one + both)).all()
+    whole = Geometry(everyone.shape, everyone.surface, everyone.triangles, everyone.one_sided)
+    found = {tuple(edge) for edge in crowd_edges(parts).tolist()}
+    assert found == {tuple(edge) for edge in edges(whole).tolist()}
 
 
 def test_a_stool_stands_on_the_floor_and_is_seen_from_outside() -> None:
