@@ -31,6 +31,15 @@ def faults(project: Project) -> Iterator[Fault]:
     yield from _player_faults(project)
     yield from _correction_faults(project)
     yield from _setting_faults(project)
+    yield from _read_faults(project)
+
+
+def _read_faults(project: Project) -> Iterator[Fault]:
+    """Of what the MIDI file held, in the order of the score."""
+    for part_id, notes in project.read_notes.items():
+        yield from _id("edited_notes", part_id)
+        ordered = sorted(notes.values(), key=lambda note: (note.onset_tick, note.pitch))
+        yield from _note_faults(ordered, f"edited_notes[{part_id!r}]")
 
 
 def _score_faults(score: Score) -> Iterator[Fault]:

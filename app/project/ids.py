@@ -29,6 +29,7 @@ def fresh_note_ids(project: Project, count: int, prefix: str = DRAWN_NOTE) -> tu
     last = max(
         (
             *(_number(note.id, prefix) for part in project.score.parts for note in part.notes),
+            *(_number(id, prefix) for notes in project.read_notes.values() for id in notes),
             *(_named(correction, prefix) for corrections in project.corrections.values() for correction in corrections),
         ),
         default=0,

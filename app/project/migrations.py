@@ -15,7 +15,13 @@ Migration: TypeAlias = Callable[[Raw], Raw]
 
 VERSION_KEY: Final = "schema_version"
 
-MIGRATIONS: Final[tuple[Migration, ...]] = ()
+
+def _with_read_notes(raw: Raw) -> Raw:
+    """1 to 2: what the MIDI file held is kept; of an older file nobody knows."""
+    return {**raw, "edited_notes": {}}
+
+
+MIGRATIONS: Final[tuple[Migration, ...]] = (_with_read_notes,)
 """In order."""
 
 CURRENT: Final = len(MIGRATIONS) + 1

@@ -19,7 +19,7 @@ from app.project.parameters import Setting
 from app.project.parameters import with_settings as parameters_with
 from app.rig.character import bundled_character, characters
 from app.rig.model import Character
-from app.score.model import Part, Score
+from app.score.model import Note, Part, Score
 from app.score.parts import MapChoice
 from instrument_maps.model import Control, InstrumentMap
 from metadata.model import Expression
@@ -98,6 +98,9 @@ class Project:
         The animator's own, by name beside the bundled ones.
     source : str
         Absolute path of the MIDI file that the score came from; empty for a piece begun here.
+    read_notes : mapping of str to mapping of str to Note
+        By part and note id: what the MIDI file held when it was last read, whatever was done to the notes since. A
+        part that is not there was not read from a file, or by a program that did not keep it.
     """
 
     score: Score
@@ -110,6 +113,7 @@ class Project:
     audio: AudioTrack | None = None
     expressions: tuple[Expression, ...] = ()
     source: str = ""
+    read_notes: Mapping[str, Mapping[str, Note]] = field(default_factory=dict)
 
     @property
     def felt_beat_ticks(self) -> int:
@@ -168,7 +172,14 @@ def project_from_score(
         )
         for part, name, instrument, character, place in zip(parts, names, instruments, cast, places, strict=True)
     )
-    return Project(score, players, seed=seed, preroll_beats=preroll_beats, felt_beat_quarters=felt_beat_quarters)
+    return Project(
+        score,
+        players,
+        seed=seed,
+        preroll_beats=preroll_beats,
+        felt_beat_quarters=felt_beat_quarters,
+        read_notes={part.id: {note.id: note for note in part.notes} for part in parts},
+    )
 
 
 def map_choices(maps: Iterable[InstrumentMap]) -> tuple[MapChoice, ...]:

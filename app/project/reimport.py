@@ -2,9 +2,11 @@
 
 Parts are recognised by what they play, by name, track and instrument, notes by alignment (`app.project.alignment`). A
 note found again keeps its id, and with it every correction about it; corrections at places of the score move with the
-notes around them. What a person chose for players stays. A part that is new gets a player; a player whose part is gone
-leaves, but stays, with an empty part, while there are corrections for them. Parts made in the editor stay, and so do
-notes drawn into the file's parts where they do not overlap what the file has there.
+notes around them. A note that a person changed and the file did not stays as the person has it (one that was erased
+stays erased); where both changed it the file's version is taken, and told. What a person chose for players stays. A
+part that is new gets a player; a player whose part is gone leaves, but stays, with an empty part, while there are
+corrections for them. Parts made in the editor stay, and so do notes drawn into the file's parts where they do not
+overlap what the file has there.
 
 Corrections whose note is gone stay as they are and do nothing (`orphaned`), until they are given another note
 (`reattached`) or taken back.
@@ -67,6 +69,8 @@ class PartMatch:
     former_name, name : str
     kept, added, removed : int
         Notes.
+    by_hand : int
+        Notes whose change by hand stays.
     """
 
     part_id: str
@@ -75,6 +79,29 @@ class PartMatch:
     kept: int
     added: int
     removed: int
+    by_hand: int
+
+
+@dataclass(frozen=True)
+class Conflict:
+    """A note that both the person and the file changed; the file's version is taken.
+
+    Attributes
+    ----------
+    part_id, note_id : str
+    read : Note
+        What the file held before.
+    by_hand : Note or None
+        What the person made of it; None: erased.
+    file : Note or None
+        What the file holds now; None: it is gone.
+    """
+
+    part_id: str
+    note_id: str
+    read: Note
+    by_hand: Note | None
+    file: Note | None
 
 
 @dataclass(frozen=True)
@@ -100,6 +127,8 @@ class Reimport:
         Ids: of new parts; of parts that are gone; of parts that are gone, kept for their corrections.
     orphans : tuple of Orphan
         Corrections that lost their note now or earlier.
+    conflicts : tuple of Conflict
+        In the order of the parts.
     """
 
     project: Project
@@ -110,6 +139,7 @@ class Reimport:
     gone_players: tuple[str, ...]
     idle_players: tuple[str, ...]
     orphans: tuple[Orphan, ...]
+    conflicts: tuple[Conflict, ...]
 
 
 def reimport(project: Project, score: Score, maps: Mapping[str, InstrumentMap], source: str | None = None) -> Reimport:
@@ -128,10 +158,10 @@ def reimport(project: Project, score: Score, maps: Mapping[str, InstrumentMap], 
     scale = Fraction(score.ticks_per_quarter, old.ticks_per_quarter)
     partners = _matched_parts(old.parts, score.parts, old.ticks_per_quarter, score.ticks_per_quarter)
     former_of = {new: former for former, new in partners}
+    held = {former: _held_by_file(project, old.parts[former]) for former, _ in partners}
     pairs = {
         former: align(
-            Line.of(old.parts[former].notes, old.ticks_per_quarter),
-            Line.of(score.parts[new].notes, score.ticks_per_quarter),
+            Line.of(held[former], old.ticks_per_quarter), Line.of(score.parts[new].notes, score.ticks_per_quarter)
         )
         for former, new in partners
     }
@@ -139,6 +169,8 @@ def reimport(project: Project, score: Score, maps: Mapping[str, InstrumentMap], 
     note_ids = iter(fresh_note_ids(project, sum(len(part.notes) for part in score.parts), READ_NOTE))
     parts: list[Part] = []
     matches: list[PartMatch] = []
+    conflicts: list[Conflict] = []
+    read_notes: dict[str, dict[str, Note]] = {}
     added: list[str] = []
     places: dict[str, list[tuple[int, int]]] = {}
     for index, part in enumerate(score.parts):
@@ -147,19 +179,27 @@ def reimport(project: Project, score: Score, maps: Mapping[str, InstrumentMap], 
             ids = [next(note_ids) for _ in part.notes]
             added += ids
             parts.append(_renamed(part, next(part_ids), ids))
+            read_notes[parts[-1].id] = {note.id: note for note in parts[-1].notes}
             continue
-        before = old.parts[former]
-        kept = {int(new): before.notes[int(one)].id for one, new in pairs[former]}
+        before, was = old.parts[former], held[former]
+        kept = {int(new): was[int(one)].id for one, new in pairs[former]}
         ids = [kept[number] if number in kept else next(note_ids) for number in range(len(part.notes))]
-        added += [id for number, id in enumerate(ids) if number not in kept]
-        places[before.id] = [
-            (before.notes[int(one)].onset_tick, part.notes[int(new)].onset_tick) for one, new in pairs[former]
-        ]
         renamed = _renamed(part, before.id, ids)
-        drawn = _drawn(before, frozenset(kept.values()), _place_map(places[before.id], scale), scale, renamed)
-        parts.append(_with_more(renamed, drawn))
-        lost = len(before.notes) - len(kept) - len(drawn)
-        matches.append(PartMatch(before.id, before.name, part.name, len(kept) + len(drawn), len(ids) - len(kept), lost))
+        read_notes[before.id] = {note.id: note for note in renamed.notes}
+        merged = _merged(before, was, renamed, [(int(one), int(new)) for one, new in pairs[former]], scale)
+        conflicts += merged.conflicts
+        known = {note.id: note for note in before.notes}
+        places[before.id] = [
+            (known[note.id].onset_tick, note.onset_tick) for note in merged.part.notes if note.id in known
+        ]
+        drawn = _drawn(before, frozenset(kept.values()), _place_map(places[before.id], scale), scale, merged.part)
+        parts.append(_with_more(merged.part, drawn))
+        stayed, came = len(places[before.id]), [note.id for note in merged.part.notes if note.id not in known]
+        added += came
+        lost = len(before.notes) - stayed - len(drawn)
+        matches.append(
+            PartMatch(before.id, before.name, part.name, stayed + len(drawn), len(came), lost, merged.by_hand)
+        )
     everywhere = _place_map((pair for own in places.values() for pair in own), scale)
     found = set(pairs)
     for index, part in enumerate(old.parts):
@@ -167,8 +207,7 @@ def reimport(project: Project, score: Score, maps: Mapping[str, InstrumentMap], 
             empty = msgspec.structs.replace(part, notes=(), curves=())
             parts.append(_with_more(empty, _drawn(part, frozenset(), everywhere, scale, empty)))
     result = _with_players(project, score, parts, places, everywhere, scale, maps)
-    if source is not None:
-        result = replace(result, source=source)
+    result = replace(result, read_notes=read_notes, source=project.source if source is None else source)
     alive = {note.id for part in parts for note in part.notes}
     before_ids = {player.id for player in project.players}
     after_ids = {player.id for player in result.players}
@@ -182,6 +221,7 @@ def reimport(project: Project, score: Score, maps: Mapping[str, InstrumentMap], 
         gone_players=tuple(player.id for player in project.players if player.id not in after_ids),
         idle_players=tuple(player.id for player in result.players if player.part_id in gone),
         orphans=orphaned(result),
+        conflicts=tuple(conflicts),
     )
 
 
@@ -265,6 +305,75 @@ def _kinship(one: Part, other: Part) -> float:
         + 0.04 * (one.track == other.track)
         + 0.02 * (one.channel == other.channel)
     )
+
+
+def _held_by_file(project: Project, part: Part) -> tuple[Note, ...]:
+    """The notes of a part as the file had them; those that it did not have, or of which nobody knows, as they are."""
+    read = project.read_notes.get(part.id)
+    if not read:
+        return part.notes
+    more = (note for note in part.notes if note.id not in read)
+    return tuple(sorted((*read.values(), *more), key=lambda note: (note.onset_tick, note.pitch)))
+
+
+@dataclass(frozen=True)
+class _Merged:
+    """The file's part with what stays of the changes by hand."""
+
+    part: Part
+    by_hand: int
+    conflicts: tuple[Conflict, ...]
+
+
+def _merged(
+    before: Part, was: Sequence[Note], part: Part, pairs: Sequence[tuple[int, int]], scale: Fraction
+) -> _Merged:
+    """Of three versions of each note one: the person's where the file did not change it, else the file's.
+
+    Parameters
+    ----------
+    before : Part
+        As the person has it.
+    was : sequence of Note
+        As the file had it.
+    part : Part
+        As the file has it, with the ids of the project.
+    pairs : sequence of (int, int)
+        Which of ``was`` is which of the part's notes.
+    """
+    here = {note.id: note for note in before.notes}
+    distances = [part.notes[new].onset_tick - round(was[one].onset_tick * scale) for one, new in pairs]
+    notes = {note.id: note for note in part.notes}
+    by_hand, conflicts = 0, []
+    for place, (one, new) in enumerate(pairs):
+        read, now = was[one], part.notes[new]
+        mine = here.get(read.id)
+        if mine == read:
+            continue
+        beside = distances[max(place - 1, 0) : place] + distances[place + 1 : place + 2]
+        still = distances[place] in beside or distances[place] == 0
+        if not still or (now.duration_tick, now.pitch, now.velocity) != (
+            max(round(read.duration_tick * scale), 1),
+            read.pitch,
+            read.velocity,
+        ):
+            conflicts.append(Conflict(before.id, read.id, read, mine, now))
+            continue
+        by_hand += 1
+        if mine is None:
+            del notes[read.id]
+            continue
+        onset = now.onset_tick + round((mine.onset_tick - read.onset_tick) * scale)
+        length = max(round(mine.duration_tick * scale), 1)
+        notes[read.id] = Note(mine.id, max(onset, 0), length, mine.pitch, mine.velocity)
+    found = {one for one, _ in pairs}
+    for index, read in enumerate(was):
+        mine = here.get(read.id)
+        if index not in found and mine is not None and mine != read:
+            conflicts.append(Conflict(before.id, read.id, read, mine, None))
+    ordered = sorted(notes.values(), key=lambda note: (note.onset_tick, note.pitch))
+    conflicts.sort(key=lambda conflict: conflict.read.onset_tick)
+    return _Merged(msgspec.structs.replace(part, notes=tuple(ordered)), by_hand, tuple(conflicts))
 
 
 def _renamed(part: Part, part_id: str, note_ids: Sequence[str]) -> Part:

@@ -31,11 +31,12 @@ from app.errors import FileError, Message
 from app.formats.atomic import atomic_write
 from app.plan.corrections import Correction
 from app.project.check import faults
+from app.project.ids import DRAWN_NOTE
 from app.project.migrations import CURRENT, VERSION_KEY, Raw, migrated
 from app.project.model import AudioTrack, Player, Project
 from app.project.remarks import sayable
 from app.rig.character import characters
-from app.score.model import Score
+from app.score.model import Note, Score
 from instrument_maps.load import bundled_maps
 from metadata.model import Expression
 
@@ -67,6 +68,8 @@ class _Content(msgspec.Struct, forbid_unknown_fields=True):
     corrections: dict[str, list[Any]]
     expressions: tuple[Expression, ...]
     score: Score
+    edited_notes: dict[str, tuple[Note, ...]]
+    """By part that was read from a MIDI file: the file's version of the notes that are other ones here, or gone."""
 
 
 def save(project: Project, path: str | os.PathLike[str]) -> None:
@@ -117,6 +120,7 @@ def encode(project: Project, path: Path) -> bytes:
         corrections={player: list(corrections) for player, corrections in project.corrections.items() if corrections},
         expressions=project.expressions,
         score=project.score,
+        edited_notes=_edited_notes(project),
     )
     try:
         raw = msgspec.to_builtins(content, order="deterministic", enc_hook=_plain_number)
@@ -223,7 +227,7 @@ def _project(raw: Raw, folder: Path, file: str) -> Project:
         if items
     }
     # What a struct does not forbid it passes over: nothing in a file may be lost by saving it again.
-    for key in ("audio", "players", "expressions", "score"):
+    for key in ("audio", "players", "expressions", "score", "edited_notes"):
         for place in _unknown(raw[key], msgspec.to_builtins(getattr(content, key)), key):
             raise FileError("project.invalid", file=file, place=place, detail="unknown key")
     audio = content.audio
@@ -245,7 +249,32 @@ def _project(raw: Raw, folder: Path, file: str) -> Project:
         audio=audio,
         expressions=content.expressions,
         source=_full_path(content.source, folder),
+        read_notes=_read_notes(content.edited_notes, score),
     )
+
+
+def _edited_notes(project: Project) -> dict[str, tuple[Note, ...]]:
+    here = {part.id: {note.id: note for note in part.notes} for part in project.score.parts}
+    return {
+        part_id: tuple(
+            sorted((note for id, note in notes.items() if here.get(part_id, {}).get(id) != note), key=_place)
+        )
+        for part_id, notes in project.read_notes.items()
+    }
+
+
+def _place(note: Note) -> tuple[int, int, str]:
+    return note.onset_tick, note.pitch, note.id
+
+
+def _read_notes(edited: dict[str, tuple[Note, ...]], score: Score) -> dict[str, dict[str, Note]]:
+    """What the MIDI file held: the notes that are here and were not drawn here, with its version of the edited ones."""
+    parts = {part.id: part.notes for part in score.parts}
+    return {
+        part_id: {note.id: note for note in parts.get(part_id, ()) if not note.id.startswith(DRAWN_NOTE)}
+        | {note.id: note for note in notes}
+        for part_id, notes in edited.items()
+    }
 
 
 def _converted(raw: Any, type_: Any, prefix: str, file: str) -> Any:

@@ -410,8 +410,8 @@
         <translation>{file} に変更はありません。</translation>
     </message>
     <message>
-        <source>What {file} changes. Fingerings, breaths and all else set by hand stay with their notes; notes that were moved in the editor stand again where the file has them. Undo takes it all back.</source>
-        <translation>{file} による変更です。手で直した運指やブレスなどはそれぞれの音符に残ります。エディターで動かした音符はファイルの位置に戻ります。すべて元に戻せます。</translation>
+        <source>What {file} changes. Fingerings, breaths and all else set by hand stay with their notes; notes changed by hand stay as they are where the file has not changed them. Undo takes it all back.</source>
+        <translation>{file} による変更内容です。運指や息など手で設定したものは音符に残り、手で変更した音符も、ファイル側で変わっていなければそのまま残ります。元に戻すこともできます。</translation>
     </message>
     <message>
         <source>Part</source>
@@ -430,6 +430,14 @@
         <translation>削除</translation>
     </message>
     <message>
+        <source>Changed by hand</source>
+        <translation>手動変更</translation>
+    </message>
+    <message>
+        <source>Changed here and in the file: these notes become as the file has them now ({count})</source>
+        <translation>ここでもファイルでも変更された音符：ファイルの内容になります（{count}）</translation>
+    </message>
+    <message>
         <source>These corrections have lost their note. They are kept; the inspector can give them another note:</source>
         <translation>次の修正は対象の音符を失いました。残してあり、インスペクターで別の音符に付け直せます:</translation>
     </message>
@@ -440,6 +448,14 @@
     <message>
         <source>Cancel</source>
         <translation>キャンセル</translation>
+    </message>
+    <message>
+        <source>erased</source>
+        <translation>削除済み</translation>
+    </message>
+    <message>
+        <source>not in the file any more</source>
+        <translation>ファイルから消えました</translation>
     </message>
     <message>
         <source>New players: {names}</source>

@@ -170,4 +170,13 @@ def projects(draw: st.DrawFn, folder: str = "/music") -> Project:
         audio=draw(st.none() | st.builds(AudioTrack, path, st.floats(-1e4, 1e4), st.none() | fractions01)),
         expressions=tuple(draw(st.lists(expressions, max_size=2, unique_by=lambda item: item.name))),
         source=draw(st.just("") | path),
+        read_notes={
+            part.id: {
+                note.id: note if draw(st.booleans()) else msgspec.structs.replace(note, pitch=127 - note.pitch)
+                for note in part.notes
+                if not note.id.startswith("n:")
+            }
+            for part in score.parts
+            if draw(st.booleans())
+        },
     )

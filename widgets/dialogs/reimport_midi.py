@@ -21,7 +21,8 @@ from PySide6.QtWidgets import (
 
 from app.plan.corrections import Correction
 from app.project.model import Project
-from app.project.reimport import Reimport
+from app.project.reimport import Conflict, Reimport
+from app.score.model import Note
 from widgets.common.tokens import Tokens
 
 
@@ -37,6 +38,8 @@ class ReimportDialog(QDialog):
         Name of the MIDI file.
     title : callable
         Names a correction.
+    note_title : callable
+        Names a note of a part, by part id and note.
     tokens : Tokens
     parent : QWidget, optional
     """
@@ -47,16 +50,17 @@ class ReimportDialog(QDialog):
         outcome: Reimport,
         file: str,
         title: Callable[[Correction], str],
+        note_title: Callable[[str, Note], str],
         tokens: Tokens,
         parent: QWidget | None = None,
     ) -> None:
         super().__init__(parent)
         self.setObjectName("reimport_midi")
         self._before, self._outcome, self._file = before, outcome, file
-        self._title, self._tokens = title, tokens
+        self._title, self._note_title, self._tokens = title, note_title, tokens
         self._heading = QLabel()
         self._heading.setWordWrap(True)
-        self._table = QTableWidget(0, 4)
+        self._table = QTableWidget(0, 5)
         self._table.setObjectName("reimport_parts")
         self._table.verticalHeader().hide()
         self._table.setShowGrid(False)
@@ -68,6 +72,12 @@ class ReimportDialog(QDialog):
         self._players = QLabel()
         self._players.setObjectName("reimport_players")
         self._players.setWordWrap(True)
+        self._conflict_title = QLabel()
+        self._conflict_title.setWordWrap(True)
+        self._conflicts = QListWidget()
+        self._conflicts.setObjectName("reimport_conflicts")
+        self._conflicts.setSelectionMode(QAbstractItemView.SelectionMode.NoSelection)
+        self._conflicts.setMaximumHeight(140)
         self._orphan_title = QLabel()
         self._orphan_title.setWordWrap(True)
         self._orphans = QListWidget()
@@ -85,6 +95,8 @@ class ReimportDialog(QDialog):
         layout.addWidget(self._heading)
         layout.addWidget(self._table, 1)
         layout.addWidget(self._players)
+        layout.addWidget(self._conflict_title)
+        layout.addWidget(self._conflicts)
         layout.addWidget(self._orphan_title)
         layout.addWidget(self._orphans)
         layout.addWidget(self._buttons)
@@ -98,17 +110,27 @@ class ReimportDialog(QDialog):
             self.tr("{file} says nothing new.").format(file=self._file)
             if outcome.project is self._before
             else self.tr(
-                "What {file} changes. Fingerings, breaths and all else set by hand stay with their notes; notes that "
-                "were moved in the editor stand again where the file has them. Undo takes it all back."
+                "What {file} changes. Fingerings, breaths and all else set by hand stay with their notes; notes "
+                "changed by hand stay as they are where the file has not changed them. Undo takes it all back."
             ).format(file=self._file)
         )
-        self._table.setHorizontalHeaderLabels([self.tr("Part"), self.tr("Kept"), self.tr("New"), self.tr("Gone")])
+        titles = (self.tr("Part"), self.tr("Kept"), self.tr("New"), self.tr("Gone"), self.tr("Changed by hand"))
+        for column, title in enumerate(titles):
+            heading = QTableWidgetItem(title)
+            side = Qt.AlignmentFlag.AlignRight if column else Qt.AlignmentFlag.AlignLeft
+            heading.setTextAlignment(side | Qt.AlignmentFlag.AlignVCenter)
+            self._table.setHorizontalHeaderItem(column, heading)
         self._table.setRowCount(len(outcome.parts))
         for row, part in enumerate(outcome.parts):
             name = part.name if part.name == part.former_name else f"{part.former_name} → {part.name}"
             self._table.setItem(row, 0, QTableWidgetItem(name))
             for column, (count, colour) in enumerate(
-                ((part.kept, self._tokens.text), (part.added, self._tokens.good), (part.removed, self._tokens.warning)),
+                (
+                    (part.kept, self._tokens.text),
+                    (part.added, self._tokens.good),
+                    (part.removed, self._tokens.warning),
+                    (part.by_hand, self._tokens.text),
+                ),
                 start=1,
             ):
                 item = QTableWidgetItem(str(count))
@@ -117,6 +139,17 @@ class ReimportDialog(QDialog):
                 self._table.setItem(row, column, item)
         self._players.setText("\n".join(self._about_players()))
         self._players.setVisible(bool(self._players.text()))
+        self._conflict_title.setText(
+            self.tr("Changed here and in the file: these notes become as the file has them now ({count})").format(
+                count=len(outcome.conflicts)
+            )
+        )
+        self._conflicts.clear()
+        names = {part.id: part.name for part in self._before.score.parts}
+        for conflict in outcome.conflicts:
+            self._conflicts.addItem(f"{names[conflict.part_id]}: {self._about_note(conflict)}")
+        for widget in (self._conflict_title, self._conflicts):
+            widget.setVisible(bool(outcome.conflicts))
         self._orphan_title.setText(
             self.tr("These corrections have lost their note. They are kept; the inspector can give them another note:")
         )
@@ -130,6 +163,13 @@ class ReimportDialog(QDialog):
         ok.setText(self.tr("Re-import"))
         ok.setEnabled(outcome.project is not self._before)
         self._buttons.button(QDialogButtonBox.StandardButton.Cancel).setText(self.tr("Cancel"))
+
+    def _about_note(self, conflict: Conflict) -> str:
+        """What happens to a note: as the person has it → as the file has it."""
+        mine, file = conflict.by_hand, conflict.file
+        here = self.tr("erased") if mine is None else self._note_title(conflict.part_id, mine)
+        there = self.tr("not in the file any more") if file is None else self._note_title(conflict.part_id, file)
+        return f"{here} → {there}"
 
     def _about_players(self) -> list[str]:
         outcome = self._outcome

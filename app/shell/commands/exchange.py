@@ -8,7 +8,7 @@ from PySide6.QtCore import QCoreApplication
 
 from app.audio.mix import mixdown
 from app.errors import AppError, Message
-from app.project.model import Project, map_choices
+from app.project.model import Player, Project, map_choices
 from app.project.reimport import Reimport, reimport
 from app.score.read import read_midi
 from app.shell.action import QT_TRANSLATE_NOOP, Action
@@ -18,6 +18,7 @@ from app.version import program_version
 from instrument_maps.load import all_maps
 from widgets.common.session import Session, Severity
 from widgets.common.tasks import Progress, StopWanted
+from widgets.common.text import note_text
 from widgets.dialogs.export_files import ExportDialog
 from widgets.dialogs.playblast import PlayblastDialog
 from widgets.dialogs.reimport_midi import ReimportDialog
@@ -58,7 +59,15 @@ def reimport_from(session: Session, path: Path) -> None:
             reimport_from(session, path)
             return
         window = editor_of(session).window
-        dialog = ReimportDialog(project, outcome, path.name, correction_title, session.tokens, window)
+        dialog = ReimportDialog(
+            project,
+            outcome,
+            path.name,
+            correction_title,
+            lambda part_id, note: note_text(session, note, _who_plays(project, part_id)),
+            session.tokens,
+            window,
+        )
         dialog.accepted.connect(lambda: _take(session, project, outcome))
         dialog.open()
 
@@ -66,6 +75,10 @@ def reimport_from(session: Session, path: Path) -> None:
         session.notice(error.message, Severity.ERROR)
 
     session.tasks.run(Message("work.reimport"), work, done, failed, key="reimport")
+
+
+def _who_plays(project: Project, part_id: str) -> Player | None:
+    return next((player for player in project.players if player.part_id == part_id), None)
 
 
 def _take(session: Session, before: Project, outcome: Reimport) -> None:

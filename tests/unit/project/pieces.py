@@ -88,6 +88,9 @@ def full_project(folder: str = "/music") -> Project:
         ),
         trombone.id: (PinFingering("2:1", "1"),),
     }
+    read = {note.id: note for note in first.notes}
+    read["1:1"] = Note("1:1", 30, 450, 61, 79)
+    read["1:77"] = Note("1:77", 5000, 240, 64, 80)
     return Project(
         score=full_score,
         players=(
@@ -104,4 +107,5 @@ def full_project(folder: str = "/music") -> Project:
         audio=AudioTrack(f"{folder}/録音.wav", -0.132, 0.94),
         expressions=(ANGRY,),
         source=f"{folder}/piece.mid",
+        read_notes={"1.1.1": read},
     )

@@ -26,6 +26,7 @@ from app.project.edit.notes import add_note
 from app.project.edit.players import add_player, remove_players, set_parameters
 from app.project.model import Project, map_choices, project_from_score
 from app.project.reimport import orphaned, reattached, reimport
+from app.project.storage import load, save
 from app.score.model import Note, Part, Score
 from app.score.read import read_midi
 from app.score.tempo import TempoMap
@@ -288,7 +289,7 @@ def test_twenty_thousand_notes() -> None:
         )
         for part in long.score.parts
     )
-    project = replace(long, score=msgspec.structs.replace(long.score, parts=parts))
+    project = replace(long, score=msgspec.structs.replace(long.score, parts=parts), read_notes={})
     edited = tuple(
         msgspec.structs.replace(
             part, notes=tuple(later(tuple(n for i, n in enumerate(part.notes) if i % 50), 7 * end // 2, BAR))
@@ -302,3 +303,124 @@ def test_twenty_thousand_notes() -> None:
     survivors = {note.id for part in edited for note in part.notes}
     kept = {note.id for part in result.project.score.parts for note in part.notes}
     assert survivors <= kept
+
+
+# What was done to notes by hand
+
+
+def by_hand(project: Project, index: int, change: dict[int, dict[str, int] | None]) -> Project:
+    """Notes of a part, by number, changed (or erased: None) as a person does it."""
+    part = project.score.parts[index]
+    notes = []
+    for number, note in enumerate(part.notes):
+        fields = change.get(number, {})
+        if fields is not None:
+            notes.append(msgspec.structs.replace(note, **fields))
+    notes.sort(key=lambda note: (note.onset_tick, note.pitch))
+    parts = list(project.score.parts)
+    parts[index] = msgspec.structs.replace(part, notes=tuple(notes))
+    return replace(project, score=msgspec.structs.replace(project.score, parts=tuple(parts)))
+
+
+def file_with(project: Project, index: int, change: dict[int, dict[str, int] | None], shift: int = 0) -> Score:
+    changed = by_hand(project, index, change).score
+    parts = tuple(
+        msgspec.structs.replace(
+            part,
+            notes=tuple(msgspec.structs.replace(note, onset_tick=note.onset_tick + shift) for note in part.notes),
+        )
+        for part in changed.parts
+    )
+    return from_file(msgspec.structs.replace(changed, parts=parts))
+
+
+def notes_of(project: Project, index: int = 0) -> dict[str, Note]:
+    return {note.id: note for note in project.score.parts[index].notes}
+
+
+def test_what_a_hand_did_to_notes_stays_where_the_file_did_not_touch_them() -> None:
+    project = read(LUTKIN)
+    first = project.score.parts[0].notes
+    edited = by_hand(
+        project,
+        0,
+        {3: {"onset_tick": first[3].onset_tick + 60}, 7: {"pitch": first[7].pitch + 1}, 11: None, 20: {"velocity": 3}},
+    )
+    unchanged = reimport(edited, from_file(project.score), MAPS)
+    assert unchanged.project is edited
+    assert unchanged.conflicts == ()
+    assert unchanged.parts[0].by_hand == 4
+    # The file brings a bar before everything and changes another note.
+    result = reimport(edited, file_with(project, 0, {15: {"pitch": first[15].pitch - 2}}, BAR), MAPS)
+    after = notes_of(result.project)
+    assert after[first[3].id].onset_tick == first[3].onset_tick + 60 + BAR
+    assert after[first[7].id].pitch == first[7].pitch + 1
+    assert first[11].id not in after
+    assert after[first[20].id].velocity == 3
+    assert after[first[15].id].pitch == first[15].pitch - 2
+    assert result.conflicts == ()
+    assert (result.added, result.removed) == ((), ())
+    # Once more: the file's version of before is the one that was read last.
+    again = reimport(result.project, file_with(project, 0, {15: {"pitch": first[15].pitch - 2}}, BAR), MAPS)
+    assert again.project is result.project
+
+
+def test_where_both_changed_a_note_the_files_version_is_taken_and_told() -> None:
+    project = read(LUTKIN)
+    first = project.score.parts[0].notes
+    edited = by_hand(
+        project,
+        0,
+        {3: {"pitch": first[3].pitch + 1}, 7: {"velocity": 5}, 11: None, 20: {"onset_tick": first[20].onset_tick + 30}},
+    )
+    new = file_with(
+        project,
+        0,
+        {
+            3: {"pitch": first[3].pitch + 3},
+            7: None,
+            11: {"velocity": 9},
+            20: {"onset_tick": first[20].onset_tick - 30},
+        },
+    )
+    result = reimport(edited, new, MAPS)
+    after = notes_of(result.project)
+    assert after[first[3].id].pitch == first[3].pitch + 3
+    assert first[7].id not in after
+    assert after[first[11].id].velocity == 9
+    assert after[first[20].id].onset_tick == first[20].onset_tick - 30
+    told = {conflict.note_id: (conflict.by_hand, conflict.file) for conflict in result.conflicts}
+    mine = notes_of(edited)
+    assert told == {id: (mine.get(id), after.get(id)) for id in (first[3].id, first[7].id, first[11].id, first[20].id)}
+    assert result.parts[0].by_hand == 0
+
+
+def test_what_the_file_held_is_kept_in_the_projects_file(tmp_path: Path) -> None:
+    project = read(LUTKIN)
+    first = project.score.parts[0].notes
+    edited = by_hand(project, 0, {3: {"pitch": first[3].pitch + 1}, 11: None})
+    path = tmp_path / "piece.suisou"
+    save(edited, path)
+    loaded = load(path)
+    assert loaded == edited
+    assert loaded.read_notes == project.read_notes
+    # No second copy of every note.
+    assert path.read_text(encoding="utf-8").count(f'"{first[5].id}"') == 1
+    assert reimport(loaded, from_file(project.score), MAPS).project is loaded
+
+
+def test_a_new_note_never_takes_the_id_of_one_that_was_erased() -> None:
+    project = read(LUTKIN)
+    more = list(project.score.parts[0].notes)
+    more.append(Note("1:9000", more[-1].end_tick + 960, 240, 70, 80))
+    parts = (msgspec.structs.replace(project.score.parts[0], notes=tuple(more)), *project.score.parts[1:])
+    longer = from_file(msgspec.structs.replace(project.score, parts=parts))
+    grown = reimport(project, longer, MAPS)
+    (added,) = grown.added
+    erased = by_hand(grown.project, 0, {len(more) - 1: None})
+    more.append(Note("1:9001", more[-1].end_tick + 960, 240, 72, 80))
+    parts = (msgspec.structs.replace(project.score.parts[0], notes=tuple(more)), *project.score.parts[1:])
+    result = reimport(erased, from_file(msgspec.structs.replace(project.score, parts=parts)), MAPS)
+    (newer,) = result.added
+    assert newer != added
+    assert added not in notes_of(result.project)

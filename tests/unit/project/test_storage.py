@@ -65,7 +65,9 @@ def test_the_file_is_readable_and_the_same_every_time(tmp_path: Path) -> None:
 def test_every_version_that_ever_was_can_be_read(version: int) -> None:
     path = SAMPLES / f"version_{version}.suisou"
     assert json.loads(path.read_bytes())["schema_version"] == version
-    assert load(path) == full_project(str(SAMPLES))
+    expected = full_project(str(SAMPLES))
+    # What the MIDI file held is kept from version 2 on.
+    assert load(path) == (expected if version > 1 else replace(expected, read_notes={}))
 
 
 def test_the_present_version_is_written_as_its_sample_says() -> None:
