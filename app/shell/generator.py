@@ -10,14 +10,18 @@ import sys
 import threading
 import time
 import weakref
+from collections.abc import Callable, Mapping
 
 from PySide6.QtCore import QObject, Signal
+from shiboken6 import isValid
 
 from app.errors import AppError, Cancelled, Message
 from app.performance.ensemble import Performance
 from app.performance.live import LiveMotion
+from app.plan.model import Problem
 from app.project.document import Change
 from app.project.model import Project
+from app.shell.calls import window_calls
 from widgets.common.session import Session, Severity
 from widgets.common.tasks import Progress, StopWanted, Tasks
 
@@ -69,12 +73,7 @@ class Generator(QObject):
         self._ready = -1.0
         self.live = LiveMotion(session.performance)
         """The motion of all players: the viewport draws `LiveMotion.pose`."""
-        teller = _Teller()
-        teller.planned.connect(self._planned)
-        teller.fell.connect(self._fell)
-        teller.worked.connect(self._worked)
-        teller.judged.connect(session.set_broken)
-        self._worker = _Worker(self.live, teller)
+        self._worker = _Worker(self.live, _Teller(self))
         self._end = weakref.finalize(self, self._worker.close)
         session.changed.connect(self._project_changed)
         session.performance_changed.connect(self._show)
@@ -172,6 +171,9 @@ class Generator(QObject):
         self.live.want(self._session.playhead_s, player_ids=self._session.players)
         self._worker.wake()
 
+    def _judged(self, broken: Mapping[str, tuple[Problem, ...]]) -> None:
+        self._session.set_broken(broken)
+
     def _worked(self, ready: float) -> None:
         self.motion_changed.emit()
         if ready != self._ready:
@@ -183,13 +185,33 @@ class Generator(QObject):
         raise fault
 
 
-class _Teller(QObject):
-    """Carries what the worker says into the window's thread."""
+class _Teller:
+    """Carries what the worker says into the window's thread, as long as there is a generator to hear it."""
 
-    planned = Signal(object, int, object)
-    fell = Signal(object)
-    worked = Signal(float)
-    judged = Signal(object)
+    def __init__(self, generator: Generator) -> None:
+        self._ask, self._generator = window_calls().ask, weakref.ref(generator)
+
+    def planned(self, performance: Performance, number: int, error: AppError | None) -> None:
+        self._tell(lambda generator: generator._planned(performance, number, error))
+
+    def fell(self, fault: BaseException) -> None:
+        self._tell(lambda generator: generator._fell(fault))
+
+    def worked(self, ready: float) -> None:
+        self._tell(lambda generator: generator._worked(ready))
+
+    def judged(self, broken: Mapping[str, tuple[Problem, ...]]) -> None:
+        self._tell(lambda generator: generator._judged(broken))
+
+    def _tell(self, say: Callable[[Generator], None]) -> None:
+        listening = self._generator
+
+        def call() -> None:
+            generator = listening()
+            if generator is not None and isValid(generator) and generator._end.alive:
+                say(generator)
+
+        self._ask(call)
 
 
 class _Worker:
@@ -254,23 +276,19 @@ class _Worker:
         sys.setswitchinterval(self._switch_s)
 
     def _run(self) -> None:
-        try:
-            while not self._closed:
-                with self._changed:
-                    while self._idle and not self._judging:
-                        self._changed.wait()
-                    job, self._pending = self._pending, None
-                    self._planning = job is not None
-                    self._dropped.clear()
-                if job is not None:
-                    self._make_plans(*job)
-                elif not self._idle:
-                    self._make_motion()
-                elif not self._closed:
-                    self._judge()
-        except RuntimeError:
-            # The window has gone meanwhile: nobody is left to tell.
-            return
+        while not self._closed:
+            with self._changed:
+                while self._idle and not self._judging:
+                    self._changed.wait()
+                job, self._pending = self._pending, None
+                self._planning = job is not None
+                self._dropped.clear()
+            if job is not None:
+                self._make_plans(*job)
+            elif not self._idle:
+                self._make_motion()
+            elif not self._closed:
+                self._judge()
 
     @property
     def _idle(self) -> bool:
@@ -285,11 +303,11 @@ class _Worker:
         except AppError as error:
             failed = error
         except Exception as fault:  # noqa: BLE001 - told in the window's thread
-            self._teller.fell.emit(fault)
+            self._teller.fell(fault)
             return
         finally:
             self._planning = False
-        self._teller.planned.emit(performance, number, failed)
+        self._teller.planned(performance, number, failed)
 
     def _make_motion(self) -> None:
         start_s, wishes = time.monotonic(), self._wishes
@@ -297,7 +315,7 @@ class _Worker:
             more = self._live.work(self._interrupted)
         except Exception as fault:  # noqa: BLE001 - told in the window's thread
             self._met = wishes
-            self._teller.fell.emit(fault)
+            self._teller.fell(fault)
             return
         now_s = time.monotonic()
         if not more:
@@ -306,7 +324,7 @@ class _Worker:
         self._tell_broken(now_s, not more)
         if now_s - self._told_s >= TELL_S or not more:
             self._told_s = now_s
-            self._teller.worked.emit(self._live.ready_share)
+            self._teller.worked(self._live.ready_share)
         if self._playing:
             time.sleep(REST_WHILE_PLAYING * (now_s - start_s))
 
@@ -316,7 +334,7 @@ class _Worker:
             self._judging = self._live.judge(lambda: not self._idle)
         except Exception as fault:  # noqa: BLE001 - told in the window's thread
             self._judging = False
-            self._teller.fell.emit(fault)
+            self._teller.fell(fault)
             return
         now_s = time.monotonic()
         self._tell_broken(now_s, not self._judging)
@@ -328,7 +346,7 @@ class _Worker:
         broken = self._live.broken
         if broken is not self._told_broken and (at_once or now_s - self._told_broken_s >= TELL_BROKEN_S):
             self._told_broken, self._told_broken_s = broken, now_s
-            self._teller.judged.emit(broken)
+            self._teller.judged(broken)
 
     def _interrupted(self) -> bool:
         return self._closed or self._pending is not None

@@ -1,15 +1,23 @@
-"""Slow work beside the window: in threads, with progress, stopped on request, its errors told."""
+"""Slow work beside the window: in threads, with progress, stopped on request, its errors told.
+
+A thread never lets go of anything last: what its work knew may be of the window, and an object of Qt that dies in a
+thread not its own takes the program with it. The window's thread waits for the thread's end before it lets go.
+"""
 
 from __future__ import annotations
 
 import threading
+import weakref
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any, TypeVar
 
-from PySide6.QtCore import QObject, Qt, Signal
+from PySide6.QtCore import QObject, Signal
+from shiboken6 import isValid
 
 from app.errors import AppError, Cancelled, Message
+from app.shell.calls import Ask, window_calls
 from widgets.common.tasks import Progress, StopWanted
 
 T = TypeVar("T")
@@ -29,11 +37,16 @@ class Task:
 
     name: Message
     key: str | None
+    work: Callable[[Progress, StopWanted], object]
     done: Callable[[Any], None]
     failed: Callable[[AppError], None] | None
+    ended: Callable[[], None] | None
+    runner: weakref.ref[ThreadTasks]
     share: float = 0.0
     stop: threading.Event = field(default_factory=threading.Event)
     thread: threading.Thread | None = None
+    result: object = None
+    error: BaseException | None = None
 
 
 class ThreadTasks(QObject):
@@ -52,12 +65,11 @@ class ThreadTasks(QObject):
     changed = Signal()
     failed = Signal(object)
     unexpected = Signal(object)
-    _ended = Signal(object, object, object)
 
     def __init__(self) -> None:
         super().__init__()
         self._running: list[Task] = []
-        self._ended.connect(self._end, Qt.ConnectionType.QueuedConnection)
+        self._ask = window_calls().ask
 
     @property
     def running(self) -> tuple[Task, ...]:
@@ -71,14 +83,15 @@ class ThreadTasks(QObject):
         done: Callable[[T], None],
         failed: Callable[[AppError], None] | None = None,
         key: str | None = None,
+        ended: Callable[[], None] | None = None,
     ) -> None:
         """Start work: see `Tasks.run`."""
         if key is not None:
             for other in self._running:
                 if other.key == key:
                     other.stop.set()
-        task = Task(name, key, done, failed)
-        thread = threading.Thread(target=self._work, args=(task, work), name=f"task {name.id}", daemon=True)
+        task = Task(name, key, work, done, failed, ended, weakref.ref(self))
+        thread = threading.Thread(target=_work, args=(task, self._ask), name=f"task {name.id}", daemon=True)
         task.thread = thread
         self._running.append(task)
         thread.start()
@@ -98,38 +111,55 @@ class ThreadTasks(QObject):
                 task.thread.join(wait_s / max(len(self._running), 1))
         self.changed.emit()
 
-    def _work(self, task: Task, work: Callable[[Progress, StopWanted], object]) -> None:
-        """In the thread."""
-
-        def progress(share: float) -> None:
-            task.share = min(max(share, 0.0), 1.0)
-
-        result: object = None
-        error: BaseException | None = None
-        try:
-            result = work(progress, task.stop.is_set)
-        except BaseException as problem:  # noqa: BLE001 - told in the window's thread
-            error = problem
-        try:
-            self._ended.emit(task, result, error)
-        except RuntimeError:
-            # The window has gone meanwhile: nobody is left to tell.
-            return
-
-    def _end(self, task: Task, result: object, error: BaseException | None) -> None:
-        """In the window's thread."""
+    def _end(self, task: Task) -> None:
         if task in self._running:
             self._running.remove(task)
         try:
-            if task.stop.is_set() or isinstance(error, Cancelled):
-                return
-            if error is None:
-                task.done(result)
-            elif not isinstance(error, AppError):
-                self.unexpected.emit(error)
-            elif task.failed is not None:
-                task.failed(error)
-            else:
-                self.failed.emit(error)
+            if task.ended is not None and _is_there(task.ended):
+                task.ended()
+            self._tell(task)
         finally:
             self.changed.emit()
+
+    def _tell(self, task: Task) -> None:
+        error = task.error
+        if task.stop.is_set() or isinstance(error, Cancelled):
+            return
+        if error is None:
+            if _is_there(task.done):
+                task.done(task.result)
+        elif not isinstance(error, AppError):
+            self.unexpected.emit(error)
+        elif task.failed is None:
+            self.failed.emit(error)
+        elif _is_there(task.failed):
+            task.failed(error)
+
+
+def _work(task: Task, ask: Ask) -> None:
+    """In the thread."""
+
+    def progress(share: float) -> None:
+        task.share = min(max(share, 0.0), 1.0)
+
+    try:
+        task.result = task.work(progress, task.stop.is_set)
+    except BaseException as problem:  # noqa: BLE001 - told in the window's thread
+        task.error = problem
+    finally:
+        ask(partial(_take_back, task))
+
+
+def _take_back(task: Task) -> None:
+    """In the window's thread: the thread has nothing left to do but to end."""
+    if task.thread is not None:
+        task.thread.join()
+    runner = task.runner()
+    if runner is not None and isValid(runner):
+        runner._end(task)
+
+
+def _is_there(callback: Callable[..., None]) -> bool:
+    """Whether who is to be told has not been closed meanwhile."""
+    told = getattr(callback, "__self__", None)
+    return not isinstance(told, QObject) or isValid(told)

@@ -25,16 +25,21 @@ class ImmediateTasks:
         done: Callable[[T], None],
         failed: Callable[[AppError], None] | None = None,
         key: str | None = None,
+        ended: Callable[[], None] | None = None,
     ) -> None:
         """Work now."""
         self.names.append(name)
+        over = ended or (lambda: None)
         try:
             result = work(lambda share: None, lambda: False)
         except Cancelled:
+            over()
             return
         except AppError as error:
             self.errors.append(error)
+            over()
             if failed is not None:
                 failed(error)
             return
+        over()
         done(result)

@@ -25,6 +25,7 @@ class Tasks(Protocol):
         done: Callable[[T], None],
         failed: Callable[[AppError], None] | None = None,
         key: str | None = None,
+        ended: Callable[[], None] | None = None,
     ) -> None:
         """Start work in a thread; ``done`` or ``failed`` follows in the window's thread.
 
@@ -40,5 +41,7 @@ class Tasks(Protocol):
             Gets an error a person can act on; without it the session shows it.
         key : str, optional
             Work with a key takes the place of work with the same key, which is stopped.
+        ended : callable, optional
+            Called in the window's thread when the work is over, however it went and before anything else is told.
         """
         ...

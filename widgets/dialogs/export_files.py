@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import threading
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
-from PySide6.QtCore import QEvent, QSize, Qt, QUrl, Signal
+from PySide6.QtCore import QEvent, QSize, Qt, QTimer, QUrl, Signal
 from PySide6.QtGui import QCloseEvent, QDesktopServices
 from PySide6.QtWidgets import (
     QCheckBox,
@@ -28,7 +29,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from app.errors import AppError, Cancelled, Message
+from app.errors import AppError, Message
 from app.export.report import Report
 from app.export.run import REPORT, Format, Request, export, file_names
 from app.performance.ensemble import Performance
@@ -39,6 +40,8 @@ from widgets.common.text import message_text
 from widgets.common.tokens import LEAST_TARGET_PX
 
 RATES = tuple(map(Fraction, ("24", "25", "30000/1001", "30", "48", "50", "60000/1001", "60", "120")))
+SHOW_MS = 50
+"""Progress is shown this often."""
 _WHOLE, _BARS, _SELECTION = "whole", "bars", "selection"
 
 
@@ -57,8 +60,6 @@ class ExportDialog(QDialog):
 
     exported = Signal(object)
     """The folder that files were written to."""
-    _told = Signal(float)
-    _stopped = Signal()
 
     def __init__(
         self, session: Session, folder: Path, source: str, creator: str, parent: QWidget | None = None
@@ -69,7 +70,8 @@ class ExportDialog(QDialog):
         self._session, self._source, self._creator = session, source, creator
         # What is exported is the piece as it is now, whatever is edited meanwhile.
         self._project = session.project
-        self._running = self._stop = False
+        self._running = False
+        self._stop = threading.Event()
 
         self._players = QListWidget()
         self._players.setObjectName("export_players")
@@ -135,8 +137,11 @@ class ExportDialog(QDialog):
         self._export.clicked.connect(self.start)
         self._show.clicked.connect(self._show_folder)
         self._close.clicked.connect(self._close_or_cancel)
-        self._stopped.connect(self._finish)
-        self._told.connect(lambda share: self._progress.setValue(round(1000 * share)))
+        self._share = [0.0]
+        """What is written of the whole, set by the thread."""
+        self._timer = QTimer(self)
+        self._timer.setInterval(SHOW_MS)
+        self._timer.timeout.connect(self._show_share)
 
         self._labels = {
             name: QLabel() for name in ("players", "files", "range", "preroll", "rate", "folder", "outcome")
@@ -242,7 +247,9 @@ class ExportDialog(QDialog):
         """Write the files, beside the window."""
         if self._running or not self._export.isEnabled():
             return
-        self._running, self._stop = True, False
+        self._running = True
+        # The thread gets what it needs, not the dialog.
+        self._stop, self._share = stop, written = threading.Event(), [0.0]
         self._progress.setValue(0)
         self._progress.show()
         self._show.hide()
@@ -253,18 +260,19 @@ class ExportDialog(QDialog):
         def work(progress: Progress, stop_wanted: StopWanted) -> Report:
             def told(share: float, label: str) -> None:
                 progress(share)
-                self._told.emit(share)
+                written[0] = share
 
-            try:
-                return export(request, message_text, lambda: self._stop or stop_wanted(), told)
-            except Cancelled:
-                self._stopped.emit()
-                raise
+            return export(request, message_text, lambda: stop.is_set() or stop_wanted(), told)
 
-        self._session.tasks.run(Message("work.export"), work, self._done, self._failed, key="export")
+        self._timer.start()
+        self._session.tasks.run(
+            Message("work.export"), work, self._done, self._failed, key="export", ended=self._finish
+        )
+
+    def _show_share(self) -> None:
+        self._progress.setValue(round(1000 * self._share[0]))
 
     def _done(self, report: Report) -> None:
-        self._finish()
         count = sum(len(player.files) for player in report.players) + 1
         self._files.setText(
             self.tr("Files written to {folder}: {count}").format(folder=self._folder.text(), count=count)
@@ -275,18 +283,18 @@ class ExportDialog(QDialog):
         self.exported.emit(Path(self._folder.text()))
 
     def _failed(self, error: AppError) -> None:
-        self._finish()
         self._files.setText(message_text(error.message))
 
     def _finish(self) -> None:
         self._running = False
+        self._timer.stop()
         self._progress.hide()
         self._enable(True)
         self.retranslate()
 
     def _close_or_cancel(self) -> None:
         if self._running:
-            self._stop = True
+            self._stop.set()
         else:
             self.reject()
 
@@ -385,7 +393,7 @@ class ExportDialog(QDialog):
 
     def closeEvent(self, event: QCloseEvent) -> None:
         if self._running:
-            self._stop = True
+            self._stop.set()
             event.ignore()
             return
         super().closeEvent(event)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import queue
+import threading
 from collections.abc import Callable
 from fractions import Fraction
 from pathlib import Path
@@ -65,7 +66,6 @@ class PlayblastDialog(QDialog):
 
     filmed = Signal(object)
     """The film's path."""
-    _ended = Signal()
 
     def __init__(
         self, session: Session, render: Render, sound: Sound, path: Path, parent: QWidget | None = None
@@ -76,7 +76,10 @@ class PlayblastDialog(QDialog):
         self._session, self._render, self._sound = session, render, sound
         self._performance = session.performance
         self._pictures: queue.Queue[Pictures] = queue.Queue(_AHEAD)
-        self._running = self._stop = False
+        self._running = False
+        self._stop = threading.Event()
+        self._trouble: AppError | None = None
+        """Why a picture could not be drawn."""
         self._span: FrameSpan | None = None
         self._drawn = 0
 
@@ -120,7 +123,6 @@ class PlayblastDialog(QDialog):
         self._start.clicked.connect(self.start)
         self._show.clicked.connect(self._show_folder)
         self._close.clicked.connect(self._close_or_cancel)
-        self._ended.connect(self._finish)
         self._file.textChanged.connect(self._show_state)
 
         # One picture in each turn of the event loop: the window stays alive.
@@ -153,9 +155,10 @@ class PlayblastDialog(QDialog):
             return
         self._performance = self._session.performance
         self._span = span = self._wanted_span()
-        self._running, self._stop, self._drawn = True, False, 0
-        pictures: queue.Queue[Pictures] = queue.Queue(_AHEAD)
-        self._pictures = pictures
+        self._running, self._drawn, self._trouble = True, 0, None
+        # The thread gets what it needs, not the dialog.
+        self._pictures = pictures = queue.Queue[Pictures](_AHEAD)
+        self._stop = stop = threading.Event()
         self._enable(False)
         self._show.hide()
         self._progress.setValue(0)
@@ -165,19 +168,18 @@ class PlayblastDialog(QDialog):
         with_sound, sound = self._with_sound.isChecked(), self._sound
 
         def work(progress: Progress, stop_wanted: StopWanted) -> Path:
-            try:
-                heard = sound(span.first_frame_s, span.end_s, _SOUND_RATE) if with_sound else None
-                with video_into(path, (size[0], size[1]), span.fps, heard, _SOUND_RATE) as film:
-                    for index in range(span.count):
-                        film.write(_next(pictures, lambda: self._stop or stop_wanted()))
-                        progress((index + 1) / span.count)
-                return path
-            finally:
-                self._ended.emit()
+            heard = sound(span.first_frame_s, span.end_s, _SOUND_RATE) if with_sound else None
+            with video_into(path, (size[0], size[1]), span.fps, heard, _SOUND_RATE) as film:
+                for index in range(span.count):
+                    film.write(_next(pictures, lambda: stop.is_set() or stop_wanted()))
+                    progress((index + 1) / span.count)
+            return path
 
         self.retranslate()
         self._timer.start()
-        self._session.tasks.run(Message("work.playblast"), work, self._done, self._failed, key="playblast")
+        self._session.tasks.run(
+            Message("work.playblast"), work, self._done, self._failed, key="playblast", ended=self._finish
+        )
 
     def _draw(self) -> None:
         """Draw the next picture, if the encoder has room for it."""
@@ -195,9 +197,9 @@ class PlayblastDialog(QDialog):
             picture = self._render(width, height, time_s, self._view.currentData())
         except AppError as error:
             # The encoder stops and takes back what it has written.
-            self._stop = True
+            self._stop.set()
             self._timer.stop()
-            self._failed(error)
+            self._trouble = error
             return
         self._pictures.put(picture)
         self._drawn += 1
@@ -218,6 +220,8 @@ class PlayblastDialog(QDialog):
         self._progress.hide()
         self._enable(True)
         self.retranslate()
+        if self._trouble is not None:
+            self._failed(self._trouble)
 
     def _wanted_span(self) -> FrameSpan:
         frame, fps = self._performance.time_frame, Fraction(self._rate.currentData())
@@ -237,7 +241,7 @@ class PlayblastDialog(QDialog):
 
     def _close_or_cancel(self) -> None:
         if self._running:
-            self._stop = True
+            self._stop.set()
         else:
             self.reject()
 
@@ -302,7 +306,7 @@ class PlayblastDialog(QDialog):
 
     def closeEvent(self, event: QCloseEvent) -> None:
         if self._running:
-            self._stop = True
+            self._stop.set()
             event.ignore()
             return
         super().closeEvent(event)

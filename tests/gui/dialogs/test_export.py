@@ -111,7 +111,8 @@ def test_a_folder_that_cannot_be_is_told_and_nothing_is_written(dialog: ExportDi
 
 
 def test_cancelled_it_leaves_nothing(qt_app: object, qtbot: QtBot, tmp_path: Path) -> None:
-    session = Session(quartet_project(), ThreadTasks())
+    tasks = ThreadTasks()
+    session = Session(quartet_project(), tasks)
     dialog = ExportDialog(session, tmp_path / "out", "quartet.mid", "Suisou test")
     dialog.show()
     start(dialog)
@@ -122,3 +123,5 @@ def test_cancelled_it_leaves_nothing(qt_app: object, qtbot: QtBot, tmp_path: Pat
     qtbot.waitUntil(button.isEnabled, timeout=30_000)
     assert dialog.isVisible()
     qtbot.waitUntil(lambda: not (tmp_path / "out").exists(), timeout=30_000)
+    tasks.cancel_all(5.0)
+    session.deleteLater()

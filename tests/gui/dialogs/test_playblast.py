@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +12,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QComboBox, QLabel, QPushButton
 from pytestqt.qtbot import QtBot
 
+from app.errors import AppError
 from app.shell.tasks import ThreadTasks
 from tests.gui.conftest import quartet_project
 from widgets.common.session import Session
@@ -19,14 +21,19 @@ from widgets.dialogs.playblast import PlayblastDialog
 
 
 @pytest.fixture
-def threaded(qt_app: object) -> Session:
-    session = Session(quartet_project(), ThreadTasks())
+def threaded(qt_app: object) -> Iterator[Session]:
+    tasks = ThreadTasks()
+    session = Session(quartet_project(), tasks)
     session.set_loop((2.0, 2.5))
-    return session
+    yield session
+    tasks.cancel_all(5.0)
+    session.deleteLater()
 
 
-def film(session: Session, path: Path, times: list[float]) -> PlayblastDialog:
+def film(session: Session, path: Path, times: list[float], fails_at_s: float = 1e9) -> PlayblastDialog:
     def render(width: int, height: int, time_s: float, view: View | None) -> np.ndarray:
+        if time_s > fails_at_s:
+            raise AppError("picture.no_gl", reason="of the test")
         times.append(time_s)
         return np.zeros((height, width, 4), np.uint8)
 
@@ -70,3 +77,14 @@ def test_cancelled_it_leaves_nothing(threaded: Session, qtbot: QtBot, tmp_path: 
     assert button is not None
     qtbot.waitUntil(button.isEnabled, timeout=20_000)
     qtbot.waitUntil(lambda: list(tmp_path.iterdir()) == [], timeout=20_000)
+
+
+def test_a_picture_that_cannot_be_drawn_ends_it_and_is_told(threaded: Session, qtbot: QtBot, tmp_path: Path) -> None:
+    dialog = film(threaded, tmp_path / "film.mp4", [], fails_at_s=2.2)
+    press(dialog, "playblast_start")
+    button, state = dialog.findChild(QPushButton, "playblast_start"), dialog.findChild(QLabel, "playblast_state")
+    assert button is not None
+    assert state is not None
+    qtbot.waitUntil(button.isEnabled, timeout=20_000)
+    assert "of the test" in state.text()
+    assert list(tmp_path.iterdir()) == []

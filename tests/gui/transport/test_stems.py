@@ -32,6 +32,7 @@ class HeldTasks:
         done: Callable[..., None],
         failed: Callable[[AppError], None] | None = None,
         key: str | None = None,
+        ended: Callable[[], None] | None = None,
     ) -> None:
         self.held.append((work, done))
 

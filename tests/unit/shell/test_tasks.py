@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import gc
 import threading
 
 import pytest
-from PySide6.QtCore import QThread
+from PySide6.QtCore import QObject, QThread
 from pytestqt.qtbot import QtBot
+from shiboken6 import delete
 
 from app.errors import AppError, Cancelled, Message
 from app.shell.tasks import ThreadTasks
@@ -124,3 +126,78 @@ def test_ending_waits_for_the_workers(tasks: ThreadTasks, qtbot: QtBot) -> None:
     assert thread is not None
     tasks.cancel_all(2.0)
     assert not thread.is_alive()
+
+
+def test_what_the_work_knew_dies_in_the_window_s_thread_alone(qtbot: QtBot) -> None:
+    """Whoever forgets the tasks, and however late the thread is: what its work held is let go of here."""
+    died: list[int] = []
+
+    class Held:
+        def __del__(self) -> None:
+            died.append(threading.get_ident())
+
+    def begin(end: threading.Event, outcome: Exception | None) -> None:
+        held, tasks = Held(), ThreadTasks()
+        tasks.destroyed.connect(lambda: died.append(threading.get_ident()))
+
+        def work(progress: object, stop_wanted: object) -> Held:
+            end.wait(5)
+            if outcome is not None:
+                raise outcome
+            return held
+
+        tasks.run(NAME, work, lambda result, held=held: None)  # type: ignore[misc]
+
+    ends = [threading.Event() for _ in range(20)]
+    for number, end in enumerate(ends):
+        begin(end, (None, KeyError(number), Cancelled("work.stopped"))[number % 3])
+    for end in ends:
+        end.set()
+
+    def all_died() -> bool:
+        gc.collect()
+        return len(died) == 2 * len(ends)
+
+    qtbot.waitUntil(all_died)
+    assert set(died) == {threading.get_ident()}
+
+
+def test_whoever_was_closed_meanwhile_is_told_nothing(tasks: ThreadTasks, qtbot: QtBot) -> None:
+    faults: list[BaseException] = []
+    tasks.unexpected.connect(faults.append)
+
+    class Panel(QObject):
+        def take(self, result: object) -> None:
+            faults.append(AssertionError("told"))
+
+        def ended(self) -> None:
+            faults.append(AssertionError("told"))
+
+    panel, end = Panel(), threading.Event()
+    tasks.run(NAME, lambda progress, stop_wanted: end.wait(5), panel.take, ended=panel.ended)
+    delete(panel)
+    end.set()
+    qtbot.waitUntil(lambda: not tasks.running)
+    assert faults == []
+
+
+@pytest.mark.parametrize("outcome", [None, AppError("midi.empty", file="a"), Cancelled("work.stopped"), KeyError(1)])
+def test_the_end_is_told_first_whatever_it_was(tasks: ThreadTasks, qtbot: QtBot, outcome: BaseException | None) -> None:
+    told: list[str] = []
+    tasks.unexpected.connect(lambda fault: told.append("fault"))
+
+    def work(progress: object, stop_wanted: object) -> None:
+        if outcome is not None:
+            raise outcome
+
+    tasks.run(
+        NAME,
+        work,
+        lambda nothing: told.append("done"),
+        lambda error: told.append("failed"),
+        None,
+        lambda: told.append("ended"),
+    )
+    qtbot.waitUntil(lambda: not tasks.running)
+    expected = {type(None): ["done"], AppError: ["failed"], Cancelled: [], KeyError: ["fault"]}[type(outcome)]
+    assert told == ["ended", *expected]

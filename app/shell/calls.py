@@ -1,0 +1,86 @@
+"""What threads want done in the window's thread.
+
+A thread puts a call into a queue and wakes the window by a byte; it touches no object of Qt, so that none can vanish
+under it, and none dies in it.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import socket
+import threading
+import weakref
+from collections.abc import Callable
+from queue import Empty, SimpleQueue
+from typing import Final
+
+from PySide6.QtCore import QCoreApplication, QObject, QSocketNotifier
+from shiboken6 import isValid
+
+Call = Callable[[], None]
+Ask = Callable[[Call], None]
+"""Have this called in the window's thread, after what was asked for before; may be called in any thread."""
+
+
+class _Bell:
+    """Wakes the window from any thread, as long as there is one."""
+
+    def __init__(self) -> None:
+        self.near, self._far = socket.socketpair()
+        self.near.setblocking(False)
+        self._far.setblocking(False)
+        self._lock = threading.Lock()
+
+    def ring(self) -> None:
+        with self._lock:
+            # A full buffer wakes as well.
+            if self._far.fileno() >= 0:
+                with contextlib.suppress(BlockingIOError):
+                    self._far.send(b"\0")
+
+    def close(self) -> None:
+        with self._lock:
+            self._far.close()
+            self.near.close()
+
+
+class Calls(QObject):
+    """Makes calls in the window's thread, one in each turn of its event loop. Made in that thread."""
+
+    def __init__(self, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        asked: SimpleQueue[Call] = SimpleQueue()
+        bell = _Bell()
+
+        def ask(call: Call) -> None:
+            asked.put(call)
+            bell.ring()
+
+        self.ask: Final[Ask] = ask
+        self._asked, self._bell = asked, bell
+        self._notifier = QSocketNotifier(bell.near.fileno(), QSocketNotifier.Type.Read, self)
+        self._notifier.activated.connect(self._make)
+        weakref.finalize(self, bell.close)
+
+    def _make(self) -> None:
+        with contextlib.suppress(BlockingIOError):
+            self._bell.near.recv(4096)
+        try:
+            call = self._asked.get_nowait()
+        except Empty:
+            return
+        if not self._asked.empty():
+            # In a turn of its own: this call may fail, or open a dialog and wait in it.
+            self._bell.ring()
+        call()
+
+
+_calls: Calls | None = None
+
+
+def window_calls() -> Calls:
+    """The program's; made where it is first wanted, which is the window's thread."""
+    global _calls
+    if _calls is None or not isValid(_calls):
+        _calls = Calls(QCoreApplication.instance())
+    return _calls
