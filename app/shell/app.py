@@ -139,6 +139,7 @@ def run(start: Start) -> int:
     if start.screenshot is not None:
         return picture(start, start.screenshot)
     application = make_application()
+    garbage = Garbage()
     settings = Settings(settings_path())
     trouble: AppError | None = None
     autosave: Autosave | None = None
@@ -153,7 +154,6 @@ def run(start: Start) -> int:
     faults.install()
     if isinstance(program.tasks, ThreadTasks):
         program.tasks.unexpected.connect(faults.tell)
-    garbage = Garbage()
     _end_on_signal(application)
     if start.theme or start.language:
         _wish(program, start)
@@ -166,7 +166,7 @@ def run(start: Start) -> int:
         return application.exec()
     finally:
         program.end()
-        garbage.close()
+        garbage.stop()
         settings.sync()
 
 
@@ -194,6 +194,7 @@ def _end_on_signal(application: QApplication) -> None:
 def picture(start: Start, target: Path) -> int:
     """Draw the real window once, whatever the person's settings are, write it to a file, and end."""
     application = make_application()
+    garbage = Garbage()
     with tempfile.TemporaryDirectory() as folder:
         settings = Settings(Path(folder) / "editor.ini")
         settings.language = start.language or "en"
@@ -235,6 +236,7 @@ def picture(start: Start, target: Path) -> int:
                 raise AppError("file.cannot_write", file=str(target), reason=_why_not(target))
         finally:
             program.end()
+            garbage.stop()
             window.hide()
     return 0
 

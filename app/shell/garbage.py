@@ -13,7 +13,10 @@ PERIOD_MS = 500
 
 
 class Garbage(QObject):
-    """Collects when Python would have; takes the matter out of its hands for as long as it lives."""
+    """Collects when Python would have; takes the matter out of its hands for good.
+
+    It is made before the first thread of the program, and what is left after `stop` goes with the process.
+    """
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
@@ -30,7 +33,6 @@ class Garbage(QObject):
                 gc.collect(generation)
                 return
 
-    def close(self) -> None:
-        """Give the matter back."""
+    def stop(self) -> None:
+        """Collect no more; threads that are still ending are not to do so either."""
         self._timer.stop()
-        gc.enable()
