@@ -86,16 +86,25 @@ class Synthesiser:
             piece = Piece(phrase.start, samples)
         return piece
 
-    def forget(self, used: Iterable[Phrase]) -> None:
-        """Let go of the oldest sounds that nobody uses, until what is to be rendered has room."""
+    def forget(self, used: Iterable[Phrase]) -> frozenset[bytes]:
+        """Let go of the oldest sounds that nobody uses, until what is to be rendered has room.
+
+        Returns
+        -------
+        frozenset of bytes
+            `Phrase.midi` of what is gone.
+        """
         lengths = {phrase.midi: phrase.end - phrase.start for phrase in used}
         # Samples of two bytes.
         coming = sum(2 * length for midi, length in lengths.items() if midi not in self._sounds)
         # A copy: another worker that is being stopped may still add a sound.
+        gone = set()
         for midi in [midi for midi in list(self._sounds) if midi not in lengths]:
             if self._bytes + coming <= _MOST_CACHED_BYTES:
                 break
             self._bytes -= self._sounds.pop(midi).nbytes
+            gone.add(midi)
+        return frozenset(gone)
 
 
 def phrases(part: Part, tempo_map: TempoMap, program: int) -> tuple[Phrase, ...]:

@@ -64,6 +64,8 @@ class Sound(QObject):
         self._unplaced = ""
         """Path of a recording that was just added: its place is to be looked for."""
         self._click: tuple[tuple[object, ...], Track] | None = None
+        self._chosen: tuple[object, ...] = ()
+        """Source and metronome of the mix that was made last."""
         self._own_move = False
         self._told_silent = False
         self._frame_timer = QTimer(self, interval=_FRAME_MS, timerType=Qt.TimerType.PreciseTimer)
@@ -76,7 +78,6 @@ class Sound(QObject):
         self.playback.playing_changed.connect(self._playing_changed)
         self.playback.silent_changed.connect(self._silent_changed)
         self._listening_changed()
-        self._take(session.project)
 
     @property
     def recording(self) -> Recording | None:
@@ -140,7 +141,10 @@ class Sound(QObject):
         listening = self._session.listening
         self.playback.set_speed(listening.speed)
         self.playback.set_volume(listening.volume)
-        self._take(self._session.project)
+        chosen = (listening.source, listening.click)
+        if chosen != self._chosen:
+            self._chosen = chosen
+            self._take(self._session.project)
 
     def _take(self, project: Project) -> None:
         """Let this project be heard."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from math import inf
@@ -46,9 +47,10 @@ class _Job:
     project: Project
     made: dict[str, _Made] = field(default_factory=dict)
     """Every player's phrases, once they are cut; the same object until then."""
-    wanted: tuple[Phrase, ...] = ()
     window_s: tuple[float, float] = (-inf, inf)
     """What is rendered when it has ended."""
+    share: float = 0.0
+    """0..1 of it that is."""
     is_cut: bool = False
     has_ended: bool = False
 
@@ -76,8 +78,10 @@ class Stems(QObject):
         self._made: dict[str, _Made] = {}
         self._job: _Job | None = None
         self._wanted: tuple[Project, float] | None = None
-        self._tracks: dict[str, tuple[tuple[_Made, tuple[float, float]] | None, Track]] = {}
-        """By player, with what a whole one was made from; None where phrases are missing."""
+        self._tracks: dict[str, tuple[_Made, tuple[float, float], Track]] = {}
+        """By player, with what it was made from."""
+        self._stale: deque[str] = deque()
+        """Players whose track lacks what was rendered, or keeps what was forgotten; workers add, the window takes."""
         self.ready = 1.0
         """0..1: how much of the project that is followed is rendered."""
         self._settle_timer = QTimer(self, interval=_SETTLE_MS, singleShot=True)
@@ -123,14 +127,12 @@ class Stems(QObject):
             made = self._made.get(player_id)
             if made is None:
                 continue
-            key, track = self._tracks.get(player_id, (None, Track(())))
-            if key != (made, gains):
-                pieces = [self._synthesiser.ready(phrase) for phrase in made.phrases]
-                ready = [piece for piece in pieces if piece is not None]
-                track = Track(ready, *gains)
-                key = (made, gains) if len(ready) == len(pieces) else None
-            kept[player_id] = (key, track)
-            tracks.append(track)
+            known = self._tracks.get(player_id)
+            if known is None or known[0] is not made or known[1] != gains:
+                pieces = (self._synthesiser.ready(phrase) for phrase in made.phrases)
+                known = (made, gains, Track((piece for piece in pieces if piece is not None), *gains))
+            kept[player_id] = known
+            tracks.append(known[2])
         self._tracks = kept
         return tracks
 
@@ -139,7 +141,7 @@ class Stems(QObject):
         if self._wanted is None:
             return
         project, from_s = self._wanted
-        synthesiser, before = self._synthesiser, self._made
+        synthesiser, before, stale = self._synthesiser, self._made, self._stale
         job = self._job = _Job(project)
 
         def work(progress: Progress, stop_wanted: StopWanted) -> None:
@@ -149,16 +151,20 @@ class Stems(QObject):
                     made[player.id] = _made(project, player, before.get(player.id))
                     if stop_wanted():
                         raise Cancelled("work.stopped")
-                everything = [phrase for one in made.values() for phrase in one.phrases]
-                job.wanted, job.window_s = _next_heard(everything, from_s)
+                everything = [(player_id, phrase) for player_id, one in made.items() for phrase in one.phrases]
+                wanted, job.window_s = _next_heard(everything, from_s)
+                gone = synthesiser.forget(phrase for _, phrase in wanted)
+                stale.extend({player_id for player_id, phrase in everything if phrase.midi in gone} if gone else ())
+                missing = [item for item in wanted if synthesiser.ready(item[1]) is None]
                 job.made, job.is_cut = made, True
-                synthesiser.forget(job.wanted)
-                missing = [phrase for phrase in job.wanted if synthesiser.ready(phrase) is None]
-                for index, phrase in enumerate(missing):
+                for index, (player_id, phrase) in enumerate(missing):
                     if stop_wanted():
                         raise Cancelled("work.stopped")
                     synthesiser.render(phrase)
+                    stale.append(player_id)
+                    job.share = (len(wanted) - len(missing) + index + 1) / len(wanted)
                     progress((index + 1) / len(missing))
+                job.share = 1.0
             finally:
                 job.has_ended = True
 
@@ -174,18 +180,21 @@ class Stems(QObject):
         ended = job.has_ended
         if job.is_cut:
             self._made = job.made
-        ready = sum(self._synthesiser.ready(phrase) is not None for phrase in job.wanted)
-        self.ready = ready / len(job.wanted) if job.wanted else float(ended)
+        while self._stale:
+            self._tracks.pop(self._stale.popleft(), None)
+        self.ready = job.share
         if ended:
             self._look_timer.stop()
         self.changed.emit()
 
 
-def _next_heard(phrases: Sequence[Phrase], from_s: float) -> tuple[tuple[Phrase, ...], tuple[float, float]]:
-    """As many phrases as there is room for, what is heard next first, and the seconds that they cover."""
-    ordered = sorted(phrases, key=lambda phrase: (phrase.end < from_s * RATE_HZ, phrase.start))
+def _next_heard(
+    phrases: Sequence[tuple[str, Phrase]], from_s: float
+) -> tuple[tuple[tuple[str, Phrase], ...], tuple[float, float]]:
+    """As many players' phrases as there is room for, what is heard next first, and the seconds that they cover."""
+    ordered = sorted(phrases, key=lambda item: (item[1].end < from_s * RATE_HZ, item[1].start))
     taken = 0
-    for index, phrase in enumerate(ordered):
+    for index, (_, phrase) in enumerate(ordered):
         # Samples of two bytes.
         taken += 2 * (phrase.end - phrase.start)
         if taken > _MOST_BYTES:
