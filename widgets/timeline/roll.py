@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import sys
+
 import numpy as np
 import numpy.typing as npt
 from PySide6.QtCore import QEvent, QLineF, QRectF, Qt, Signal
@@ -25,7 +27,7 @@ from widgets.timeline.keyboard import KEYBOARD_PX, Keyboard
 from widgets.timeline.lane import GUTTER_PX, Lane, LaneItem, LaneMouse
 from widgets.timeline.lines import beat_of_tick
 from widgets.timeline.note_table import Flags, Floats, NoteTable
-from widgets.timeline.roll_gestures import Draw, Erase, Gesture, LassoNotes, Move, Resize, Velocity
+from widgets.timeline.roll_gestures import Copy, Draw, Erase, Gesture, LassoNotes, Move, Resize, Velocity
 from widgets.timeline.roll_items import Hint, Labels, Lasso, Notes, Rows
 
 Integers = npt.NDArray[np.int64]
@@ -302,6 +304,8 @@ class PianoRoll(Lane):
     def _take_hold(self, note: Note, mouse: LaneMouse) -> Gesture | None:
         self._bring_forward(note)
         selected = self.session.selection.notes
+        if _copies(mouse):
+            return Copy(self, mouse, note)
         if mouse.ctrl and not mouse.alt:
             self.session.select(Selection(selected ^ {note.id}))
             return None
@@ -353,12 +357,14 @@ class PianoRoll(Lane):
         gesture, self._gesture = self._gesture, None
         if gesture is not None:
             gesture.release(mouse)
+        self.set_tool(self._tool)
         QToolTip.hideText()
 
     def cancel(self) -> None:
         gesture, self._gesture = self._gesture, None
         if gesture is not None:
             gesture.cancel()
+        self.set_tool(self._tool)
         QToolTip.hideText()
 
     def double_click(self, mouse: LaneMouse) -> None:
@@ -512,3 +518,8 @@ class PianoRoll(Lane):
         if event.type() == QEvent.Type.FontChange and hasattr(self, "labels"):
             self.labels.forget_fonts()
         super().changeEvent(event)
+
+
+def _copies(mouse: LaneMouse) -> bool:
+    """Whether a drag leaves the notes and takes copies along: Ctrl, on macOS Option, as in the file manager there."""
+    return mouse.alt and not mouse.ctrl if sys.platform == "darwin" else mouse.ctrl and not mouse.alt

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QPointF, QRectF
+from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtWidgets import QApplication
 
 from app.errors import AppError, Message
@@ -91,21 +91,31 @@ class Move(Gesture):
         self._began = self._began or self.moved(mouse)
         if not self._began:
             return
+        self._place(*notes.reach_of_move(self.base, self._ids, *self._distance(mouse)))
+
+    def _distance(self, mouse: LaneMouse) -> tuple[int, int]:
+        """How far the mouse carries the notes: ticks and semitones."""
         by_tick = self._snapped(mouse)
         by_pitch = int(mouse.value // 1) - int(self.pressed.value // 1)
         if mouse.shift:
             across = abs(mouse.x_px - self.pressed.x_px) >= abs(mouse.y_px - self.pressed.y_px)
-            by_tick, by_pitch = (by_tick, 0) if across else (0, by_pitch)
+            return (by_tick, 0) if across else (0, by_pitch)
+        return by_tick, by_pitch
 
-        def moved(project: Project) -> Project:
-            return notes.move(project, self._ids, *notes.reach_of_move(project, self._ids, by_tick, by_pitch))
-
-        self.edit(Message("edit.move_notes", {"count": len(self._ids)}), moved)
+    def _place(self, by_tick: int, by_pitch: int) -> None:
+        self.edit(
+            Message("edit.move_notes", {"count": len(self._ids)}),
+            lambda project: notes.move(project, self._ids, by_tick, by_pitch),
+        )
         self.roll.show_moved(self._note.id)
+
+    def _free(self, mouse: LaneMouse) -> bool:
+        """Whether the grid is suspended."""
+        return mouse.alt
 
     def _snapped(self, mouse: LaneMouse) -> int:
         target = self._note.onset_tick + mouse.tick - self.pressed.tick
-        if mouse.alt:
+        if self._free(mouse):
             return round(target) - self._note.onset_tick
         # A hand that only transposes must not pull a note onto the grid.
         if abs(mouse.x_px - self.pressed.x_px) < QApplication.startDragDistance() / 2:
@@ -114,6 +124,44 @@ class Move(Gesture):
 
     def release(self, mouse: LaneMouse) -> None:
         if not self._began and self._narrow:
+            self.session.select(Selection(frozenset({self._note.id})))
+        super().release(mouse)
+
+
+class Copy(Move):
+    """Drag copies of notes away from them. A press that is none takes its note into the selection or out of it."""
+
+    def __init__(self, roll: PianoRoll, mouse: LaneMouse, note: Note) -> None:
+        super().__init__(roll, mouse, note, narrow=False)
+        if note.id not in self._ids:
+            self._ids = frozenset({note.id})
+        self._key_is_alt = mouse.alt
+
+    def _free(self, mouse: LaneMouse) -> bool:
+        # Where the key that copies is the one that suspends the grid, the copies keep to it.
+        return mouse.alt and not self._key_is_alt
+
+    def _place(self, by_tick: int, by_pitch: int) -> None:
+        self.roll.plot.setCursor(Qt.CursorShape.DragCopyCursor)
+        copies: tuple[str, ...] = ()
+
+        def copied(project: Project) -> Project:
+            nonlocal copies
+            if not by_tick and not by_pitch:
+                # On its original a copy would only be in its way.
+                return project
+            project, copies = notes.duplicate(project, self._ids, by_tick, by_pitch)
+            return project
+
+        if self.edit(Message("edit.duplicate_notes", {"count": len(self._ids)}), copied):
+            self.session.select(Selection(frozenset(copies or self._ids)))
+            if copies:
+                self.roll.show_moved(copies[0])
+
+    def release(self, mouse: LaneMouse) -> None:
+        if not self._began and not self._key_is_alt:
+            self.session.select(Selection(self._selected.notes ^ {self._note.id}))
+        elif not self._began:
             self.session.select(Selection(frozenset({self._note.id})))
         super().release(mouse)
 

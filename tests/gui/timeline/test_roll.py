@@ -429,3 +429,67 @@ def test_layout_is_remembered(stage: Stage) -> None:
     assert panel.save_state() == state
     panel.restore_state("nonsense")
     assert panel.save_state() == state
+
+
+# Copying by drag
+
+
+def test_ctrl_and_a_drag_copy_what_is_selected_in_one_step(stage: Stage) -> None:
+    stage.session.select(Selection(frozenset({"1:0", "1:1"})))
+    before = stage.session.project
+    x, y = stage.middle("1:1")
+    to = stage.middle("1:5")[0], stage.place(0, 64)[1]
+    hand = stage.hand
+    hand.press((x, y), keys=CTRL)
+    hand.move(((x + to[0]) / 2, y), CTRL)
+    assert stage.roll.plot.cursor().shape() is Qt.CursorShape.DragCopyCursor
+    hand.move(to, CTRL)
+    hand.release(to, CTRL)
+    assert stage.roll.plot.cursor().shape() is Qt.CursorShape.ArrowCursor
+    assert stage.steps == ["edit.duplicate_notes"]
+    assert stage.selected == {"n:1", "n:2"}
+    assert [(stage.note(id).onset_tick, stage.note(id).pitch) for id in ("n:1", "n:2")] == [
+        (4 * TPQ, 62),
+        (5 * TPQ, 64),
+    ]
+    assert (stage.note("1:0").onset_tick, stage.note("1:1").onset_tick) == (0, TPQ)
+    stage.session.document.undo()
+    assert stage.session.project is before
+
+
+def test_a_copy_is_of_the_note_under_the_hand_where_that_is_not_selected(stage: Stage) -> None:
+    stage.session.select(Selection(frozenset({"1:0"})))
+    stage.hand.drag(stage.middle("1:2"), (stage.middle("1:3")[0], stage.middle("1:2")[1]), CTRL)
+    assert stage.selected == {"n:1"}
+    assert (stage.note("n:1").onset_tick, stage.note("n:1").pitch) == (3 * TPQ, 64)
+
+
+def test_escape_takes_copies_back_and_a_copy_on_its_original_is_none(stage: Stage) -> None:
+    stage.session.select(Selection(frozenset({"1:0"})))
+    before = stage.session.project
+    x, y = stage.middle("1:0")
+    hand = stage.hand
+    hand.press((x, y), keys=CTRL)
+    hand.move(stage.middle("1:4"), CTRL)
+    assert stage.session.project is not before
+    press_key(stage, Qt.Key.Key_Escape, CTRL)
+    assert stage.session.project is before
+    assert stage.selected == {"1:0"}
+    hand.release(stage.middle("1:4"), CTRL)
+    hand.press((x, y), keys=CTRL)
+    hand.move(stage.middle("1:4"), CTRL)
+    hand.move((x, y), CTRL)
+    hand.release((x, y), CTRL)
+    assert stage.session.project == before
+    assert stage.steps == []
+
+
+def test_on_macos_option_copies_and_keeps_to_the_grid(stage: Stage, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("sys.platform", "darwin")
+    x, y = stage.middle("1:2")
+    stage.hand.drag((x, y), (stage.middle("1:3")[0] + 2, y), ALT)
+    assert stage.note("n:1").onset_tick == 3 * TPQ
+    stage.hand.click(stage.middle("1:4"), ALT)
+    assert stage.selected == {"1:4"}
+    stage.hand.click(stage.middle("1:5"), CTRL)
+    assert stage.selected == {"1:4", "1:5"}
