@@ -71,7 +71,8 @@ def _materials(
 ) -> dict[str, Material]:
     return {
         "skin": Material(skin, 0.55),
-        "lips": Material(lips, 0.4),
+        "lips": Material(lips, 0.45),
+        "lip_edge": Material(tuple(0.5 * (one + other) for one, other in zip(skin, lips, strict=True)), 0.5),
         "nails": Material((skin[0] * 1.02, skin[1] * 0.9, skin[2] * 0.88), 0.3),
         "mouth": Material((0.25, 0.05, 0.05), 0.5),
         "eye_white": Material((0.78, 0.76, 0.73), 0.15),
@@ -113,7 +114,7 @@ CHARACTERS = (
             HANDS_AS_MEASURED,
             1.68,
         ),
-        _materials((0.61, 0.36, 0.25), (0.47, 0.17, 0.15), (0.035, 0.016, 0.008)),
+        _materials((0.61, 0.36, 0.25), (0.51, 0.225, 0.18), (0.035, 0.016, 0.008)),
         brow_thickness=0.7,
         hair=bun_hair,
     ),
@@ -136,7 +137,7 @@ CHARACTERS = (
             HANDS_AS_MEASURED,
             1.80,
         ),
-        _materials((0.53, 0.30, 0.20), (0.40, 0.17, 0.14), (0.018, 0.010, 0.006)),
+        _materials((0.53, 0.30, 0.20), (0.43, 0.205, 0.155), (0.018, 0.010, 0.006)),
         brow_thickness=1.1,
         hair=short_hair,
     ),

@@ -43,15 +43,19 @@ def _mask_at(mask: np.ndarray, uvs: np.ndarray) -> np.ndarray:
 
 
 def _by_material(whole: Surface, source: Source) -> Surface:
-    """Skin, lips, nails and the inside of the mouth, by the masks that come with the base mesh."""
+    """Skin, lips and their edge, nails and the inside of the mouth, by the masks that come with the base mesh."""
     triangles = whole.triangles["skin"]
     centres = whole.uvs[triangles].mean(axis=1)
-    lips = _mask_at(source.masks["lips"], centres) > 0.5
-    nails = (_mask_at(source.masks["fingernails"], centres) > 0.5) & ~lips
-    mouth = (_mask_at(source.masks["inside-mouth"], centres) > 0.5) & ~lips & ~nails
+    # The mask fades over a triangle or two: a colour between skin and lips there keeps the edge from looking cut out.
+    vermilion = _mask_at(source.masks["lips"], centres)
+    lips = vermilion > 0.5
+    edge = (vermilion > 0.05) & ~lips
+    nails = (_mask_at(source.masks["fingernails"], centres) > 0.5) & ~lips & ~edge
+    mouth = (_mask_at(source.masks["inside-mouth"], centres) > 0.5) & ~lips & ~edge & ~nails
     parts = {
-        "skin": triangles[~lips & ~nails & ~mouth],
+        "skin": triangles[~lips & ~edge & ~nails & ~mouth],
         "lips": triangles[lips],
+        "lip_edge": triangles[edge],
         "nails": triangles[nails],
         "mouth": triangles[mouth],
     }
