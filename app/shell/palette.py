@@ -9,6 +9,7 @@ from PySide6.QtGui import QColor, QKeyEvent, QKeySequence, QPainter, QPalette, Q
 from PySide6.QtWidgets import (
     QApplication,
     QFrame,
+    QLabel,
     QLineEdit,
     QListView,
     QStyle,
@@ -58,11 +59,16 @@ class Palette(QFrame):
         self.list.setFrameShape(QFrame.Shape.NoFrame)
         self.list.setMouseTracking(True)
         self.list.clicked.connect(self._run)
+        self.nothing = QLabel()
+        self.nothing.setObjectName("palette_nothing")
+        self.nothing.setFixedHeight(ROW_PX)
+        self.nothing.setIndent(8)
         column = QVBoxLayout(self)
         column.setContentsMargins(6, 6, 6, 6)
         column.setSpacing(6)
         column.addWidget(self.field)
         column.addWidget(self.list)
+        column.addWidget(self.nothing)
         self.retranslate()
 
     def retranslate(self) -> None:
@@ -70,6 +76,7 @@ class Palette(QFrame):
         self.field.setPlaceholderText(self.tr("What do you want to do?"))
         self.field.setAccessibleName(self.tr("Search commands"))
         self.list.setAccessibleName(self.tr("Commands"))
+        self.nothing.setText(self.tr("No command is called that."))
 
     def open_at(self, corner: QPoint) -> None:
         """Show it with its top right corner here (of the screen)."""
@@ -97,8 +104,11 @@ class Palette(QFrame):
             item.setIcon(action.icon())
             item.setEnabled(action.isEnabled())
             self.model.appendRow(item)
-        rows = max(1, min(self.model.rowCount(), MOST_ROWS))
+        rows = min(self.model.rowCount(), MOST_ROWS)
         self.list.setFixedHeight(rows * ROW_PX + 4)
+        self.list.setVisible(rows > 0)
+        self.nothing.setVisible(rows == 0)
+        self.nothing.setStyleSheet(f"color: {self._session.tokens.text_dim};")
         self.setFixedWidth(WIDTH_PX)
         self.adjustSize()
         if self.model.rowCount():

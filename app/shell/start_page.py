@@ -16,6 +16,8 @@ from widgets.common.icons import icon
 from widgets.common.session import Session
 
 WIDTH_PX = 860
+RECENT_PX, LEAST_FOLDER_PX = 370, 90
+"""Room for a recent file's name with its folder, and what the folder has of it at least."""
 
 
 class StartPage(QScrollArea):
@@ -177,9 +179,10 @@ class StartPage(QScrollArea):
         there = path.is_file()
         button = _row_button("recent_file")
         metrics = QFontMetrics(button.font())
-        folder = metrics.elidedText(str(path.parent), Qt.TextElideMode.ElideMiddle, 240)
-        where = folder if there else self.tr("not found")
-        button.setText(f"  {path.name}    {where}".replace("&", "&&"))
+        name = metrics.elidedText(path.name, Qt.TextElideMode.ElideMiddle, RECENT_PX - LEAST_FOLDER_PX)
+        room = RECENT_PX - metrics.horizontalAdvance(name)
+        where = metrics.elidedText(str(path.parent), Qt.TextElideMode.ElideMiddle, room)
+        button.setText(f"  {name}    {where if there else self.tr('not found')}".replace("&", "&&"))
         button.setIcon(icon("piece", tokens))
         button.setToolTip(str(path))
         button.setEnabled(there)

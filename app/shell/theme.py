@@ -232,7 +232,7 @@ QAbstractItemView {{ background: {t.sunken}; alternate-background-color: {t.surf
   selection-background-color: {t.accent}; selection-color: {t.accent_text}; }}
 QHeaderView::section {{ background: {t.surface}; color: {t.text_dim}; border: none; border-bottom: 1px solid {t.line};
   padding: 4px 8px; }}
-QTreeView::item, QListView::item, QTableView::item {{ min-height: {LEAST_TARGET_PX - 2}px; }}
+QTreeView::item, QListView::item, QTableView::item {{ min-height: {LEAST_TARGET_PX}px; }}
 QScrollArea, QScrollArea > QWidget > QWidget {{ background: transparent; border: none; }}
 QScrollBar:vertical {{ background: transparent; width: 12px; margin: 0; }}
 QScrollBar:horizontal {{ background: transparent; height: 12px; margin: 0; }}

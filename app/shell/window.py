@@ -198,7 +198,11 @@ class Window(QMainWindow):
         """Every panel back to its place."""
         self.set_full_screen(False)
         if self._files.is_open:
+            held = self.focusWidget()
             self._arrange()
+            # Panels that are put elsewhere lose the keys.
+            if held is not None:
+                held.setFocus(Qt.FocusReason.OtherFocusReason)
 
     def _show_page(self) -> None:
         """Panels where a project is open, else the start page alone."""

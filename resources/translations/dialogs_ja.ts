@@ -69,11 +69,11 @@
     </message>
     <message>
         <source>FBX (characters and instruments)</source>
-        <translation>FBX(キャラクターと楽器)</translation>
+        <translation>FBX（キャラクターと楽器）</translation>
     </message>
     <message>
         <source>BVH (body motion)</source>
-        <translation>BVH(体の動き)</translation>
+        <translation>BVH（体の動き）</translation>
     </message>
     <message>
         <source> beats</source>
@@ -116,7 +116,7 @@
     </message>
     <message>
         <source>{title} · {minutes}:{seconds:02d} · ♩= {tempo:g} · {metre}</source>
-        <translation type="unfinished"></translation>
+        <translation>{title} · {minutes}:{seconds:02d} · ♩= {tempo:g} · {metre}</translation>
     </message>
     <message>
         <source>Play</source>

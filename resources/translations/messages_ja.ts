@@ -581,7 +581,7 @@
         </message>
         <message>
             <source>{label} is out of this player's reach: the hand stays {gap_mm} mm away; take another fingering, or a character with longer arms</source>
-            <translation>{label} はこの奏者の手が届きません(あと {gap_mm} mm)。別の運指か、腕の長いキャラクターにしてください</translation>
+            <translation>{label} はこの奏者の手が届きません（あと {gap_mm} mm）。別の運指か、腕の長いキャラクターにしてください</translation>
         </message>
         <message>
             <source>the {side} hand comes off the instrument: it stays {gap_mm} mm from its place; lessen the pose correction here, or take a character of another size</source>

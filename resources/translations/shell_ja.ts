@@ -224,7 +224,7 @@
     </message>
     <message>
         <source>Fingering T (Thumb or Trigger)</source>
-        <translation>運指 T(親指・トリガー)</translation>
+        <translation>運指 T（親指・トリガー）</translation>
     </message>
     <message>
         <source>Cut</source>
@@ -815,6 +815,10 @@
         <source>Commands</source>
         <translation>コマンド</translation>
     </message>
+    <message>
+        <source>No command is called that.</source>
+        <translation>該当する操作がありません。</translation>
+    </message>
 </context>
 <context>
     <name>Questions</name>
@@ -904,10 +908,6 @@
     <message>
         <source>Files you open appear here.</source>
         <translation>開いたファイルがここに並びます。</translation>
-    </message>
-    <message>
-        <source>not found</source>
-        <translation>見つかりません</translation>
     </message>
     <message>
         <source>Remove from this list</source>
