@@ -20,6 +20,7 @@ TEMPLATES: Final[dict[str, str]] = {
     "edit.paste_notes": "paste {count} notes",
     "edit.set_tempo": "set the tempo",
     "edit.move_tempo": "move a tempo",
+    "edit.move_metre": "move a metre change",
     "edit.remove_tempo": "remove a tempo",
     "edit.set_metre": "set the metre",
     "edit.remove_metre": "remove a metre",

@@ -492,6 +492,10 @@
             <translation>テンポを移動</translation>
         </message>
         <message>
+            <source>move a metre change</source>
+            <translation>拍子記号を移動</translation>
+        </message>
+        <message>
             <source>remove a tempo</source>
             <translation>テンポを削除</translation>
         </message>

@@ -176,7 +176,7 @@ def projects(draw: st.DrawFn, folder: str = "/music") -> Project:
                 for note in part.notes
                 if not note.id.startswith("n:")
             }
-            for part in score.parts
+            for part in sorted(score.parts, key=lambda part: part.id.encode())
             if draw(st.booleans())
         },
     )

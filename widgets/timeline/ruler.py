@@ -8,6 +8,7 @@ from PySide6.QtGui import (
     QActionGroup,
     QColor,
     QContextMenuEvent,
+    QFocusEvent,
     QFont,
     QFontMetricsF,
     QKeyEvent,
@@ -26,7 +27,7 @@ from app.project.edit import tempo as tempo_edit
 from app.project.model import Project
 from widgets.common.icons import icon
 from widgets.common.selection import Selection
-from widgets.common.session import Session, TimeDisplay
+from widgets.common.session import Session, Severity, TimeDisplay
 from widgets.common.tokens import LEAST_TEXT_PT
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.lane import GUTTER_PX, PAN_A_STEP, ZOOM_A_STEP
@@ -62,6 +63,8 @@ class Ruler(QWidget):
         self._pressed: QMouseEvent | None = None
         self._dragged = False
         self._mark: Mark | None = None
+        self._chosen: tuple[str, int] | None = None
+        """The mark that was clicked: Delete removes it."""
         self._base: Project = session.project
         self._token: object = object()
         self._panned_px: float | None = None
@@ -147,7 +150,7 @@ class Ruler(QWidget):
         metrics = QFontMetricsF(self.font())
         self._marks = lay_marks(score, self.axis, metrics, GUTTER_PX, float(self.width()), MARKS_PX)
         for mark in self._marks:
-            held = (mark.kind, mark.tick) == self._held_mark
+            held = (mark.kind, mark.tick) == self._chosen
             x = self._x(self._seconds_of(mark.tick))
             painter.setPen(Qt.PenStyle.NoPen)
             painter.setBrush(QColor(tokens.accent if held else tokens.raised))
@@ -159,10 +162,6 @@ class Ruler(QWidget):
             if x >= GUTTER_PX:
                 painter.setPen(QPen(QColor(tokens.text_dim), 1.0))
                 painter.drawLine(QPointF(int(x) + 0.5, MARKS_PX - 3), QPointF(int(x) + 0.5, MARKS_PX + 3))
-
-    @property
-    def _held_mark(self) -> tuple[str, int] | None:
-        return (self._mark.kind, self._mark.tick) if self._mark is not None else None
 
     def _paint_scale(self, painter: QPainter, exposed: QRectF) -> None:
         tokens = self.session.tokens
@@ -295,12 +294,11 @@ class Ruler(QWidget):
         menu = QMenu(self)
         mark = self._mark_at(place)
         if mark is not None:
-            tick = mark.tick
             change = menu.addAction(self.tr("Change Tempo") if mark.kind == "tempo" else self.tr("Change Metre"))
-            change.triggered.connect(lambda: self.edit_mark(mark.kind, tick))
+            change.triggered.connect(lambda: self.edit_mark(mark.kind, mark.tick))
             remove = menu.addAction(self.tr("Remove Tempo") if mark.kind == "tempo" else self.tr("Remove Metre"))
-            remove.setEnabled(tick > 0)
-            remove.triggered.connect(lambda: self._remove(mark))
+            remove.setEnabled(mark.tick > 0)
+            remove.triggered.connect(lambda: self._remove(mark.kind, mark.tick))
             menu.addSeparator()
         score = self.session.project.score
         tick = self._tick_at(place.x(), False)
@@ -315,14 +313,16 @@ class Ruler(QWidget):
                 menu.addAction(action)
         return menu
 
-    def _remove(self, mark: Mark) -> None:
-        if mark.kind == "tempo":
+    def _remove(self, kind: str, tick: int) -> None:
+        self._chosen = None
+        self.update()
+        if kind == "tempo":
             self.session.attempt(
-                Message("edit.remove_tempo"), lambda project: tempo_edit.remove_tempo(project, mark.tick), origin=self
+                Message("edit.remove_tempo"), lambda project: tempo_edit.remove_tempo(project, tick), origin=self
             )
         else:
             self.session.attempt(
-                Message("edit.remove_metre"), lambda project: tempo_edit.remove_metre(project, mark.tick), origin=self
+                Message("edit.remove_metre"), lambda project: tempo_edit.remove_metre(project, tick), origin=self
             )
 
     def _select_bar(self, tick: int) -> None:
@@ -357,14 +357,8 @@ class Ruler(QWidget):
         tick = self._tick_at(x, free)
         if self._held == "playhead":
             self.sought.emit(self.axis.seconds(x - GUTTER_PX))
-        elif self._held == "mark" and self._mark is not None and self._mark.kind == "tempo":
-            start, base = self._mark.tick, self._base
-            self.session.attempt(
-                Message("edit.move_tempo"),
-                lambda _: tempo_edit.move_tempo(base, start, tick) if tick > 0 and start > 0 else base,
-                self._token,
-                self,
-            )
+        elif self._held == "mark" and self._mark is not None:
+            self._drag_mark(self._mark, x, free)
         elif self._held in ("loop_start", "loop_end") and self.session.loop_s is not None:
             start_s, end_s = self.session.loop_s
             moved_s = self._seconds_of(tick)
@@ -377,10 +371,33 @@ class Ruler(QWidget):
             self.session.select(Selection(span=span))
             self.axis.reveal(self.axis.seconds(x - GUTTER_PX))
 
+    def _drag_mark(self, mark: Mark, x: float, free: bool) -> None:
+        """A tempo goes to the grid, a metre to the bars that there are without it; what began the piece stays."""
+        base, start = self._base, mark.tick
+        if start <= (base.score.pickup_ticks if mark.kind == "metre" else 0):
+            self.session.notice(Message("tempo.first_stays"), Severity.WARNING)
+            return
+        without = tempo_edit.remove_metre(base, start) if mark.kind == "metre" else base
+        # The place under the mouse is that of the piece before the drag: moved, a tempo would carry it along.
+        tick = without.score.tempo_map.ticks(self.axis.seconds(x - GUTTER_PX))
+        if mark.kind == "metre" and not free:
+            score = without.score
+            bar = score.bar_of_tick(max(round(tick), 0))
+            to = min(score.tick_of_bar(bar), score.tick_of_bar(bar + 1), key=lambda place: abs(place - tick))
+        else:
+            to = round(tick) if free else self.session.grid.snap(base.score, tick)
+        move = tempo_edit.move_metre if mark.kind == "metre" else tempo_edit.move_tempo
+        to = max(to, 1 if mark.kind == "tempo" else base.score.pickup_ticks)
+        if mark.kind == "metre" and to <= base.score.pickup_ticks:
+            return
+        if self.session.attempt(_moving(mark), lambda _: move(base, start, to), self._token, self):
+            self._chosen = (mark.kind, to)
+
     def _cancel(self) -> None:
-        if self._held == "mark":
-            self.session.apply(Message("edit.move_tempo"), self._base, self._token, self)
+        if self._held == "mark" and self._mark is not None:
+            self.session.apply(_moving(self._mark), self._base, self._token, self)
             self.session.document.end_gesture()
+            self._chosen = (self._mark.kind, self._mark.tick)
         elif self._held != "playhead":
             self.session.select(self._before[0])
             self.session.set_loop(self._before[1])
@@ -433,6 +450,7 @@ class Ruler(QWidget):
             self._panned_px = event.position().x()
         elif event.button() == Qt.MouseButton.LeftButton:
             self._held = self._take_hold(event.position())
+            self._chosen = (self._mark.kind, self._mark.tick) if self._mark is not None else None
             self._pressed, self._dragged = event.clone(), False
             self._base, self._token = self.session.project, object()
             self._before = (self.session.selection, self.session.loop_s)
@@ -494,8 +512,36 @@ class Ruler(QWidget):
     def keyPressEvent(self, event: QKeyEvent) -> None:
         if event.key() == Qt.Key.Key_Escape and self._held:
             self._cancel()
+        elif event.key() == Qt.Key.Key_Escape and self._chosen is not None:
+            self._chosen = None
+            self.update()
+        elif event.key() in _REMOVING and self._chosen is not None:
+            self._remove(*self._chosen)
+        elif event.key() in _EDITING and self._chosen is not None:
+            self.edit_mark(*self._chosen)
         else:
             super().keyPressEvent(event)
 
+    def event(self, event: QEvent) -> bool:
+        """Keys that mean the chosen mark come here first, before the window's actions."""
+        if event.type() == QEvent.Type.ShortcutOverride and self._chosen is not None:
+            assert isinstance(event, QKeyEvent)
+            if event.key() in (*_REMOVING, *_EDITING, Qt.Key.Key_Escape):
+                event.accept()
+                return True
+        return super().event(event)
 
+    def focusOutEvent(self, event: QFocusEvent) -> None:
+        if event.reason() != Qt.FocusReason.PopupFocusReason and not self._held:
+            self._chosen = None
+            self.update()
+        super().focusOutEvent(event)
+
+
+def _moving(mark: Mark) -> Message:
+    return Message("edit.move_tempo") if mark.kind == "tempo" else Message("edit.move_metre")
+
+
+_REMOVING = (Qt.Key.Key_Delete, Qt.Key.Key_Backspace)
+_EDITING = (Qt.Key.Key_Return, Qt.Key.Key_Enter, Qt.Key.Key_F2)
 _MIDDLE = int(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)

@@ -102,6 +102,20 @@ def set_metre(project: Project, tick: int, numerator: int, denominator: int) -> 
     return _with_metres(project, metres.values(), score.pickup_ticks)
 
 
+def move_metre(project: Project, tick: int, to_tick: int) -> Project:
+    """Let a metre begin elsewhere; one that stands there gives way. That of the beginning, and the one after a pickup,
+    stay."""
+    score = project.score
+    metre = next((metre for metre in score.metres if metre.tick == tick), None)
+    if metre is None:
+        raise UsageError("metre.none_here", tick=tick)
+    if to_tick == tick:
+        return project
+    if min(tick, to_tick) <= score.pickup_ticks:
+        raise UsageError("tempo.first_stays")
+    return set_metre(remove_metre(project, tick), to_tick, metre.numerator, metre.denominator)
+
+
 def remove_metre(project: Project, tick: int) -> Project:
     """Let the metre before go on. The one after a pickup goes with the pickup: see `set_pickup`."""
     if tick == 0:

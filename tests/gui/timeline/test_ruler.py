@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QApplication, QLineEdit, QMenu
 
 from tests.gui.timeline.conftest import TPQ, Stage
 from tests.gui.timeline.hand import ALT, CTRL, Hand, Place
+from widgets.common.selection import Selection
 from widgets.timeline.lane import GUTTER_PX
 from widgets.timeline.ruler import MARKS_PX, Ruler
 from widgets.timeline.ruler_labels import clock
@@ -193,3 +194,80 @@ def test_the_unit_is_chosen_on_the_ruler(stage: Stage) -> None:
 )
 def test_clock(seconds: float, decimals: int, text: str) -> None:
     assert clock(seconds, decimals) == text
+
+
+def with_metre(stage: Stage, bar: int, text: str = "3/4") -> Ruler:
+    ruler = ruler_of(stage)
+    choose(ruler.context_menu(QPointF(*place(stage, bar * BAR + 10))), "Add Metre at This Bar")
+    type_into(stage, text)
+    return ruler
+
+
+def metres(stage: Stage) -> list[tuple[int, int, int]]:
+    return [(metre.tick, metre.numerator, metre.denominator) for metre in stage.session.project.score.metres]
+
+
+def test_a_metre_is_dragged_from_bar_to_bar(stage: Stage) -> None:
+    ruler = with_metre(stage, 1)
+    before = stage.session.project
+    x, y = on_mark(stage, "metre", BAR)
+    hand = Hand(ruler)
+    hand.press((x, y))
+    hand.move((place(stage, 1.4 * BAR)[0], y))
+    hand.move((place(stage, 2.2 * BAR)[0], y))
+    hand.release((place(stage, 2.2 * BAR)[0], y))
+    assert metres(stage) == [(0, 4, 4), (2 * BAR, 3, 4)]
+    assert stage.steps == ["edit.set_metre", "edit.move_metre"]
+    stage.session.document.undo()
+    assert stage.session.project is before
+
+
+def test_escape_brings_a_dragged_metre_back(stage: Stage) -> None:
+    ruler = with_metre(stage, 1)
+    before = stage.session.project
+    x, y = on_mark(stage, "metre", BAR)
+    hand = Hand(ruler)
+    hand.press((x, y))
+    hand.move((place(stage, 2.2 * BAR)[0], y))
+    assert stage.session.project is not before
+    QTest.keyClick(ruler, Qt.Key.Key_Escape)
+    assert stage.session.project is before
+    hand.release((place(stage, 2.2 * BAR)[0], y))
+    assert stage.steps == ["edit.set_metre"]
+
+
+def test_the_first_metre_and_tempo_stay_and_that_is_said(stage: Stage) -> None:
+    said: list[str] = []
+    stage.session.noticed.connect(lambda message, severity: said.append(message.id))
+    before = stage.session.project
+    for kind in ("metre", "tempo"):
+        x, y = on_mark(stage, kind, 0)
+        Hand(ruler_of(stage)).drag((x, y), (place(stage, 2 * BAR)[0], y))
+        QTest.keyClick(ruler_of(stage), Qt.Key.Key_Delete)
+    assert stage.session.project is before
+    assert set(said) == {"tempo.first_stays"}
+
+
+def test_delete_removes_the_mark_that_was_clicked_and_nothing_else(stage: Stage) -> None:
+    """The notes that are selected stay, although Delete is theirs elsewhere."""
+    ruler = with_metre(stage, 2)
+    stage.session.select(Selection(frozenset({"1:0"})))
+    Hand(ruler).click(on_mark(stage, "metre", 2 * BAR))
+    ruler.setFocus()
+    QTest.keyClick(ruler, Qt.Key.Key_Delete)
+    assert metres(stage) == [(0, 4, 4)]
+    assert stage.steps == ["edit.set_metre", "edit.remove_metre"]
+    assert len(stage.session.project.score.parts[0].notes) == 8
+    stage.session.document.undo()
+    assert metres(stage) == [(0, 4, 4), (2 * BAR, 3, 4)]
+
+
+def test_enter_and_a_double_click_edit_a_metre(stage: Stage) -> None:
+    ruler = with_metre(stage, 2)
+    Hand(ruler).double_click(on_mark(stage, "metre", 2 * BAR))
+    type_into(stage, "5/8")
+    assert metres(stage)[-1] == (2 * BAR, 5, 8)
+    Hand(ruler).click(on_mark(stage, "metre", 2 * BAR))
+    QTest.keyClick(ruler, Qt.Key.Key_Return)
+    type_into(stage, "2/4")
+    assert metres(stage)[-1] == (2 * BAR, 2, 4)
