@@ -2,10 +2,11 @@
 
     python -m resources.build.build_instruments [trumpet_Bb | trombone_tenor_F_attachment ...]
 
-Every module of `FAMILIES` has a table ``INSTRUMENTS``: id -> (what builds the model, what tells its contacts).
+Every module of `FAMILIES` has a table ``INSTRUMENTS``: id -> (what builds the model, what tells its contacts), of an
+instrument with keys also what tells the tables of its keys (`instrument_keys.entry`).
 
 The model goes to ``resources/instruments/<id>.glb``. In ``instrument_maps/<id>.toml`` everything below the line
-``# --- from the model`` (contacts and collision bodies) is written anew, so that map and model cannot drift
+``# --- from the model`` (keys, contacts and collision bodies) is written anew, so that map and model cannot drift
 apart; what stands above that line is a musician's and is not touched.
 """
 
@@ -14,6 +15,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -27,7 +29,7 @@ FAMILIES = (
     instrument_trombone,
     instrument_trumpet,
 )
-INSTRUMENTS: dict[str, tuple[Callable[[], Model], Callable[[], list[dict[str, object]]]]] = {
+INSTRUMENTS: dict[str, tuple[Callable[[], Any], ...]] = {
     name: makers for family in FAMILIES for name, makers in family.INSTRUMENTS.items()
 }
 
@@ -35,21 +37,22 @@ INSTRUMENTS: dict[str, tuple[Callable[[], Model], Callable[[], list[dict[str, ob
 def main(names: list[str]) -> None:
     """Build the named instruments, all of them without names."""
     for name in names or list(INSTRUMENTS):
-        build, contacts = INSTRUMENTS[name]
+        build, contacts, *keys = INSTRUMENTS[name]
         model = build()
         path = ROOT / "resources" / "instruments" / f"{name}.glb"
         write(model, path)
         table = ROOT / "instrument_maps" / f"{name}.toml"
         head = table.read_text("utf-8").partition(MARK)[0]
-        table.write_text(head + from_model(model, contacts()), "utf-8")
+        table.write_text(head + from_model(model, contacts(), "".join(tables() for tables in keys)), "utf-8")
         triangles = sum(len(part.shape.faces) for part in model.parts)
         print(f"{name}: {triangles} triangles, {path.stat().st_size / 1e6:.2f} MB")
 
 
-def from_model(model: Model, contacts: list[dict[str, object]]) -> str:
-    """The tables of contacts and collision bodies as TOML."""
+def from_model(model: Model, contacts: list[dict[str, object]], keys: str = "") -> str:
+    """The tables of keys, contacts and collision bodies as TOML."""
     lines = [
         f"{MARK} (written by resources/build/build_instruments.py; change the contacts there) ---",
+        *keys.splitlines(),
         "# Positions and normals are in the frame of the node, which rests at these places of the root frame:",
         *(f"#   {name}: {_vector(origin)}" for name, origin in model.origins.items() if name != "root"),
     ]
