@@ -14,6 +14,7 @@ from app.score.model import Note, Score
 from instrument_maps.load import bundled_maps
 from instrument_maps.model import PARTS
 from widgets.common.event_names import kind_name, pose_name
+from widgets.common.instrument_name import instrument_name
 from widgets.common.musical_time import beat_ticks, place_text
 from widgets.common.pitch import pitch_text
 from widgets.common.session import Session
@@ -173,6 +174,7 @@ _WORDS: Mapping[str, Callable[[], dict[str, str]]] = {
         "right": QCoreApplication.translate("Told", "right"),
     },
     "touch": _touches,
+    "map": lambda: {id: instrument_name(instrument) for id, instrument in bundled_maps().items()},
     "control": _controls,
     "angle": lambda: {
         "up": QCoreApplication.translate("Told", "up and down"),

@@ -103,3 +103,9 @@ def test_in_japanese_no_english_word_is_left(session: Session, note: Note) -> No
 def test_pitches_of_messages_are_their_fields() -> None:
     for id, names in PITCHES.items():
         assert all("{" + name + "}" in TEMPLATES[id] for name in names), id
+
+
+def test_an_instrument_is_told_by_its_name() -> None:
+    told = message_text(Message("score.chosen_by_range", {"part": "Sopran", "map": "trumpet_Bb"}))
+    assert "Trumpet in B flat" in told
+    assert "trumpet_Bb" not in told
