@@ -261,6 +261,7 @@ class LiveMotion:
         self._unjudged: Iterator[tuple[_Track, int]] | None = None
         self._broken: dict[str, tuple[Problem, ...]] = {}
         self._chunk_bytes = 0
+        self._seen = 0
         self._shown = _Shown(performance, _Grid.of(performance.time_frame, performance.project.fps), {})
         self.show(performance)
 
@@ -364,6 +365,7 @@ class LiveMotion:
                 track.chunks[index] = chunk
                 track.outdated.pop(index, None)
                 self._chunk_bytes = chunk.bytes
+                self._seen += index == self._in_sight(shown.grid)[0]
             if index not in track.judged:
                 self._judge(track, index, motion)
             return True
@@ -392,6 +394,21 @@ class LiveMotion:
             self._judge(track, index, track.playing.motion(shown.grid.fps, *shown.grid.span(index)))
             return True
         return False
+
+    @property
+    def seen(self) -> int:
+        """Another number once poses around the time that is wanted were made."""
+        return self._seen
+
+    @property
+    def is_seen(self) -> bool:
+        """Whether everything that is looked at is made, so that nobody waits for what is left."""
+        shown = self._shown
+        places = self._in_sight(shown.grid)
+        return all(
+            track.error is not None or (track.basis is None and all(index in track.chunks for index in places))
+            for track in shown.tracks.values()
+        )
 
     @property
     def broken(self) -> dict[str, tuple[Problem, ...]]:
@@ -487,27 +504,28 @@ class LiveMotion:
 
     def _missing(self, shown: _Shown) -> Iterator[tuple[str, int]]:
         """Players and chunks, the most wanted first: what is looked at, then the rest by its distance in time."""
-        time_s, span_s, player_ids = self._wanted
-        grid = shown.grid
+        grid, player_ids = shown.grid, self._wanted[2]
         asked = [player_id for player_id in player_ids if player_id in shown.tracks]
         everyone = asked + [player_id for player_id in shown.tracks if player_id not in asked]
-        here = grid.place(time_s)[0] // grid.length
-        last = grid.place(time_s + span_s)[0] // grid.length
-        for index in range(here, last + 1):
-            yield from ((player_id, index) for player_id in asked or everyone)
-        for index in sorted(range(grid.chunks), key=lambda index: _distance(index, here)):
+        # Who is in front first, then everybody at the playhead, then what is seen next.
+        for index in (places := self._in_sight(grid)):
             yield from ((player_id, index) for player_id in everyone)
+        for index in sorted(range(grid.chunks), key=lambda index: _distance(index, places[0])):
+            yield from ((player_id, index) for player_id in everyone)
+
+    def _in_sight(self, grid: _Grid) -> range:
+        """The chunks that are looked at; the first one holds the playhead."""
+        time_s, span_s, _ = self._wanted
+        return range(grid.place(time_s)[0] // grid.length, grid.place(time_s + span_s)[0] // grid.length + 1)
 
     def _make_room(self, shown: _Shown, track: _Track, index: int) -> bool:
         """Let go of what is farther away than a chunk, as much as it needs; False if there is nothing farther."""
-        time_s, span_s, player_ids = self._wanted
-        grid = shown.grid
-        here = grid.place(time_s)[0] // grid.length
-        last = grid.place(time_s + span_s)[0] // grid.length
+        player_ids, places = self._wanted[2], self._in_sight(shown.grid)
+        here = places[0]
 
-        def rank(of: _Track, place: int) -> tuple[bool, int]:
-            seen = here <= place <= last and (not player_ids or of.player.id in player_ids)
-            return (not seen, _distance(place, here))
+        def rank(of: _Track, place: int) -> tuple[int, int]:
+            in_front = not player_ids or of.player.id in player_ids
+            return (0 if place == here and in_front else 1 if place in places else 2, _distance(place, here))
 
         over = self.bytes + self._chunk_bytes - self._budget_bytes
         if over <= 0:

@@ -13,9 +13,11 @@ character.missing : id, known
 from __future__ import annotations
 
 import json
-from functools import lru_cache
+from collections.abc import Mapping
+from functools import cache, lru_cache
 from importlib.resources import files
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -36,10 +38,11 @@ REQUIRED_JOINTS = ("hips", "spine", "head", *(side + part for side in ("left", "
 """Joints a body cannot play without."""
 
 
-def characters() -> dict[str, Path]:
-    """Return the bundled characters: id and file, in the order of their ids."""
+@cache
+def characters() -> Mapping[str, Path]:
+    """Return the bundled characters: id and file, in the order of their ids. Looked up once."""
     folder = Path(str(files("resources"))) / "characters"
-    return {path.stem: path for path in sorted(folder.glob("*.glb"))}
+    return MappingProxyType({path.stem: path for path in sorted(folder.glob("*.glb"))})
 
 
 def bundled_character(id: str) -> Character:

@@ -32,7 +32,13 @@ TOLD_NOTES = 6000
 SWITCH_S = 0.001
 """The window gets the interpreter back from the worker within this time."""
 TELL_S = 0.04
-"""The window is told of new motion this often."""
+"""The window is told of other poses at the playhead at once, but no more often than this ..."""
+TELL_READY_S = 0.25
+"""... and of how much is made this often."""
+GIVE_WAY = 3.0
+"""Before more is made that nobody waits for, the worker rests so many times as long as others had the processor while
+it worked: what the window does meanwhile is not held up, and with nobody there it works all the time."""
+MOST_REST_S = 0.1
 TELL_BROKEN_S = 0.5
 """Of contacts that are found broken while much is made, this often: every list of problems shows them anew."""
 REST_WHILE_JUDGING = 1.0
@@ -175,7 +181,6 @@ class Generator(QObject):
         self._session.set_broken(broken)
 
     def _worked(self, ready: float) -> None:
-        self.motion_changed.emit()
         if ready != self._ready:
             self._ready = ready
             self.ready_changed.emit(ready)
@@ -196,6 +201,9 @@ class _Teller:
 
     def fell(self, fault: BaseException) -> None:
         self._tell(lambda generator: generator._fell(fault))
+
+    def moved(self) -> None:
+        self._tell(lambda generator: generator.motion_changed.emit())
 
     def worked(self, ready: float) -> None:
         self._tell(lambda generator: generator._worked(ready))
@@ -229,6 +237,8 @@ class _Worker:
         self._closed = False
         self._playing = False
         self._told_s = 0.0
+        self._told_seen = live.seen
+        self._told_seen_s = 0.0
         self._judging = True
         """Whether there may be contacts to judge beside what is made to be seen."""
         self._told_broken = live.broken
@@ -310,7 +320,7 @@ class _Worker:
         self._teller.planned(performance, number, failed)
 
     def _make_motion(self) -> None:
-        start_s, wishes = time.monotonic(), self._wishes
+        start_s, cpu_s, wishes = time.monotonic(), time.thread_time(), self._wishes
         try:
             more = self._live.work(self._interrupted)
         except Exception as fault:  # noqa: BLE001 - told in the window's thread
@@ -318,15 +328,29 @@ class _Worker:
             self._teller.fell(fault)
             return
         now_s = time.monotonic()
+        others_s = now_s - start_s - (time.thread_time() - cpu_s)
         if not more:
             self._met = wishes
             self._judging = True
+        awaited = not self._live.is_seen
         self._tell_broken(now_s, not more)
-        if now_s - self._told_s >= TELL_S or not more:
+        if self._live.seen != self._told_seen and (now_s - self._told_seen_s >= TELL_S or not awaited):
+            self._told_seen, self._told_seen_s = self._live.seen, now_s
+            self._teller.moved()
+        if now_s - self._told_s >= TELL_READY_S or not more:
             self._told_s = now_s
             self._teller.worked(self._live.ready_share)
         if self._playing:
             time.sleep(REST_WHILE_PLAYING * (now_s - start_s))
+        elif not awaited:
+            self._rest(min(GIVE_WAY * others_s, MOST_REST_S), wishes)
+
+    def _rest(self, rest_s: float, wishes: int) -> None:
+        """Until something else is wanted than these wishes, at most so long."""
+        with self._changed:
+            self._changed.wait_for(
+                lambda: self._closed or self._pending is not None or self._wishes != wishes, timeout=rest_s
+            )
 
     def _judge(self) -> None:
         start_s = time.monotonic()

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import threading
+import time
 from collections.abc import Iterator
 from dataclasses import replace
 
@@ -66,6 +68,65 @@ def test_motion_is_made_by_itself_and_again_where_an_edit_touched_it(
     assert after is not None
     assert after.morphs != before.morphs
     assert generator.live.pose(player.id, at_s + 20.0).morphs == other.morphs  # type: ignore[union-attr]
+
+
+def test_the_viewport_is_told_only_of_poses_at_the_playhead(
+    session: Session, generator: Generator, qtbot: QtBot
+) -> None:
+    player, score = session.project.players[0], session.project.score
+    qtbot.waitUntil(lambda: generator.ready_share == 1.0, timeout=60_000)
+    session.set_playhead(4.0)
+    qtbot.wait(100)
+    told: list[bool] = []
+    generator.motion_changed.connect(lambda: told.append(generator.live.is_seen))
+    for at_s, expected in ((30.0, 1), (4.5, 2)):
+        told.clear()
+        start = round(score.tempo_map.ticks(at_s))
+        session.apply(EDIT, put(session.project, player.id, [AddExpression("x", "strained", start, start + 480)]))
+        qtbot.waitUntil(lambda: generator.ready_share == 1.0, timeout=60_000)
+        qtbot.wait(100)
+        # Once that there are other plans; then, where the playhead is in what changed, that its pose is right.
+        assert len(told) == expected, at_s
+
+
+class Work:
+    """Motion whose making takes time: of the processor, or waiting for it."""
+
+    def __init__(self, waits_s: float, is_seen: bool) -> None:
+        self.waits_s, self.is_seen, self.seen, self.ready_share, self.broken = waits_s, is_seen, 0, 0.5, {}
+
+    def work(self, stop_wanted: object) -> bool:
+        time.sleep(self.waits_s)
+        return True
+
+
+@pytest.mark.parametrize(
+    ("waits_s", "is_seen", "rests"), [(0.02, True, True), (0.0, True, False), (0.02, False, False)]
+)
+def test_motion_that_nobody_waits_for_gives_way(
+    session: Session, generator: Generator, monkeypatch: pytest.MonkeyPatch, waits_s: float, is_seen: bool, rests: bool
+) -> None:
+    """Where others had the processor the worker rests longer than they did, unless somebody waits for what it makes."""
+    generator.close()
+    worker = module._Worker(Work(waits_s, is_seen), generator._worker._teller)  # type: ignore[arg-type]
+    rested: list[float] = []
+    monkeypatch.setattr(worker, "_rest", lambda rest_s, wishes: rested.append(rest_s))
+    for _ in range(7):
+        worker._make_motion()
+    assert (min(rested, default=0.0) > 1.5 * max(waits_s, 0.01)) == rests
+
+
+def test_what_is_wanted_ends_the_rest(generator: Generator) -> None:
+    worker = generator._worker
+    wishes = worker._wishes
+    thread = threading.Thread(target=worker._rest, args=(60.0, wishes))
+    thread.start()
+    thread.join(0.1)
+    assert thread.is_alive()
+    worker.wake()
+    thread.join(10.0)
+    assert not thread.is_alive()
+    worker._rest(60.0, wishes)
 
 
 @pytest.mark.parametrize("most", ["AT_ONCE_NOTES", "TOLD_NOTES"])

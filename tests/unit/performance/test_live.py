@@ -47,6 +47,46 @@ def test_what_is_looked_at_is_made_first(performance: Performance) -> None:
     assert 0.0 < live.ready_share < 1.0
 
 
+def test_everybody_is_right_at_the_playhead_before_anything_else_is_made(performance: Performance) -> None:
+    live = LiveMotion(performance)
+    players = [player.id for player in performance.project.players]
+    live.want(8.0, 4.0, (players[2],))
+    here = []
+    for _ in players:
+        before, seen = {player for player in players if live.pose(player, 8.0) is not None}, live.seen
+        assert not live.is_seen
+        live.work()
+        here += [player for player in players if player not in before and live.pose(player, 8.0) is not None]
+        assert live.seen != seen, "who draws is told at once"
+    assert here == [players[2], *players[:2]], "who is in front first"
+    seen, count = live.seen, 0
+    while not live.is_seen:
+        assert live.work()
+        count += 1
+    assert count == len(players), "what is seen next, of everybody"
+    while live.work():
+        assert live.is_seen
+    assert live.seen == seen, "nothing at the playhead changed"
+
+
+def test_an_edit_is_awaited_only_until_what_is_looked_at_is_right(performance: Performance) -> None:
+    player = performance.project.players[0]
+    live = LiveMotion(performance)
+    live.want(6.0, 2.0)
+    all_made(live)
+    project = put(performance.project, player.id, [AddExpression("x", "strained", 6 * 960, 40 * 960)])
+    live.show(Performance(project, performance))
+    assert not live.is_seen
+    assert live.work()
+    first, right = live.pose(player.id, 6.5), live.pose_now(player.id, 6.5)
+    assert first is not None
+    assert right is not None
+    assert first.morphs == right.morphs, "the first piece of work is what is looked at"
+    while not live.is_seen:
+        assert live.work()
+    assert all_made(live) > 3, "what nobody looks at is left"
+
+
 def test_ready_spans_grow_together(performance: Performance) -> None:
     live = LiveMotion(performance)
     player = performance.project.players[0]
