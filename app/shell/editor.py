@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, get_args
 
 from PySide6.QtCore import QObject
 
+from widgets.common.listening import SOURCES
 from widgets.common.session import Session, TimeDisplay
 from widgets.common.tokens import THEMES
 
@@ -45,6 +46,7 @@ class Editor(QObject):
         session.time_display_changed.connect(self._remember_time)
         session.theme_changed.connect(self._remember_theme)
         session.folded_changed.connect(self._remember_folded)
+        session.listening.changed.connect(self._remember_listening)
 
     def _restore(self) -> None:
         settings, session = self.settings, self.session
@@ -57,6 +59,13 @@ class Editor(QObject):
             if display == known:
                 session.set_time_display(known)
 
+        listening = session.listening
+        listening.set(volume=settings.volume, click=settings.click, scrub_sound=settings.scrub_sound)
+        source = settings.source
+        for heard in SOURCES:
+            if source == heard:
+                listening.set(source=heard)
+
     def _remember_pitch(self) -> None:
         pitch = self.session.pitch_display
         self.settings.written_pitch = pitch.written
@@ -68,6 +77,14 @@ class Editor(QObject):
 
     def _remember_folded(self) -> None:
         self.settings.folded = dict(self.session.folded)
+
+    def _remember_listening(self) -> None:
+        listening, settings = self.session.listening, self.settings
+        # Told of much else, as of every phrase that is made: only what the person chose is written.
+        for name in ("volume", "click", "scrub_sound", "source"):
+            value = getattr(listening, name)
+            if getattr(settings, name) != value:
+                setattr(settings, name, value)
 
     def _remember_theme(self) -> None:
         self.settings.theme = self.session.tokens.name

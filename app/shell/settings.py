@@ -118,6 +118,47 @@ class Settings:
         self._set("interface/time_display", value)
 
     @property
+    def volume(self) -> float:
+        """0..1 as the ear judges it."""
+        # Read as a number, a word is 0, and nobody would hear anything.
+        try:
+            value = float(self._get("sound/volume", ""))
+        except ValueError:
+            return 0.8
+        return value if 0.0 <= value <= 1.0 else 0.8
+
+    @volume.setter
+    def volume(self, value: float) -> None:
+        self._set("sound/volume", value)
+
+    @property
+    def click(self) -> bool:
+        """Whether a metronome is heard."""
+        return self._get("sound/click", False)
+
+    @click.setter
+    def click(self, value: bool) -> None:
+        self._set("sound/click", value)
+
+    @property
+    def scrub_sound(self) -> bool:
+        """Whether moving the playhead by hand is heard."""
+        return self._get("sound/scrub", True)
+
+    @scrub_sound.setter
+    def scrub_sound(self, value: bool) -> None:
+        self._set("sound/scrub", value)
+
+    @property
+    def source(self) -> str:
+        """What is heard where a project has a recording: ``"recording"``, ``"synthesiser"`` or ``"both"``."""
+        return self._get("sound/source", "recording")
+
+    @source.setter
+    def source(self, value: str) -> None:
+        self._set("sound/source", value)
+
+    @property
     def geometry(self) -> QByteArray:
         """Where the window is and how large."""
         return self._get("window/geometry", QByteArray())

@@ -5,8 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt, QUrl
+from PySide6.QtCore import QMimeData, QPoint, QPointF, QSettings, Qt, QUrl
 from PySide6.QtGui import QDragEnterEvent, QDropEvent
+from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QMenu
 from pytestqt.qtbot import QtBot
 
@@ -14,9 +15,11 @@ from app.errors import Message
 from app.project.edit.piece import set_title
 from app.project.storage import load
 from app.shell.app import Program
+from app.shell.settings import Settings
 from app.shell.window import SIDES
 from tests.gui.conftest import QUARTET
 from tests.gui.shell.conftest import Answers, Start, trigger
+from widgets.common.number_slider import NumberSlider
 
 
 def edit(program: Program, title: str = "Another") -> None:
@@ -214,3 +217,27 @@ def test_a_new_window_gives_half_its_height_to_the_timeline(start: Start, width:
     if height >= 1000:
         assert heights["curves"] < lanes.height()
     assert window.timeline.lanes["audio"].height() <= 30
+
+
+def test_how_a_person_listens_is_remembered(start: Start, settings: Settings) -> None:
+    first = start()
+    first.session.actions["play.click"].trigger()
+    volume = first.window.findChild(NumberSlider, "volume")
+    assert volume is not None
+    QTest.keyClick(volume, Qt.Key.Key_Down)
+    chosen = first.session.listening.volume
+    assert chosen < 0.8
+    first.session.listening.set(source="both", scrub_sound=False)
+    first.session.listening.set(ready=0.5, speed=1.5)
+    settings.sync()
+    keys = QSettings(str(settings.path), QSettings.Format.IniFormat).allKeys()
+    assert {key for key in keys if key.startswith("sound/")} == {
+        "sound/volume",
+        "sound/click",
+        "sound/scrub",
+        "sound/source",
+    }
+    first.window.close()
+    listening = start().session.listening
+    assert (listening.volume, listening.click, listening.source, listening.scrub_sound) == (chosen, True, "both", False)
+    assert listening.speed == 1.0

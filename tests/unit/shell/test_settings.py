@@ -19,6 +19,10 @@ from app.shell.settings import MOST_RECENT, Settings
         ("middle_c_octave", 3),
         ("syllables", True),
         ("time_display", "frames"),
+        ("volume", 0.35),
+        ("click", True),
+        ("scrub_sound", False),
+        ("source", "both"),
         ("folder", "/a b/ü,日本語"),
         ("export_folder", "C:\\out"),
         ("geometry", QByteArray(b"\x00\x01\xff")),
@@ -39,11 +43,14 @@ def test_values_come_back(tmp_path: Path, name: str, value: object) -> None:
 
 def test_a_damaged_file_is_as_if_it_were_not_there(tmp_path: Path) -> None:
     path = tmp_path / "editor.ini"
-    path.write_text("[pitch]\nmiddle_c_octave=many\nwritten=@Invalid()\n[window]\ngeometry=5\n[recent]\nsize=x\n")
+    path.write_text(
+        "[pitch]\nmiddle_c_octave=many\nwritten=@Invalid()\n[window]\ngeometry=5\n[recent]\nsize=x\n[sound]\nvolume=loud\n"
+    )
     settings = Settings(path)
     assert settings.middle_c_octave == 4
     assert settings.written_pitch is False
     assert settings.recent == ()
+    assert settings.volume == 0.8
 
 
 def test_recent_files_are_the_newest_first_and_each_once(tmp_path: Path) -> None:
