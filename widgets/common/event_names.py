@@ -7,40 +7,57 @@ from PySide6.QtCore import QCoreApplication
 
 def kind_name(kind: str) -> str:
     """The name of a kind of event: the first part of its id."""
-    names = {
-        "breath": QCoreApplication.translate("Event", "Breath"),
-        "preparation": QCoreApplication.translate("Event", "Preparation"),
-        "cue": QCoreApplication.translate("Event", "Cue"),
-        "expression": QCoreApplication.translate("Event", "Expression"),
-        "sway": QCoreApplication.translate("Event", "Sway"),
-        "weight_shift": QCoreApplication.translate("Event", "Weight shift"),
-        "bell_height": QCoreApplication.translate("Event", "Bell height"),
-        "lower_instrument": QCoreApplication.translate("Event", "Instrument lowered"),
-        "pose": QCoreApplication.translate("Event", "Pose"),
-        "vary": QCoreApplication.translate("Event", "Performed anew"),
-    }
-    return names.get(kind, kind)
+    match kind:
+        case "breath":
+            return QCoreApplication.translate("Event", "Breath")
+        case "preparation":
+            return QCoreApplication.translate("Event", "Preparation")
+        case "cue":
+            return QCoreApplication.translate("Event", "Cue")
+        case "expression":
+            return QCoreApplication.translate("Event", "Expression")
+        case "sway":
+            return QCoreApplication.translate("Event", "Sway")
+        case "weight_shift":
+            return QCoreApplication.translate("Event", "Weight shift")
+        case "bell_height":
+            return QCoreApplication.translate("Event", "Bell height")
+        case "lower_instrument":
+            return QCoreApplication.translate("Event", "Instrument lowered")
+        case "pose":
+            return QCoreApplication.translate("Event", "Pose")
+        case "vary":
+            return QCoreApplication.translate("Event", "Performed anew")
+    return kind
 
 
 def expression_name(name: str) -> str:
     """The name of a bundled expression; one's own are called what they are called."""
-    names = {
-        "neutral": QCoreApplication.translate("Expression", "Neutral"),
-        "strained": QCoreApplication.translate("Expression", "Strained"),
-        "puffed": QCoreApplication.translate("Expression", "Puffed"),
-        "brows_up": QCoreApplication.translate("Expression", "Brows up"),
-        "smile": QCoreApplication.translate("Expression", "Smile"),
-    }
-    return names.get(name, name)
+    match name:
+        case "neutral":
+            return QCoreApplication.translate("Expression", "Neutral")
+        case "strained":
+            return QCoreApplication.translate("Expression", "Strained")
+        case "puffed":
+            return QCoreApplication.translate("Expression", "Puffed")
+        case "brows_up":
+            return QCoreApplication.translate("Expression", "Brows up")
+        case "smile":
+            return QCoreApplication.translate("Expression", "Smile")
+    return name
 
 
 def pose_name(target: str) -> str:
     """The name of what is held differently."""
-    names = {
-        "bell": QCoreApplication.translate("Pose", "Bell"),
-        "head": QCoreApplication.translate("Pose", "Head"),
-        "left_elbow": QCoreApplication.translate("Pose", "Left elbow"),
-        "right_elbow": QCoreApplication.translate("Pose", "Right elbow"),
-        "torso": QCoreApplication.translate("Pose", "Torso"),
-    }
-    return names.get(target, target)
+    match target:
+        case "bell":
+            return QCoreApplication.translate("Pose", "Bell")
+        case "head":
+            return QCoreApplication.translate("Pose", "Head")
+        case "left_elbow":
+            return QCoreApplication.translate("Pose", "Left elbow")
+        case "right_elbow":
+            return QCoreApplication.translate("Pose", "Right elbow")
+        case "torso":
+            return QCoreApplication.translate("Pose", "Torso")
+    return target

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from operator import is_
+
 from PySide6.QtCore import QEvent, Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from app.plan.model import Problem
+from app.project.model import Player
+from app.score.model import Score
 from widgets.common.combo import Combo, Option
 from widgets.common.musical_time import place_text
 from widgets.common.selection import Selection
@@ -41,6 +45,8 @@ class ProblemList(QWidget):
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._session = session
+        self._known: dict[int, tuple[tuple[object, ...], Line]] = {}
+        """Lines by the identity of their problem, with what they were made from: most stay when plans change."""
         self._who, self._kind = Combo(), Combo()
         self._who.setObjectName("problems_who")
         self._kind.setObjectName("problems_kind")
@@ -67,8 +73,8 @@ class ProblemList(QWidget):
         session.performance_changed.connect(self.show_problems)
         session.problems_changed.connect(self.show_problems)
         session.players_changed.connect(self._players_changed)
-        session.theme_changed.connect(self.show_problems)
-        session.pitch_display.changed.connect(self.show_problems)
+        session.theme_changed.connect(self._say_anew)
+        session.pitch_display.changed.connect(self._say_anew)
         self.retranslate()
 
     def show_problems(self) -> None:
@@ -86,14 +92,18 @@ class ProblemList(QWidget):
             for player, problem in sorted(found, key=lambda item: item[1].start_s)
             if (chosen is None or player.id in chosen) and kind in (ALL, None, _kind(problem))
         ]
+        before, self._known = self._known, {}
         lines = []
         for player, problem in wanted[:MOST_LINES]:
-            tick = round(project.score.tempo_map.ticks(problem.start_s))
-            text = sentence(problem.message, self._session, player.id)
             colour = self._session.colour(current[player.id]) if player.id in current else ""
-            lines.append(
-                Line((player.id, problem), player.name, place_text(project.score, tick), text, colour, "warning")
-            )
+            # What a line says comes from these; the player's notes are among them, which problems name.
+            score = project.score
+            sources = (problem, player, project.part(player), score.tempo_map, score.metres, colour)
+            known = before.get(id(problem))
+            if known is None or not all(map(is_, known[0], sources)):
+                known = (sources, self._line(player, problem, colour, score))
+            self._known[id(problem)] = known
+            lines.append(known[1])
         self.list.lines.show_lines(lines)
         self.list.setVisible(bool(lines))
         more = len(wanted) - len(lines)
@@ -106,6 +116,16 @@ class ProblemList(QWidget):
                 if not found
                 else self.tr("None of these. Choose other players or kinds above.")
             )
+
+    def _line(self, player: Player, problem: Problem, colour: str, score: Score) -> Line:
+        place = place_text(score, round(score.tempo_map.ticks(problem.start_s)))
+        text = sentence(problem.message, self._session, player.id)
+        return Line((player.id, problem), player.name, place, text, colour, "warning")
+
+    def _say_anew(self) -> None:
+        """Words or colours are others."""
+        self._known = {}
+        self.show_problems()
 
     def _players_changed(self) -> None:
         if self._who.shown == SELECTED:
@@ -142,7 +162,7 @@ class ProblemList(QWidget):
         )
         self._who.show_option(who)
         self._kind.show_option(kind)
-        self.show_problems()
+        self._say_anew()
 
     # Qt's own names
 

@@ -94,7 +94,10 @@ def _has_bars(session: Session) -> bool:
 
 
 def _has_varied_bars(session: Session) -> bool:
-    span = _span(session) if _has_bars(session) else None
+    # Whose notes are selected is asked last: it means a look at every note of the score.
+    if not _has_bars(session) or not any(generation.variations(session.project, own) for own in session.players):
+        return False
+    span = _span(session)
     return span is not None and any(
         generation.variations(session.project, player_id, span[0], span[1]) for player_id in session.players
     )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from operator import is_
 
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
@@ -71,6 +72,10 @@ class ActingLane(RegionLane):
         self.groups: list[tuple[str, int, int]] = []
         """Kinds with their first row and number of rows."""
         self._strips: dict[str, tuple[Floats, Floats, Floats]] = {}
+        self._known: dict[int, tuple[GestureEvent, Region]] = {}
+        """Regions of gestures, by the identity of the event."""
+        self._groups_known: dict[tuple[str, ...], tuple[TempoMap, list[Region], tuple[list[int], int]]] = {}
+        """What stood in a group's rows, and in which."""
         super().__init__(session, axis, parent)
         self._names = RowNames(self, self.row_names)
         self.retranslate()
@@ -81,7 +86,7 @@ class ActingLane(RegionLane):
             self.tr("Drag to move, up and down for the strength, an edge to resize, a corner for a fade; "
                     "double-click adds")
         )  # fmt: skip
-        self._made_for = ()
+        self._made_for, self._known = (), {}
         self.refresh()
 
     def kind_name(self, kind: str) -> str:
@@ -98,35 +103,66 @@ class ActingLane(RegionLane):
     def make_regions(self, plan: PlayerPlan) -> tuple[list[Region], int]:
         project = self.session.project
         varied = self._varied(plan.player_id)
-        made = [
+        by_kind: dict[str, list[Region]] = {}
+        for region in (
             *varied,
             *(_cue(event, project.player(plan.player_id).name, "{name} →") for event in plan.cues),
             *self._guests(plan),
             *(_expression(plan.player_id, event) for event in plan.expressions),
-            *(_gesture(plan.player_id, event) for event in plan.gestures),
+            *self._gestures(plan),
             *(_pose(plan.player_id, event) for event in plan.poses),
-        ]
+        ):
+            by_kind.setdefault(region.kind, []).append(region)
         result: list[Region] = []
-        self.groups, row = [], 0
-        clock = project.score.tempo_map
-        groups = ((VARIED,), *GROUPS) if varied else GROUPS
-        for kinds in groups:
-            members = [region for region in made if region.kind in kinds]
-            packed = sorted(
-                ((*_extent(item, clock), item.event_id, item) for item in members if item.event_id != BASE),
-                key=lambda row: row[:3],
-            )
-            spans = np.array([row[:2] for row in packed], np.float64).reshape(-1, 2)
-            rows = packed_rows(spans[:, 0], spans[:, 1])
-            count = int(rows.max(initial=0)) + 1
-            result += [_in_row(region, row + count - 1) for region in members if region.event_id == BASE]
-            result += [_in_row(item[3], row + own) for item, own in zip(packed, rows.tolist(), strict=True)]
+        self.groups, row, first = [], 0, dict[str, int]()
+        for kinds in ((VARIED,), *GROUPS) if varied else GROUPS:
+            members = [region for kind in kinds for region in by_kind.get(kind, ())]
+            rows, count = self._packed(kinds, members, project.score.tempo_map)
+            for region, own in zip(members, rows, strict=True):
+                region.row = row + own
+            result += members
+            first |= dict.fromkeys(kinds, row)
             self.groups.append((kinds[0], row, count))
             row += count
-        first = {kind: start for (_, start, _), kinds in zip(self.groups, groups, strict=True) for kind in kinds}
         removed = self.removed_regions(plan, (*GESTURE_KINDS, "cue", "expression"), first.__getitem__)
-        self._strips = {kind: _strip(result, kind, first[kind]) for kind in STRIPS}
         return result + removed, row
+
+    def _gestures(self, plan: PlayerPlan) -> list[Region]:
+        """The gestures, of which there are thousands: who has not changed is shown by the region from before."""
+        before, self._known = self._known, {}
+        for event in plan.gestures:
+            known = before.get(id(event))
+            if known is None or known[0] is not event or known[1].player_id != plan.player_id:
+                known = (event, _gesture(plan.player_id, event))
+            self._known[id(event)] = known
+        return [region for _, region in self._known.values()]
+
+    def _packed(self, kinds: tuple[str, ...], members: list[Region], clock: TempoMap) -> tuple[list[int], int]:
+        """The row of every member of a group, and how many rows there are; the faces beneath all lie in the last."""
+        known = self._groups_known.get(kinds)
+        if (
+            known is not None
+            and known[0] is clock
+            and len(known[1]) == len(members)
+            and all(map(is_, known[1], members))
+        ):
+            return known[2]
+        packed = sorted(
+            (*_extent(region, clock), region.event_id, place)
+            for place, region in enumerate(members)
+            if region.event_id != BASE
+        )
+        spans = np.array([item[:2] for item in packed], np.float64).reshape(-1, 2)
+        own = packed_rows(spans[:, 0], spans[:, 1])
+        count = int(own.max(initial=0)) + 1
+        rows = [count - 1] * len(members)
+        for item, place in zip(packed, own.tolist(), strict=True):
+            rows[item[3]] = place
+        self._groups_known[kinds] = (clock, members, (rows, count))
+        for kind in kinds:
+            if kind in STRIPS:
+                self._strips[kind] = _strip(members, kind)
+        return rows, count
 
     def shown_beside(self, plan: PlayerPlan | None) -> tuple[object, ...]:
         if plan is None:
@@ -450,11 +486,6 @@ def _extent(region: Region, clock: TempoMap) -> tuple[float, float]:
     return start, end
 
 
-def _in_row(region: Region, row: int) -> Region:
-    region.row = row
-    return region
-
-
 def _in_guest(region: Region) -> Region:
     region.guest = True
     return region
@@ -494,7 +525,7 @@ def _pose(player_id: str, event: PoseEvent) -> Region:
     )  # fmt: skip
 
 
-def _strip(regions: Sequence[Region], kind: str, row: int) -> tuple[Floats, Floats, Floats]:
+def _strip(regions: Sequence[Region], kind: str) -> tuple[Floats, Floats, Floats]:
     """Starts, ends and amounts of what is drawn as a strip; a sway's curve takes in changed swings, not added ones."""
     chosen = [
         region
