@@ -7,13 +7,21 @@ from __future__ import annotations
 
 import contextlib
 import os
+import re
 import secrets
 import shutil
+import sys
+import time
 from collections.abc import Iterator
 from pathlib import Path
-from typing import BinaryIO
+from typing import BinaryIO, Final
 
 from app.errors import FileError
+from app.formats.locks import is_locked, is_same_file, lock
+
+_PARTIAL: Final = re.compile(r"\.[0-9a-f]{16}\.partial")
+_FRESH_S: Final = 60.0
+"""On Windows an open file cannot be renamed: between the two it is nobody's, and too young to be swept."""
 
 
 @contextlib.contextmanager
@@ -22,6 +30,7 @@ def atomic_write(path: str | os.PathLike[str], backup: Path | None = None) -> It
 
     The bytes go to a temporary file in the same folder; on leaving the block it is flushed, synced and renamed over
     `path`. If the block raises, also on KeyboardInterrupt, the temporary file is removed and `path` is left as it was.
+    What a killed process leaves is found by `sweep`: a living one has its temporary file locked.
 
     Parameters
     ----------
@@ -40,10 +49,8 @@ def atomic_write(path: str | os.PathLike[str], backup: Path | None = None) -> It
         ``file.cannot_write`` if the system refuses (folder missing, no permission, disk full).
     """
     target = Path(os.path.realpath(path))
-    partial = target.parent / f".{secrets.token_hex(8)}.partial"
     try:
-        # "x": never write into somebody else's file; the mode follows the umask, as for any new file.
-        stream = partial.open("xb")
+        partial, stream = _new_partial(target.parent)
     except OSError as error:
         raise _cannot_write(path, error) from error
     try:
@@ -51,10 +58,10 @@ def atomic_write(path: str | os.PathLike[str], backup: Path | None = None) -> It
             yield stream
             stream.flush()
             os.fsync(stream.fileno())
-        if backup is not None and target.exists():
-            shutil.copymode(target, partial)
-            _keep(target, backup)
-        partial.replace(target)
+            if backup is not None and target.exists():
+                shutil.copymode(target, partial)
+                _keep(target, backup)
+            _rename(stream, partial, target)
         _sync_folder(target.parent)
     except OSError as error:
         raise _cannot_write(path, error) from error
@@ -62,15 +69,73 @@ def atomic_write(path: str | os.PathLike[str], backup: Path | None = None) -> It
         partial.unlink(missing_ok=True)
 
 
+def sweep(folder: Path) -> None:
+    """Remove temporary files of processes that were killed while they wrote into a folder."""
+    try:
+        found = [path for path in folder.iterdir() if _PARTIAL.fullmatch(path.name)]
+    except OSError:
+        # Nothing can be read here: nothing is to be swept.
+        return
+    for path in found:
+        with contextlib.suppress(OSError):
+            fresh = sys.platform == "win32" and time.time() - path.stat().st_mtime < _FRESH_S
+            if not fresh and not is_locked(path):
+                path.unlink()
+
+
+def _new_partial(folder: Path) -> tuple[Path, BinaryIO]:
+    """A new file that is locked, where the file system knows locks."""
+    while True:
+        partial = folder / f".{secrets.token_hex(8)}.partial"
+        # "x": never write into somebody else's file; the mode follows the umask, as for any new file.
+        stream = partial.open("xb")
+        try:
+            # Somebody who sweeps may have taken it for a dead one's between the two steps.
+            if lock(stream) and is_same_file(partial, stream):
+                return partial, stream
+        except OSError:
+            return partial, stream
+        stream.close()
+        partial.unlink(missing_ok=True)
+
+
+def _rename(stream: BinaryIO, partial: Path, target: Path) -> None:
+    """Give a file that is written its name; it stays locked until it has it."""
+    if sys.platform == "win32":
+        stream.close()
+    partial.replace(target)
+
+
 def _keep(file: Path, backup: Path) -> None:
     """Give a file a second name, or make a copy where the file system knows only one name for a file."""
     partial = file.parent / f".{secrets.token_hex(8)}.partial"
     try:
-        try:
-            os.link(file, partial)
-        except OSError:
-            shutil.copy2(file, partial)
-        partial.replace(backup)
+        with file.open("rb") as content:
+            if sys.platform != "win32":
+                # The file itself is locked with its second name, which is not to be swept either.
+                with contextlib.suppress(OSError):
+                    lock(content)
+            try:
+                os.link(file, partial)
+            except OSError:
+                _copy(content, file, backup)
+                return
+            if sys.platform != "win32":
+                partial.replace(backup)
+        if sys.platform == "win32":
+            partial.replace(backup)
+    finally:
+        partial.unlink(missing_ok=True)
+
+
+def _copy(content: BinaryIO, file: Path, backup: Path) -> None:
+    partial, stream = _new_partial(file.parent)
+    try:
+        with stream:
+            shutil.copyfileobj(content, stream)
+            stream.flush()
+            shutil.copystat(file, partial)
+            _rename(stream, partial, backup)
     finally:
         partial.unlink(missing_ok=True)
 

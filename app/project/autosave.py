@@ -10,11 +10,12 @@ that nobody has decided about.
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from app.formats.atomic import atomic_write
+from app.formats.atomic import atomic_write, sweep
 from app.project.model import Project
 from app.project.presence import Presence, is_open_elsewhere, remove
 from app.project.storage import AUTOSAVE, SUFFIX, encode
@@ -100,6 +101,8 @@ class Autosave:
         """
         self._drop()
         self._document = document
+        if document is not None:
+            sweep(Path(os.path.realpath(document)).parent)
         self._tell()
 
     def changed(self, project: Project, now_s: float) -> None:

@@ -18,17 +18,11 @@ import msgspec
 import platformdirs
 
 from app.errors import FileError
-from app.formats.atomic import atomic_write
-
-if sys.platform == "win32":
-    import msvcrt
-else:
-    import fcntl
+from app.formats.atomic import atomic_write, sweep
+from app.formats.locks import is_locked, is_same_file, lock
 
 LOCK: Final = ".lock"
 NOTE: Final = ".json"
-_BYTE: Final = 2**30
-"""The byte that is locked on Windows: far behind the content, which stays readable."""
 
 
 class Note(msgspec.Struct, frozen=True):
@@ -73,6 +67,7 @@ class Presence:
         self.note = Note(os.getpid())
         try:
             folder.mkdir(parents=True, exist_ok=True)
+            sweep(folder)
             self.token, self._stream = _new_lock(folder)
         except OSError as error:
             reason = error.strerror or str(error)
@@ -102,7 +97,7 @@ class Presence:
 def editors(folder: Path) -> Iterator[tuple[str, bool]]:
     """The token of every editor that left a trace, and whether it lives."""
     for path in sorted(folder.glob(f"*{LOCK}")):
-        yield path.name.removesuffix(LOCK), _is_locked(path)
+        yield path.name.removesuffix(LOCK), is_locked(path)
 
 
 def note_of(folder: Path, token: str) -> Note:
@@ -137,40 +132,9 @@ def _new_lock(folder: Path) -> tuple[str, IO[bytes]]:
         path = folder / f"{token}{LOCK}"
         stream = path.open("xb")
         # Somebody who looks for dead editors may have taken it for one between the two steps.
-        if _lock(stream) and _is_same_file(path, stream):
+        if lock(stream) and is_same_file(path, stream):
             return token, stream
         stream.close()
-
-
-def _is_same_file(path: Path, stream: IO[bytes]) -> bool:
-    try:
-        return os.path.samestat(path.stat(), os.fstat(stream.fileno()))
-    except OSError:
-        return False
-
-
-def _lock(stream: IO[bytes]) -> bool:
-    """Lock a file for as long as it is open; whether it was free."""
-    try:
-        if sys.platform == "win32":
-            stream.seek(_BYTE)
-            msvcrt.locking(stream.fileno(), msvcrt.LK_NBLCK, 1)
-        else:
-            fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except OSError:
-        return False
-    return True
-
-
-def _is_locked(path: Path) -> bool:
-    try:
-        with path.open("r+b") as stream:
-            return not _lock(stream)
-    except FileNotFoundError:
-        return False
-    except OSError:
-        # Not ours to open: whoever may be behind it is left alone.
-        return True
 
 
 def remove(path: Path) -> None:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from app.errors import AppError
+from app.formats.atomic import sweep
 from app.project.autosave import Autosave, autosave_path
 from app.project.model import Project
 from app.project.presence import NOTE, editors, forget, is_open_elsewhere, note_of, remove
@@ -57,6 +58,8 @@ def recoverable(folder: Path) -> tuple[Recoverable, ...]:
         own = folder / f"{token}{SUFFIX}"
         note = note_of(folder, token)
         document = Path(note.document) if note.document else None
+        if document is not None:
+            sweep(Path(os.path.realpath(document)).parent)
         if document is None:
             work = [own]
         elif is_open_elsewhere(document, folder):

@@ -2,13 +2,16 @@ from __future__ import annotations
 
 import errno
 import os
+import shutil
 import stat
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 
 from app.errors import FileError
-from app.formats.atomic import atomic_write
+from app.formats.atomic import atomic_write, sweep
 
 
 def test_the_file_takes_its_name_only_at_the_end(tmp_path: Path) -> None:
@@ -58,3 +61,70 @@ def test_links_stay_links_and_the_mode_is_that_of_a_new_file(tmp_path: Path) -> 
     assert link.is_symlink()
     assert (folder / "take.fbx").read_bytes() == b"new"
     assert stat.S_IMODE((folder / "take.fbx").stat().st_mode) == stat.S_IMODE((tmp_path / "plain").stat().st_mode)
+
+
+def test_what_a_killed_process_left_is_swept_and_what_a_living_one_writes_is_not(tmp_path: Path) -> None:
+    target = tmp_path / "take.fbx"
+    script = (
+        "import os, signal, sys\n"
+        "from app.formats.atomic import atomic_write\n"
+        "with atomic_write(sys.argv[1]) as stream:\n"
+        "    stream.write(b'half'); stream.flush()\n"
+        "    print('writing', flush=True)\n"
+        "    signal.pause()\n"
+    )
+    mine = tmp_path / ".notes.partial"
+    mine.write_text("somebody else's")
+    with subprocess.Popen([sys.executable, "-c", script, str(target)], stdout=subprocess.PIPE, text=True) as writer:
+        assert writer.stdout is not None
+        assert writer.stdout.readline() == "writing\n"
+        (partial,) = set(tmp_path.iterdir()) - {mine}
+        sweep(tmp_path)
+        assert partial.exists()
+        writer.kill()
+    assert partial.exists()
+    sweep(tmp_path)
+    assert list(tmp_path.iterdir()) == [mine]
+
+
+def test_sweeping_in_the_midst_of_any_step_costs_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Another editor may sweep the folder whenever it likes."""
+    target, backup = tmp_path / "take.fbx", tmp_path / "take.fbx.bak"
+    target.write_bytes(b"old")
+
+    def sweeping(function):  # type: ignore[no-untyped-def]
+        def swept(*arguments, **named):  # type: ignore[no-untyped-def]
+            sweep(tmp_path)
+            result = function(*arguments, **named)
+            sweep(tmp_path)
+            return result
+
+        return swept
+
+    for owner, name in ((os, "link"), (os, "fsync"), (shutil, "copymode"), (Path, "replace")):
+        monkeypatch.setattr(owner, name, sweeping(getattr(owner, name)))
+    with atomic_write(target, backup) as stream:
+        stream.write(b"new")
+    monkeypatch.undo()
+    assert (target.read_bytes(), backup.read_bytes()) == (b"new", b"old")
+    assert sorted(tmp_path.iterdir()) == [target, backup]
+
+
+@pytest.mark.parametrize("unsupported", [False, True])
+def test_without_second_names_or_locks_it_writes_all_the_same(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, unsupported: bool
+) -> None:
+    def refuse(*arguments: object) -> None:
+        raise OSError(errno.EOPNOTSUPP, "not here")
+
+    monkeypatch.setattr(os, "link", refuse)
+    if unsupported:
+        monkeypatch.setattr("app.formats.atomic.lock", refuse)
+        monkeypatch.setattr("app.formats.locks.lock", refuse)
+    target, backup = tmp_path / "take.fbx", tmp_path / "take.fbx.bak"
+    target.write_bytes(b"old")
+    with atomic_write(target, backup) as stream:
+        stream.write(b"new")
+        sweep(tmp_path)
+    assert (target.read_bytes(), backup.read_bytes()) == (b"new", b"old")
+    assert sorted(tmp_path.iterdir()) == [target, backup]

@@ -218,6 +218,8 @@ def test_killed_in_mid_write(editor: Editor, folder: Path, document: Path, after
     mine.closed()
     assert list(folder.iterdir()) == []
     assert not autosave_path(document).exists()
+    # Nor the file that was being written.
+    assert not [path for path in document.parent.iterdir() if path.name.endswith(".partial")]
 
 
 def left_behind(editor: Editor, document: Path | None, project: Project) -> None:

@@ -1,0 +1,56 @@
+"""Locks of files, which the system takes away when their process ends, however it ends."""
+
+from __future__ import annotations
+
+import errno
+import os
+import sys
+from pathlib import Path
+from typing import IO, Any, Final
+
+if sys.platform == "win32":
+    import msvcrt
+else:
+    import fcntl
+
+_BYTE: Final = 2**30
+"""The byte that is locked on Windows: far behind the content, which stays readable."""
+
+
+def lock(stream: IO[Any]) -> bool:
+    """Lock a file for as long as it is open; whether nobody else has. Raises OSError where there are no locks."""
+    try:
+        if sys.platform == "win32":
+            place = stream.tell()
+            stream.seek(_BYTE)
+            try:
+                msvcrt.locking(stream.fileno(), msvcrt.LK_NBLCK, 1)
+            finally:
+                stream.seek(place)
+        else:
+            fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError as error:
+        if error.errno in (errno.EACCES, errno.EAGAIN, errno.EDEADLK):
+            return False
+        raise
+    return True
+
+
+def is_locked(path: Path) -> bool:
+    """Whether a living process has locked a file, or may have."""
+    try:
+        with path.open("r+b") as stream:
+            return not lock(stream)
+    except FileNotFoundError:
+        return False
+    except OSError:
+        # Not ours to open: whoever may be behind it is left alone.
+        return True
+
+
+def is_same_file(path: Path, stream: IO[Any]) -> bool:
+    """Whether an open file is still the one of this name."""
+    try:
+        return os.path.samestat(path.stat(), os.fstat(stream.fileno()))
+    except OSError:
+        return False
