@@ -5,6 +5,8 @@ The command line prints these; the editor translates them (context ``Message``).
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from string import Formatter
 from typing import Final
 
 from app.errors import AppError, Message
@@ -36,12 +38,31 @@ PITCHES: Final[dict[str, tuple[str, ...]]] = {
 """Arguments that are MIDI numbers of pitches: here they are told as such, the editor names them."""
 
 
+class _Filling(Formatter):
+    def format_field(self, value: object, format_spec: str) -> str:
+        if "|" not in format_spec:
+            return str(super().format_field(value, format_spec))
+        one, _, more = format_spec.partition("|")
+        return one if value == 1 else more
+
+
+_FILLING = _Filling()
+
+
+def filled(template: str, arguments: Mapping[str, object]) -> str:
+    """A template with its arguments; ``{count:note|notes}`` is the first word where the count is 1, else the second.
+
+    A language without a plural leaves such a field out.
+    """
+    return _FILLING.vformat(template, (), arguments)
+
+
 def text(message: Message) -> str:
     """The message as an English sentence."""
     arguments = dict(message.arguments)
     for name in PITCHES.get(message.id, ()):
         arguments[name] = f"MIDI {arguments[name]}"
-    return TEMPLATES[message.id].format(**arguments)
+    return filled(TEMPLATES[message.id], arguments)
 
 
 def error_text(error: AppError) -> str:

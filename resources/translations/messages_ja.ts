@@ -64,15 +64,15 @@
             <translation>録音の変更</translation>
         </message>
         <message>
-            <source>move {count} events</source>
+            <source>move {count} {count:event|events}</source>
             <translation>{count} 個のイベントを移動</translation>
         </message>
         <message>
-            <source>resize {count} events</source>
+            <source>resize {count} {count:event|events}</source>
             <translation>{count} 個のイベントの長さを変更</translation>
         </message>
         <message>
-            <source>change how much of {count} events</source>
+            <source>change how much of {count} {count:event|events}</source>
             <translation>{count} 個のイベントの量を変更</translation>
         </message>
         <message>
@@ -84,11 +84,11 @@
             <translation>表情を変更</translation>
         </message>
         <message>
-            <source>change the embouchure of {count} notes</source>
+            <source>change the embouchure of {count} {count:note|notes}</source>
             <translation>{count} 音のアンブシュアを変更</translation>
         </message>
         <message>
-            <source>fingering of {count} notes</source>
+            <source>fingering of {count} {count:note|notes}</source>
             <translation>{count} 音の運指</translation>
         </message>
         <message>
@@ -112,7 +112,7 @@
             <translation>準備動作の切り替え</translation>
         </message>
         <message>
-            <source>delete {count} events</source>
+            <source>delete {count} {count:event|events}</source>
             <translation>{count} 個のイベントを削除</translation>
         </message>
         <message>
@@ -436,51 +436,51 @@
             <translation>音符を追加</translation>
         </message>
         <message>
-            <source>erase {count} notes</source>
+            <source>erase {count} {count:note|notes}</source>
             <translation>{count} 音を消す</translation>
         </message>
         <message>
-            <source>move {count} notes</source>
+            <source>move {count} {count:note|notes}</source>
             <translation>{count} 音を移動</translation>
         </message>
         <message>
-            <source>transpose {count} notes</source>
+            <source>transpose {count} {count:note|notes}</source>
             <translation>{count} 音を移調</translation>
         </message>
         <message>
-            <source>nudge {count} notes</source>
+            <source>nudge {count} {count:note|notes}</source>
             <translation>{count} 音をずらす</translation>
         </message>
         <message>
-            <source>length of {count} notes</source>
+            <source>length of {count} {count:note|notes}</source>
             <translation>{count} 音の長さ</translation>
         </message>
         <message>
-            <source>split {count} notes</source>
+            <source>split {count} {count:note|notes}</source>
             <translation>{count} 音を分割</translation>
         </message>
         <message>
-            <source>join {count} notes</source>
+            <source>join {count} {count:note|notes}</source>
             <translation>{count} 音を結合</translation>
         </message>
         <message>
-            <source>duplicate {count} notes</source>
+            <source>duplicate {count} {count:note|notes}</source>
             <translation>{count} 音を複製</translation>
         </message>
         <message>
-            <source>velocity of {count} notes</source>
+            <source>velocity of {count} {count:note|notes}</source>
             <translation>{count} 音のベロシティー</translation>
         </message>
         <message>
-            <source>quantise {count} notes</source>
+            <source>quantise {count} {count:note|notes}</source>
             <translation>{count} 音をクオンタイズ</translation>
         </message>
         <message>
-            <source>cut {count} notes</source>
+            <source>cut {count} {count:note|notes}</source>
             <translation>{count} 音を切り取り</translation>
         </message>
         <message>
-            <source>paste {count} notes</source>
+            <source>paste {count} {count:note|notes}</source>
             <translation>{count} 音を貼り付け</translation>
         </message>
         <message>

@@ -10,7 +10,8 @@ from PySide6.QtCore import QObject, QTranslator
 from PySide6.QtWidgets import QAbstractButton, QComboBox, QLabel, QLineEdit, QTabWidget, QWidget
 
 FOLDER = Path(__file__).parents[2] / "resources" / "translations"
-_FIELD = re.compile(r"{[^}]*}")
+_FIELD = re.compile(r"{[^}|]*}")
+"""Fields of a text; plurals ({count:note|notes}) are English."""
 
 
 class FromFiles(QTranslator):

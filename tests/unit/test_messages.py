@@ -10,7 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from app.messages import TEMPLATES
+from app.errors import Message
+from app.messages import TEMPLATES, text
 
 ROOT = Path(__file__).parents[2]
 FOLDERS = ("app", "widgets", "instrument_maps", "metadata")
@@ -125,3 +126,18 @@ def test_the_arguments_fill_the_templates() -> None:
         if names is not None and id in TEMPLATES and not fields(TEMPLATES[id]) <= names
     ]
     assert missing == []
+
+
+@pytest.mark.parametrize(
+    ("count", "told"), [(0, "move 0 notes"), (1, "move 1 note"), (2, "move 2 notes"), (21, "move 21 notes")]
+)
+def test_one_is_not_many(count: int, told: str) -> None:
+    assert text(Message("edit.move_notes", {"count": count})) == told
+
+
+def test_no_template_counts_one_of_many() -> None:
+    """Told of one thing, no name of an edit says "1 notes"."""
+    for id, template in TEMPLATES.items():
+        if id.startswith("edit.") and "count" in fields(template):
+            arguments = dict.fromkeys(fields(template), 1)
+            assert not re.search(r"\b1 \w+s\b", text(Message(id, arguments))), id

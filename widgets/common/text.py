@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from PySide6.QtCore import QCoreApplication
 
 from app.errors import Argument, Message
-from app.messages import PITCHES, TEMPLATES
+from app.messages import PITCHES, TEMPLATES, filled
 from app.project.model import Player
 from app.score.model import Note, Score
 from instrument_maps.load import bundled_maps
@@ -35,7 +35,7 @@ def message_text(message: Message, session: Session | None = None, player_id: st
         Whose message it is; None: that of the player in front.
     """
     template = QCoreApplication.translate("Message", TEMPLATES[message.id])
-    return template.format(**{name: _told(message, name, session, player_id) for name in message.arguments})
+    return filled(template, {name: _told(message, name, session, player_id) for name in message.arguments})
 
 
 def sentence(message: Message, session: Session | None = None, player_id: str | None = None) -> str:
