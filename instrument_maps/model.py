@@ -378,6 +378,10 @@ class Hold(_Table, frozen=True):
         both: tuple[tuple[Posture, Carriage | None], ...] = (("standing", self.standing), ("seated", self.seated))
         return tuple(posture for posture, carriage in both if carriage is not None)
 
+    def possible(self, posture: Posture) -> Posture:
+        """The posture itself, or the only one the instrument is played in."""
+        return posture if posture in self.postures else self.postures[0]
+
     def carriage(self, posture: Posture) -> Carriage:
         """Return how it is carried, in the only posture it is played in where the wanted one is not possible."""
         return self._either(posture, self.standing, self.seated)

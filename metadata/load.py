@@ -12,17 +12,19 @@ import tomllib
 from collections.abc import Iterable
 from functools import cache
 from pathlib import Path
-from typing import TypeVar
+from typing import TypeVar, get_args
 
 import msgspec
 
 from app.errors import MapError, Message
-from metadata.model import ARKIT_MORPHS, Body, Embouchure, Expression, SkeletonProfile
+from metadata.model import ARKIT_MORPHS, Body, EmbouchureKind, Expression, SkeletonProfile
 
 ROOT = Path(__file__).parent
 _KIND_FOLDERS = {"expression": "expressions", "body": "bodies", "skeleton": "skeletons"}
 _AXIS_TOLERANCE = 2e-3
 _MORPHS = frozenset(ARKIT_MORPHS)
+WEIGHTS = ("relaxed", "tight", "air", "effort", "tongue_stroke", "inhale")
+"""The tables of weights of an embouchure."""
 
 T = TypeVar("T")
 
@@ -133,8 +135,12 @@ def read_body(path: Path) -> Body:
     names_known = {joint.name for joint in profile.joints}
     for name, posture in body.postures.items():
         _check_joints(path, f"postures.{name}.spine_deg", tuple(posture.spine_deg), names_known)
-    for field in Embouchure.__struct_fields__:
-        _check_morphs(path, f"embouchure.{field}", getattr(body.embouchure, field))
+    for kind in get_args(EmbouchureKind):
+        if kind not in body.embouchure:
+            raise _invalid(path, "embouchure", f"no embouchure {kind!r}")
+    for kind, embouchure in body.embouchure.items():
+        for field in WEIGHTS:
+            _check_morphs(path, f"embouchure.{kind}.{field}", getattr(embouchure, field))
     return body
 
 

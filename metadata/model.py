@@ -78,7 +78,7 @@ class JointLimits(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     source: str
 
 
-class Posture(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+class Posture(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
     """How a trained player stands or sits, before any motion.
 
     Attributes
@@ -91,6 +91,8 @@ class Posture(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         ``hip_flexion_deg`` is the thigh's angle before the vertical; seated about 85.
     spine_deg : dict of str to float
         Flexion (forward positive) of each joint of spine and neck; the sum over the spine is the trunk's lean.
+    spine_left_deg, spine_turn_deg : dict of str to float
+        Lean to the left and turn to the left of the same joints; see `Body.turned_to`.
     shoulder_lift_deg, elbow_off_ribs_deg : float
         ``elbow_off_ribs_deg``: angle between the hanging upper arm and the trunk, sideways.
     head_down_deg : float
@@ -109,6 +111,8 @@ class Posture(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     elbow_off_ribs_deg: NotNegative
     head_down_deg: float
     seat_height_shank: NotNegative
+    spine_left_deg: dict[str, float] = {}
+    spine_turn_deg: dict[str, float] = {}
 
 
 class Sway(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -153,11 +157,8 @@ class CueMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 class BreathMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """An inhalation of depth 1; a shallower one scales it. Players become more upright and the arms neutral
-    (Frontiers in Psychology 2024, 1394035)."""
+    (Frontiers in Psychology 2024, 1394035). What the mouth does is the embouchure's `Embouchure.inhale`."""
 
-    jaw_open: Fraction01
-    mouth_stretch: Fraction01
-    nose_flare: Fraction01
     torso_back_deg: NotNegative
     shoulder_lift_deg: NotNegative
     head_back_deg: float
@@ -166,14 +167,49 @@ class BreathMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class Embouchure(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """ARKit weights at full tension (high notes: drawn tight), fully relaxed (low notes), full air and full effort;
-    the face while playing is ``relaxed * (1 - tension) + tight * tension + air * air + effort * effort``."""
+    """ARKit weights of one way to play (the map's ``embouchure.kind``).
+
+    The face while playing is ``relaxed * (1 - tension) + tight * tension + air * air + effort * effort``; on top of it
+    the jaw opens as far as lips need that close around something, or leave an opening (`app.motion.face`).
+
+    Attributes
+    ----------
+    relaxed, tight : dict of str to float
+        Low notes, fully relaxed, and high notes, drawn tight.
+    air, effort : dict of str to float
+        Full air and full effort.
+    tongue_stroke : dict of str to float
+        The tongue before an attack.
+    inhale : dict of str to float
+        The mouth in a full breath.
+    opening_m : float
+        Height of the opening between the lips beside what lies between them; 0: the lips stay as the weights have them.
+    """
 
     relaxed: dict[str, Fraction01]
     tight: dict[str, Fraction01]
     air: dict[str, Fraction01]
     effort: dict[str, Fraction01]
     tongue_stroke: dict[str, Fraction01]
+    inhale: dict[str, Fraction01]
+    opening_m: NotNegative = 0.0
+
+    @property
+    def usual(self) -> dict[str, float]:
+        """Weights of a middling tension."""
+        names = sorted(self.relaxed.keys() | self.tight.keys())
+        return {name: 0.5 * (self.relaxed.get(name, 0.0) + self.tight.get(name, 0.0)) for name in names}
+
+
+EmbouchureKind: TypeAlias = Literal["cup", "single_reed", "double_reed", "air_jet", "fipple"]
+"""The kinds an instrument map may name."""
+
+TRUNK_JOINTS = ("spine", "chest", "upperChest")
+NECK_JOINTS = ("neck", "head")
+HEAD_FOLLOWS = 0.4
+"""Share of the instrument's pitch the head goes along with, up to the posture's limit."""
+TURNED_SHARE = 0.85
+"""Part of the joints' range that turning to an instrument takes at most: there is always some left to move with."""
 
 
 class Body(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -189,7 +225,48 @@ class Body(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     bell: BellMotion
     cue: CueMotion
     breath: BreathMotion
-    embouchure: Embouchure
+    embouchure: dict[EmbouchureKind, Embouchure]
+
+    def turned_to(
+        self,
+        posture: Literal["standing", "seated"],
+        *,
+        pitch_down_deg: float = 0.0,
+        head_left_deg: float = 0.0,
+        head_lean_left_deg: float = 0.0,
+        trunk_left_deg: float = 0.0,
+    ) -> Posture:
+        """A posture with head and trunk turned to an instrument, as far as posture and joints allow.
+
+        Parameters
+        ----------
+        posture : str
+        pitch_down_deg : float
+            How the instrument is carried; the head goes along with a part of it.
+        head_left_deg, head_lean_left_deg, trunk_left_deg : float
+            As in an instrument map's carriage; shared among the joints as their ranges are.
+        """
+        still = self.postures[posture]
+        spine_deg = dict(still.spine_deg)
+        down_deg = min(still.head_down_deg, HEAD_FOLLOWS * max(pitch_down_deg, 0.0))
+        spine_deg["head"] = spine_deg.get("head", 0.0) + down_deg
+        return msgspec.structs.replace(
+            still,
+            spine_deg=spine_deg,
+            spine_left_deg=self._shared(head_lean_left_deg, NECK_JOINTS, "sideways_deg"),
+            spine_turn_deg=self._shared(head_left_deg, NECK_JOINTS, "twist_deg")
+            | self._shared(trunk_left_deg, TRUNK_JOINTS, "twist_deg"),
+        )
+
+    def _shared(self, angle_deg: float, joints: tuple[str, ...], field: str) -> dict[str, float]:
+        """An angle shared among joints in proportion to their ranges to that side; nothing for none."""
+        if angle_deg == 0.0:
+            return {}
+        side = 1 if angle_deg > 0.0 else 0
+        rooms = {joint: abs(float(getattr(self.limits[joint], field)[side])) for joint in joints}
+        room = sum(rooms.values())
+        given = min(max(angle_deg, -TURNED_SHARE * room), TURNED_SHARE * room)
+        return {joint: given * own / room for joint, own in rooms.items()}
 
 
 class JointAxes(msgspec.Struct, frozen=True, forbid_unknown_fields=True):

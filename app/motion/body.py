@@ -26,6 +26,8 @@ from metadata.model import AmplitudeScale, Body, Posture, at_amplitude
 TRUNK = (*TRUNK_SHARES, *NECK_SHARES)
 EYES_LEVEL = 0.6
 """Share of the trunk's sideways lean that neck and head take back, so that the eyes stay level."""
+EYES_BACK = 0.6
+"""Share of the head's turn to the instrument that the eyes turn back, to the music and to the others."""
 QUICK_S = 0.6
 """Gestures shorter than this are smaller in proportion: nobody leans as far in half the time."""
 EXHALE_S = 3.0
@@ -119,11 +121,13 @@ class BodyMotion:
     def still(cls, posture: Posture) -> BodyMotion:
         """One frame of the posture before any motion."""
         zero = np.zeros(1)
-        nothing = dict.fromkeys(TRUNK, zero)
-        held = {joint: np.array([np.deg2rad(posture.spine_deg.get(joint, 0.0))]) for joint in TRUNK}
+        held, left, turned = (
+            {joint: np.array([np.deg2rad(angles.get(joint, 0.0))]) for joint in TRUNK}
+            for angles in (posture.spine_deg, posture.spine_left_deg, posture.spine_turn_deg)
+        )
         rest: dict[str, Any] = {member.name: zero for member in fields(cls)}
         empty: dict[str, Any] = {name: {} for name in ("protraction_rad", "elbow_held_rad", "bell_held_rad")}
-        return cls(**(rest | {"forward_rad": held, "left_rad": nothing, "turn_rad": nothing} | empty))
+        return cls(**(rest | {"forward_rad": held, "left_rad": left, "turn_rad": turned} | empty))
 
 
 @dataclass(frozen=True)
@@ -423,8 +427,15 @@ def body_motion(
     )
 
     forward, left, turn = _Sum(frames), _Sum(frames), _Sum(frames)
+    lowered = layers.lowered.sample(times_s)
     for joint, angle_deg in posture.spine_deg.items():
         forward.add({joint: 1.0}, np.full(frames, np.deg2rad(angle_deg)))
+    for summed, angles in ((left, posture.spine_left_deg), (turn, posture.spine_turn_deg)):
+        for joint, angle_deg in angles.items():
+            # A player turned to the instrument looks straight ahead when it is lowered; the trunk stays with the hands.
+            there = 1.0 - lowered if joint in NECK_SHARES else np.ones(frames)
+            summed.add({joint: np.deg2rad(angle_deg)}, there)
+    aside_rad = sum(np.deg2rad(angle_deg) for angle_deg in posture.spine_turn_deg.values()) * (1.0 - lowered)
 
     deg = np.deg2rad
     side = aside * sizes.rad(sway.side_deg) + deg(sizes.wander("side", sway.side_deg, times_s))
@@ -453,7 +464,6 @@ def body_motion(
     turn.add(NECK_SHARES, 0.5 * head_yaw)
     forward.add(NECK_SHARES, 0.5 * head_pitch)
 
-    lowered = layers.lowered.sample(times_s)
     forward.add(TRUNK_SHARES, deg(body.bell.lowered_trunk_deg) * lowered)
 
     roll = weight * sizes.rad(body.weight_shift.roll_deg)
@@ -486,7 +496,7 @@ def body_motion(
         bell_held_rad=bell_held,
         shoulders_rad=deg(body.breath.shoulder_lift_deg) * inhaled,
         elbows_rad=deg(body.breath.elbow_out_deg) * inhaled - 4.0 * lowered * (1.0 - lowered) * LOWER_ELBOWS_RAD,
-        eyes_yaw_rad=gaze.yaw_rad.sample(times_s) - 0.5 * head_yaw,
+        eyes_yaw_rad=gaze.yaw_rad.sample(times_s) - 0.5 * head_yaw - EYES_BACK * aside_rad,
         eyes_pitch_rad=gaze.pitch_rad.sample(times_s) - 0.5 * head_pitch,
         inhaled=inhaled,
         lowered=lowered,

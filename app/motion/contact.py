@@ -76,7 +76,7 @@ def carry(
     mouth_open: FloatArray,
     grip_of_lips_m: FloatArray,
 ) -> Carried:
-    """Place the instrument: its rim on the lips, or lowered before the body.
+    """Place the instrument: at the lips, or lowered before the body.
 
     Parameters
     ----------
@@ -86,16 +86,16 @@ def carry(
     motion : BodyMotion
     morphs : mapping of str to (F,)
     mouth_open : (F,) float64
-        How far the mouth is open for a breath, 0..1: then the upper lip alone carries the rim.
+        How far the mouth is open for a breath, 0..1: then one lip alone carries the mouthpiece.
     grip_of_lips_m : (3,) float64
-        Added to where the upper lip alone carries the rim, so that the rim keeps its playing place on that lip.
+        Added to where that lip carries it, so that it keeps its playing place there.
     """
     lowering = motion.lowered
     frames = len(lowering)
-    contact_m, upper_m = hold.lips.contact_m(morphs, frames), hold.lips.upper_m(morphs, frames)
+    contact_m, carried_m = hold.lips.contact_m(morphs, frames), hold.lips.carried_m(morphs, frames)
     # The jaw is far enough down to have left the rim long before the mouth is fully open.
-    on_upper = 1.0 - (1.0 - mouth_open) ** 4
-    lips_m = contact_m + (upper_m + grip_of_lips_m - contact_m) * on_upper[:, None]
+    on_one = 1.0 - (1.0 - mouth_open) ** 4
+    lips_m = contact_m + (carried_m + grip_of_lips_m - contact_m) * on_one[:, None]
     pitch, yaw, roll = held_angles(carriage, motion)
     with_head = quaternion.multiply(body.head, quaternion.conjugate(base.head))
     pitch = pitch - motion.bell_cue_rad + motion.bell_down_rad
@@ -103,7 +103,7 @@ def carry(
     position_m = body.head_m + quaternion.rotate(body.head, lips_m)
     if not np.any(lowering):
         return Carried(position_m, rotation)
-    base_lips_m = base.head_m + quaternion.rotate(base.head, hold.lips.contact_rest_m)
+    base_lips_m = base.head_m + quaternion.rotate(base.head, hold.lips.usual_m)
     with_chest = quaternion.multiply(body.chest, quaternion.conjugate(base.chest))
     low_m = body.chest_m + quaternion.rotate(with_chest, base_lips_m + np.array(lowered.offset_m) - base.chest_m)
     low = quaternion.multiply(

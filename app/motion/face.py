@@ -1,6 +1,8 @@
 """Morph weights of the face (ARKit's 52 names) from the plan: embouchure, breath, tongue, effort, expression, lids.
 
-Every morph is a sum of drivers, each a curve 0..1 of time, with weights from `metadata`, clipped to 0..1.
+Every morph is a sum of drivers, each a curve 0..1 of time, with weights from `metadata`, clipped to 0..1. The jaw also
+opens as far as lips need that close around something, or blow through an opening: that is solved from how the
+character's own morphs move its lips.
 """
 
 from __future__ import annotations
@@ -13,7 +15,8 @@ import numpy as np
 from app.motion.curve import Curve, Envelopes, FloatArray, moves
 from app.motion.gaze import Gaze
 from app.plan.model import EmbouchureEvent, PlayerPlan, same_events
-from metadata.model import Body, BreathMotion, Expression
+from app.rig.hold import Lips
+from metadata.model import Embouchure, Expression
 
 FORM_S = 0.16
 """The lips form in this time before the first note of a phrase, and let go as slowly after its last."""
@@ -28,6 +31,8 @@ SWELL_S = 0.35
 """Effort and air swell and fade slowly, over several notes."""
 
 LIDS = ("eyeBlinkLeft", "eyeBlinkRight")
+AROUND_FROM, AROUND_BY = 0.32, 0.06
+"""Lowered by less than this, the lips begin to part for what goes between them; by less than that they have."""
 SHALLOWEST = 0.5
 """However shallow a breath, the mouth opens by this share of a full one's."""
 
@@ -90,17 +95,6 @@ def _shown(plan: PlayerPlan) -> dict[str, Envelopes]:
     return {name: Envelopes.of(rows[name]) for name in sorted(rows)}
 
 
-def _inhaling(breath: BreathMotion) -> dict[str, float]:
-    """The mouth opens by the jaw and at the corners; the upper lip stays at the mouthpiece."""
-    return {
-        "jawOpen": breath.jaw_open,
-        "mouthStretchLeft": breath.mouth_stretch,
-        "mouthStretchRight": breath.mouth_stretch,
-        "noseSneerLeft": breath.nose_flare,
-        "noseSneerRight": breath.nose_flare,
-    }
-
-
 @dataclass(frozen=True)
 class Face:
     """What one player's plan asks of the face, as curves of time.
@@ -152,10 +146,12 @@ class Face:
 
 def face_morphs(
     face: Face,
-    body: Body,
+    embouchure: Embouchure,
+    lips: Lips,
     expressions: Mapping[str, Expression],
     gaze: Gaze,
     mouth_open: FloatArray,
+    lowered: FloatArray,
     times_s: FloatArray,
 ) -> dict[str, FloatArray]:
     """Weights 0..1 of every morph that moves, each (F,) float64.
@@ -163,14 +159,18 @@ def face_morphs(
     Parameters
     ----------
     face : Face
-    body : Body
-        Weights of embouchure and breath.
+    embouchure : Embouchure
+        Weights of the instrument's kind of embouchure.
+    lips : Lips
+        Of the character, with the instrument.
     expressions : mapping of str to Expression
         All that the plan names.
     gaze : Gaze
         For the lids.
     mouth_open : (F,) float64
         ``face.mouth_open``, sampled.
+    lowered : (F,) float64
+        0 with the instrument at the lips, 1 with it lowered.
     times_s : (F,) float64
         Ascending.
     """
@@ -179,19 +179,40 @@ def face_morphs(
     formed = at_lips * (1.0 - 0.9 * inhaling)
     tension, effort, air = face.tension.sample(times_s), face.effort.sample(times_s), face.air.sample(times_s)
     drivers: list[tuple[FloatArray, Mapping[str, float]]] = [
-        (formed * (1.0 - tension), body.embouchure.relaxed),
-        (formed * tension, body.embouchure.tight),
-        (formed * air, body.embouchure.air),
-        (formed * effort, body.embouchure.effort),
-        (face.tongue.sample(times_s), body.embouchure.tongue_stroke),
-        (inhaling, _inhaling(body.breath)),
+        (formed * (1.0 - tension), embouchure.relaxed),
+        (formed * tension, embouchure.tight),
+        (formed * air, embouchure.air),
+        (formed * effort, embouchure.effort),
+        (face.tongue.sample(times_s), embouchure.tongue_stroke),
+        (inhaling, embouchure.inhale),
     ]
     for name, envelopes in face.expressions.items():
         expression = expressions[name]
         shown = envelopes.sample(times_s)
         drivers.append((shown if expression.while_playing else shown * (1.0 - at_lips), expression.weights))
     drivers.append((gaze.blinks.sample(times_s), dict.fromkeys(LIDS, 1.0)))
-    return _mixed(drivers)
+    morphs = _mixed(drivers)
+    if lips.jaw:
+        around = np.clip((AROUND_FROM - lowered) / (AROUND_FROM - AROUND_BY), 0.0, 1.0)
+        around = around * around * (3.0 - 2.0 * around)
+        _part_lips(morphs, lips, around if lips.apart_m > 0.0 else formed, formed)
+    return morphs
+
+
+def usual_morphs(embouchure: Embouchure, lips: Lips) -> dict[str, float]:
+    """The face of a middling tension, with the jaw as it closes the lips around what lies between them."""
+    morphs = {name: np.array([weight]) for name, weight in embouchure.usual.items()}
+    one = np.ones(1)
+    if lips.jaw:
+        _part_lips(morphs, lips, one, one)
+    return {name: float(values[0]) for name, values in morphs.items()}
+
+
+def _part_lips(morphs: dict[str, FloatArray], lips: Lips, around: FloatArray, formed: FloatArray) -> None:
+    """Open the jaw until the lips are as far apart as they must be, and by what it opens for a breath beyond that."""
+    needed = lips.jaw_for(lips.apart_m + lips.opening_m * formed, morphs, len(around))
+    beyond = morphs.get(lips.jaw, np.zeros(len(around)))
+    morphs[lips.jaw] = np.clip(around * needed + beyond, 0.0, 1.0)
 
 
 def _mixed(drivers: Sequence[tuple[FloatArray, Mapping[str, float]]]) -> dict[str, FloatArray]:

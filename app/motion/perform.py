@@ -12,18 +12,18 @@ import numpy as np
 from app.motion.body import BodyMotion, Layers, body_motion
 from app.motion.controls import control_curves
 from app.motion.curve import EVERYWHERE, Curve, Envelopes, FloatArray, frame_times
-from app.motion.face import Face, face_morphs
+from app.motion.face import Face, face_morphs, usual_morphs
 from app.motion.gaze import Gaze, plan_gaze
 from app.motion.model import Motion
 from app.motion.posture import hips_path, stance, trunk
 from app.motion.solve import Curves, Player, padding, solve
 from app.plan.model import PlayerParameters, PlayerPlan, TimeFrame, same_events
-from app.rig.carriage import with_head
-from app.rig.hold import Hold
+from app.rig.carriage import carrying
+from app.rig.hold import Hold, Lips
 from app.rig.model import Character
 from instrument_maps.model import InstrumentMap
 from metadata.load import load_expressions
-from metadata.model import Body, Expression, Posture
+from metadata.model import Body, Embouchure, Expression, Posture
 
 PLANNED_WITH = ("breath_min_beats", "breath_last_beat_beats", "breath_prepare_beats", "lung_s", "cue_leader")
 """Parameters that decide what is planned, and not how a plan looks."""
@@ -46,7 +46,7 @@ class Playing:
     beat_ticks : int
     parameters : PlayerParameters
     posture : Posture
-        With the head bent after the instrument.
+        With head and trunk turned to the instrument.
     body : Body
     expressions : dict of str to Expression
         Those the plan names.
@@ -85,10 +85,20 @@ class Playing:
         pad = padding(fps)
         times_s = frame_times(self.start_s, fps, first_frame - pad, frames + 2 * pad)
         mouth_open = self.face.mouth_open.sample(times_s)
+        moved = body_motion(self.layers, self.player_id, self.parameters, self.body, self.posture, self.gaze, times_s)
         curves = Curves(
-            body=body_motion(self.layers, self.player_id, self.parameters, self.body, self.posture, self.gaze, times_s),
+            body=moved,
             controls={name: curve.sample(times_s) for name, curve in self.controls.items()},
-            morphs=face_morphs(self.face, self.body, self.expressions, self.gaze, mouth_open, times_s),
+            morphs=face_morphs(
+                self.face,
+                self.body.embouchure[self.instrument_map.embouchure.kind],
+                self.player.hold.lips,
+                self.expressions,
+                self.gaze,
+                mouth_open,
+                moved.lowered,
+                times_s,
+            ),
             mouth_open=mouth_open,
         )
         return solve(self.player, curves, fps, float(frame_times(self.start_s, fps, first_frame, 1)[0]))
@@ -152,7 +162,7 @@ def prepare(
         before = None
     known = load_expressions() if expressions is None else expressions
     carriage = instrument_map.hold.carriage(parameters.posture)
-    posture = with_head(body.postures[parameters.posture], carriage)
+    posture = carrying(body, instrument_map.hold.possible(parameters.posture), carriage)
     tension = parameters.embouchure_tension
     if before is None:
         face, layers = Face.of(plan, tension), Layers.of(plan, body, beat_ticks)
@@ -187,7 +197,7 @@ def prepare(
             lowered=instrument_map.hold.lowered(parameters.posture),
             still=still,
             base=trunk(skeleton, *hips_path(place, skeleton, still), still),
-            grip_of_lips_m=_grip_of_lips(hold, body),
+            grip_of_lips_m=_grip_of_lips(hold.lips, body.embouchure[instrument_map.embouchure.kind]),
         ),
         layers=layers,
         face=face,
@@ -259,12 +269,8 @@ def perform(
     return playing.motion(fps, first_frame, frames)
 
 
-def _grip_of_lips(hold: Hold, body: Body) -> FloatArray:
-    """From where the upper lip alone would carry the rim to where both lips hold it, at a middling embouchure (3,)."""
-    shapes = (body.embouchure.relaxed, body.embouchure.tight)
-    morphs = {
-        name: np.array([sum(shape.get(name, 0.0) for shape in shapes) / len(shapes)])
-        for name in sorted({name for shape in shapes for name in shape})
-    }
-    grip_m: FloatArray = (hold.lips.contact_m(morphs, 1) - hold.lips.upper_m(morphs, 1))[0]
+def _grip_of_lips(lips: Lips, embouchure: Embouchure) -> FloatArray:
+    """From where one lip alone would carry the mouthpiece to where it is played, at a middling embouchure (3,)."""
+    morphs = {name: np.array([weight]) for name, weight in usual_morphs(embouchure, lips).items()}
+    grip_m: FloatArray = (lips.contact_m(morphs, 1) - lips.carried_m(morphs, 1))[0]
     return grip_m

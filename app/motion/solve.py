@@ -50,7 +50,7 @@ class Player:
     """Everything about a player that does not change with time.
 
     ``still`` is the posture before any motion and ``base`` its trunk, one frame; ``grip_of_lips_m`` (3,) is how far
-    playing lips bring the rim from where the upper lip alone would carry it, in the head's frame.
+    playing lips bring the mouthpiece from where one lip alone would carry it, in the head's frame.
     """
 
     skeleton: Skeleton

@@ -101,8 +101,16 @@ def pose_limits(
     """Lowest and highest offset in degrees of every angle that a target has, by the name of the correction's field."""
     if target in ("left_elbow", "right_elbow"):
         return {"up_deg": ELBOW_DEG}
-    posture = body.postures[parameters.posture]
+    carriage = instrument.hold.carriage(parameters.posture)
+    posture = body.turned_to(
+        instrument.hold.possible(parameters.posture),
+        pitch_down_deg=carriage.pitch_down_deg[1],
+        head_left_deg=carriage.head_left_deg,
+        head_lean_left_deg=carriage.head_lean_left_deg,
+        trunk_left_deg=carriage.trunk_left_deg,
+    )
     limits, still = body.limits, posture.spine_deg
+    leaning, turned = posture.spine_left_deg, posture.spine_turn_deg
     shares = NECK_SHARES if target in ("head", "bell") else TRUNK_SHARES
     flexion: list[tuple[float, ...]] = []
     sideways: list[tuple[float, ...]] = []
@@ -110,13 +118,12 @@ def pose_limits(
     for joint, share in shares.items():
         low, high = limits[joint].flexion_deg
         flexion.append(((still.get(joint, 0.0) - high) / share, (still.get(joint, 0.0) - low) / share))
-        sideways.append(tuple(limit / share for limit in limits[joint].sideways_deg))
-        twist.append(tuple(limit / share for limit in limits[joint].twist_deg))
+        sideways.append(tuple((limit - leaning.get(joint, 0.0)) / share for limit in limits[joint].sideways_deg))
+        twist.append(tuple((limit - turned.get(joint, 0.0)) / share for limit in limits[joint].twist_deg))
     if target != "bell":
         ranges = {"up_deg": flexion, "left_deg": twist, "roll_deg": sideways}
         own = HANDS_FOLLOW_DEG[target]
         return {angle: _narrowest((*rows, own[angle])) for angle, rows in ranges.items()}
-    carriage = instrument.hold.carriage(parameters.posture)
     low, usual, high = carriage.pitch_down_deg
     share = BELL_ROOM / BELL_UP["bell"]
     up = (-share * (high - usual), share * (usual - low))

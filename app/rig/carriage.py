@@ -4,21 +4,18 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import msgspec
 import numpy as np
 import numpy.typing as npt
 
 from app.rig import quaternion
 from app.rig.hold import Lips
-from app.rig.model import Character
+from app.rig.model import Character, Skeleton
 from app.rig.skeleton import forward
+from instrument_maps import model as maps
 from instrument_maps.model import Carriage, InstrumentMap
 from metadata.model import Body, Posture
 
 FloatArray = npt.NDArray[np.float64]
-
-HEAD_FOLLOWS = 0.4
-"""Share of the instrument's pitch the head goes along with, up to the posture's limit."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,25 +44,43 @@ def carriage_rotation(pitch_down_deg: float, yaw_left_deg: float, roll_left_deg:
     return quaternion.multiply(quaternion.multiply(yaw, pitch), roll)
 
 
-def with_head(posture: Posture, carriage: Carriage) -> Posture:
-    """The posture with the head bent after the instrument's pitch, as far as the posture allows."""
-    down_deg = min(posture.head_down_deg, HEAD_FOLLOWS * max(carriage.pitch_down_deg[1], 0.0))
-    spine_deg = dict(posture.spine_deg)
-    spine_deg["head"] = spine_deg.get("head", 0.0) + down_deg
-    return msgspec.structs.replace(posture, spine_deg=spine_deg)
+def carrying(body: Body, posture: maps.Posture, carriage: Carriage) -> Posture:
+    """A body's posture with head and trunk turned to the instrument as its carriage says."""
+    return body.turned_to(
+        posture,
+        pitch_down_deg=carriage.pitch_down_deg[1],
+        head_left_deg=carriage.head_left_deg,
+        head_lean_left_deg=carriage.head_lean_left_deg,
+        trunk_left_deg=carriage.trunk_left_deg,
+    )
+
+
+def joint_rotations(skeleton: Skeleton, posture: Posture) -> FloatArray:
+    """``parent_from_joint`` (1, J, 4) of the posture's spine and neck; arms as in the T-pose."""
+    rotations = np.tile(quaternion.IDENTITY, (1, len(skeleton.names), 1))
+    bent: dict[str, FloatArray] = {}
+    angles = (posture.spine_deg, posture.spine_turn_deg, posture.spine_left_deg)
+    for axis, (degrees, sign) in enumerate(zip(angles, (1.0, 1.0, -1.0), strict=True)):
+        for name, angle in degrees.items():
+            bent.setdefault(name, np.zeros(3))[axis] = sign * np.radians(angle)
+    for name, vector in bent.items():
+        if name in skeleton.names:
+            rotations[0, skeleton.index(name)] = quaternion.from_rotation_vector(vector)
+    return rotations
+
+
+def usual_posture(instrument_map: InstrumentMap) -> maps.Posture:
+    """The posture a hold is fitted in: standing, or the only one the instrument is played in."""
+    return instrument_map.hold.postures[0]
 
 
 def upright(character: Character, instrument_map: InstrumentMap, body: Body, lips: Lips) -> Upright:
     """Stand a character up with its instrument, as its posture and the instrument's usual carriage say."""
-    skeleton, carriage = character.skeleton, instrument_map.hold.carriage("standing")
-    posture = with_head(body.postures["standing"], carriage)
-    rotations = np.tile(quaternion.IDENTITY, (1, len(skeleton.names), 1))
-    for name, degrees in posture.spine_deg.items():
-        if name in skeleton.names:
-            rotations[0, skeleton.index(name)] = quaternion.from_axis_angle([1.0, 0.0, 0.0], np.radians(degrees))
-    posed = forward(skeleton, rotations)
+    usual = usual_posture(instrument_map)
+    skeleton, carriage = character.skeleton, instrument_map.hold.carriage(usual)
+    posed = forward(skeleton, joint_rotations(skeleton, carrying(body, usual, carriage)))
     head_m, head = posed.of(skeleton.index("head"))
-    mouth_m = head_m[0] + quaternion.rotate(head[0], lips.contact_rest_m)
+    mouth_m = head_m[0] + quaternion.rotate(head[0], lips.usual_m)
     turn = carriage_rotation(carriage.pitch_down_deg[1], carriage.yaw_left_deg[1], carriage.roll_left_deg[1])
     rim_m = quaternion.rotate(turn, np.asarray(instrument_map.mouthpiece.position_m))
     return Upright(posed.positions_m[0], mouth_m - rim_m, turn)

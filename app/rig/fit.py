@@ -14,8 +14,6 @@ character.landmarks_missing : id, missing
 
 from __future__ import annotations
 
-from functools import lru_cache
-
 import numpy as np
 import numpy.typing as npt
 from scipy.interpolate import PchipInterpolator
@@ -28,10 +26,9 @@ from app.rig.grip_fingers import Scene, finger_table, judge, solve_table
 from app.rig.grip_problem import Problem, grip_problem, joint_angles, travel, wrist_transform
 from app.rig.grip_search import search, search_knots
 from app.rig.hand import joint_rotations
-from app.rig.hold import HandHold, Hold, Lips, NodeMotion, Reach
+from app.rig.hold import HandHold, Hold, NodeMotion, Reach
+from app.rig.lips import fit_lips, needed_landmarks
 from app.rig.model import Character, InstrumentModel
-from app.rig.skeleton import forward
-from app.rig.skinning import landmark_positions, landmark_set, skin_matrices
 from instrument_maps.model import Control, HandSeed, InstrumentMap
 from metadata.model import Body
 
@@ -63,12 +60,8 @@ def fit_hold(character: Character, model: InstrumentModel, instrument_map: Instr
     UsageError
         ``character.landmarks_missing``: the body lacks a place the instrument touches.
     """
-    needed = {"lips.contact", "lips.upper", *(contact.part for contact in instrument_map.contacts)}
-    needed |= {f"{seed.hand}.{place}" for seed in instrument_map.hands for place in ("palm", "hand")}
-    missing = sorted(needed - set(character.landmarks))
-    if missing:
-        raise UsageError("character.landmarks_missing", id=character.id, missing=", ".join(missing))
-    lips = fit_lips(character)
+    require_landmarks(character, instrument_map)
+    lips = fit_lips(character, instrument_map, body)
     stand = upright(character, instrument_map, body, lips)
     # The matrices are small: more threads make it no faster, far slower on a busy machine, and change the last bits.
     with threadpool_limits(limits=1, user_api="blas"):
@@ -77,23 +70,13 @@ def fit_hold(character: Character, model: InstrumentModel, instrument_map: Instr
     return Hold(character.id, instrument_map.id, hands, lips, reach)
 
 
-@lru_cache(maxsize=32)
-def fit_lips(character: Character) -> Lips:
-    """Find the lips of a character in its head's frame, and how each morph moves them."""
-    skeleton = character.skeleton
-    names = ("lips.contact", "lips.upper")
-    marks = landmark_set(character, names)
-    rest = forward(skeleton, np.tile(quaternion.IDENTITY, (1, len(skeleton.names), 1)))
-    head, _ = rest.of(skeleton.index("head"))
-    places = landmark_positions(character, names, rest)[0] - head[0]
-    matrices = skin_matrices(marks.joints, marks.joint_from_mesh, rest)[0, ..., :3]
-    moved = {name: np.einsum("jab,jbl->la", matrices, deltas) for name, deltas in marks.morphs.items()}
-    return Lips(
-        contact_rest_m=places[0],
-        contact_deltas_m={name: delta[0] for name, delta in moved.items() if np.abs(delta[0]).max() > 1e-6},
-        upper_rest_m=places[1],
-        upper_deltas_m={name: delta[1] for name, delta in moved.items() if np.abs(delta[1]).max() > 1e-6},
-    )
+def require_landmarks(character: Character, instrument_map: InstrumentMap) -> None:
+    """Raise UsageError ``character.landmarks_missing`` where a body lacks a place the instrument touches."""
+    needed = {*needed_landmarks(instrument_map), *(contact.part for contact in instrument_map.contacts)}
+    needed |= {f"{seed.hand}.{place}" for seed in instrument_map.hands for place in ("palm", "hand")}
+    missing = sorted(needed - set(character.landmarks))
+    if missing:
+        raise UsageError("character.landmarks_missing", id=character.id, missing=", ".join(missing))
 
 
 def _fit_hand(

@@ -154,33 +154,66 @@ class Reach:
 
 @dataclass(frozen=True)
 class Lips:
-    """Where the mouth is in the frame of the head joint, linear in the morph weights.
+    """Where an instrument is on the lips, in the frame of the head joint, linear in the morph weights.
 
     Attributes
     ----------
-    contact_rest_m, upper_rest_m : (3,) float64
-        The middle of both lips where a rim lies, and of the upper lip alone.
-    contact_deltas_m, upper_deltas_m : dict of str to (3,) float64
+    contact_rest_m, carrier_rest_m : (3,) float64
+        Where the mouthpiece is while it is played, and what carries it alone while the mouth is open for a breath: the
+        upper lip, or the lower one under which a plate lies.
+    contact_deltas_m, carrier_deltas_m : dict of str to (3,) float64
         What each morph at weight 1 adds; morphs that do nothing here are absent.
+    usual_m : (3,) float64
+        About where the mouthpiece is while it is played, whatever the face's weights.
+    apart_m : float
+        Height of what lies between the lips.
+    opening_m : float
+        Height of the opening that playing lips leave beside it.
+    gap_rest_m : float
+        From the lower lip's edge up to the upper one's in the middle of the mouth, along the mouthpiece's up axis ...
+    gap_deltas_m : dict of str to float
+        ... and what each morph at weight 1 adds; empty where the lips are neither held apart nor open.
+    jaw : str
+        The morph that opens the mouth.
     """
 
     contact_rest_m: FloatArray
     contact_deltas_m: Mapping[str, FloatArray]
-    upper_rest_m: FloatArray
-    upper_deltas_m: Mapping[str, FloatArray]
+    carrier_rest_m: FloatArray
+    carrier_deltas_m: Mapping[str, FloatArray]
+    usual_m: FloatArray
+    apart_m: float = 0.0
+    opening_m: float = 0.0
+    gap_rest_m: float = 0.0
+    gap_deltas_m: Mapping[str, float] = field(default_factory=dict)
+    jaw: str = ""
 
     def contact_m(self, morphs: Mapping[str, npt.NDArray[np.floating]], frames: int) -> FloatArray:
-        """Return (F, 3) the lips' contact in the head's frame for weight curves (F,) by morph name."""
+        """Return (F, 3) the mouthpiece's place in the head's frame for weight curves (F,) by morph name."""
         return _weighted(self.contact_rest_m, self.contact_deltas_m, morphs, frames)
 
-    def upper_m(self, morphs: Mapping[str, npt.NDArray[np.floating]], frames: int) -> FloatArray:
-        """Return (F, 3) the contact carried by the upper lip alone: what the rim stays on when the jaw opens.
+    def carried_m(self, morphs: Mapping[str, npt.NDArray[np.floating]], frames: int) -> FloatArray:
+        """Return (F, 3) the place as one lip alone carries it: what the mouthpiece stays on when the mouth opens.
 
-        Equal to `contact_m` where no morph parts the lips.
+        Equal to `contact_m` where no morph moves the lips.
         """
-        carried = _weighted(np.zeros(3), self.upper_deltas_m, morphs, frames)
+        carried = _weighted(np.zeros(3), self.carrier_deltas_m, morphs, frames)
         carried += self.contact_rest_m
         return carried
+
+    def gap_m(self, morphs: Mapping[str, npt.NDArray[np.floating]], frames: int) -> FloatArray:
+        """Return (F,) how far the lips are apart in the middle of the mouth; negative where they are pressed."""
+        gap = np.full(frames, self.gap_rest_m)
+        for name, delta in self.gap_deltas_m.items():
+            if name in morphs:
+                gap += delta * np.asarray(morphs[name], dtype=np.float64)
+        return gap
+
+    def jaw_for(self, gap_m: FloatArray, morphs: Mapping[str, npt.NDArray[np.floating]], frames: int) -> FloatArray:
+        """Return (F,) the weight of `jaw` that brings the lips this far apart, beside all the other weights."""
+        others = {name: values for name, values in morphs.items() if name != self.jaw}
+        needed: FloatArray = (gap_m - self.gap_m(others, frames)) / self.gap_deltas_m[self.jaw]
+        return np.clip(needed, 0.0, 1.0)
 
 
 @dataclass(frozen=True)

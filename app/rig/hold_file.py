@@ -19,8 +19,9 @@ import platformdirs
 
 from app.errors import FileError
 from app.formats.atomic import atomic_write
-from app.rig.fit import FIT_VERSION, fit_hold
-from app.rig.hold import Hold
+from app.rig.fit import FIT_VERSION, fit_hold, require_landmarks
+from app.rig.hold import HandHold, Hold, Lips, Reach
+from app.rig.lips import fit_lips
 from app.rig.model import Character, InstrumentModel
 from instrument_maps.model import InstrumentMap
 from metadata.model import Body
@@ -30,12 +31,17 @@ CACHE_VARIABLE = "SUISOU_CACHE"
 
 
 class _StoredHold(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """What is slow to fit; the lips are not, and they follow the face's weights, which the hands do not."""
+
     digest: str
-    hold: Hold
+    character_id: str
+    instrument_id: str
+    hands: tuple[HandHold, ...]
+    reach: tuple[Reach, ...]
 
 
 def digest_of(character: Character, model: InstrumentModel, instrument: InstrumentMap, body: Body) -> str:
-    """Return the hexadecimal digest of all that `fit_hold` looks at."""
+    """Return the hexadecimal digest of all that the hands of `fit_hold` depend on."""
     digest = hashlib.blake2b(digest_size=16)
     digest.update(f"{FIT_VERSION}\n{character.skeleton.names}\n{character.skeleton.parents}\n".encode())
     arrays: list[npt.NDArray[Any]] = [character.skeleton.offsets_m, character.joint_from_mesh, model.node_positions_m]
@@ -58,6 +64,7 @@ def digest_of(character: Character, model: InstrumentModel, instrument: Instrume
         instrument.hands,
         instrument.proxy,
         instrument.hold,
+        (instrument.embouchure.kind, instrument.embouchure.lips_apart_m),
     )
     ranges = {name: (limit.flexion_deg, limit.sideways_deg, limit.twist_deg) for name, limit in body.limits.items()}
     digest.update(msgspec.json.encode((hands, ranges, body.postures), order="sorted"))
@@ -72,24 +79,29 @@ def bundled_path(character_id: str, instrument_id: str) -> Path:
 def write_hold(path: Path, digest: str, hold: Hold) -> None:
     """Write a hold; the file appears whole or not at all. Raises FileError."""
     with atomic_write(path) as file:
-        file.write(msgspec.json.encode(_StoredHold(digest, hold), enc_hook=_plain))
+        stored = _StoredHold(digest, hold.character_id, hold.instrument_id, hold.hands, hold.reach)
+        file.write(msgspec.json.encode(stored, enc_hook=_plain))
 
 
-def read_hold(path: Path, digest: str) -> Hold | None:
+def read_hold(path: Path, digest: str, lips: Lips) -> Hold | None:
     """Read the hold fitted from inputs of this digest; None where the file holds no such thing."""
     try:
         stored = msgspec.json.decode(path.read_bytes(), type=_StoredHold, dec_hook=_array)
     except (OSError, msgspec.MsgspecError, UnicodeDecodeError):
         return None
-    return stored.hold if stored.digest == digest else None
+    if stored.digest != digest:
+        return None
+    return Hold(stored.character_id, stored.instrument_id, stored.hands, lips, stored.reach)
 
 
 def hold_for(character: Character, model: InstrumentModel, instrument: InstrumentMap, body: Body) -> Hold:
     """Return how a body holds an instrument: the stored hold, or a new fit, which is then kept in the cache."""
+    require_landmarks(character, instrument)
     digest = digest_of(character, model, instrument, body)
     cached = _cache_folder() / f"{digest}.json"
+    lips = fit_lips(character, instrument, body)
     for path in (bundled_path(character.id, instrument.id), cached):
-        hold = read_hold(path, digest)
+        hold = read_hold(path, digest, lips)
         if hold is not None:
             return hold
     hold = fit_hold(character, model, instrument, body)

@@ -15,6 +15,7 @@ from app.rig.character import bundled_character, characters
 from app.rig.fit import fit_hold
 from app.rig.hold_file import bundled_path, digest_of, read_hold, write_hold
 from app.rig.instrument import load_instrument
+from app.rig.lips import fit_lips
 from instrument_maps.load import bundled_maps, model_path
 from metadata.load import load_body
 
@@ -29,7 +30,7 @@ def main(wanted: list[str]) -> None:
         for instrument in bundled_maps().values():
             model = load_instrument(model_path(instrument), instrument)
             path, digest = bundled_path(character_id, instrument.id), digest_of(character, model, instrument, body)
-            if read_hold(path, digest) is not None:
+            if read_hold(path, digest, fit_lips(character, instrument, body)) is not None:
                 continue
             start_s = time.perf_counter()
             hold = fit_hold(character, model, instrument, body)

@@ -64,7 +64,7 @@ def kit_of(player: Player) -> Kit:
 
 def member_of(player: Player, kit: Kit) -> Member:
     """A player at their place."""
-    posture = body_of(player).postures[player.parameters.posture]
+    posture = body_of(player).postures[kit.map.hold.possible(player.parameters.posture)]
     return Member(player.id, kit, placed(player.stage), seat(kit.character.skeleton, posture))
 
 

@@ -149,7 +149,7 @@ def changed(tmp_path: Path, source: str, old: str, new: str, name: str | None = 
         ("bodies/adult.toml", "[postures.seated]", "[postures.kneeling]", "postures", "kneeling"),
         ("bodies/adult.toml", "upperChest = 2.0, neck", "lowerBack = 2.0, neck", "postures.standing.spine_deg",
          "lowerBack"),
-        ("bodies/adult.toml", "mouthFunnel = 0.05", "mouthFunny = 0.05", "embouchure.air.mouthFunny", "ARKit"),
+        ("bodies/adult.toml", "mouthFunnel = 0.05", "mouthFunny = 0.05", "embouchure.cup.air.mouthFunny", "ARKit"),
         ("bodies/adult.toml", "side_deg = [0.35, 2.2, 6.0]", "side_deg = [0.35, 2.2]", "sway.side_deg", "length"),
         ("skeletons/vrm1.toml", 'parent = "hips", kind = "spine"', 'parent = "belly", kind = "spine"',
          "joints[2].parent", "belly"),

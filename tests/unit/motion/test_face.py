@@ -8,10 +8,12 @@ from app.errors import Message
 from app.motion.face import Face, breath_opening, face_morphs
 from app.motion.gaze import ENTRY_GUARD_S, plan_gaze
 from app.plan.model import EmbouchureEvent, ExpressionEvent, PlayerParameters, PlayerPlan
+from app.rig.hold import Lips
 from metadata.load import load_body, load_expressions
 from metadata.model import ARKIT_MORPHS
 from tests.unit.motion.events import REASON, breath, cue, fingerings, plan_of
 
+LIPS = Lips(np.zeros(3), {}, np.zeros(3), {}, np.zeros(3))
 TIMES_S = np.arange(-2.0, 60.0, 1 / 240)
 
 
@@ -27,7 +29,8 @@ def face(made: PlayerPlan, times_s: np.ndarray = TIMES_S, **parameters: float) -
     settings = PlayerParameters(**parameters)
     opening = breath_opening(made).sample(times_s)
     face = Face.of(made, settings.embouchure_tension)
-    return face_morphs(face, load_body(), load_expressions(), plan_gaze(made, 0), opening, times_s)
+    gaze, up = plan_gaze(made, 0), np.zeros(len(times_s))
+    return face_morphs(face, load_body().embouchure["cup"], LIPS, load_expressions(), gaze, opening, up, times_s)
 
 
 def embouchure(tension: float, effort: float = 0.0, air: float = 0.0) -> tuple[EmbouchureEvent, ...]:
@@ -43,7 +46,7 @@ def test_only_arkit_names_move_and_stay_within_0_and_1() -> None:
 
 
 def test_high_notes_are_tighter_than_low_ones() -> None:
-    body = load_body().embouchure
+    body = load_body().embouchure["cup"]
     middle = np.array([2.5])
     for tension in (0.0, 0.4, 1.0):
         morphs = face(plan(embouchures=embouchure(tension), tongues=(), breaths=()), middle)

@@ -131,7 +131,7 @@ def test_the_rim_is_on_the_lips_while_playing_and_on_the_upper_lip_through_a_bre
     contact_m = head_m + quaternion.rotate(head, HOLD.lips.contact_m(motion.morphs, motion.frames))
     assert np.linalg.norm(contact_m - motion.instrument_position_m, axis=1)[playing].max() < 0.5e-3
     full = (t > 15.72) & (t < 15.8)
-    upper_m = head_m + quaternion.rotate(head, HOLD.lips.upper_m(motion.morphs, motion.frames))
+    upper_m = head_m + quaternion.rotate(head, HOLD.lips.carried_m(motion.morphs, motion.frames))
     assert np.linalg.norm(upper_m - motion.instrument_position_m, axis=1)[full].max() < 0.5e-3
 
 

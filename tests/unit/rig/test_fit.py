@@ -8,10 +8,11 @@ import pytest
 from app.errors import UsageError
 from app.rig import proxy, quaternion, skinning
 from app.rig.character import bundled_character, characters
-from app.rig.fit import fit_hold, fit_lips
+from app.rig.fit import fit_hold
 from app.rig.hold import HandHold, Hold, finger_rotations, hand_targets
 from app.rig.hold_file import hold_for
-from app.rig.instrument import bundled_instrument, part_transform, node_transforms
+from app.rig.instrument import bundled_instrument, node_transforms, part_transform
+from app.rig.lips import fit_lips
 from app.rig.model import Character, InstrumentModel
 from app.rig.skeleton import JointTransforms, forward
 from instrument_maps.load import bundled_maps
@@ -121,7 +122,7 @@ def test_tables_are_fine_enough_that_fingers_move_evenly(held: Held) -> None:
 
 def test_the_lips_move_with_the_face_as_the_skin_does(held: Held) -> None:
     character = held.character
-    lips = fit_lips(character)
+    lips = fit_lips(character, held.instrument, load_body())
     generator = np.random.default_rng(1)
     weights = {name: generator.uniform(size=3) for name in ("jawOpen", "mouthPucker", "mouthPressLeft", "browInnerUp")}
     rotations = np.tile(quaternion.IDENTITY, (3, len(character.skeleton.names), 1))
@@ -132,9 +133,9 @@ def test_the_lips_move_with_the_face_as_the_skin_does(held: Held) -> None:
     skin = skinning.landmark_positions(character, ["lips.contact"], transforms, weights)[:, 0]
     np.testing.assert_allclose(place + quaternion.rotate(turn, lips.contact_m(weights, 3)), skin, atol=1e-6)
     still = {name: np.zeros(3) for name in weights}
-    np.testing.assert_allclose(lips.upper_m(still, 3), lips.contact_m(still, 3), atol=1e-12)
+    np.testing.assert_allclose(lips.carried_m(still, 3), lips.contact_m(still, 3), atol=1e-12)
     opened = {"jawOpen": np.ones(3)}
-    assert np.all(lips.contact_m(opened, 3)[:, 1] < lips.upper_m(opened, 3)[:, 1])
+    assert np.all(lips.contact_m(opened, 3)[:, 1] < lips.carried_m(opened, 3)[:, 1])
 
 
 def test_how_far_the_arm_must_be_helped_grows_with_the_slide(held: Held) -> None:

@@ -12,9 +12,10 @@ import pytest
 
 from app.rig import hold_file
 from app.rig.character import bundled_character, characters
-from app.rig.hold import Hold
+from app.rig.hold import Hold, Lips
 from app.rig.hold_file import bundled_path, digest_of, hold_for, read_hold, write_hold
 from app.rig.instrument import load_instrument
+from app.rig.lips import fit_lips
 from instrument_maps.load import bundled_maps, model_path
 from metadata.load import load_body
 
@@ -25,6 +26,11 @@ def inputs(character_id: str, instrument_id: str) -> tuple[Any, ...]:
     instrument = bundled_maps()[instrument_id]
     model = load_instrument(model_path(instrument), instrument)
     return bundled_character(character_id), model, instrument, load_body()
+
+
+def lips_of(character_id: str, instrument_id: str) -> Lips:
+    character, _, instrument, body = inputs(character_id, instrument_id)
+    return fit_lips(character, instrument, body)
 
 
 def same(first: Any, second: Any) -> bool:
@@ -42,14 +48,14 @@ def same(first: Any, second: Any) -> bool:
 @pytest.fixture(scope="module")
 def shipped() -> tuple[str, Hold]:
     digest = digest_of(*inputs(*PAIRS[0]))
-    hold = read_hold(bundled_path(*PAIRS[0]), digest)
+    hold = read_hold(bundled_path(*PAIRS[0]), digest, lips_of(*PAIRS[0]))
     assert hold is not None
     return digest, hold
 
 
 @pytest.mark.parametrize("pair", PAIRS, ids="-".join)
 def test_the_shipped_hold_is_up_to_date(pair: tuple[str, str]) -> None:
-    assert read_hold(bundled_path(*pair), digest_of(*inputs(*pair))) is not None, (
+    assert read_hold(bundled_path(*pair), digest_of(*inputs(*pair)), lips_of(*pair)) is not None, (
         "run python -m resources.build.build_holds"
     )
 
@@ -57,19 +63,19 @@ def test_the_shipped_hold_is_up_to_date(pair: tuple[str, str]) -> None:
 def test_a_hold_comes_back_to_the_bit(tmp_path: Path, shipped: tuple[str, Hold]) -> None:
     digest, hold = shipped
     write_hold(tmp_path / "hold.json", digest, hold)
-    assert same(hold, read_hold(tmp_path / "hold.json", digest))
+    assert same(hold, read_hold(tmp_path / "hold.json", digest, hold.lips))
 
 
 def test_a_damaged_or_foreign_file_is_none(tmp_path: Path, shipped: tuple[str, Hold]) -> None:
     digest, hold = shipped
     path = tmp_path / "hold.json"
-    assert read_hold(path, digest) is None
+    assert read_hold(path, digest, hold.lips) is None
     write_hold(path, digest, hold)
-    assert read_hold(path, "another") is None
+    assert read_hold(path, "another", hold.lips) is None
     whole = path.read_bytes()
     for damaged in (b"", whole[: len(whole) // 2], whole.replace(b"[", b"{", 1), b"\xff" + whole, b"[]"):
         path.write_bytes(damaged)
-        assert read_hold(path, digest) is None
+        assert read_hold(path, digest, hold.lips) is None
 
 
 def test_the_digest_knows_what_the_hands_touch() -> None:
@@ -80,6 +86,11 @@ def test_the_digest_knows_what_the_hands_touch() -> None:
     assert digest_of(character, model, moved, body) != digest
     renamed = msgspec.structs.replace(instrument, short_name="other", fingerings=())
     assert digest_of(character, model, renamed, body) == digest
+    # What the face does is worked out anew each time.
+    faces = {kind: msgspec.structs.replace(face, tight={}) for kind, face in body.embouchure.items()}
+    assert digest_of(character, model, instrument, msgspec.structs.replace(body, embouchure=faces)) == digest
+    between = msgspec.structs.replace(instrument.embouchure, lips_apart_m=0.014)
+    assert digest_of(character, model, msgspec.structs.replace(instrument, embouchure=between), body) != digest
 
 
 def test_a_new_pair_is_fitted_once(tmp_path: Path, shipped: tuple[str, Hold], monkeypatch: pytest.MonkeyPatch) -> None:
