@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from operator import is_
 
 import numpy as np
 import numpy.typing as npt
@@ -13,7 +14,7 @@ from PySide6.QtWidgets import QMenu, QToolTip, QWidget
 from app.errors import AppError, Message
 from app.project.document import Change
 from app.project.edit import notes
-from app.project.model import Player
+from app.project.model import Player, Project
 from app.score.model import Note
 from instrument_maps.model import InstrumentMap
 from widgets.common.pitch import pitch_text
@@ -70,6 +71,8 @@ class PianoRoll(Lane):
     def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
         self._tables: dict[str, NoteTable] = {}
         self._flags: dict[str, tuple[NoteTable, Selection, Flags]] = {}
+        self._ghosts_of: tuple[tuple[object, ...], list[tuple[NoteTable, str]]] = ((None, None, None, None), [])
+        """The players behind, and what that was found from: it is asked with every repaint."""
         self._gesture: Gesture | None = None
         self._tool = Tool.SELECT
         self._ghosts = Ghosts.GHOSTS
@@ -135,6 +138,12 @@ class PianoRoll(Lane):
         if self._ghosts is Ghosts.ALONE:
             return []
         project, front = self.session.project, self.session.player
+        sources = (project.players, project.score, front, self.session.tokens)
+        if not all(map(is_, sources, self._ghosts_of[0])):
+            self._ghosts_of = (sources, self._find_ghosts(project, front))
+        return self._ghosts_of[1]
+
+    def _find_ghosts(self, project: Project, front: Player | None) -> list[tuple[NoteTable, str]]:
         # Players of one part are seen once, in the colour of the first.
         behind = {player.part_id: player for player in reversed(project.players)}
         if front is not None:

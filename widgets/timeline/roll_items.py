@@ -76,12 +76,14 @@ class Notes(LaneItem):
     def __init__(self, lane: PianoRoll) -> None:
         super().__init__(lane, 0.0)
         self._array = PrimitiveArray(QRectF, 4)
-        self._picture: _Picture | None = None
+        self._behind: tuple[object, QImage] | None = None
+        """The other players' notes as they were drawn last, and what that depends on: a selection, an edit in front or
+        the playhead passing by leave them as they are."""
 
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
         lane: PianoRoll = self.lane  # type: ignore[assignment]
         painter.setPen(Qt.PenStyle.NoPen)
-        self._draw_behind(painter, exposed)
+        self._show_behind(painter, exposed)
         front = lane.front()
         if front is None:
             return
@@ -95,27 +97,44 @@ class Notes(LaneItem):
             self._draw(painter, table, rows[level == number], shade)
         self._draw_selected(painter, table, exposed, colour)
 
-    def _draw_behind(self, painter: QPainter, exposed: QRectF) -> None:
-        """The other players' notes: as rectangles, or where there are very many narrow ones, as points of a picture."""
+    def _show_behind(self, painter: QPainter, exposed: QRectF) -> None:
         lane: PianoRoll = self.lane  # type: ignore[assignment]
         behind = lane.ghosts()
+        if not behind:
+            return
         alpha = GHOST_ALPHA if lane.ghosted else 255
-        # By what the whole plot shows: a part drawn anew must look like what is around it.
-        start_s, end_s = lane.axis.start_s, lane.axis.end_s
-        spans = [table.visible(start_s, end_s) for table, _ in behind]
-        if sum(span.stop - span.start for span in spans) > MOST_RECTANGLES:
-            key = (start_s, end_s, lane.y_range, lane.plot_rect.size().toTuple(), alpha, behind)
-            if self._picture is None or self._picture.key != key:
-                self._picture = _Picture(lane, key, behind, alpha)
-            self._picture.show(painter)
-            for (table, colour), rows in zip(behind, self._picture.wide, strict=True):
-                self._draw(painter, table, rows, _shade(colour, alpha))
-        else:
-            self._picture = None
-            for table, colour in behind:
-                self._draw(painter, table, lane.visible(table, exposed), _shade(colour, alpha))
+        ratio = lane.plot.devicePixelRatioF()
+        key = (lane.axis.start_s, lane.axis.end_s, lane.y_range, lane.plot_rect.size().toTuple(), ratio, alpha, behind)
+        if self._behind is None or self._behind[0] != key:
+            self._behind = (key, self._picture_behind(behind, alpha, ratio))
+        painter.drawImage(QPointF(0.0, 0.0), self._behind[1])
         for table, colour in behind:
             self._draw_selected(painter, table, exposed, colour)
+
+    def _picture_behind(self, behind: list[tuple[NoteTable, str]], alpha: int, ratio: float) -> QImage:
+        """The other players' notes: as rectangles, or where there are very many narrow ones, as points."""
+        lane: PianoRoll = self.lane  # type: ignore[assignment]
+        room = lane.plot_rect
+        image = QImage(
+            int(np.ceil(room.width() * ratio)),
+            int(np.ceil(room.height() * ratio)),
+            QImage.Format.Format_ARGB32_Premultiplied,
+        )
+        image.setDevicePixelRatio(ratio)
+        image.fill(Qt.GlobalColor.transparent)
+        painter = QPainter(image)
+        painter.setPen(Qt.PenStyle.NoPen)
+        spans = [table.visible(lane.axis.start_s, lane.axis.end_s) for table, _ in behind]
+        if sum(span.stop - span.start for span in spans) > MOST_RECTANGLES:
+            points = _Picture(lane, behind, alpha)
+            points.show(painter)
+            for (table, colour), rows in zip(behind, points.wide, strict=True):
+                self._draw(painter, table, rows, _shade(colour, alpha))
+        else:
+            for table, colour in behind:
+                self._draw(painter, table, lane.visible(table, room), _shade(colour, alpha))
+        painter.end()
+        return image
 
     def _draw_selected(self, painter: QPainter, table: NoteTable, exposed: QRectF, colour: str) -> None:
         lane: PianoRoll = self.lane  # type: ignore[assignment]
@@ -158,9 +177,8 @@ class _Picture:
     ``wide`` has for each table the places of the notes that are too wide for it.
     """
 
-    def __init__(self, lane: PianoRoll, key: object, tables: list[tuple[NoteTable, str]], alpha: int) -> None:
+    def __init__(self, lane: PianoRoll, tables: list[tuple[NoteTable, str]], alpha: int) -> None:
         self._lane = lane
-        self.key = key
         bottom, top = lane.y_range
         low, self._high = int(np.floor(bottom)), int(np.ceil(top))
         self._pixels = np.zeros((self._high - low, int(np.ceil(lane.plot_rect.width()))), np.uint32)
