@@ -318,6 +318,13 @@ def plain_menu(text: str) -> str:
     return text.replace("&", "")
 
 
+def menu_with_keys(keys: str) -> str:
+    """Name of the menu that one of these shortcuts opens in the language of the editor; empty: none."""
+    wanted = {sequence.toString() for sequence in sequences(keys)}
+    titles = map(menu_text, MENUS)
+    return next((plain_menu(title) for title in titles if QKeySequence.mnemonic(title).toString() in wanted), "")
+
+
 class Menus(QObject):
     """The menus of a menu bar, made from a table.
 

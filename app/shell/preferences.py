@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from PySide6.QtCore import QCoreApplication
 
-from app.shell.actions import CONTEXTS, plain
+from app.shell.actions import CONTEXTS, menu_with_keys, plain
 from app.shell.editor import Editor
 from app.shell.language import LANGUAGES
 from widgets.dialogs.preferences import Choice, PreferencesDialog
@@ -25,6 +25,7 @@ def show_preferences(editor: Editor, page: str) -> PreferencesDialog:
         Choice(editor.settings.language, {"": "", **LANGUAGES}),
         lambda: shortcut_rows(editor),
         editor.table.conflicts,
+        menu_with_keys,
         editor.window,
     )
     dialog.language_chosen.connect(editor.speak)

@@ -513,6 +513,10 @@
         <translation>すべて既定に戻す</translation>
     </message>
     <message>
+        <source>Opens the menu {menu}. Choose other keys.</source>
+        <translation>「{menu}」メニューを開くキーです。別のキーを選んでください。</translation>
+    </message>
+    <message>
         <source>Used by: {names}. Assigning takes it away there.</source>
         <translation>使用中: {names}。割り当てると、そちらから外れます。</translation>
     </message>

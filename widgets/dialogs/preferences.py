@@ -43,7 +43,7 @@ class PreferencesDialog(QDialog):
         Theme, pitch and time are its own.
     language : Choice
         Codes and the languages' own names; the empty code is the system's.
-    shortcuts, conflicts : callable
+    shortcuts, conflicts, menu_of : callable
         See `ShortcutsPage`.
 
     Signals
@@ -62,6 +62,7 @@ class PreferencesDialog(QDialog):
         language: Choice,
         shortcuts: Callable[[], tuple[ShortcutRow, ...]],
         conflicts: Callable[[str, str], tuple[str, ...]],
+        menu_of: Callable[[str], str],
         parent: QWidget | None = None,
     ) -> None:
         super().__init__(parent)
@@ -101,7 +102,7 @@ class PreferencesDialog(QDialog):
         displays: tuple[TimeDisplay, ...] = ("bars", "seconds", "frames")
         self._options("time", [(display, partial(session.set_time_display, display)) for display in displays])
         self.tabs.addTab(general, "")
-        self.shortcuts = ShortcutsPage(session, shortcuts, conflicts)
+        self.shortcuts = ShortcutsPage(session, shortcuts, conflicts, menu_of)
         self.shortcuts.chosen.connect(self.shortcut_chosen)
         self.tabs.addTab(self.shortcuts, "")
         self._buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)

@@ -57,6 +57,8 @@ class ShortcutsPage(QWidget):
         Gives the rows as they are now.
     conflicts : callable
         Action id and keys to the ids of actions that have them already.
+    menu_of : callable
+        Keys to the name of the menu that they open; empty: none.
 
     Signals
     -------
@@ -71,11 +73,13 @@ class ShortcutsPage(QWidget):
         session: Session,
         rows: Callable[[], tuple[ShortcutRow, ...]],
         conflicts: Callable[[str, str], tuple[str, ...]],
+        menu_of: Callable[[str], str],
         parent: QWidget | None = None,
     ) -> None:
         super().__init__(parent)
         self.setObjectName("shortcuts_page")
         self._session, self._rows_now, self._conflicts = session, rows, conflicts
+        self._menu_of = menu_of
         self._rows: dict[str, ShortcutRow] = {}
         self.search = QLineEdit()
         self.search.setObjectName("shortcut_search")
@@ -197,10 +201,14 @@ class ShortcutsPage(QWidget):
     def _changed(self, *_: object) -> None:
         row, keys = self._chosen(), self._keys()
         taken = self._conflicts(row.id, keys) if row is not None and keys else ()
-        self.give.setEnabled(row is not None and bool(keys))
+        menu = self._menu_of(keys) if keys else ""
+        # What opens a menu would do neither: it cannot be given, and nobody can take it from the menu here.
+        self.give.setEnabled(row is not None and bool(keys) and not menu)
         names = ", ".join(self._rows[other].text for other in taken if other in self._rows)
         self.told.setStyleSheet(f"color: {self._session.tokens.warning};")
-        if names:
+        if menu:
+            self.told.setText(self.tr("Opens the menu {menu}. Choose other keys.").format(menu=menu))
+        elif names:
             self.told.setText(self.tr("Used by: {names}. Assigning takes it away there.").format(names=names))
         else:
             self.told.clear()

@@ -30,6 +30,8 @@ from widgets.timeline.stack import LaneStack
 from widgets.timeline.tool_bar import ToolBar
 
 ZOOM_A_CLICK = 1.5
+FIRST_BARS, MOST_FIRST_BARS = 16, 24
+"""Of a piece that was opened its beginning is shown legibly, or all of it where it is hardly longer."""
 PAGE_AT = 0.94
 """While playing, the page turns when the playhead is so far across it ..."""
 PAGE_TO = 0.06
@@ -287,6 +289,14 @@ class TimelinePanel(QWidget):
         inside = axis.start_s <= playhead_s <= axis.end_s
         return playhead_s if inside else (axis.start_s + axis.end_s) / 2
 
+    def _show_beginning(self) -> None:
+        """As much as can be read at once: a short piece whole, of a longer one the first bars."""
+        score = self.session.project.score
+        self.axis.fit()
+        if score.bar_of_tick(max(score.sounding_end_tick - 1, 0)) > MOST_FIRST_BARS:
+            end_s = score.tempo_map.seconds(float(score.tick_of_bar(FIRST_BARS + 1)))
+            self.axis.show(self.axis.start_s, end_s)
+
     def _set_limits(self) -> None:
         self.axis.set_limits(*scroll_limits(self.session))
 
@@ -294,7 +304,7 @@ class TimelinePanel(QWidget):
         if change.opened or change.before.score is not change.after.score:
             self._set_limits()
         if change.opened:
-            self.axis.fit()
+            self._show_beginning()
             self._fitted = False
 
     def _axis_changed(self) -> None:
@@ -355,7 +365,7 @@ class TimelinePanel(QWidget):
         if not self._fitted:
             # Only now is it known how wide everything is.
             self._fitted = True
-            self.axis.fit()
+            self._show_beginning()
             self.roll.fit_pitch()
         self._place_playhead()
 

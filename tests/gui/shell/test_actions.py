@@ -10,7 +10,7 @@ from pytestqt.qtbot import QtBot
 
 from app.errors import Message
 from app.project.edit.piece import set_title
-from app.shell.actions import CONTEXTS, ActionTable, rows, sequences, unnamed_menus
+from app.shell.actions import CONTEXTS, ActionTable, menu_with_keys, rows, sequences, unnamed_menus
 from app.shell.app import Program
 from app.shell.settings import Settings
 from app.shell.window import Window
@@ -125,6 +125,33 @@ def test_the_preferences_move_a_shortcut(program: Program, qtbot: QtBot) -> None
     assert program.editor.table.keys("theme.light") == ""
     assert program.editor.table.keys("file.save") == "Ctrl+S"
     dialog.close()
+
+
+@pytest.mark.parametrize(("language", "told"), [("en", "Opens the menu File"), ("ja", "ファイル")])
+def test_keys_that_open_a_menu_are_not_given(program: Program, qtbot: QtBot, language: str, told: str) -> None:
+    from app.shell.preferences import show_preferences
+
+    program.editor.speak(language)
+    dialog = show_preferences(program.editor, "shortcuts")
+    page = dialog.shortcuts
+    page.choose("theme.light")
+    qtbot.keyClick(page.edit, Qt.Key.Key_F, Qt.KeyboardModifier.AltModifier)
+    assert told in page.told.text()
+    assert not page.give.isEnabled()
+    qtbot.keyClick(page.edit, Qt.Key.Key_J, Qt.KeyboardModifier.AltModifier)
+    assert page.told.text() == ""
+    assert page.give.isEnabled()
+    dialog.close()
+    program.editor.speak("en")
+
+
+def test_no_action_comes_with_keys_that_open_a_menu(program: Program) -> None:
+    """In either language."""
+    for language in ("en", "ja"):
+        program.editor.speak(language)
+        found = {row.id: menu_with_keys(row.shortcut) for row in program.editor.table.rows.values()}
+        assert {id: menu for id, menu in found.items() if menu} == {}
+    program.editor.speak("en")
 
 
 def test_the_preferences_hold_at_once(program: Program, settings: Settings, qtbot: QtBot) -> None:

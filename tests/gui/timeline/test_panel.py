@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QApplication, QMenu, QWidget
 from pytestqt.qtbot import QtBot
 
 from app.project.model import Project
-from app.score.model import Score
+from app.score.model import Note, Score
 from app.score.tempo import TempoMap
 from tests.gui.timeline.conftest import TPQ, Stage
 from tests.gui.timeline.hand import Hand
@@ -170,3 +170,20 @@ def test_another_theme_is_taken_at_once(stage: Stage) -> None:
     QApplication.processEvents()
     after = stage.roll.plot.grab().toImage().pixelColor(3, 3)
     assert after.lightness() > before.lightness() + 100
+
+
+@pytest.mark.parametrize(("bars", "shown"), [(2, None), (24, None), (25, 16), (400, 16)])
+def test_a_short_piece_is_first_shown_whole_and_of_a_long_one_the_beginning(
+    stage: Stage, bars: int, shown: int | None
+) -> None:
+    project = stage.session.project
+    last = Note("1:99", (bars - 1) * 4 * TPQ, 4 * TPQ, 60, 80)
+    part = project.score.parts[0]
+    parts = (msgspec.structs.replace(part, notes=(*part.notes[:4], last)), project.score.parts[1])
+    stage.session.document.open(replace(project, score=msgspec.structs.replace(project.score, parts=parts)))
+    axis = stage.panel.axis
+    low_s, high_s = axis.limits_s
+    assert axis.start_s == low_s
+    assert axis.end_s == pytest.approx(high_s if shown is None else 2.0 * shown)
+    stage.panel.fit()
+    assert axis.end_s == high_s
