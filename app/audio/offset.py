@@ -15,7 +15,6 @@ from typing import Final, TypeAlias
 import numpy as np
 import numpy.typing as npt
 import soxr
-from scipy import fft
 
 from app.audio.track import Samples
 from app.errors import AppError, Cancelled
@@ -224,6 +223,8 @@ def _correlate(
 ) -> tuple[npt.NDArray[np.int64], Floats]:
     """Likeness of the two at every lag of the recording, -1..1, by how much of them overlaps."""
     frames, length = heard.shape[1], wanted.shape[1]
+    from scipy import fft  # heavy, and only here
+
     size = fft.next_fast_len(frames + length, real=True)
     if size not in spectra:
         spectra.clear()

@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 
 import numpy as np
-from scipy.ndimage import maximum_filter1d, minimum_filter1d
 
 from app.motion.arms import solve_arms
 from app.motion.body import BodyMotion
@@ -267,6 +266,8 @@ def _eased(needed: FloatArray, half: int) -> FloatArray:
     if not np.any(needed):
         return needed
     window = 2 * half + 1
+    from scipy.ndimage import maximum_filter1d, minimum_filter1d  # heavy; the window is up before
+
     held = maximum_filter1d(np.maximum(needed, 0.0), window) + minimum_filter1d(np.minimum(needed, 0.0), window)
     weights = np.hanning(window + 2)
     eased: FloatArray = np.convolve(held, weights / weights.sum(), mode="same")

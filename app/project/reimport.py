@@ -29,7 +29,6 @@ from typing import Final
 
 import msgspec
 import numpy as np
-from scipy.optimize import linear_sum_assignment
 
 from app.errors import UsageError
 from app.plan.corrections import Correction, kind
@@ -267,6 +266,8 @@ def _matched_parts(
     new_turns = [_turns(part, new_quarter) for part in new]
     content = np.array([[_likeness(one, other) for other in new_turns] for one in old_turns])
     named = np.array([[_kinship(one, other) for other in new] for one in old])
+    from scipy.optimize import linear_sum_assignment  # heavy, and seldom needed
+
     pairs = zip(*linear_sum_assignment(-(content + named)), strict=True)
     # A part rewritten from end to end is still the same player's where everything else says so.
     return [(int(one), int(other)) for one, other in pairs if content[one, other] >= ALIKE or named[one, other] >= 0.4]

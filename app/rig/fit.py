@@ -16,7 +16,6 @@ from __future__ import annotations
 
 import numpy as np
 import numpy.typing as npt
-from scipy.interpolate import PchipInterpolator
 from threadpoolctl import threadpool_limits
 
 from app.errors import UsageError
@@ -98,6 +97,8 @@ def _fit_hand(
         knots, holds = search_knots(problem, model, instrument_map, carrier)
         best = holds[0]
     # A wrist between knots follows a smooth curve; the fingers are then solved for it.
+    from scipy.interpolate import PchipInterpolator  # heavy; holds are fitted seldom
+
     along = PchipInterpolator(knots, holds) if len(knots) > 1 else None
     path = np.repeat(best[None], len(values), axis=0) if along is None else along(values)
     position, turn = wrist_transform(problem, path)

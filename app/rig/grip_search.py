@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from scipy.optimize import least_squares
 
 from app.rig.grip_problem import Problem, nodes_at, start_at, travel
 from app.rig.grip_residuals import Residuals
@@ -72,6 +71,8 @@ def search_knots(
 
 def _solve(residuals: Residuals, start: FloatArray, rounds: int) -> Any:
     problem = residuals.problem
+    from scipy.optimize import least_squares  # heavy; holds are fitted seldom
+
     return least_squares(
         residuals,
         np.clip(start, problem.low + 1e-9, problem.high - 1e-9),

@@ -18,7 +18,6 @@ from operator import getitem
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
-from scipy.optimize import linear_sum_assignment
 
 from app.score.model import Note
 from app.score.tempo import TempoMap
@@ -157,6 +156,8 @@ def _choices(free: int, costs: list[list[float]]) -> tuple[tuple[int, ...], ...]
     """The ways to give a group (rows) to free voices (columns) in order; of too many the cheapest alone."""
     if comb(free, len(costs)) <= _CHOICES:
         return _in_order(free, len(costs))
+    from scipy.optimize import linear_sum_assignment  # heavy, and seldom needed
+
     _, columns = linear_sum_assignment(np.array(costs))
     return (tuple(sorted(columns.tolist())),)
 

@@ -6,7 +6,6 @@ from pathlib import Path
 
 from PySide6.QtCore import QCoreApplication
 
-from app.audio.mix import mixdown
 from app.errors import AppError, Message
 from app.project.model import Player, Project, map_choices
 from app.project.reimport import Reimport, reimport
@@ -19,9 +18,6 @@ from instrument_maps.load import all_maps
 from widgets.common.session import Session, Severity
 from widgets.common.tasks import Progress, StopWanted
 from widgets.common.text import note_text
-from widgets.dialogs.export_files import ExportDialog
-from widgets.dialogs.playblast import PlayblastDialog
-from widgets.dialogs.reimport_midi import ReimportDialog
 from widgets.inspector.words import correction_title
 
 
@@ -59,6 +55,8 @@ def reimport_from(session: Session, path: Path) -> None:
             reimport_from(session, path)
             return
         window = editor_of(session).window
+        from widgets.dialogs.reimport_midi import ReimportDialog
+
         dialog = ReimportDialog(
             project,
             outcome,
@@ -93,6 +91,8 @@ def export_files(session: Session) -> None:
     """Ask what to export, and write it."""
     editor = editor_of(session)
     folder = editor.settings.export_folder or str(Path(editor.files.folder) / "export")
+    from widgets.dialogs.export_files import ExportDialog  # it brings all formats with it
+
     dialog = ExportDialog(session, Path(folder), editor.files.name, f"Suisou {program_version()}", editor.window)
     dialog.exported.connect(lambda chosen: setattr(editor.settings, "export_folder", str(chosen)))
     dialog.show()
@@ -103,6 +103,9 @@ def playblast(session: Session) -> None:
     editor = editor_of(session)
     path = Path(editor.files.folder) / f"{Path(editor.files.name).stem}.mp4"
     project = session.project
+    from app.audio.mix import mixdown
+    from widgets.dialogs.playblast import PlayblastDialog
+
     dialog = PlayblastDialog(
         session,
         editor.window.viewport.render_image,

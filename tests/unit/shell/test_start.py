@@ -1,0 +1,35 @@
+"""What the first picture does not need is not loaded for it."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).parents[3]
+LATER = ("librosa", "numba", "scipy", "vispy.scene", "app.export", "widgets.dialogs")
+
+
+def test_the_window_comes_up_without_what_is_needed_later(tmp_path: Path) -> None:
+    script = """
+import sys
+from pathlib import Path
+from app.shell.app import Program, make_application
+from app.shell.settings import Settings
+application = make_application()
+program = Program(Settings(Path(sys.argv[1])), heard=False)
+program.window.show()
+application.processEvents()
+print(" ".join(sys.modules))
+program.end()
+"""
+    run = subprocess.run(
+        [sys.executable, "-c", script, str(tmp_path / "editor.ini")],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    loaded = run.stdout.split()
+    assert "widgets.viewport.panel" in loaded
+    assert [name for name in loaded if name.startswith(LATER)] == []
