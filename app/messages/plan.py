@@ -30,7 +30,7 @@ TEMPLATES: Final[dict[str, str]] = {
     # The motion: contacts
     "contact.hand_off": (
         "the {side} hand comes off the instrument: it stays {gap_mm} mm from its place; "
-        "lessen the pose correction here, or take a character of another size"
+        "lessen the pose correction or the gesture here, or take a character of another size"
     ),
     "contact.finger_off": (
         "the {touch} misses {control} by {gap_mm} mm; "

@@ -588,8 +588,8 @@
             <translation>{label} はこの奏者の手が届きません（あと {gap_mm} mm）。別の運指か、腕の長いキャラクターにしてください</translation>
         </message>
         <message>
-            <source>the {side} hand comes off the instrument: it stays {gap_mm} mm from its place; lessen the pose correction here, or take a character of another size</source>
-            <translation>{side}手が楽器から離れています（本来の位置から {gap_mm} mm）。ここのポーズ補正を弱めるか、体格の違うキャラクターを選んでください</translation>
+            <source>the {side} hand comes off the instrument: it stays {gap_mm} mm from its place; lessen the pose correction or the gesture here, or take a character of another size</source>
+            <translation>{side}手が楽器から離れています（本来の位置から {gap_mm} mm）。ここのポーズ補正やジェスチャーを弱めるか、体格の違うキャラクターを選んでください</translation>
         </message>
         <message>
             <source>the {touch} misses {control} by {gap_mm} mm; lessen the pose correction here, or take a character of another size</source>
