@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from importlib.resources import as_file, files
+from importlib.resources import files
 from typing import Final
 
 from PySide6.QtCore import QCoreApplication, QLibraryInfo, QLocale, QObject, QTranslator, Signal
@@ -59,13 +59,21 @@ class Language(QObject):
 
 def _translators(code: str) -> list[QTranslator]:
     """Qt's own texts first: whoever is installed last is asked first."""
-    found = []
+    found: list[QTranslator] = []
     of_qt = QTranslator()
     if of_qt.load(f"qtbase_{code}", QLibraryInfo.path(QLibraryInfo.LibraryPath.TranslationsPath)):
         found.append(of_qt)
-    with as_file(files("resources") / "translations" / f"suisou_{code}.qm") as path:
-        own = QTranslator()
-        # Read as bytes would need the bytes to live on; a file is mapped by Qt.
-        if own.load(str(path)):
-            found.append(own)
+    own = _Translator((files("resources") / "translations" / f"suisou_{code}.qm").read_bytes())
+    if own.is_read:
+        found.append(own)
     return found
+
+
+class _Translator(QTranslator):
+    """Reads from memory: Qt would map the file, and crash when an update rewrites it under a running editor."""
+
+    def __init__(self, content: bytes) -> None:
+        super().__init__()
+        # Qt keeps no copy.
+        self._content = content
+        self.is_read = self.load(content)

@@ -6,9 +6,12 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
+import pytest
+from PySide6.QtCore import QCoreApplication
 from PySide6.QtGui import QAction, QFont, QFontDatabase, QRawFont
 from PySide6.QtWidgets import (
     QAbstractButton,
+    QApplication,
     QComboBox,
     QDockWidget,
     QGroupBox,
@@ -21,7 +24,9 @@ from PySide6.QtWidgets import (
 )
 from pytestqt.qtbot import QtBot
 
+import resources
 from app.shell.app import Program
+from app.shell.language import Language
 from app.shell.preferences import show_preferences
 from app.shell.settings import Settings
 from app.shell.theme import JAPANESE_FAMILIES
@@ -134,3 +139,22 @@ def test_actions_have_texts_in_japanese(program: Program) -> None:
     missing = [row.id for row in program.editor.table.rows.values() if english(program.editor.table.text(row.id), ())]
     assert missing == []
     assert isinstance(program.session.actions["file.save"], QAction)
+
+
+def test_an_update_under_the_running_editor_leaves_its_words_alone(
+    qapp: QApplication, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A file that is mapped and rewritten in place crashed whoever asked for a word."""
+    folder = tmp_path / "translations"
+    folder.mkdir()
+    release = folder / "suisou_ja.qm"
+    release.write_bytes((Path(resources.__file__).parent / "translations" / "suisou_ja.qm").read_bytes())
+    monkeypatch.setattr("app.shell.language.files", lambda package: tmp_path)
+    language = Language()
+    language.set("ja")
+    try:
+        assert QCoreApplication.translate("_Details", "Copy") == "コピー"
+        release.write_bytes(b"")
+        assert QCoreApplication.translate("_Details", "Copy") == "コピー"
+    finally:
+        language.set("en")
