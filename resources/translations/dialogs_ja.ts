@@ -127,8 +127,8 @@
         <translation>名前</translation>
     </message>
     <message>
-        <source>Notes over the piece</source>
-        <translation>音符の分布</translation>
+        <source>Notes</source>
+        <translation>音符</translation>
     </message>
     <message>
         <source>Number, range</source>

@@ -103,6 +103,9 @@ class ExportDialog(QDialog):
             bar.setValue(value)
         self._preroll = QDoubleSpinBox()
         self._preroll.setObjectName("export_preroll")
+        for spin in (self._first_bar, self._last_bar, self._preroll):
+            # As far from the edge as in other fields; the style sheet does not reach the text of a spin box.
+            spin.lineEdit().setTextMargins(6, 0, 0, 0)
         self._preroll.setRange(0.0, 64.0)
         self._preroll.setSingleStep(1.0)
         self._preroll.setDecimals(2)

@@ -164,7 +164,7 @@ class ImportDialog(QDialog):
             [
                 self.tr("Play"),
                 self.tr("Name"),
-                self.tr("Notes over the piece"),
+                self.tr("Notes"),
                 self.tr("Number, range"),
                 self.tr("Notes together"),
                 self.tr("Instrument"),
