@@ -33,7 +33,7 @@ from widgets.viewport.canvas import Canvas
 from widgets.viewport.panel import ViewportPanel
 
 PATIENCE_S = 240.0
-QUIET_S = 120.0
+QUIET_S = 45.0
 """Sound and motion that are made beforehand get this long; then the editor is used while they are made."""
 
 
@@ -86,7 +86,7 @@ class LargeEditor:
 
     def close(self) -> None:
         """End the editor."""
-        self.garbage.close()
+        self.garbage.stop()
         self.program.end()
         self.window.hide()
         self.program.generator.deleteLater()
