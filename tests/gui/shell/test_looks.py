@@ -1,0 +1,99 @@
+"""The whole editor at 100, 125, 150 and 200 %, in both languages: nothing cut, nothing too small to hit."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from PySide6.QtWidgets import QApplication, QCheckBox, QHBoxLayout, QLabel, QPushButton, QTabBar, QToolButton, QWidget
+from pytestqt.qtbot import QtBot
+
+from app.shell.app import Program
+from tests.gui.conftest import QUARTET
+from tests.gui.shell.conftest import Start
+from tests.support.looks import faults
+
+ROOT = Path(__file__).parents[3]
+SCREENS = ((1.0, "dark", 1366, 768), (1.25, "light", 1093, 614), (1.5, "light", 1280, 720), (2.0, "dark", 1280, 800))
+"""Scale, theme, and what is left of usual screens at it, in device-independent pixels."""
+
+
+@pytest.mark.parametrize(("scale", "theme", "width", "height"), SCREENS)
+@pytest.mark.usefixtures("qapp")
+def test_everything_fits(scale: float, theme: str, width: int, height: int) -> None:
+    done = subprocess.run(
+        [sys.executable, "-m", "tests.support.looks", theme, str(width), str(height)],
+        cwd=ROOT,
+        env={**os.environ, "QT_SCALE_FACTOR": f"{scale:g}"},
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=240,
+    )
+    assert done.returncode == 0, done.stderr
+    first, *found = done.stdout.splitlines()
+    assert first == f"scale {scale:g}"
+    assert found == []
+
+
+def test_the_judge_sees_what_does_not_fit(qt_app: QApplication, qtbot: QtBot) -> None:
+    window = QWidget()
+    qtbot.addWidget(window)
+    line = QHBoxLayout(window)
+    cut = QLabel("much more than there is room for")
+    cut.setFixedWidth(40)
+    squeezed = QPushButton("just as much")
+    squeezed.setFixedWidth(30)
+    small, mute, box = QToolButton(), QToolButton(), QCheckBox("fits")
+    small.setToolTip("small")
+    small.setFixedSize(16, 16)
+    tabs = QTabBar()
+    tabs.addTab("a tab with a long name")
+    tabs.setFixedWidth(50)
+    tabs.setUsesScrollButtons(False)
+    for widget in (cut, squeezed, small, mute, box, tabs):
+        line.addWidget(widget)
+    window.show()
+    qtbot.waitExposed(window)
+    found = "\n".join(fault for fault in faults(qt_app))
+    for expected in ("'much more", "'just as much'", "16 x 16", "nobody says", "the tab"):
+        assert expected in found, found
+    assert "fits" not in found
+
+
+@pytest.mark.parametrize(("height", "whole"), [(700, True), (1000, False)])
+def test_in_a_low_window_the_inspector_has_the_whole_height(
+    start: Start, qtbot: QtBot, height: int, whole: bool
+) -> None:
+    program: Program = start()
+    window = program.window
+    window.resize(1280, height)
+    program.editor.files.open(QUARTET, ask=False)
+    inspector, timeline = window.docks["inspector"], window.docks["timeline"]
+    qtbot.waitUntil(lambda: timeline.isVisible() and timeline.height() > 100)
+    QApplication.processEvents()
+    beside = inspector.geometry().bottom() >= timeline.geometry().bottom()
+    assert beside == whole
+    assert (timeline.width() == window.width()) != whole
+
+
+def test_the_keys_belong_to_the_notes_from_the_start(program: Program) -> None:
+    assert QApplication.focusWidget() is program.window.timeline.roll.plot
+    program.window.reset_layout()
+    assert QApplication.focusWidget() is program.window.timeline.roll.plot
+
+
+def test_a_banner_pushes_no_panel_aside(program: Program, qtbot: QtBot) -> None:
+    window = program.window
+    window.resize(1093, 614)
+    window.reset_layout()
+    QApplication.processEvents()
+    before = window.docks["players"].width(), window.docks["inspector"].width()
+    window._ask_to_save_over(Path("a_rather_long_name_of_a_project_that_nobody_would_shorten.suisou"), None)
+    QApplication.processEvents()
+    assert (window.docks["players"].width(), window.docks["inspector"].width()) == before
+    buttons = window.banner.findChildren(QPushButton)
+    assert all(window.banner.rect().contains(button.geometry()) for button in buttons)

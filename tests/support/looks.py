@@ -1,0 +1,294 @@
+"""Draws the whole editor at a scale, in both languages, and prints what does not fit; run as a program.
+
+``QT_SCALE_FACTOR=1.5 python -m tests.support.looks THEME WIDTH HEIGHT [FOLDER]``: a line for each fault, and
+with a folder a picture of each state. The scale belongs to the process: a test starts one for each.
+"""
+
+from __future__ import annotations
+
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+from PySide6.QtCore import Qt
+from PySide6.QtOpenGLWidgets import QOpenGLWidget
+from PySide6.QtWidgets import (
+    QAbstractButton,
+    QApplication,
+    QCheckBox,
+    QComboBox,
+    QDialog,
+    QLabel,
+    QLineEdit,
+    QRadioButton,
+    QStyle,
+    QStyleOptionComboBox,
+    QTabBar,
+    QToolButton,
+    QWidget,
+)
+
+from app.project.autosave import Autosave
+from app.project.presence import Presence
+from app.project.recovery import Recoverable
+from app.score.read import read_contents
+from app.shell.app import Program, make_application
+from app.shell.settings import Settings
+from instrument_maps.load import bundled_maps
+from tests.gui.shell.conftest import Answers
+from tests.support.real_work import LUTKIN
+from tests.support.tasks import ImmediateTasks
+from widgets.common.selection import EventKey, Selection
+from widgets.common.tokens import LEAST_TARGET_PX
+from widgets.dialogs.import_midi import ImportDialog
+
+ELIDED = {"player_instrument", "front_player", "curve_choice", "notice", "problems_who", "problems_kind"}
+"""What may be cut short: all of it stands in the list that opens, in the tool tip, or beside it."""
+QTS_OWN = {"qt_keysequenceedit_lineedit", "palette_field", "shortcut_search"}
+"""Fields whose small button is Qt's; keys do the same."""
+
+
+def faults(application: QApplication) -> Iterator[str]:
+    """What does not fit, is too small to hit, or lies outside of what holds it."""
+    for window in application.topLevelWidgets():
+        for widget in (window, *window.findChildren(QWidget)) if window.isVisible() else ():
+            if widget.isVisible():
+                for fault in _faults_of(widget):
+                    yield f"{_place(widget)}: {fault}"
+
+
+def _faults_of(widget: QWidget) -> Iterator[str]:
+    yield from _cut(widget)
+    if isinstance(widget, QAbstractButton | QComboBox) and not _is_qts_own(widget):
+        if min(widget.width(), widget.height()) < LEAST_TARGET_PX:
+            yield f"{widget.width()} x {widget.height()} is hard to hit"
+        if not isinstance(widget, QCheckBox | QRadioButton) and not _name(widget):
+            yield "nobody says what it is"
+
+
+def _cut(widget: QWidget) -> Iterator[str]:
+    wanted = widget.sizeHint().width()
+    match widget:
+        case QLabel() if widget.text() and not widget.wordWrap():
+            if wanted > widget.width() + 1 and not widget.toolTip():
+                yield f"{widget.text()!r} needs {wanted} px and has {widget.width()}"
+        case QAbstractButton() if _words(widget) and wanted > widget.width() + 1:
+            if widget.objectName() not in ELIDED:
+                yield f"{widget.text()!r} needs {wanted} px and has {widget.width()}"
+        case QComboBox() if widget.objectName() not in ELIDED:
+            option = QStyleOptionComboBox()
+            widget.initStyleOption(option)
+            style, part = widget.style(), QStyle.SubControl.SC_ComboBoxEditField
+            room = style.subControlRect(QStyle.ComplexControl.CC_ComboBox, option, part, widget).width()
+            picture = 0 if widget.itemIcon(widget.currentIndex()).isNull() else widget.iconSize().width() + 4
+            needed = widget.fontMetrics().horizontalAdvance(widget.currentText()) + picture
+            if needed > room:
+                yield f"{widget.currentText()!r} needs {needed} px and has {room}"
+        case QTabBar():
+            for place in range(widget.count()):
+                box, text = widget.tabRect(place), widget.tabText(place)
+                if widget.fontMetrics().horizontalAdvance(text) > box.width() or box.right() > widget.width():
+                    yield f"the tab {text!r} is cut"
+        case _:
+            pass
+
+
+def _words(button: QAbstractButton) -> bool:
+    if isinstance(button, QToolButton) and button.toolButtonStyle() == Qt.ToolButtonStyle.ToolButtonIconOnly:
+        return False
+    return bool(button.text())
+
+
+def _name(widget: QWidget) -> str:
+    text = widget.text() if isinstance(widget, QAbstractButton) else ""
+    return text or widget.toolTip() or widget.accessibleName() or _label(widget)
+
+
+def _label(widget: QWidget) -> str:
+    """The label that belongs to it, or a list's own contents."""
+    labels = widget.window().findChildren(QLabel)
+    named = next((label.text() for label in labels if label.buddy() is widget), "")
+    return named or (widget.currentText() if isinstance(widget, QComboBox) else "")
+
+
+def _is_qts_own(widget: QWidget) -> bool:
+    return isinstance(widget.parentWidget(), QLineEdit) or widget.objectName().startswith("qt_")
+
+
+def _place(widget: QWidget) -> str:
+    names: list[str] = []
+    one: QWidget | None = widget
+    while one is not None and len(names) < 3:
+        names.append(one.objectName() or type(one).__name__)
+        one = one.parentWidget()
+    return " of ".join(names)
+
+
+class Look:
+    """An editor in every state, one after another."""
+
+    def __init__(self, theme: str, size: tuple[int, int], folder: Path, pictures: Path | None) -> None:
+        self.application = make_application()
+        settings = Settings(folder / "editor.ini")
+        settings.language, settings.theme = "en", theme
+        self.program = Program(
+            settings, ImmediateTasks(), Answers(), Autosave(Presence(folder / "recovery")), heard=False
+        )
+        self.session, self.window = self.program.session, self.program.window
+        self.folder, self.pictures = folder, pictures
+        self.found: dict[str, str] = {}
+        self.language = "en"
+        self.window.resize(*size)
+        self.window.show()
+        self.window.resize(*size)
+
+    def speak(self, language: str) -> None:
+        """Go on in a language."""
+        self.language = language
+        self.program.editor.speak(language)
+        self.settle()
+
+    def settle(self, seconds: float = 0.08) -> None:
+        """Let the editor lay itself out."""
+        end_s = time.monotonic() + seconds
+        while time.monotonic() < end_s:
+            self.application.processEvents()
+
+    def at(self, state: str) -> None:
+        """Judge a state."""
+        self.settle()
+        name = f"{state}_{self.language}"
+        found = set(faults(self.application))
+        if found:
+            # What was said only just now may not have its room yet.
+            self.settle()
+            found &= set(faults(self.application))
+        for fault in sorted(found):
+            self.found.setdefault(fault, name)
+        if self.pictures is not None:
+            self.application.primaryScreen().grabWindow(0).save(str(self.pictures / f"{name}.png"))
+
+    def do(self, action_id: str) -> None:
+        """Choose an action."""
+        self.program.editor.table.refresh()
+        self.session.actions[action_id].trigger()
+
+    def shut(self) -> None:
+        """Close dialogs."""
+        for widget in self.application.topLevelWidgets():
+            if isinstance(widget, QDialog) and widget.isVisible():
+                widget.close()
+        self.settle(0.02)
+
+    def start(self) -> None:
+        """The start page, empty and full."""
+        self.both("start")
+        long = Path("/a folder/with/a long way/of folders") / f"{'a long name of a piece ' * 3}.suisou"
+        self.program.editor.settings.add_recent(long)
+        self.program.editor.settings.add_recent(LUTKIN)
+        lost = Recoverable(self.folder / "a.suisou", None, LUTKIN.name, 1.0e9, 400)
+        self.program.editor.files.recoverable = lambda: (lost,)  # type: ignore[method-assign]
+        self.window.start_page.refresh()
+        self.both("start_full")
+
+    def both(self, state: str) -> None:
+        """Judge a state in both languages."""
+        for language in ("ja", "en"):
+            self.speak(language)
+            self.at(state)
+
+    def open(self) -> None:
+        """The piece, in a new window's layout."""
+        self.program.editor.files.open(LUTKIN, ask=False)
+        self.window.reset_layout()
+        self.at("window")
+
+    def selections(self) -> None:
+        """The window with whatever can be selected."""
+        player = self.session.project.players[0]
+        notes = self.session.project.part(player).notes
+        plan = self.session.performance.plan(player)
+        for name, chosen in (("note", notes[4:5]), ("notes", notes[4:12])):
+            self.session.select(Selection(frozenset(note.id for note in chosen)))
+            self.at(name)
+        self.do("fingering.cycle")
+        self.at("pinned")
+        for name, events in (
+            ("breath", plan.breaths),
+            ("cue", plan.cues),
+            ("expression", plan.expressions),
+            ("gesture", plan.gestures),
+        ):
+            self.session.select(Selection(events=frozenset({EventKey(player.id, events[0].id)})))
+            self.at(name)
+        self.session.select(Selection())
+        self.session.set_players(tuple(one.id for one in self.session.project.players))
+        self.at("players")
+        self.session.set_players((player.id,))
+        self.window._offer_recovery(Recoverable(self.folder / "a.suisou", None, "work", 1.0e9, 400))
+        self.at("banner")
+        self.window._ask_to_save_over(Path(f"{LUTKIN.stem}.suisou"), None)
+        self.at("banner_long")
+        self.window.banner.hide()
+
+    def dialogs(self) -> None:
+        """Every dialog."""
+        steps: dict[str, Callable[[], object]] = {
+            "about": lambda: self.do("application.about"),
+            "preferences": lambda: self.do("application.preferences"),
+            "shortcuts": lambda: self.do("application.shortcuts"),
+            "export": lambda: self.do("export.files"),
+            "playblast": lambda: self.do("export.playblast"),
+            "reimport": lambda: self.do("file.reimport"),
+            "import": self._import,
+        }
+        for name, show in steps.items():
+            show()
+            shown = [widget for widget in self.application.topLevelWidgets() if isinstance(widget, QDialog)]
+            if not any(widget.isVisible() for widget in shown):
+                self.found[f"{name}: no dialog"] = name
+            self.at(name)
+            self.shut()
+        self.window.show_palette()
+        self.window.palette_popup.field.setText("zzzz")
+        self.at("palette")
+        self.window.palette_popup.hide()
+
+    def _import(self) -> None:
+        dialog = ImportDialog(read_contents(LUTKIN), bundled_maps(), str(LUTKIN), self.session.tokens, self.window)
+        dialog.show()
+
+    def sharp(self) -> None:
+        """The picture of the players has as many pixels as the screen."""
+        canvas = self.window.viewport.findChild(QOpenGLWidget)
+        assert isinstance(canvas, QOpenGLWidget)
+        shot, ratio = canvas.grabFramebuffer(), canvas.devicePixelRatioF()
+        wanted = (round(canvas.width() * ratio), round(canvas.height() * ratio))
+        if abs(shot.width() - wanted[0]) > 1 or abs(shot.height() - wanted[1]) > 1:
+            self.found[f"the players are drawn with {shot.width()} x {shot.height()} pixels instead of {wanted}"] = "gl"
+        print(f"scale {ratio:g}")
+
+
+def main() -> None:
+    """Look, and print what was found."""
+    theme, width, height = sys.argv[1:4]
+    pictures = Path(sys.argv[4]) if len(sys.argv) > 4 else None
+    with tempfile.TemporaryDirectory() as folder:
+        look = Look(theme, (int(width), int(height)), Path(folder), pictures)
+        look.start()
+        look.open()
+        for language in ("en", "ja"):
+            look.speak(language)
+            look.selections()
+            look.dialogs()
+        look.sharp()
+        for fault, state in look.found.items():
+            print(f"{state}: {fault}")
+        look.program.end()
+        look.window.hide()
+
+
+if __name__ == "__main__":
+    main()
