@@ -178,8 +178,14 @@ def face_morphs(
     at_lips = face.at_lips.sample(times_s)
     formed = at_lips * (1.0 - 0.9 * inhaling)
     tension, effort, air = face.tension.sample(times_s), face.effort.sample(times_s), face.air.sample(times_s)
+    around = formed
+    if lips.apart_m > 0.0:
+        # What is between the lips stays between them in a rest, as long as it is not lowered.
+        share = np.clip((AROUND_FROM - lowered) / (AROUND_FROM - AROUND_BY), 0.0, 1.0)
+        around = share * share * (3.0 - 2.0 * share)
+    resting = np.maximum(around - at_lips, 0.0) * (1.0 - 0.9 * inhaling)
     drivers: list[tuple[FloatArray, Mapping[str, float]]] = [
-        (formed * (1.0 - tension), embouchure.relaxed),
+        (formed * (1.0 - tension) + resting, embouchure.relaxed),
         (formed * tension, embouchure.tight),
         (formed * air, embouchure.air),
         (formed * effort, embouchure.effort),
@@ -193,9 +199,7 @@ def face_morphs(
     drivers.append((gaze.blinks.sample(times_s), dict.fromkeys(LIDS, 1.0)))
     morphs = _mixed(drivers)
     if lips.jaw:
-        around = np.clip((AROUND_FROM - lowered) / (AROUND_FROM - AROUND_BY), 0.0, 1.0)
-        around = around * around * (3.0 - 2.0 * around)
-        _part_lips(morphs, lips, around if lips.apart_m > 0.0 else formed, formed)
+        _part_lips(morphs, lips, around, formed)
     return morphs
 
 
