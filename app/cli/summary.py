@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 from pathlib import Path
 
-from app.export.measure import GRIP_MM, TOUCH_MM, PlayerMeasures, Spread
+from app.export.measure import PlayerMeasures, Spread
 from app.export.report import PlayerReport, Report, failures
+from app.performance.contacts import GRIP_MM, TOUCH_MM
 
 _HEAD = ("player", "notes", "controls", "fingers mm", "grips mm", "lips mm", "feet mm", "into mm", "breaths", "sway")
 

@@ -20,6 +20,7 @@ from app.export.joints import anatomical_angles, angular_accelerations
 from app.export.penetration import Hands
 from app.export.playback import Playback, Surface
 from app.formats.fbx.scene import FbxScene
+from app.performance.contacts import FEET_MM, LIPS_MM, bound_mm, in_place
 from app.plan.model import BreathEvent, FingeringEvent, PlayerPlan
 from app.rig import quaternion
 from app.rig.model import Character, Landmark
@@ -29,16 +30,8 @@ from metadata.model import Body, SkeletonProfile
 FloatArray: TypeAlias = npt.NDArray[np.float64]
 BoolArray: TypeAlias = npt.NDArray[np.bool_]
 
-TOUCH_MM = 2.0
-GRIP_MM = 3.0
-LIPS_MM = 2.0
-FEET_MM = 1.0
 BONES_MM = 0.01
 PENETRATION_MM = 3.0
-PRESSED = 0.9
-"""A control is where it should be within a tenth of its travel ..."""
-SLIDE_M = 0.005
-"""... or, where it slides, within this distance."""
 JAW_OPENS = 0.05
 TORSO_BACK_RAD = math.radians(0.3)
 """A breath shows where the jaw opens by this weight and the torso leans back by this angle."""
@@ -243,20 +236,13 @@ class ControlJudge:
         """Value of a control that each note asks for."""
         return np.array([note.controls.get(control.name, control.rest_value) for note in self._notes])
 
-    def in_place(self, control: Control, values: FloatArray, targets: FloatArray) -> BoolArray:
-        """Whether values are near enough to their targets."""
-        off = np.abs(values - targets)
-        if control.kind == "slide" and control.travel_m:
-            return off * control.travel_m <= SLIDE_M
-        return off <= 1.0 - PRESSED + 1e-9
-
     def working(self, control: Control, values: FloatArray) -> tuple[BoolArray, BoolArray]:
         """Frames of a sounding note at which a control is away from rest as its note asks, and at rest as it asks."""
         pressed = np.zeros(len(self._times_s), dtype=np.bool_)
         released = pressed.copy()
         for note, target in zip(self._notes, self.targets(control), strict=True):
             span = self._span(note.start_s, note.end_s)
-            there = self.in_place(control, values[span], np.asarray(target))
+            there = in_place(control, values[span], np.asarray(target))
             (released if target == control.rest_value else pressed)[span] |= there
         return pressed, released
 
@@ -265,11 +251,11 @@ class ControlJudge:
         targets = self.targets(control)
         long, short = self._inside & ~self._short, self._inside & self._short
         right = np.zeros(len(targets), dtype=np.bool_)
-        right[self._inside] = self.in_place(control, values[self._frames[self._inside]], targets[self._inside])
+        right[self._inside] = in_place(control, values[self._frames[self._inside]], targets[self._inside])
         held = wrong = 0
         for index in np.flatnonzero(long).tolist():
             span = self._span(self._notes[index].start_s, self._leaves_s(control, targets, index))
-            there = self.in_place(control, values[span], targets[index])
+            there = in_place(control, values[span], targets[index])
             held += len(there)
             wrong += int((~there).sum())
         return ControlMeasure(
@@ -415,15 +401,13 @@ def _contact(
     sounding: BoolArray,
 ) -> Spread:
     frames = sounding
-    touch = False
     if contact.control is not None:
         pressed, released = judge.working(instrument.control(contact.control), values[contact.control])
         frames = {"always": sounding, "pressed": pressed, "released": released}[contact.when]
-        touch = contact.grip == "firm" and not contact.part.endswith(("palm", "thumb_web"))
     node = traces.nodes[contact.node][frames]
     point_m = node[:, :3, :3] @ np.asarray(contact.position_m) + node[:, :3, 3]
     distances_m = np.linalg.norm(traces.landmarks[contact.part][frames] - point_m, axis=1)
-    return _spread(distances_m, TOUCH_MM if touch else GRIP_MM)
+    return _spread(distances_m, bound_mm(contact))
 
 
 def _rim_to(instrument: InstrumentMap, traces: _Traces, landmark: str) -> FloatArray:

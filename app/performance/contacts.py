@@ -87,9 +87,8 @@ def bound_mm(contact: Contact) -> float:
 def in_place(control: Control, values: FloatArray, targets: FloatArray) -> BoolArray:
     """Whether values of a control are near enough to their targets."""
     off = np.abs(values - targets)
-    travel_m = control.motion.travel_m if control.motion is not None else None
-    if control.kind == "slide" and travel_m is not None:
-        return off * travel_m <= SLIDE_M
+    if control.kind == "slide" and control.travel_m:
+        return off * control.travel_m <= SLIDE_M
     return off <= 1.0 - PRESSED + 1e-9
 
 

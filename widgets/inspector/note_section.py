@@ -161,7 +161,7 @@ class NoteSection(QWidget):
         self._show_fingering(shown, plan, bare, instrument)
         self._show_lips(shown, plan, bare)
         own_ids = frozenset(shown.own_ids)
-        told = [problem for problem in plan.problems if problem.note_id in own_ids]
+        told = [problem for problem in self._session.problems(player.id) if problem.note_id in own_ids]
         words = (sentence(problem.message, self._session, player.id) for problem in told[:5])
         self._problems.setText("\n".join(f"⚠ {text}" for text in words))
         self._problems.setVisible(bool(told))

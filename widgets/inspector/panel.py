@@ -46,6 +46,7 @@ class InspectorPanel(QWidget):
         self._build()
         session.selection_changed.connect(self.show_selection)
         session.performance_changed.connect(self._planned)
+        session.problems_changed.connect(self.show_selection)
         session.players_changed.connect(self.show_selection)
         session.changed.connect(self._changed)
         session.grid_changed.connect(self.show_selection)

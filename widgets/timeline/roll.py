@@ -87,6 +87,7 @@ class PianoRoll(Lane):
         self.hint_item = Hint(self, 5.0)
         self._set_font()
         session.pitch_display.changed.connect(self.keyboard.update)
+        session.problems_changed.connect(self.performance_changed)
         self.fit_pitch()
         self.retranslate()
 
@@ -466,8 +467,8 @@ class PianoRoll(Lane):
         if note is not None:
             text += self.tr(" · velocity {velocity}").format(velocity=note.velocity)
             player = self.session.player
-            plan = self.plan_of(player) if player is not None else None
-            found = [problem for problem in plan.problems if problem.note_id == note.id] if plan is not None else []
+            known = self.session.problems(player.id) if player is not None else ()
+            found = [problem for problem in known if problem.note_id == note.id]
             problems = "\n".join(sentence(problem.message, self.session) for problem in found)
         self.told.emit(text)
         if self.plot.toolTip() != problems:

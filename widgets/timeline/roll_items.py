@@ -10,7 +10,7 @@ from pyqtgraph.Qt.internals import PrimitiveArray
 from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
 from PySide6.QtGui import QBrush, QColor, QFontMetricsF, QImage, QPainter, QPen, QPolygonF, QStaticText
 
-from app.plan.model import PlayerPlan
+from app.plan.model import PlayerPlan, Problem
 from widgets.common.pitch import BLACK
 from widgets.timeline.lane import LaneItem
 from widgets.timeline.note_table import NoteTable
@@ -218,7 +218,8 @@ class Labels(LaneItem):
         self._table: NoteTable | None = None
         self._fingered: Integers = np.empty(0, np.int64)
         self._said: list[tuple[str, bool]] = []
-        self._problems: dict[int, bool] = {}
+        self._told: tuple[Problem, ...] = ()
+        self._problems: frozenset[int] = frozenset()
 
     def forget_fonts(self) -> None:
         """The font is another one."""
@@ -230,19 +231,23 @@ class Labels(LaneItem):
             return
         self._table, self._plan = table, plan
         pairs = []
-        self._problems = {}
         if plan is not None:
             index = table.index
             for event in plan.fingerings:
                 place = index.get(event.note_id)
                 if place is not None:
                     pairs.append((place, event.label, event.corrected))
-            for problem in plan.problems:
-                if problem.note_id is not None and problem.note_id in index:
-                    self._problems[index[problem.note_id]] = True
         pairs.sort()
         self._fingered = np.array([place for place, _, _ in pairs], np.int64)
         self._said = [(label, corrected) for _, label, corrected in pairs]
+
+    def _know_problems(self, table: NoteTable, told: tuple[Problem, ...]) -> None:
+        """Sort problems to the notes that they are about, once for each pair."""
+        if table is self._table and told is self._told:
+            return
+        self._told = told
+        places = (table.index.get(problem.note_id) for problem in told if problem.note_id is not None)
+        self._problems = frozenset(place for place in places if place is not None)
 
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
         lane: PianoRoll = self.lane  # type: ignore[assignment]
@@ -251,6 +256,7 @@ class Labels(LaneItem):
             return
         table, colour = front
         player = lane.session.player
+        self._know_problems(table, lane.session.problems(player.id) if player is not None else ())
         self._know(table, lane.plan_of(player) if player is not None else None)
         wider = exposed.adjusted(-60.0, 0.0, 4.0, 0.0)
         rows = lane.visible(table, wider)

@@ -8,6 +8,9 @@ from PySide6.QtGui import QGuiApplication
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
+from app.errors import Message
+from app.performance.ensemble import Performance
+from app.plan.model import Problem
 from tests.gui.timeline.conftest import SCALE, TPQ, Stage
 from tests.gui.timeline.hand import ALT, CTRL, MIDDLE, SHIFT, Hand
 from widgets.common.selection import Selection
@@ -493,3 +496,19 @@ def test_on_macos_option_copies_and_keeps_to_the_grid(stage: Stage, monkeypatch:
     assert stage.selected == {"1:4"}
     stage.hand.click(stage.middle("1:5"), CTRL)
     assert stage.selected == {"1:4", "1:5"}
+
+
+def test_a_contact_that_the_motion_breaks_is_said_at_its_note(stage: Stage) -> None:
+    performance = Performance(stage.session.project)
+    performance.prepare()
+    stage.session.set_performance(performance)
+    broken = Problem(Message("contact.hand_off", {"side": "left", "gap_mm": 9}), "1:3", 1.5, 2.0)
+    stage.session.set_broken({"p1.1.1": (broken,)})
+    stage.hand.move(stage.middle("1:3"))
+    assert "9 mm" in stage.roll.plot.toolTip()
+    stage.roll.plot.viewport().repaint()
+    assert stage.roll.labels._problems >= {3}
+    stage.session.set_broken({})
+    stage.hand.move(stage.middle("1:2"))
+    stage.hand.move(stage.middle("1:3"))
+    assert "9 mm" not in stage.roll.plot.toolTip()
