@@ -174,7 +174,7 @@ def follow(
             continue
         move_s = length_s if transition_s is None else min(transition_s, length_s)
         size = min(1.0, move_s / QUICK_S)
-        amount = float(np.clip(event.amount * size, *limits))
+        amount = min(max(event.amount * size, limits[0]), limits[1])
         segments.append((event.start_s, event.start_s + move_s, amount))
         pause_s = np.inf if following is None else following.start_s - end_s
         if pause_s > max(1.0, length_s):
@@ -349,6 +349,10 @@ class _Sum:
         return {joint: self.angles.get(joint, np.zeros(self.frames)) for joint in TRUNK}
 
 
+_KINDS = ("sway", "weight_shift", "bell_height", "lower_instrument")
+"""Gestures that layers are made of."""
+
+
 @dataclass(frozen=True)
 class Layers:
     """What one player's plan asks of the body, as curves of time; each is sampled with the sizes of the player.
@@ -390,15 +394,28 @@ class Layers:
                     layers = replace(layers, nods=Nods.of(plan.cues))
                 return layers if same_events(plan, other, "poses") else replace(layers, poses=Poses.of(plan.poses))
         full, leaning = lungs(plan.breaths)
+        gestures = {kind: [event for event in plan.gestures if event.kind == kind] for kind in _KINDS}
+        same: dict[str, Layers | None] = dict.fromkeys(_KINDS)
+        if before is not None:
+            # Other heights of the bell, and the same swings: most gestures outlive an edit.
+            layers, other = before
+            for kind in _KINDS:
+                if gestures[kind] == [event for event in other.gestures if event.kind == kind]:
+                    same[kind] = layers
+        swing, shift, bell, low = (same[kind] for kind in _KINDS)
         return cls(
             full=full,
             leaning=leaning,
             nods=Nods.of(plan.cues),
-            sway=follow(plan.gestures, "sway"),
-            weight=follow(plan.gestures, "weight_shift", body.weight_shift.transition_s),
-            height=follow(plan.gestures, "bell_height", 0.5),
-            bobbing=Bobbing.of(plan.gestures, beat_ticks),
-            lowered=lowering(plan.gestures, body.bell.lower_s, body.bell.raise_s),
+            sway=swing.sway if swing else follow(gestures["sway"], "sway"),
+            weight=shift.weight
+            if shift
+            else follow(gestures["weight_shift"], "weight_shift", body.weight_shift.transition_s),
+            height=bell.height if bell else follow(gestures["bell_height"], "bell_height", 0.5),
+            bobbing=swing.bobbing if swing else Bobbing.of(gestures["sway"], beat_ticks),
+            lowered=low.lowered
+            if low
+            else lowering(gestures["lower_instrument"], body.bell.lower_s, body.bell.raise_s),
             poses=Poses.of(plan.poses),
         )
 

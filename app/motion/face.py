@@ -7,6 +7,7 @@ character's own morphs move its lips.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -42,12 +43,12 @@ def _tracked(
 ) -> Curve:
     """A value that is reached at each onset, held, and (``rest_value``) left in rests longer than `HOLD_S`."""
     segments: list[tuple[float, float, float]] = []
-    value, free_s, last_s = rest_value or 0.0, -np.inf, -np.inf
+    value, free_s, last_s = rest_value or 0.0, -math.inf, -math.inf
     following = [*(event.start_s for event in events[1:]), np.inf][: len(events)]
     for event, target, next_s in zip(events, values, following, strict=True):
         onset_s = event.start_s
         gap_s = onset_s - last_s
-        if rest_value is not None and np.isfinite(last_s) and gap_s > HOLD_S:
+        if rest_value is not None and last_s > -math.inf and gap_s > HOLD_S:
             free_s = last_s + min(2.0 * FORM_S, gap_s / 2.0)
             if value != rest_value:
                 segments.append((last_s, free_s, rest_value))

@@ -63,6 +63,12 @@ def plan_gaze(plan: PlayerPlan, seed: int) -> Gaze:
     )
 
 
+def looks_alike(plan: PlayerPlan, other: PlayerPlan) -> bool:
+    """Whether the gaze of two plans of a player is the same: notes matter only where they leave rests."""
+    same = plan.cues == other.cues and plan.time_frame == other.time_frame
+    return same and _rests(plan) == _rests(other)
+
+
 def _fixations(plan: PlayerPlan, random: np.random.Generator) -> list[tuple[float, float, float, float]]:
     """Rows of (start_s, yaw_rad, pitch_rad, share the head follows), at least `HEAD_TURN_S` apart."""
     rests = _Spans(_rests(plan))

@@ -13,7 +13,7 @@ from app.motion.body import BodyMotion, Layers, body_motion
 from app.motion.controls import control_curves
 from app.motion.curve import EVERYWHERE, Curve, Envelopes, FloatArray, frame_times
 from app.motion.face import Face, face_morphs, usual_morphs
-from app.motion.gaze import Gaze, plan_gaze
+from app.motion.gaze import Gaze, looks_alike, plan_gaze
 from app.motion.model import Motion
 from app.motion.posture import hips_path, stance, trunk
 from app.motion.solve import Curves, Player, padding, solve
@@ -172,7 +172,7 @@ def prepare(
         old = before.plan
         face = Face.of(plan, tension, (before.face, old, before.parameters.embouchure_tension))
         layers = Layers.of(plan, body, beat_ticks, (before.layers, old))
-        looks_same = same_events(plan, old, "fingerings", "cues") and plan.time_frame == old.time_frame
+        looks_same = looks_alike(plan, old)
         seed = before.parameters.seed
         gaze = before.gaze if looks_same and seed == parameters.seed else plan_gaze(plan, parameters.seed)
         controls = before.controls

@@ -83,7 +83,8 @@ class _Chunk:
 
     @classmethod
     def of(cls, motion: Motion) -> _Chunk:
-        moves = np.any(motion.rotations != motion.rotations[:1], axis=(0, 2))
+        # One axis after the other: both at once take forty times as long.
+        moves = (motion.rotations != motion.rotations[:1]).any(axis=0).any(axis=1)
         columns = [*motion.morphs.values(), *motion.controls.values()]
         still = motion.rotations[0].copy()
         rotations = np.ascontiguousarray(motion.rotations[:, moves])

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 
 from app.plan.line import MEZZOFORTE, IntArray, LineTimes, Piece, Seeds
@@ -54,15 +56,14 @@ def air_used_s(times: LineTimes) -> FloatArray:
 
 def levels(used: FloatArray, lung_s: float, refill: FloatArray) -> FloatArray:
     """(N,): how full the lungs are (0..1) at each note's onset, after the breath before it."""
-    level = np.empty(len(refill))
+    level = []
     # Nobody enters on empty lungs: without any breath before the first note (removed by hand) a normal one is assumed.
     here = 0.5 if refill[0] == 0.0 else 0.0
-    for index in range(len(refill)):
-        if index:
-            here = max(here - (used[index] - used[index - 1]) / lung_s, 0.0)
-        here = min(here + refill[index], 1.0)
-        level[index] = here
-    return level
+    spent = np.diff(used[: len(refill)], prepend=used[0]) / lung_s
+    for out, more in zip(spent.tolist(), refill.tolist(), strict=True):
+        here = min(max(here - out, 0.0) + more, 1.0)
+        level.append(here)
+    return np.array(level)
 
 
 def drawn(length_s: float) -> float:
@@ -103,58 +104,76 @@ def catch_places(
     starts = np.unique(np.concatenate(([0], breaths)))
     ends = np.append(starts[1:], len(notes))
     bars = piece.bars(int(times.onset_tick[0]), int(times.onset_tick[-1]) + 1)
-    around = _lengths_around(times.duration_s)
+    short = used[ends] - used[starts] > level[starts] * lung_s + EPSILON
+    stretches = [
+        (
+            start,
+            end,
+            [index for index in range(start + 1, end) if open_[index] and f"breath:{notes[index].id}" not in removed],
+        )
+        for start, end in zip(starts[short].tolist(), ends[short].tolist(), strict=True)
+    ]
+    everywhere = [index for _, _, places in stretches for index in places]
+    if not everywhere:
+        return []
+    cost = _place_costs(notes, times, piece, bars, _lengths_around(times.duration_s), everywhere, taken, seeds)
+    air_s = np.array([drawn(length) * lung_s for length in length_s.tolist()])
     result: list[int] = []
-    for start, end in zip(starts.tolist(), ends.tolist(), strict=True):
-        if used[end] - used[start] <= level[start] * lung_s + EPSILON:
-            continue
-        places = [
-            index for index in range(start + 1, end) if open_[index] and f"breath:{notes[index].id}" not in removed
-        ]
+    first = 0
+    for start, end, places in stretches:
+        own = cost[first : first + len(places)]
+        first += len(places)
         if places:
-            cost = _place_costs(notes, times, piece, bars, around, places, taken, seeds)
-            result += _cheapest_chain(used, places, cost, length_s, start, end, float(level[start]), lung_s)
+            nodes = [start, *places, end]
+            chain = _cheapest_chain(
+                used[nodes].tobytes(), own.tobytes(), air_s[places].tobytes(), float(level[start]), lung_s
+            )
+            result += [places[place] for place in chain]
     return result
 
 
+@lru_cache(maxsize=4096)
 def _cheapest_chain(
-    used: FloatArray,
-    places: list[int],
-    cost: FloatArray,
-    length_s: FloatArray,
-    start: int,
-    end: int,
-    level: float,
-    lung_s: float,
-) -> list[int]:
-    """Label by label: what is left of the best way so far, and what the catch breath adds, is the air of a place."""
-    nodes = np.array([start, *places, end])
-    used = used[nodes]
-    air_s = np.zeros(len(nodes))
+    used_bytes: bytes, cost_bytes: bytes, drawn_bytes: bytes, level: float, lung_s: float
+) -> tuple[int, ...]:
+    """Label by label: what is left of the best way so far, and what the catch breath adds, is the air of a place.
+
+    Remembered by its numbers: an edit leaves nearly all stretches of a line as they were.
+
+    Parameters
+    ----------
+    used_bytes : bytes of (K + 2,) float64
+        Air used until the stretch begins, until each place, and until it ends.
+    cost_bytes, drawn_bytes : bytes of (K,) float64
+        What each place costs, and the air that a catch breath brings there.
+    """
+    used, cost, drawn_s = (np.frombuffer(data) for data in (used_bytes, cost_bytes, drawn_bytes))
+    last = len(used) - 1
+    air_s = np.zeros(last + 1)
     air_s[0] = level * lung_s
-    total = np.full(len(nodes), np.inf)
+    total = np.full(last + 1, np.inf)
     total[0] = 0.0
-    origin = np.zeros(len(nodes), dtype=np.int64)
+    origin = np.zeros(last + 1, dtype=np.int64)
     # No lungful reaches further back than this; where it does not even reach the place before, that one has to do.
-    reach = np.minimum(np.searchsorted(used, used - lung_s - EPSILON), np.arange(len(nodes)) - 1)
-    for node in range(1, len(nodes)):
+    reach = np.minimum(np.searchsorted(used, used - lung_s - EPSILON), np.arange(last + 1) - 1)
+    for node in range(1, last + 1):
         back = int(reach[node])
         needed = used[node] - used[back:node]
         left_s = air_s[back:node] - needed
         ways = total[back:node] + np.where(left_s < -EPSILON, TOO_LONG_COST * (1.0 - left_s), 0.0)
         left_s = np.maximum(left_s, 0.0)
-        if node < len(places) + 1:
+        if node < last:
             ways += cost[node - 1] + EARLY_COST * left_s / lung_s
         best = int(np.argmin(ways))
         origin[node], total[node] = back + best, ways[best]
-        if node < len(places) + 1:
-            air_s[node] = min(left_s[best] + drawn(float(length_s[nodes[node]])) * lung_s, lung_s)
+        if node < last:
+            air_s[node] = min(left_s[best] + drawn_s[node - 1], lung_s)
     chain = []
     node = int(origin[-1])
     while node > 0:
-        chain.append(int(nodes[node]))
+        chain.append(node - 1)
         node = int(origin[node])
-    return chain[::-1]
+    return tuple(chain[::-1])
 
 
 def _place_costs(

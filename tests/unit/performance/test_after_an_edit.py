@@ -1,0 +1,61 @@
+"""An edit costs what it touches: everything else of the plan and of the motion's curves is taken over."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import msgspec
+import pytest
+
+from app.performance.ensemble import Performance
+from app.performance.motion import playing_of
+from app.plan import lungs
+from app.project.model import Project
+from tests.bench.performance.large import large_project
+
+
+@pytest.fixture(scope="module")
+def performance() -> Performance:
+    made = Performance(large_project(2, 400))
+    made.prepare()
+    return made
+
+
+def raised(project: Project) -> Project:
+    """One note of the first player a semitone higher."""
+    part = project.part(project.players[0])
+    notes = tuple(
+        msgspec.structs.replace(note, pitch=note.pitch + 1) if index == 200 else note
+        for index, note in enumerate(part.notes)
+    )
+    parts = tuple(
+        msgspec.structs.replace(other, notes=notes) if other is part else other for other in project.score.parts
+    )
+    return replace(project, score=msgspec.structs.replace(project.score, parts=parts))
+
+
+def test_stretches_that_an_edit_left_alone_are_not_searched_again(performance: Performance) -> None:
+    before = lungs._cheapest_chain.cache_info()
+    assert before.currsize > 4, "the piece asks for catch breaths"
+    edited = Performance(raised(performance.project), performance)
+    edited.prepare()
+    after = lungs._cheapest_chain.cache_info()
+    assert after.hits > before.hits
+    # The note's own stretch, and the next one where it begins with the leap from it.
+    assert after.misses - before.misses <= 2
+
+
+def test_a_semitone_changes_neither_gaze_nor_swings(performance: Performance) -> None:
+    player = performance.project.players[0]
+    edited = Performance(raised(performance.project), performance)
+    old = playing_of(performance, player)
+    assert edited.plan(player).fingerings is not old.plan.fingerings
+    assert edited.plan(player).gestures is not old.plan.gestures
+    new = playing_of(edited, player, old)
+    assert new.gaze is old.gaze
+    assert new.layers.sway is old.layers.sway
+    assert new.layers.weight is old.layers.weight
+    assert new.layers.lowered is old.layers.lowered
+    assert new.layers.height is not old.layers.height
+    fresh = playing_of(Performance(edited.project), player)
+    assert not new.changed_s(fresh).size, "what was taken over is what would be made"
