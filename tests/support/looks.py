@@ -74,6 +74,10 @@ def _cut(widget: QWidget) -> Iterator[str]:
         case QLabel() if widget.text() and not widget.wordWrap():
             if wanted > widget.width() + 1 and not widget.toolTip():
                 yield f"{widget.text()!r} needs {wanted} px and has {widget.width()}"
+        case QLabel() if widget.text() and widget.wordWrap():
+            needed = widget.heightForWidth(widget.width())
+            if needed > widget.height() + 1:
+                yield f"{widget.text()!r} needs {needed} px of height and has {widget.height()}"
         case QAbstractButton() if _words(widget) and wanted > widget.width() + 1:
             if widget.objectName() not in ELIDED:
                 yield f"{widget.text()!r} needs {wanted} px and has {widget.width()}"

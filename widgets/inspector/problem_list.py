@@ -54,7 +54,7 @@ class ProblemList(QWidget):
         self.list.setObjectName("problem_list")
         self._empty = QLabel()
         self._empty.setWordWrap(True)
-        self._empty.setMargin(12)
+        self._empty.setContentsMargins(12, 4, 12, 4)
         self._empty.setAlignment(Qt.AlignmentFlag.AlignTop)
         filters = QHBoxLayout()
         filters.setContentsMargins(6, 6, 6, 4)

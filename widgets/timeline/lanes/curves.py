@@ -152,7 +152,7 @@ class CurvesLane(Lane):
 
     id = "curves"
     preferred_height_px = 64
-    least_height_px = 52
+    least_height_px = 49
 
     def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
         super().__init__(session, axis, parent)
