@@ -20,18 +20,23 @@ from app.export.joints import anatomical_angles, angular_accelerations
 from app.export.penetration import Hands
 from app.export.playback import Playback, Surface
 from app.formats.fbx.scene import FbxScene
-from app.performance.contacts import FEET_MM, LIPS_MM, bound_mm, in_place
+from app.performance.contacts import FEET_MM, LIPS_MM, TOUCH_MM, bound_mm, in_place
 from app.plan.model import BreathEvent, FingeringEvent, PlayerPlan
 from app.rig import quaternion
 from app.rig.model import Character, Landmark
+from app.rig.stations import MOST_HOVER_M, aside_m, only_at, stations, stations_of_notes, worked_by
 from instrument_maps.model import ROOT, Contact, Control, InstrumentMap
 from metadata.model import Body, SkeletonProfile
 
 FloatArray: TypeAlias = npt.NDArray[np.float64]
 BoolArray: TypeAlias = npt.NDArray[np.bool_]
+IntArray: TypeAlias = npt.NDArray[np.intp]
 
 BONES_MM = 0.01
 PENETRATION_MM = 3.0
+HOVER_MM = 1000.0 * MOST_HOVER_M
+CLEAR_MM = 3.0
+"""A finger farther than this from a hole lets it sound open."""
 JAW_OPENS = 0.05
 TORSO_BACK_RAD = math.radians(0.3)
 """A breath shows where the jaw opens by this weight and the torso leans back by this angle."""
@@ -89,7 +94,10 @@ class BreathMeasure(msgspec.Struct, frozen=True):
 
 
 class PlayerMeasures(msgspec.Struct, frozen=True):
-    """Section by section what one player's files hold."""
+    """Section by section what one player's files hold.
+
+    ``hovering`` is how far fingers that work nothing are from the nearest of their keys and holes.
+    """
 
     sounding_frames: int
     contacts: dict[str, Spread]
@@ -102,6 +110,7 @@ class PlayerMeasures(msgspec.Struct, frozen=True):
     limits: JointMeasure
     acceleration: JointMeasure
     breaths: BreathMeasure
+    hovering: dict[str, Spread] = {}
 
 
 @dataclass(frozen=True, eq=False)
@@ -164,14 +173,15 @@ def measure_player(
     blowing = sounding & ~_within(times_s, [(event.start_s, event.end_s) for event in plan.breaths])
     inhaling = [(event.start_s, event.end_s) for event in plan.breaths if event.kind == "breath"]
     traces = _trace(player, held, character, instrument, sounding, progress)
-    values = control_values(instrument, held)
-    rotations = player.rotations(0, player.clip.frames)
     judge = ControlJudge(times_s, float(fps), first_frame_s, notes)
+    values = control_values(instrument, held) | _hole_values(instrument, traces)
+    rotations = player.rotations(0, player.clip.frames)
+    working = stations_of_notes(instrument, ((note.controls, note.fingers) for note in notes))
     measures = PlayerMeasures(
         sounding_frames=int(sounding.sum()),
         contacts={
-            _contact_name(contact): _contact(contact, instrument, traces, judge, values, sounding)
-            for contact in instrument.contacts
+            _contact_name(contact): _contact(index, instrument, traces, judge, values, sounding, working)
+            for index, contact in enumerate(instrument.contacts)
         },
         lips=_spread(np.linalg.norm(_rim_to(instrument, traces, _LIPS)[blowing], axis=1), LIPS_MM),
         upper_lip_in_breaths=_lip_gap(instrument, traces, blowing, _within(times_s, inhaling)),
@@ -182,6 +192,7 @@ def measure_player(
         limits=_limits(rotations, player.bone_names, body, profile),
         acceleration=_acceleration(rotations, player.bone_names, body, profile, float(fps)),
         breaths=_breaths(plan.breaths, times_s, player, traces.torso),
+        hovering=_hovering(instrument, traces, judge, working),
     )
     return Measured(measures, traces.torso)
 
@@ -246,6 +257,29 @@ class ControlJudge:
             (released if target == control.rest_value else pressed)[span] |= there
         return pressed, released
 
+    def asked(self, wanted: Sequence[bool] | BoolArray) -> BoolArray:
+        """Frames of the sounding notes for which ``wanted`` (N,) is true."""
+        frames = np.zeros(len(self._times_s), dtype=np.bool_)
+        for index in np.flatnonzero(wanted).tolist():
+            frames[self._belongs(index)] = True
+        return frames
+
+    def settled(self, control: Control) -> BoolArray:
+        """Frames at which a control should be where its note asks for it, away from rest: from the onset until it may
+        leave."""
+        targets = self.targets(control)
+        frames = np.zeros(len(self._times_s), dtype=np.bool_)
+        for index in np.flatnonzero(targets != control.rest_value).tolist():
+            frames[self._span(self._notes[index].start_s, self._leaves_s(control, targets, index))] = True
+        return frames
+
+    def targets_at_frames(self, control: Control) -> FloatArray:
+        """Value of a control (F,) that the note at each frame asks for; NaN where none sounds."""
+        result = np.full(len(self._times_s), np.nan)
+        for index, target in enumerate(self.targets(control).tolist()):
+            result[self._belongs(index)] = target
+        return result
+
     def measure(self, control: Control, values: FloatArray) -> ControlMeasure:
         """Count the notes at whose judged frame a control is in place, and the frames at which it left too early."""
         targets = self.targets(control)
@@ -285,6 +319,12 @@ class ControlJudge:
         allowed_s = max(next_s - end_s, control.move_note_share * (end_s - note.start_s))
         window_s = max(needed_s, min(control.move_window_s, allowed_s))
         return min(end_s, next_s - window_s)
+
+    def _belongs(self, index: int) -> slice:
+        """The frames of a note, to the next one's onset at most."""
+        note = self._notes[index]
+        following_s = self._notes[index + 1].start_s if index + 1 < len(self._notes) else math.inf
+        return self._span(note.start_s, min(note.end_s, following_s))
 
     def _span(self, start_s: float, end_s: float) -> slice:
         return slice(*np.searchsorted(self._times_s, [start_s - 1e-9, end_s - 1e-9]))
@@ -389,25 +429,89 @@ def _spread(distances_m: FloatArray, bound_mm: float) -> Spread:
 
 
 def _contact_name(contact: Contact) -> str:
-    return f"{contact.part} on {contact.control or contact.node}"
+    return f"{contact.part} on {'+'.join((contact.control or contact.node, *contact.together))}"
 
 
 def _contact(
-    contact: Contact,
+    index: int,
     instrument: InstrumentMap,
     traces: _Traces,
     judge: ControlJudge,
     values: Mapping[str, FloatArray],
     sounding: BoolArray,
+    working: Mapping[str, IntArray],
 ) -> Spread:
+    contact = instrument.contacts[index]
     frames = sounding
+    place = only_at(instrument)[index]
     if contact.control is not None:
         pressed, released = judge.working(instrument.control(contact.control), values[contact.control])
         frames = {"always": sounding, "pressed": pressed, "released": released}[contact.when]
-    node = traces.nodes[contact.node][frames]
+    if place is not None:
+        frames = frames & judge.asked(working[place[0]] == place[1])
+        for name in worked_by(contact, instrument):
+            # Of a hole without a moving part the finger itself is the measure: it closes it where it should or fails.
+            control = instrument.control(name)
+            if control.motion is not None:
+                frames = frames & judge.working(control, values[name])[0]
+            else:
+                frames = frames & judge.settled(control)
+    gap_m = _gap_m(contact, instrument, traces, None if contact.control is None else judge)[frames]
+    return _spread(gap_m, bound_mm(contact))
+
+
+def _gap_m(contact: Contact, instrument: InstrumentMap, traces: _Traces, judge: ControlJudge | None) -> FloatArray:
+    """How far (F,) a part of a hand is from its touch point; aside on a hole that its note half closes."""
+    node = traces.nodes[contact.node]
     point_m = node[:, :3, :3] @ np.asarray(contact.position_m) + node[:, :3, 3]
-    distances_m = np.linalg.norm(traces.landmarks[contact.part][frames] - point_m, axis=1)
-    return _spread(distances_m, bound_mm(contact))
+    if judge is not None and contact.control is not None:
+        targets = np.nan_to_num(judge.targets_at_frames(instrument.control(contact.control)), nan=1.0)
+        point_m = point_m + np.einsum("fij,fj->fi", node[:, :3, :3], aside_m(contact, instrument, targets))
+    gap_m: FloatArray = np.linalg.norm(traces.landmarks[contact.part] - point_m, axis=1)
+    return gap_m
+
+
+def _hole_values(instrument: InstrumentMap, traces: _Traces) -> dict[str, FloatArray]:
+    """Value of every hole without a moving part (F,), from the fingers that may close it.
+
+    1 or its half where a finger lies there, 0 where none is near, NaN where one is too near to let it sound open.
+    """
+    result = {}
+    for control in instrument.controls:
+        if control.motion is not None:
+            continue
+        touches = [contact for contact in instrument.contacts if control.name in worked_by(contact, instrument)]
+        whole_m = np.min([_gap_m(contact, instrument, traces, None) for contact in touches], axis=0)
+        values = np.where(whole_m > CLEAR_MM / 1000.0, 0.0, np.nan)
+        if control.half_value is not None:
+            half_m = np.min([_half_gap_m(contact, instrument, traces) for contact in touches], axis=0)
+            values = np.where(half_m <= TOUCH_MM / 1000.0, control.half_value, values)
+            whole_m = np.where(half_m < whole_m, np.inf, whole_m)
+        result[control.name] = np.where(whole_m <= TOUCH_MM / 1000.0, 1.0, values)
+    return result
+
+
+def _half_gap_m(contact: Contact, instrument: InstrumentMap, traces: _Traces) -> FloatArray:
+    node = traces.nodes[contact.node]
+    half = None if contact.control is None else instrument.control(contact.control).half_value
+    aside = aside_m(contact, instrument, np.full(1, half or 0.0))[0]
+    point_m = node[:, :3, :3] @ (np.asarray(contact.position_m) + aside) + node[:, :3, 3]
+    gap_m: FloatArray = np.linalg.norm(traces.landmarks[contact.part] - point_m, axis=1)
+    return gap_m
+
+
+def _hovering(
+    instrument: InstrumentMap, traces: _Traces, judge: ControlJudge, working: Mapping[str, IntArray]
+) -> dict[str, Spread]:
+    """How far fingers that work nothing are from the nearest of the places where they do."""
+    found = {}
+    for finger, places in stations(instrument).items():
+        touches = sorted({index for place in places if place.controls for index in place.contacts})
+        touches = [index for index in touches if only_at(instrument)[index] is not None]
+        if touches:
+            gaps_m = np.min([_gap_m(instrument.contacts[index], instrument, traces, None) for index in touches], axis=0)
+            found[finger] = _spread(gaps_m[judge.asked(working[finger] < 0)], HOVER_MM)
+    return found
 
 
 def _rim_to(instrument: InstrumentMap, traces: _Traces, landmark: str) -> FloatArray:

@@ -91,6 +91,7 @@ def failures(player: PlayerReport) -> tuple[str, ...]:
         return ()
     spreads: dict[str, Spread] = {
         **measures.contacts,
+        **{f"{finger} hovering": spread for finger, spread in measures.hovering.items()},
         "lips": measures.lips,
         "upper lip in breaths": measures.upper_lip_in_breaths,
         "bones": measures.bones,

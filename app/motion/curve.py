@@ -88,6 +88,14 @@ class Curve:
         phase = np.clip((times_s - self.start_s[segment]) / duration_s[segment], 0.0, 1.0)
         return self.before[segment] + (self.after - self.before)[segment] * minimum_jerk(phase)
 
+    def between(self, times_s: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Of values that stand for places: the one before, the one after, and how far it is on its way, (F,) each."""
+        rows = self._described(times_s)
+        resting = rows[:, 1] == rows[:, 0]
+        duration_s = np.where(resting, 1.0, rows[:, 1] - rows[:, 0])
+        share = np.where(resting, 1.0, minimum_jerk(np.clip((times_s - rows[:, 0]) / duration_s, 0.0, 1.0)))
+        return np.where(resting, rows[:, 3], rows[:, 2]), rows[:, 3], share
+
     @property
     def still(self) -> bool:
         """Whether the value never changes."""

@@ -11,12 +11,13 @@ import numpy as np
 
 from app.motion.body import BodyMotion, Layers, body_motion
 from app.motion.controls import control_curves
-from app.motion.curve import EVERYWHERE, Curve, Envelopes, FloatArray, frame_times
+from app.motion.curve import EVERYWHERE, Curve, Envelopes, FloatArray, frame_times, moves
 from app.motion.face import Face, face_morphs, usual_morphs
 from app.motion.gaze import Gaze, looks_alike, plan_gaze
 from app.motion.model import Motion
 from app.motion.posture import hips_path, stance, trunk
 from app.motion.solve import Curves, Player, padding, solve
+from app.motion.stations import raised_curve, sampled, station_curves
 from app.plan.model import PlayerParameters, PlayerPlan, TimeFrame, same_events
 from app.rig.carriage import carrying
 from app.rig.hold import Hold, Lips
@@ -55,6 +56,10 @@ class Playing:
     layers, face, gaze
     controls : dict of str to Curve
         By the instrument's control.
+    stations : dict of str to Curve
+        Which of its places a finger is at, by finger (`app.motion.stations`).
+    raised : Curve
+        How high fingers wait over their keys.
     """
 
     plan: PlayerPlan
@@ -69,6 +74,8 @@ class Playing:
     face: Face
     gaze: Gaze
     controls: dict[str, Curve]
+    stations: dict[str, Curve]
+    raised: Curve
 
     @property
     def player_id(self) -> str:
@@ -100,6 +107,8 @@ class Playing:
                 times_s,
             ),
             mouth_open=mouth_open,
+            placed={finger: sampled(curve, times_s) for finger, curve in self.stations.items()},
+            raised=self.raised.sample(times_s),
         )
         return solve(self.player, curves, fps, float(frame_times(self.start_s, fps, first_frame, 1)[0]))
 
@@ -108,9 +117,11 @@ class Playing:
         mine, others = self._settings, other._settings
         if mine[0] != others[0] or any(a is not b for a, b in zip(mine[1:], others[1:], strict=True)):
             return EVERYWHERE
-        if self.controls.keys() != other.controls.keys():
+        if self.controls.keys() != other.controls.keys() or self.stations.keys() != other.stations.keys():
             return EVERYWHERE
         spans = [curve.changed_s(other.controls[name]) for name, curve in self.controls.items()]
+        spans += [curve.changed_s(other.stations[name]) for name, curve in self.stations.items()]
+        spans.append(self.raised.changed_s(other.raised))
         for ours, theirs in ((self.layers, other.layers), (self.face, other.face), (self.gaze, other.gaze)):
             for member in fields(ours):
                 value = getattr(ours, member.name)
@@ -167,7 +178,7 @@ def prepare(
     if before is None:
         face, layers = Face.of(plan, tension), Layers.of(plan, body, beat_ticks)
         gaze = plan_gaze(plan, parameters.seed)
-        controls = control_curves(plan.fingerings, instrument_map.controls, beat_ticks)
+        fingers = _fingers(plan, instrument_map, beat_ticks)
     else:
         old = before.plan
         face = Face.of(plan, tension, (before.face, old, before.parameters.embouchure_tension))
@@ -175,9 +186,9 @@ def prepare(
         looks_same = looks_alike(plan, old)
         seed = before.parameters.seed
         gaze = before.gaze if looks_same and seed == parameters.seed else plan_gaze(plan, parameters.seed)
-        controls = before.controls
+        fingers = (before.controls, before.stations, before.raised)
         if not same_events(plan, old, "fingerings"):
-            controls = control_curves(plan.fingerings, instrument_map.controls, beat_ticks)
+            fingers = _fingers(plan, instrument_map, beat_ticks)
     skeleton = character.skeleton
     place = stance(skeleton, posture)
     still = BodyMotion.still(posture)
@@ -202,8 +213,20 @@ def prepare(
         layers=layers,
         face=face,
         gaze=gaze,
-        controls=controls,
+        controls=fingers[0],
+        stations=fingers[1],
+        raised=fingers[2],
     )
+
+
+def _fingers(
+    plan: PlayerPlan, instrument_map: InstrumentMap, beat_ticks: int
+) -> tuple[dict[str, Curve], dict[str, Curve], Curve]:
+    """Curves of the controls, of the places of the fingers and of how high they wait."""
+    controls = control_curves(plan.fingerings, instrument_map.controls, beat_ticks)
+    hovers = any(control.hover_m for control in instrument_map.controls)
+    raised = raised_curve(plan.fingerings) if hovers else moves(())
+    return controls, station_curves(plan.fingerings, instrument_map, controls), raised
 
 
 def _comparable(

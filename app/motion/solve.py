@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
 import numpy as np
@@ -17,7 +17,7 @@ from app.motion.model import Motion
 from app.motion.posture import Stance, Trunk, hips_path, solve_legs, trunk
 from app.motion.reach import TURN_RAD, needed_help, shoulder_distance_m, softly_capped
 from app.rig import quaternion
-from app.rig.hold import Hold, finger_rotations, hand_targets
+from app.rig.hold import Hold, Placed, finger_rotations, hand_targets
 from app.rig.model import Skeleton
 from instrument_maps.model import Carriage, Lowered
 
@@ -72,12 +72,18 @@ class Curves:
     controls, morphs : dict of str to (F,) float64
     mouth_open : (F,) float64
         How far the mouth is open for a breath.
+    placed : dict of str to Placed
+        Where the fingers are that leave their home.
+    raised : (F,) float64 or float
+        How high fingers wait over their keys, 0..1.
     """
 
     body: BodyMotion
     controls: dict[str, FloatArray]
     morphs: dict[str, FloatArray]
     mouth_open: FloatArray
+    placed: dict[str, Placed] = field(default_factory=dict)
+    raised: FloatArray | float = 0.0
 
     def __len__(self) -> int:
         return len(self.mouth_open)
@@ -88,6 +94,8 @@ class Curves:
             {name: values[frames] for name, values in self.controls.items()},
             {name: values[frames] for name, values in self.morphs.items()},
             self.mouth_open[frames],
+            {finger: Placed(*(values[frames] for values in where)) for finger, where in self.placed.items()},
+            self.raised if isinstance(self.raised, float) else self.raised[frames],
         )
 
 
@@ -124,7 +132,7 @@ def solve(player: Player, curves: Curves, fps: Fraction, first_frame_s: float) -
         hips_m[part], instrument_m[part], instrument[part] = chunk_hips_m, carried.position_m, carried.rotation
         for joint, values in local.items():
             rotations[part, joint] = values
-        rotations[part, fingers] = finger_rotations(player.hold, chunk.controls, len(chunk))
+        rotations[part, fingers] = finger_rotations(player.hold, chunk.controls, len(chunk), chunk.placed, chunk.raised)
     return Motion(
         fps=fps,
         first_frame_s=first_frame_s,

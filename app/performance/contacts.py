@@ -25,6 +25,7 @@ from app.rig.instrument import node_transforms
 from app.rig.model import Character, InstrumentModel
 from app.rig.skeleton import forward
 from app.rig.skinning import landmark_joints, landmark_positions
+from app.rig.stations import aside_m, only_at, stations_of_notes, worked_by
 from instrument_maps.model import Contact, Control, InstrumentMap
 
 FloatArray = npt.NDArray[np.float64]
@@ -109,10 +110,12 @@ class ContactJudge:
         self._ends_s = np.array([event.end_s for event in plan.fingerings])
         self._breaths_s = np.array([(event.start_s, event.end_s) for event in plan.breaths]).reshape(-1, 2)
         self._targets = {
-            contact.control: _targets(instrument.control(contact.control), plan.fingerings)
-            for contact in instrument.contacts
-            if contact.control is not None and contact.when != "always"
+            control.name: _targets(control, plan.fingerings)
+            for control in instrument.controls
+            if any(control.name in (contact.control, *contact.together) for contact in instrument.contacts)
         }
+        self._only_at = only_at(instrument)
+        self._working = stations_of_notes(instrument, ((event.controls, event.fingers) for event in plan.fingerings))
         self._marks = tuple(dict.fromkeys([*(contact.part for contact in instrument.contacts), LIPS]))
         skeleton = character.skeleton
         self._wrists = {hand.side: skeleton.index(f"{hand.side}Hand") for hand in playing.player.hold.hands}
@@ -164,15 +167,17 @@ class ContactJudge:
                 ("hand", hand.side, ""), times_s, gaps_m, gaps_m * 1000.0 > min(bounds_mm, default=GRIP_MM)
             )
         nodes_m, node_turns = node_transforms(self._model, instrument, controls, len(frames))
-        for contact in instrument.contacts:
+        for index, contact in enumerate(instrument.contacts):
             node = self._model.node_names.index(contact.node)
-            point_m = nodes_m[:, node] + quaternion.rotate(node_turns[:, node], np.asarray(contact.position_m))
+            aside = aside_m(contact, instrument, controls.get(contact.control or "", np.ones(len(frames))))
+            point_m = np.asarray(contact.position_m) + aside
+            point_m = nodes_m[:, node] + quaternion.rotate(node_turns[:, node], point_m)
             point_m = place_m + quaternion.rotate(turn, point_m)
             gaps_m = np.linalg.norm(marks_m[:, self._marks.index(contact.part)] - point_m, axis=1)
             # Where the whole hand has moved, its fingers have with it.
             broken = (gaps_m * 1000.0 > bound_mm(contact)) & ~off[contact.part.split(".")[0]]
             if broken.any():
-                broken &= self._judged(contact, controls, notes)
+                broken &= self._judged(index, controls, notes)
                 yield from _runs(("touch", contact.part, contact.control or ""), times_s, gaps_m, broken)
 
     def _breathing(self, times_s: FloatArray) -> BoolArray:
@@ -183,14 +188,21 @@ class ContactJudge:
         return inside
 
     def _judged(
-        self, contact: Contact, controls: dict[str, FloatArray], notes: npt.NDArray[np.intp]
+        self, index: int, controls: dict[str, FloatArray], notes: npt.NDArray[np.intp]
     ) -> BoolArray | Literal[True]:
         """Whether a contact that is not always there should be."""
+        instrument = self._playing.instrument_map
+        contact, place = instrument.contacts[index], self._only_at[index]
+        if place is not None:
+            wanted: BoolArray = self._working[place[0]][notes] == place[1]
+            for name in worked_by(contact, instrument):
+                wanted = wanted & in_place(instrument.control(name), controls[name], self._targets[name][notes])
+            return wanted
         if contact.control is None or contact.when == "always":
             return True
-        control = self._playing.instrument_map.control(contact.control)
+        control = instrument.control(contact.control)
         targets = self._targets[contact.control][notes]
-        wanted: BoolArray = (targets == control.rest_value) == (contact.when == "released")
+        wanted = (targets == control.rest_value) == (contact.when == "released")
         return wanted & in_place(control, controls[contact.control], targets)
 
 

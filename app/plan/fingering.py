@@ -84,6 +84,7 @@ def plan_fingerings(
                 cents=fingering.cents,
                 reason=reason,
                 corrected=pinned,
+                fingers=fingering.fingers,
             )
         )
     problems += _out_of_range(notes, times, instrument)

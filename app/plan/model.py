@@ -81,7 +81,11 @@ class PlayerParameters(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class FingeringEvent(msgspec.Struct, frozen=True, gc=False):
-    """The fingering of one note. ``controls`` holds 0..1 for every control of the map that is not at rest."""
+    """The fingering of one note.
+
+    ``controls`` holds 0..1 for every control of the map that is not at rest, ``fingers`` which finger works those that
+    another than the usual one does.
+    """
 
     id: str
     note_id: str
@@ -95,6 +99,7 @@ class FingeringEvent(msgspec.Struct, frozen=True, gc=False):
     cents: float
     reason: Message
     corrected: bool = False
+    fingers: dict[str, str] = {}
 
 
 class BreathEvent(msgspec.Struct, frozen=True, gc=False):

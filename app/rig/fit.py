@@ -21,10 +21,9 @@ from threadpoolctl import threadpool_limits
 from app.errors import UsageError
 from app.rig import quaternion
 from app.rig.carriage import Upright, upright
-from app.rig.grip_fingers import Scene, finger_table, judge, solve_table
+from app.rig.grip_fingers import MOVED_VALUES, STILL_VALUES, Scene, finger_tables, judge, solve_tables
 from app.rig.grip_problem import Problem, grip_problem, joint_angles, travel, wrist_transform
 from app.rig.grip_search import search, search_knots
-from app.rig.hand import joint_rotations
 from app.rig.hold import HandHold, Hold, NodeMotion, Reach
 from app.rig.lips import fit_lips, needed_landmarks
 from app.rig.model import Character, InstrumentModel
@@ -33,8 +32,7 @@ from metadata.model import Body
 
 FloatArray = npt.NDArray[np.float64]
 
-TABLE_VALUES = 17
-FIT_VERSION = 9
+FIT_VERSION = 11
 """Part of the digest of stored holds (`app.rig.hold_file`): raise it when a fit comes out differently."""
 
 
@@ -89,24 +87,21 @@ def _fit_hand(
     problem, carrier = grip_problem(character, model, instrument_map, body, seed, stand)
     hand = problem.hand
     if carrier is None:
-        values = np.linspace(0.0, 1.0, TABLE_VALUES if problem.worked else 1)
+        values = MOVED_VALUES if problem.worked else STILL_VALUES
         best = search(problem)
-        knots, holds = np.zeros(1), best[None]
+        path = best[None]
     else:
-        values = np.linspace(0.0, 1.0, TABLE_VALUES)
+        values = MOVED_VALUES
         knots, holds = search_knots(problem, model, instrument_map, carrier)
         best = holds[0]
-    # A wrist between knots follows a smooth curve; the fingers are then solved for it.
-    from scipy.interpolate import PchipInterpolator  # heavy; holds are fitted seldom
+        from scipy.interpolate import PchipInterpolator  # heavy; holds are fitted seldom
 
-    along = PchipInterpolator(knots, holds) if len(knots) > 1 else None
-    path = np.repeat(best[None], len(values), axis=0) if along is None else along(values)
+        # A wrist between knots follows a smooth curve; the fingers are then solved for it.
+        path = PchipInterpolator(knots, holds)(values)
     position, turn = wrist_transform(problem, path)
     scene = Scene(model, instrument_map, carrier, position, quaternion.to_matrix(turn))
-    angles = joint_angles(problem, path)
-    solved = solve_table(problem, scene, angles, values)
-    rotations = joint_rotations(hand, solved)
-    fingers = tuple(finger_table(problem, scene, rotations, values, number) for number in range(5))
+    solved = solve_tables(problem, scene, joint_angles(problem, path), best)
+    fingers = finger_tables(problem, scene, solved)
     contacts, depth = judge(problem, scene, fingers, values)
     motion = None if carrier is None else _node_motion(carrier)
     pole = quaternion.rotate(
@@ -117,8 +112,8 @@ def _fit_hand(
         node=seed.node,
         motion=motion,
         values=values if carrier is not None else np.zeros(1),
-        instrument_from_hand_m=position if carrier is not None else position[:1],
-        instrument_from_hand_rotation=turn if carrier is not None else turn[:1],
+        instrument_from_hand_m=position,
+        instrument_from_hand_rotation=turn,
         fingers=fingers,
         elbow_direction=pole,
         contacts=contacts,

@@ -2,14 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
 
 from app.rig import quaternion
-from app.rig.grip_problem import COUPLING_RAD, Problem, contact_at, finger_dofs, nodes_at
+from app.rig.grip_problem import (
+    COUPLING_RAD,
+    Problem,
+    Touch,
+    contact_at,
+    counts,
+    finger_dofs,
+    home_controls,
+    nodes_at,
+    touch_at,
+)
 from app.rig.grip_residuals import PENETRATION_M, STEP, WORKED_RAD, inside_proxy, pressed
 from app.rig.hand import (
     FINGERS,
@@ -21,9 +31,10 @@ from app.rig.hand import (
     wrist_from_joint,
     wrist_from_mesh,
 )
-from app.rig.hold import ContactFit, FingerTable, interpolated
+from app.rig.hold import ContactFit, FingerTable, StationTable, interpolated
 from app.rig.model import InstrumentModel
-from instrument_maps.model import Contact, Control, InstrumentMap
+from app.rig.stations import Station, hover_m
+from instrument_maps.model import Control, InstrumentMap
 
 FloatArray = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.intp]
@@ -39,6 +50,11 @@ FOLLOW_RAD = 0.15
 SMOOTH_DEGREE = 3
 SMOOTH_RAD = 0.04
 """How far a sample's angles wander from the smooth path over the control."""
+MOVED_VALUES = np.linspace(0.0, 1.0, 17)
+"""Values of a control that a finger stays on, or that carries its hand, at which it is solved ..."""
+HOVER_VALUES = np.linspace(0.0, 1.0, 9)
+"""... and of one that it waits over; keys go a short way."""
+STILL_VALUES = np.zeros(1)
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,35 +79,66 @@ class Scene:
         """The scene at some of its samples."""
         return replace(self, position_m=self.position_m[which], basis=self.basis[which])
 
-    def mover(self, contact: Contact) -> Control | None:
-        """The control that moves a contact against the wrist."""
-        for control in self.instrument_map.controls:
-            if control.node == contact.node and control is not self.carrier:
-                return control
-        return None
+    def over(self, values: FloatArray) -> Scene:
+        """The scene at some values of what a finger works: a wrist that nothing carries is the same at all of them."""
+        return self if len(self.position_m) == len(values) else self.only(np.zeros(len(values), dtype=np.intp))
 
 
-def solve_table(problem: Problem, scene: Scene, angles: FloatArray, values: FloatArray) -> FloatArray:
-    """Solve the fingers at each value of their controls, the wrist held: angles (S, 16, 3), from (S, configs, 16, 3).
+@dataclass(frozen=True, eq=False)
+class Solved:
+    """Angles (S, 16, 3) of one finger at one station over values (S,); the other fingers' stand as they were given."""
+
+    number: int
+    station: Station
+    values: FloatArray
+    angles: FloatArray
+
+
+def values_of(scene: Scene, station: Station) -> FloatArray:
+    """Values at which a finger is solved at a station."""
+    if scene.carrier is None and not station.controls:
+        return STILL_VALUES
+    return HOVER_VALUES if hover_m(station, scene.instrument_map) else MOVED_VALUES
+
+
+def solve_tables(problem: Problem, scene: Scene, angles: FloatArray, elsewhere: FloatArray) -> tuple[Solved, ...]:
+    """Solve the fingers at each of their stations over the values of their controls, the wrist held; a finger that
+    touches nothing keeps its relaxed bend.
+
+    Parameters
+    ----------
+    angles : (S, configs, 16, 3) float64
+        Of the solved hold, one sample or one for every value of what carries the hand.
+    elsewhere : (n,) float64
+        The parameters of the solved hold, for the fingers' other stations.
 
     A finger has more joints than a touch needs, so samples solved apart may fall into different bends and the finger
     would twitch. Each is followed from one end of the control to the other, from both ends, solved again about a smooth
     path, and the better of the two kept.
     """
-    solved = angles[:, 0].copy()
-    for number in range(5):
-        if not any(touch.contact.part.split(".")[1] == FINGERS[number] for touch in problem.touches):
-            continue
-        moves = scene.carrier is not None or number in problem.worked
-        finger = _Finger(problem, scene, number, values if moves else values[:1], solved)
-        first, last = finger.taken(angles[0, 0]), finger.taken(angles[-1, -1 if number in problem.worked else 0])
-        if moves:
-            tries = [_followed(finger, first, range(len(values))), _followed(finger, last, range(len(values))[::-1])]
-            found = min(tries, key=lambda one: one[1])[0]
-        else:
-            found, _ = finger.solve(first[None], first[None], WORKED_RAD, np.arange(1))
-        solved[:, finger.joints, finger.kinds] = found
-    return solved
+    result = []
+    others = {(one.number, one.station.controls): elsewhere[one.angles] for one in problem.elsewhere}
+    for number, places in enumerate(problem.stations):
+        for index, station in enumerate(places or (Station("", (), ()),)):
+            values = values_of(scene, station)
+            pose = angles[:, 0] if len(angles) == len(values) else np.repeat(angles[:1, 0], len(values), axis=0)
+            if not station.contacts:
+                result.append(Solved(number, station, values, pose))
+                continue
+            finger = _Finger(problem, scene.over(values), number, station, values, pose)
+            first = finger.taken(angles[0, 0])
+            last = finger.taken(angles[-1, -1 if number in problem.worked else 0])
+            if index:
+                last = others.get((number, station.controls), last)
+            if len(values) > 1:
+                ways = [(first, range(len(values))), (last, range(len(values))[::-1])]
+                found = min((_followed(finger, *way) for way in ways), key=lambda one: one[1])[0]
+            else:
+                found, _ = finger.solve(last[None], last[None], WORKED_RAD, np.arange(1))
+            solved = pose.copy()
+            solved[:, finger.joints, finger.kinds] = found
+            result.append(Solved(number, station, values, solved))
+    return tuple(result)
 
 
 def _followed(finger: _Finger, start: FloatArray, order: Sequence[int]) -> tuple[FloatArray, float]:
@@ -113,23 +160,23 @@ def _followed(finger: _Finger, start: FloatArray, order: Sequence[int]) -> tuple
 class _Finger:
     """One finger on its touches at some values of the controls, the rest of the hand held."""
 
-    def __init__(self, problem: Problem, scene: Scene, number: int, values: FloatArray, pose: FloatArray) -> None:
+    def __init__(
+        self, problem: Problem, scene: Scene, number: int, station: Station, values: FloatArray, pose: FloatArray
+    ) -> None:
         hand = problem.hand
         dofs = [problem.dofs[i] for i in finger_dofs(problem, number)]
-        touches = [t for t in problem.touches if t.contact.part.split(".")[1] == FINGERS[number]]
         self.problem, self.scene, self.number, self.values, self.pose = problem, scene, number, values, pose
         self.joints, self.kinds = np.array([dof.joint for dof in dofs]), np.array([dof.kind for dof in dofs])
         self.low, self.high = np.array([dof.low for dof in dofs]), np.array([dof.high for dof in dofs])
-        self.touches = touches
-        self.ends = [contact_at(scene.model, t.contact, scene.mover(t.contact), values) for t in touches]
-        self.active = [_active(t.contact, values).astype(np.float64) for t in touches]
-        self.points = np.stack([hand.landmarks[t.contact.part] for t in touches], axis=2)
-        self.normals = np.stack([hand.landmark_normals[t.contact.part] for t in touches], axis=2)
+        self.touches = touches_at(scene, station, values)
+        self.points = np.stack([hand.landmarks[t.contact.part] for t in self.touches], axis=2)
+        self.normals = np.stack([hand.landmark_normals[t.contact.part] for t in self.touches], axis=2)
         carried = hand.all_points[1 + 3 * number : 4 + 3 * number, 3].sum(axis=0) > CARRIED_SHARE
         self.skin = np.ascontiguousarray(hand.all_points[:, :, carried])
         self.balls = np.flatnonzero(hand.ball_finger == number)
         self.radius = np.concatenate([np.zeros(self.skin.shape[2]), flesh_radius(hand)[self.balls]])
-        self.nodes = nodes_at(scene.model, scene.instrument_map, hand.side, scene.carrier, values)
+        moved = frozenset(station.controls)
+        self.nodes = nodes_at(scene.model, scene.instrument_map, moved, scene.carrier, values)
 
     def taken(self, angles: FloatArray) -> FloatArray:
         """This finger's angles (..., n) out of those of a hand (..., 16, 3)."""
@@ -218,67 +265,124 @@ class _Finger:
         if self.number:
             parts.append(((x[..., 3] - 0.67 * x[..., 2]) / COUPLING_RAD)[..., None])
         for k, touch in enumerate(self.touches):
-            (place, normal), active = self.ends[k], self.active[k][which, None]
-            parts.append((at[:, :, k] - place[which]) / (touch.spread_m * EXACTER) * active)
-            parts.append((facing[:, :, k] + normal[which]) / touch.spread_normal * active)
+            active = touch.active[which, None].astype(np.float64)
+            off = (at[:, :, k] - touch.positions[which]) / touch.spread_m[which, None]
+            parts.append(off / EXACTER * active)
+            turn = (facing[:, :, k] + touch.normals[which]) / touch.spread_normal[which, None]
+            parts.append(turn * active)
         return np.concatenate(parts, axis=2), scene.placed(flesh.reshape(shape))
 
 
-def _active(contact: Contact, values: FloatArray) -> npt.NDArray[np.bool_]:
-    """At which values of its control a contact counts."""
-    if contact.when == "pressed":
-        return values > 0.0
-    return values == 0.0 if contact.when == "released" else values >= 0.0
+def touches_at(scene: Scene, station: Station, values: FloatArray) -> list[Touch]:
+    """The touches of a finger at a station over values of what it works there."""
+    instrument, moved = scene.instrument_map, frozenset(station.controls)
+    return [
+        touch_at(scene.model, instrument, instrument.contacts[index], moved, scene.carrier, values)
+        for index in station.contacts
+    ]
 
 
-def finger_table(problem: Problem, scene: Scene, rotations: FloatArray, values: FloatArray, number: int) -> FingerTable:
-    name = f"{problem.hand.side}.{FINGERS[number]}"
-    places = slice(1 + 3 * number, 4 + 3 * number)
-    control = next((c.name for c in scene.instrument_map.controls if c.finger == name), None)
-    if control is None and scene.carrier is not None:
-        control = scene.carrier.name
-    rows = rotations[:, places] if control is not None else rotations[:1, places]
-    return FingerTable(name, control, values if control is not None else np.zeros(1), problem.hand.joints[places], rows)
+def finger_tables(problem: Problem, scene: Scene, solved: Sequence[Solved]) -> tuple[FingerTable, ...]:
+    """The solved angles as rotations, finger by finger."""
+    hand = problem.hand
+    tables = []
+    for number, name in enumerate(FINGERS):
+        places = slice(1 + 3 * number, 4 + 3 * number)
+        found = []
+        for one in solved:
+            if one.number == number:
+                moves = one.station.controls or (() if scene.carrier is None else (scene.carrier.name,))
+                hovers = hover_m(one.station, scene.instrument_map) > 0.0
+                rotations = joint_rotations(hand, one.angles)[:, places]
+                found.append(StationTable(moves, hovers, one.values, rotations))
+        tables.append(FingerTable(f"{hand.side}.{name}", hand.joints[places], tuple(found)))
+    return tuple(tables)
 
 
 def judge(
     problem: Problem, scene: Scene, fingers: tuple[FingerTable, ...], values: FloatArray
 ) -> tuple[tuple[ContactFit, ...], float]:
-    """Measure the hold over all its samples and half way between them, on the whole skin of the hand."""
-    hand = problem.hand
+    """Measure the hold over all its samples and half way between them, on the whole skin of the hand: all fingers at
+    home together, then every finger at its other stations alone."""
+    instrument = scene.instrument_map
     fine = np.linspace(0.0, 1.0, 2 * len(values) - 1) if len(values) > 1 else values
-    rotations = np.tile(quaternion.IDENTITY, (len(fine), 16, 1))
-    for number, table in enumerate(fingers):
-        rotations[:, 1 + 3 * number : 4 + 3 * number] = interpolated(table.values, table.rotations, fine)
+    home = {number: table.stations[0] for number, table in enumerate(fingers)}
+    own = [i for i, contact in enumerate(instrument.contacts) if any(t.contact is contact for t in problem.touches)]
+    posed = _posed(home, dict.fromkeys(home, fine), len(fine))
+    moved = home_controls(problem.stations)
+    contacts, depth = _judged(problem, _finer(scene, values, fine), posed, moved, own, fine)
+    few = np.linspace(0.0, 1.0, 5)
+    for number, places in enumerate(problem.stations):
+        for index, station in enumerate(places[1:], 1):
+            tables = home | {number: fingers[number].stations[index]}
+            posed = _posed(tables, {number: few}, len(few))
+            own = [i for i in station.contacts if i not in places[0].contacts]
+            more, deep = _judged(problem, scene.over(few), posed, frozenset(station.controls), own, few)
+            contacts, depth = contacts + more, max(depth, deep)
+    return tuple(contacts), depth
+
+
+def _finer(scene: Scene, values: FloatArray, fine: FloatArray) -> Scene:
+    """The scene between its samples."""
+    if len(values) == 1:
+        return scene
     between = np.interp(fine, values, np.arange(len(values), dtype=np.float64))
-    low = np.minimum(between.astype(np.intp), max(len(values) - 2, 0))
-    high, share = np.minimum(low + 1, len(values) - 1), (between - low)[:, None]
+    low = np.minimum(between.astype(np.intp), len(values) - 2)
+    high, share = low + 1, (between - low)[:, None]
+    if len(scene.position_m) == 1:
+        return scene.over(fine)
     turn = quaternion.to_matrix(interpolated(values, quaternion.from_matrix(scene.basis)[:, None], fine)[:, 0])
-    scene = replace(
-        scene, position_m=scene.position_m[low] * (1.0 - share) + scene.position_m[high] * share, basis=turn
-    )
+    position_m = scene.position_m[low] * (1.0 - share) + scene.position_m[high] * share
+    return replace(scene, position_m=position_m, basis=turn)
+
+
+def _posed(tables: Mapping[int, StationTable], values: Mapping[int, FloatArray], count: int) -> FloatArray:
+    """Rotations (S, 16, 4) of a hand: the fingers in ``values`` at these, the others at rest."""
+    rotations = np.tile(quaternion.IDENTITY, (count, 16, 1))
+    for number, table in tables.items():
+        at = values.get(number, np.zeros(count))
+        rotations[:, 1 + 3 * number : 4 + 3 * number] = interpolated(table.values, table.rotations, at)
+    return rotations
+
+
+def _judged(
+    problem: Problem,
+    scene: Scene,
+    rotations: FloatArray,
+    moved: frozenset[str],
+    own: Sequence[int],
+    values: FloatArray,
+) -> tuple[list[ContactFit], float]:
+    """Some contacts of the map and the depth of the skin while the ``moved`` controls go along."""
+    hand, instrument = problem.hand, scene.instrument_map
     transforms = wrist_from_joint(hand, rotations)
     matrices = wrist_from_mesh(hand, transforms)
-    touching = scene.placed(skinned(matrices, problem.touch_points))
-    facing = scene.turned(turned(matrices, problem.touch_normals))
     contacts = []
-    for number, touch in enumerate(problem.touches):
-        at, normal = contact_at(scene.model, touch.contact, scene.mover(touch.contact), fine)
-        off = np.linalg.norm(touching[:, number] - at, axis=1)
-        angle = np.arccos(np.clip(-np.einsum("si,si->s", facing[:, number], normal), -1.0, 1.0))
-        counts = _active(touch.contact, fine)
-        contact = touch.contact
+    for index in own:
+        contact = instrument.contacts[index]
+        points, normals = hand.landmarks[contact.part], hand.landmark_normals[contact.part]
+        touching = scene.placed(skinned(matrices, points[:, :, None]))[:, 0]
+        facing = scene.turned(turned(matrices, normals[:, :, None]))[:, 0]
+        at, normal = contact_at(scene.model, instrument, contact, moved, scene.carrier, values)
+        off = np.linalg.norm(touching - at, axis=1)
+        angle = np.arccos(np.clip(-np.einsum("si,si->s", facing, normal), -1.0, 1.0))
+        there = counts(contact, values)
+        control = instrument.control(contact.control) if contact.control in moved else None
+        hovers = control is not None and control.hover_m > 0.0
+        if hovers or (control is not None and control.half_value is not None):
+            there &= values == 1.0
         contacts.append(
             ContactFit(
                 contact.part, contact.node, contact.control, contact.grip == "firm",
-                float(off[counts].max(initial=0.0)), float(angle[counts].max(initial=0.0)),
+                float(off[there].max(initial=0.0)), float(angle[there].max(initial=0.0)),
+                contact.together, float(off[0]) if hovers else 0.0,
             )
         )  # fmt: skip
-    place, turn = nodes_at(scene.model, scene.instrument_map, hand.side, scene.carrier, fine)
+    place, turn = nodes_at(scene.model, instrument, moved, scene.carrier, values)
     flesh = np.concatenate([skinned(matrices, hand.all_points), ball_centres(hand, transforms)], axis=1)
     skin = scene.placed(flesh)
     radius = np.concatenate([np.zeros(hand.all_points.shape[2]), flesh_radius(hand)[: len(hand.balls)]])
     depth = max(
-        float(inside_proxy(problem.proxies, place[s], turn[s], skin[s], radius)[0].max()) for s in range(len(fine))
+        float(inside_proxy(problem.proxies, place[s], turn[s], skin[s], radius)[0].max()) for s in range(len(values))
     )
-    return tuple(contacts), depth
+    return contacts, depth

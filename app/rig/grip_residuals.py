@@ -14,7 +14,9 @@ from app.rig.grip_problem import (
     COUPLING_RAD,
     LIMIT_RAD,
     METRES,
+    Elsewhere,
     Problem,
+    finger_dofs,
     joint_angles,
     worked_dofs,
     wrist_transform,
@@ -46,6 +48,8 @@ REACH_M = 0.03
 ANCHOR = (0.25, 0.7, 0.5)
 """How far the wrist's place (in 0.1 m), its turn and the fingers (rad) wander from one knot of a slide to the next."""
 STEP = 1e-6
+ELSEWHERE_M, ELSEWHERE_NORMAL, ELSEWHERE_RELAXED = 0.0012, 0.7, 1.5
+"""The wrist lies where the fingers also reach their other stations, less exactly than at home, and less relaxed."""
 
 
 class Residuals:
@@ -64,17 +68,54 @@ class Residuals:
     def __call__(self, x: FloatArray) -> FloatArray:
         smooth, skin = self._parts(x[None])
         depth, _ = self._depth(skin[0])
-        return np.concatenate([smooth[0], (self._counted(depth)[0] / self.spread).ravel()])
+        others = [self._elsewhere(one, x[None])[0] for one in self.problem.elsewhere]
+        return np.concatenate([smooth[0], (self._counted(depth)[0] / self.spread).ravel(), *others])
 
     def jacobian(self, x: FloatArray) -> FloatArray:
-        tried = np.repeat(x[None], len(x) + 1, axis=0)
+        count = len(x) if not self.problem.elsewhere else self.problem.elsewhere[0].angles.start
+        tried = np.repeat(x[None], count + 1, axis=0)
         step = np.where(x + STEP < self.problem.high, STEP, -STEP)
-        tried[np.arange(1, len(tried)), np.arange(len(x))] += step
+        tried[np.arange(1, count + 1), np.arange(count)] += step[:count]
         smooth, skin = self._parts(tried)
         depth, slope = self._depth(skin[0])
-        change = (skin[1:] - skin[0]) / step[:, None, None, None]
+        change = (skin[1:] - skin[0]) / step[:count, None, None, None]
         moved = -np.einsum("xcvi,cvi->xcv", change, slope) * self._counted(depth)[1] / self.spread
-        return np.concatenate([(smooth[1:] - smooth[0]) / step[:, None], moved.reshape(len(x), -1)], axis=1).T
+        home = np.concatenate([(smooth[1:] - smooth[0]) / step[:count, None], moved.reshape(count, -1)], axis=1).T
+        if not self.problem.elsewhere:
+            return home
+        blocks = [self._elsewhere_jacobian(one, x, step) for one in self.problem.elsewhere]
+        return np.concatenate([np.pad(home, ((0, 0), (0, len(x) - count))), *blocks])
+
+    def _elsewhere_jacobian(self, one: Elsewhere, x: FloatArray, step: FloatArray) -> FloatArray:
+        """Rows of one finger at one other station: they know of the wrist and of its own angles only."""
+        columns = np.r_[0:6, one.angles]
+        tried = np.repeat(x[None], len(columns) + 1, axis=0)
+        tried[np.arange(1, len(tried)), columns] += step[columns]
+        found = self._elsewhere(one, tried)
+        result = np.zeros((found.shape[1], len(x)))
+        result[:, columns] = ((found[1:] - found[0]) / step[columns, None]).T
+        return result
+
+    def _elsewhere(self, one: Elsewhere, x: FloatArray) -> FloatArray:
+        """Residuals (B, m) of a finger at another station."""
+        problem, hand = self.problem, self.problem.hand
+        place, turn = wrist_transform(problem, x)
+        angles = np.zeros((len(x), 16, 3))
+        dofs = [problem.dofs[i] for i in finger_dofs(problem, one.number)]
+        now = x[:, one.angles]
+        angles[:, [dof.joint for dof in dofs], [dof.kind for dof in dofs]] = now
+        matrices = wrist_from_mesh(hand, wrist_from_joint(hand, joint_rotations(hand, angles)))
+        basis = quaternion.to_matrix(turn)
+        at = np.einsum("bij,bvj->bvi", basis, skinned(matrices, one.points)) + place[:, None]
+        facing = np.einsum("bij,bvj->bvi", basis, turned(matrices, one.normals))
+        relaxed = np.array([(dof.relaxed, dof.spread * ELSEWHERE_RELAXED) for dof in dofs]).T
+        parts = [(now - relaxed[0]) / relaxed[1]]
+        if one.number:
+            parts.append(((now[:, 3] - 0.67 * now[:, 2]) / COUPLING_RAD)[:, None])
+        for number, touch in enumerate(one.touches):
+            parts.append((at[:, number] - touch.positions[0]) / (ELSEWHERE_M * self.soft))
+            parts.append((facing[:, number] + touch.normals[0]) / ELSEWHERE_NORMAL)
+        return np.concatenate(parts, axis=1)
 
     def _counted(self, depth: FloatArray) -> tuple[FloatArray, FloatArray]:
         return pressed(depth) if self.stiff else (depth, (depth > 0.0).astype(np.float64))
@@ -117,8 +158,8 @@ class Residuals:
             for config in range(problem.configs):
                 if touch.active[config]:
                     off = touching[:, config, number] - touch.positions[config]
-                    parts.append(off / (touch.spread_m * self.soft))
-                    parts.append((facing[:, config, number] + touch.normals[config]) / touch.spread_normal)
+                    parts.append(off / (touch.spread_m[config] * self.soft))
+                    parts.append((facing[:, config, number] + touch.normals[config]) / touch.spread_normal[config])
         balls = ball_centres(hand, transforms)
         skin = np.concatenate([skin, placed(balls), self._forearm(x, place)], axis=2)
         pairs = balls[:, hand.ball_pairs[:, 0]] - balls[:, hand.ball_pairs[:, 1]]

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from app.rig.grip_problem import Problem, nodes_at, start_at, travel
+from app.rig.grip_problem import Problem, home_controls, nodes_at, start_at, travel
 from app.rig.grip_residuals import Residuals
 from app.rig.model import InstrumentModel
 from instrument_maps.model import Control, InstrumentMap
@@ -52,7 +52,7 @@ def search_knots(
     """Solve the hold of a carried hand at `KNOTS`: values ascending (K,) and parameters (K, n)."""
     found: dict[float, FloatArray] = {}
     for value in KNOTS:
-        place, turn = nodes_at(model, instrument_map, problem.hand.side, carrier, np.array([value]))
+        place, turn = nodes_at(model, instrument_map, home_controls(problem.stations), carrier, np.array([value]))
         here = replace(
             problem,
             node_place=place,

@@ -8,14 +8,15 @@ over frames:
 2. `hand_targets` gives ``world_from_hand`` of both wrists (a hand that lies on a moving node moves with it).
 3. `app.rig.ik.solve_limb` turns a shoulder and a target into rotations of upper arm, lower arm and hand;
    ``HandHold.elbow_direction`` is the comfortable pole.
-4. `finger_rotations` gives the fingers by interpolation of tables over the values of the controls.
+4. `finger_rotations` gives the fingers by interpolation of tables over the values of the controls, one for every place
+   (`app.rig.stations`) a finger goes to.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -24,6 +25,10 @@ from app.rig import quaternion
 
 FloatArray = npt.NDArray[np.float64]
 Side = Literal["left", "right"]
+
+LOW_HOVER = 0.123
+"""In slow passages a finger waits as low as if its control had come so far: at the map's height, which is 1 / 1.3 of
+the highest (`app.rig.grip_problem.HOVER_MORE`)."""
 
 
 @dataclass(frozen=True)
@@ -42,28 +47,56 @@ class NodeMotion:
 
 
 @dataclass(frozen=True)
+class StationTable:
+    """Poses of one finger at one of its stations over the value of what it works there.
+
+    Attributes
+    ----------
+    controls : tuple of str
+        What moves it, all at once; empty where the finger does not move and the table has one row.
+    hovers : bool
+        Whether the finger waits over what it works: the first row is then as high as it ever waits.
+    values : (S,) float64
+        Ascending, from 0 to 1.
+    rotations : (S, joints, 4) float64
+        ``parent_from_joint``, xyzw, each sample in the hemisphere of the one before.
+    """
+
+    controls: tuple[str, ...]
+    hovers: bool
+    values: FloatArray
+    rotations: FloatArray
+
+
+@dataclass(frozen=True)
 class FingerTable:
-    """Poses of one finger over the value of the control it works.
+    """Poses of one finger.
 
     Attributes
     ----------
     finger : str
         E.g. ``"right.index"``.
-    control : str or None
-        None: the finger does not move and the table has one row.
-    values : (S,) float64
-        Ascending, from 0 to 1.
     joints : tuple of int
         Joints of the skeleton, from the palm outwards.
-    rotations : (S, len(joints), 4) float64
-        ``parent_from_joint``, xyzw, each sample in the hemisphere of the one before.
+    stations : tuple of StationTable
+        Home first; in the order of `app.rig.stations.stations`.
     """
 
     finger: str
-    control: str | None
-    values: FloatArray
     joints: tuple[int, ...]
-    rotations: FloatArray
+    stations: tuple[StationTable, ...]
+
+
+class Placed(NamedTuple):
+    """Between which two of its stations a finger is, frame by frame.
+
+    ``before`` and ``after`` (F,) are places in ``FingerTable.stations``, ``share`` (F,) is 0 at the first and 1 at the
+    second.
+    """
+
+    before: FloatArray
+    after: FloatArray
+    share: FloatArray
 
 
 @dataclass(frozen=True)
@@ -71,7 +104,8 @@ class ContactFit:
     """How well one contact of the map is met, the worst over the samples of its control.
 
     ``distance_m`` is from the landmark on the deformed mesh to the touch point, ``angle_rad`` between the pad's outward
-    normal and the reversed normal of the surface.
+    normal and the reversed normal of the surface: of a finger that hovers, when its control is fully worked;
+    ``waits_m`` is how far from the touch point it waits then.
     """
 
     part: str
@@ -80,6 +114,8 @@ class ContactFit:
     firm: bool
     distance_m: float
     angle_rad: float
+    together: tuple[str, ...] = ()
+    waits_m: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -280,7 +316,13 @@ def hand_targets(
     return positions, quaternion.multiply(world_from_instrument_rotation, turn)
 
 
-def finger_rotations(hold: Hold, controls: Mapping[str, npt.NDArray[np.floating]], frames: int) -> FloatArray:
+def finger_rotations(
+    hold: Hold,
+    controls: Mapping[str, npt.NDArray[np.floating]],
+    frames: int,
+    placed: Mapping[str, Placed] | None = None,
+    raised: FloatArray | float = 0.0,
+) -> FloatArray:
     """Interpolate the finger tables.
 
     Parameters
@@ -290,6 +332,10 @@ def finger_rotations(hold: Hold, controls: Mapping[str, npt.NDArray[np.floating]
         Values 0..1; a control that is absent is at 0.
     frames : int
         F.
+    placed : mapping of str to Placed, optional
+        Where the fingers are that are not at home.
+    raised : (F,) float64 or float
+        0..1: how high fingers wait over their keys, from a slow passage to the fastest.
 
     Returns
     -------
@@ -301,12 +347,64 @@ def finger_rotations(hold: Hold, controls: Mapping[str, npt.NDArray[np.floating]
     for hand in hold.hands:
         for table in hand.fingers:
             stop = start + len(table.joints)
-            if table.control is None or table.control not in controls:
-                result[:, start:stop] = table.rotations[0]
+            where = None if placed is None else placed.get(table.finger)
+            if where is None:
+                result[:, start:stop] = _at_station(table.stations[0], controls, frames, raised)
             else:
-                value = np.clip(np.asarray(controls[table.control], dtype=np.float64), 0.0, 1.0)
-                result[:, start:stop] = interpolated(table.values, table.rotations, value)
+                result[:, start:stop] = _between(table, where, controls, frames, raised)
             start = stop
+    return result
+
+
+def _at_station(
+    station: StationTable,
+    controls: Mapping[str, npt.NDArray[np.floating]],
+    frames: int,
+    raised: FloatArray | float,
+    pressed: FloatArray | float = 1.0,
+) -> FloatArray:
+    """Rotations (F, n, 4) at one station; ``pressed`` lifts a finger that is on its way off what it works."""
+    known = [np.asarray(controls[name], dtype=np.float64) for name in station.controls if name in controls]
+    if not known or len(station.values) == 1:
+        return np.broadcast_to(station.rotations[0], (frames, *station.rotations.shape[1:]))
+    value = np.clip(np.maximum.reduce(known), 0.0, 1.0) * pressed
+    if station.hovers:
+        low = LOW_HOVER * (1.0 - np.asarray(raised, dtype=np.float64))
+        value = low + (1.0 - low) * value
+    return interpolated(station.values, station.rotations, value)
+
+
+def _between(
+    table: FingerTable,
+    where: Placed,
+    controls: Mapping[str, npt.NDArray[np.floating]],
+    frames: int,
+    raised: FloatArray | float,
+) -> FloatArray:
+    """Rotations (F, n, 4) of a finger that goes from station to station.
+
+    It lifts on its way, but where it keeps on something that it works at both ends of the way.
+    """
+    result = np.empty((frames, len(table.joints), 4))
+    height = np.broadcast_to(np.asarray(raised, dtype=np.float64), (frames,))
+    pairs = np.stack([where.before, where.after], axis=1).astype(np.intp)
+    for first, second in np.unique(pairs, axis=0).tolist():
+        here = np.flatnonzero((pairs[:, 0] == first) & (pairs[:, 1] == second))
+        values = {
+            name: np.asarray(controls[name])[here]
+            for station in (table.stations[first], table.stations[second])
+            for name in station.controls
+            if name in controls
+        }
+        if first == second:
+            result[here] = _at_station(table.stations[first], values, len(here), height[here])
+            continue
+        share = where.share[here]
+        keeps = bool(set(table.stations[first].controls) & set(table.stations[second].controls))
+        off, on = (1.0, 1.0) if keeps else (1.0 - share, share)
+        near = _at_station(table.stations[first], values, len(here), height[here], off)
+        far = _at_station(table.stations[second], values, len(here), height[here], on)
+        result[here] = _mixed(near, far, share[:, None, None])
     return result
 
 
@@ -317,7 +415,11 @@ def interpolated(values: FloatArray, rotations: FloatArray, value: FloatArray) -
     place = np.interp(value, values, np.arange(len(values), dtype=np.float64))
     low = np.minimum(place.astype(np.intp), len(values) - 2)
     share = (place - low)[:, None, None]
-    near, far = rotations[low], rotations[low + 1]
+    return _mixed(rotations[low], rotations[low + 1], share)
+
+
+def _mixed(near: FloatArray, far: FloatArray, share: FloatArray) -> FloatArray:
+    """Rotations between near (share 0) and far ones (share 1), the shorter way."""
     sign = np.where(np.einsum("fnc,fnc->fn", near, far) < 0.0, -1.0, 1.0)[..., None]
     mixed: FloatArray = near * (1.0 - share) + far * (sign * share)
     mixed /= np.sqrt(np.einsum("fnc,fnc->fn", mixed, mixed))[..., None]

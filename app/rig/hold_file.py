@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import hashlib
 import os
+from dataclasses import replace
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
@@ -26,6 +27,8 @@ from app.rig.model import Character, InstrumentModel
 from instrument_maps.model import InstrumentMap
 from metadata.model import Body
 
+DIGITS = 6
+"""A millionth of a radian or of a metre is far below what anybody sees, and keeps the files small."""
 CACHE_VARIABLE = "SUISOU_CACHE"
 """Environment variable that names another folder for the cache."""
 
@@ -60,6 +63,7 @@ def digest_of(character: Character, model: InstrumentModel, instrument: Instrume
     hands = (
         instrument.mouthpiece,
         instrument.controls,
+        instrument.links,
         instrument.contacts,
         instrument.hands,
         instrument.proxy,
@@ -83,6 +87,13 @@ def write_hold(path: Path, digest: str, hold: Hold) -> None:
         file.write(msgspec.json.encode(stored, enc_hook=_plain))
 
 
+def stored(hold: Hold) -> Hold:
+    """The hold as it comes back from a file: with rounded numbers."""
+    kept = _StoredHold("", hold.character_id, hold.instrument_id, hold.hands, hold.reach)
+    back = msgspec.json.decode(msgspec.json.encode(kept, enc_hook=_plain), type=_StoredHold, dec_hook=_array)
+    return replace(hold, hands=back.hands, reach=back.reach)
+
+
 def read_hold(path: Path, digest: str, lips: Lips) -> Hold | None:
     """Read the hold fitted from inputs of this digest; None where the file holds no such thing."""
     try:
@@ -104,7 +115,7 @@ def hold_for(character: Character, model: InstrumentModel, instrument: Instrumen
         hold = read_hold(path, digest, lips)
         if hold is not None:
             return hold
-    hold = fit_hold(character, model, instrument, body)
+    hold = stored(fit_hold(character, model, instrument, body))
     try:
         cached.parent.mkdir(parents=True, exist_ok=True)
         write_hold(cached, digest, hold)
@@ -121,7 +132,7 @@ def _cache_folder() -> Path:
 
 def _plain(value: Any) -> Any:
     if isinstance(value, np.ndarray):
-        return value.tolist()
+        return np.round(value, DIGITS).tolist()
     raise NotImplementedError(type(value))
 
 

@@ -9,13 +9,14 @@ import numpy as np
 import numpy.typing as npt
 
 from app.rig.skinning import landmark_set
-from instrument_maps.model import ROOT, Contact, InstrumentMap
+from app.rig.stations import aside_m, only_at, worked_by
+from instrument_maps.model import ROOT, InstrumentMap
 from widgets.viewport.cast import Stage
 
 Floats = npt.NDArray[np.float64]
 
 AWAY_FROM_REST = 0.5
-"""A control farther from its rest than this is pressed."""
+"""A control farther than this from its rest, as a share of its least use, is pressed."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,6 +39,11 @@ class Touch:
     firm: bool
 
     @property
+    def finger(self) -> str:
+        """``"left.index"`` of ``"left.index.pad"``."""
+        return self.part.rpartition(".")[0]
+
+    @property
     def distance_mm(self) -> float:
         """How far the skin is from its place."""
         return 1000.0 * float(np.linalg.norm(self.wanted_m - self.found_m))
@@ -50,27 +56,53 @@ def touches(stage: Stage, row: int) -> tuple[Touch, ...]:
         return ()
     holding = [
         contact
-        for contact in kit.map.contacts
-        if contact.part in kit.character.landmarks and _holds(contact, kit.map, pose.controls)
+        for index, contact in enumerate(kit.map.contacts)
+        if contact.part in kit.character.landmarks and _holds(index, kit.map, pose.controls)
     ]
     if not holding:
         return ()
     marks = landmark_set(kit.character, tuple(contact.part for contact in holding))
     bones = stage.bones[row, marks.joints].astype(np.float64)
     found = np.tensordot(bones, marks.points, axes=([0, 2], [0, 1])).T
-    result = []
+    result: list[Touch] = []
+    workers: dict[tuple[str, ...], list[Touch]] = {}
     for contact, place in zip(holding, found, strict=True):
         node = kit.instrument.node_names.index(contact.node)
-        rest = np.asarray(contact.position_m) + (0.0 if contact.node == ROOT else kit.instrument.node_positions_m[node])
+        origin = 0.0 if contact.node == ROOT else kit.instrument.node_positions_m[node]
+        value = float(pose.controls.get(contact.control or "", 1.0))
+        rest = origin + np.asarray(contact.position_m) + aside_m(contact, kit.map, np.full(1, value))[0]
         matrix = stage.node_matrix(row, node)
         wanted = matrix[:, :3] @ rest + matrix[:, 3]
         result.append(Touch(contact.part, wanted, place, contact.grip == "firm"))
-    return tuple(result)
+        if works := worked_by(contact, kit.map):
+            workers.setdefault(works, []).append(result[-1])
+    # What several fingers may work, the nearest of them does.
+    idle = {id(touch) for touches in workers.values() for touch in touches if touch.finger != _nearest(touches).finger}
+    return tuple(touch for touch in result if id(touch) not in idle)
 
 
-def _holds(contact: Contact, instrument: InstrumentMap, controls: Mapping[str, float]) -> bool:
+def _nearest(touches: list[Touch]) -> Touch:
+    return min(touches, key=lambda touch: touch.distance_mm)
+
+
+def _holds(index: int, instrument: InstrumentMap, controls: Mapping[str, float]) -> bool:
+    """Whether a contact counts: of a finger with several places, at the one where it works most of what is worked."""
+    contact = instrument.contacts[index]
+    place = only_at(instrument)[index]
+    if place is not None:
+        works = worked_by(contact, instrument)
+        more = [
+            other
+            for other in (worked_by(one, instrument) for one in instrument.contacts)
+            if set(other) > set(works) and all(_pressed(name, instrument, controls) for name in other)
+        ]
+        return bool(works) and not more and all(_pressed(name, instrument, controls) for name in works)
     if contact.when == "always" or contact.control is None:
         return True
-    control = instrument.control(contact.control)
-    pressed = abs(controls.get(control.name, control.rest_value) - control.rest_value) > AWAY_FROM_REST
-    return pressed == (contact.when == "pressed")
+    return _pressed(contact.control, instrument, controls) == (contact.when == "pressed")
+
+
+def _pressed(name: str, instrument: InstrumentMap, controls: Mapping[str, float]) -> bool:
+    control = instrument.control(name)
+    least = control.half_value or 1.0
+    return abs(controls.get(name, control.rest_value) - control.rest_value) > AWAY_FROM_REST * least

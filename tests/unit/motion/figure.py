@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from app.rig import quaternion
-from app.rig.hold import FingerTable, HandHold, Hold, Lips, NodeMotion, Reach
+from app.rig.hold import FingerTable, HandHold, Hold, Lips, NodeMotion, Reach, StationTable
 from app.rig.model import Character, Skeleton
 from instrument_maps import model as maps
 from instrument_maps.model import InstrumentMap
@@ -62,7 +62,8 @@ def _finger(bones: Skeleton, side: str, finger: str, control: str | None) -> Fin
     values = np.linspace(0.0, 1.0, 5) if control else np.zeros(1)
     bend = np.zeros((len(values), 3, 3))
     bend[..., 2] = (0.5 + 0.3 * values)[:, None] * (-1.0 if side == "left" else 1.0)
-    return FingerTable(f"{side}.{finger.lower()}", control, values, joints, quaternion.from_rotation_vector(bend))
+    station = StationTable((control,) if control else (), False, values, quaternion.from_rotation_vector(bend))
+    return FingerTable(f"{side}.{finger.lower()}", joints, (station,))
 
 
 def hold(bones: Skeleton, slide_m: float = 0.0) -> Hold:

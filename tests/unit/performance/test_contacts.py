@@ -23,6 +23,7 @@ from app.plan.model import Problem
 from app.project.edit.corrections import put
 from app.project.model import Player, Project, map_choices, project_from_score
 from app.rig import quaternion
+from app.rig.hold import StationTable
 from app.rig.skeleton import forward
 from app.rig.skinning import deform, mesh_named, patch
 from app.score.read import read_midi
@@ -111,6 +112,10 @@ def test_the_lips_gap_is_that_of_the_vertices() -> None:
     assert told.any()
 
 
+def straight(station: StationTable) -> StationTable:
+    return replace(station, rotations=np.tile(quaternion.IDENTITY, (*station.rotations.shape[:2], 1)))
+
+
 def test_a_finger_that_misses_its_valve_is_told_alone() -> None:
     """The index finger stretched away from its valve: only its touch is broken."""
     project = project_of(LUTKIN)
@@ -121,7 +126,7 @@ def test_a_finger_that_misses_its_valve_is_told_alone() -> None:
     hands = []
     for hand in hold.hands:
         tables = [
-            replace(table, rotations=np.tile(quaternion.IDENTITY, (*table.rotations.shape[:2], 1)))
+            replace(table, stations=tuple(straight(station) for station in table.stations))
             if table.finger == "right.index"
             else table
             for table in hand.fingers

@@ -157,7 +157,8 @@ def test_a_second_fit_is_the_same_to_the_bit() -> None:
     for a, b in zip(first.hands, second.hands, strict=True):
         assert a.instrument_from_hand_m.tobytes() == b.instrument_from_hand_m.tobytes()
         for x, y in zip(a.fingers, b.fingers, strict=True):
-            assert x.rotations.tobytes() == y.rotations.tobytes()
+            for one, other in zip(x.stations, y.stations, strict=True):
+                assert one.rotations.tobytes() == other.rotations.tobytes()
 
 
 def test_a_body_without_a_mouth_is_refused_by_name() -> None:

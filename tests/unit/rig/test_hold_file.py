@@ -116,4 +116,4 @@ def test_a_cache_that_cannot_be_written_does_not_matter(
     monkeypatch.setenv(hold_file.CACHE_VARIABLE, str(tmp_path / "file"))
     monkeypatch.setattr(hold_file, "fit_hold", lambda *given: shipped[1])
     monkeypatch.setattr(hold_file, "bundled_path", lambda *pair: tmp_path / "none.json")
-    assert hold_for(*inputs(*PAIRS[0])) is shipped[1]
+    assert same(hold_for(*inputs(*PAIRS[0])), shipped[1])
