@@ -35,7 +35,9 @@ StopWanted = Callable[[], bool]
 
 CHUNK_S = 4.0
 """Length of a chunk: long enough that numpy's overhead is small, short enough that a correction is seen at once."""
-BUDGET_BYTES = 256 * 1024 * 1024
+BUDGET_BYTES = 128 * 1024 * 1024
+"""Four players for thirteen minutes, fifty for a minute around the playhead; it is made twenty times as fast as it is
+played."""
 OVERHEAD_BYTES = 1024
 """Of a chunk, beside its numbers."""
 SEEN_S = 4.0
