@@ -76,6 +76,11 @@ class ThreadTasks(QObject):
         """Work that nobody stopped, oldest first."""
         return tuple(task for task in self._running if not task.stop.is_set())
 
+    @property
+    def is_idle(self) -> bool:
+        """Whether no thread works any more, stopped ones included."""
+        return not self._running
+
     def run(
         self,
         name: Message,

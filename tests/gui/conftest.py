@@ -21,6 +21,9 @@ from widgets.common.tokens import DARK
 
 QUARTET = Path(__file__).parents[2] / "resources" / "examples" / "quartet.mid"
 
+_kept = False
+"""Whether what the libraries made when they were imported was set aside."""
+
 # A worker that triggers the collection would destroy widgets in its own thread: here it happens between tests alone.
 gc.disable()
 # Before the application is made: the viewport's context survives docking and floating.
@@ -77,3 +80,8 @@ def _widgets_die_here(qapp: QApplication) -> Iterator[None]:
         widget.deleteLater()
     delete_now()
     gc.collect()
+    global _kept
+    if not _kept:
+        # What is there after the first test is there to stay: it is not searched again after each of the others.
+        _kept = True
+        gc.freeze()

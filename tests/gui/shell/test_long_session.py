@@ -1,0 +1,59 @@
+"""A long day leaves nothing behind: what the process holds after some rounds is what it held before them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from PySide6.QtWidgets import QApplication, QLabel
+
+from app.project.autosave import Autosave
+from app.project.presence import Presence
+from app.shell.app import Program
+from app.shell.settings import Settings
+from tests.gui.conftest import delete_now
+from tests.support.long_session import LongDay, footprint, larger_piece
+
+WARM_UP, ROUNDS = 2, 2
+MOST_MB = 48.0
+"""Caches of what is drawn fill up for some rounds more: thirty rounds grew by nothing after the fifth."""
+
+
+@pytest.fixture
+def program(qt_app: QApplication, settings: Settings, tmp_path: Path) -> Iterator[Program]:
+    """An editor whose work is done in threads, as it is when it runs."""
+    result = Program(settings, autosave=Autosave(Presence(tmp_path / "recovery")))
+    result.window.resize(800, 500)
+    result.window.show()
+    yield result
+    result.end()
+    result.window.hide()
+    result.generator.deleteLater()
+    result.editor.files.end()
+    result.window.deleteLater()
+    result.session.deleteLater()
+    delete_now()
+
+
+def test_after_some_rounds_everything_is_as_it_was(program: Program, tmp_path: Path) -> None:
+    day = LongDay(program, larger_piece(tmp_path, 2, 20))
+    for _ in range(WARM_UP):
+        day.round()
+    before = footprint()
+    for _ in range(ROUNDS):
+        day.round()
+    after = footprint()
+    assert after.widgets_by_class - before.widgets_by_class == {}
+    # What is about to be drawn or told may differ by one.
+    grown = {name: count for name, count in (after.values - before.values).items() if count >= ROUNDS}
+    assert grown == {}
+    for name in ("threads", "files", "processes", "timers", "widgets", "objects"):
+        assert getattr(after, name) <= getattr(before, name), (name, str(before), str(after))
+    assert after.memory_mb - before.memory_mb < MOST_MB, (str(before), str(after))
+
+
+def test_a_leak_would_be_seen(program: Program) -> None:
+    before = footprint()
+    left = [QLabel() for _ in range(3)]
+    assert (footprint().widgets_by_class - before.widgets_by_class) == {"QLabel": len(left)}

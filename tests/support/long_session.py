@@ -1,0 +1,258 @@
+"""A long day at the editor: piece after piece, panels moved about, languages, themes; what is left after each round.
+
+``python -m tests.support.long_session ROUNDS`` runs it for long, and prints what each round left.
+"""
+
+from __future__ import annotations
+
+import gc
+import multiprocessing
+import os
+import resource
+import sys
+import tempfile
+import threading
+import time
+from collections import Counter
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from PySide6.QtCore import QCoreApplication, QEvent, QObject, QTimer
+from PySide6.QtWidgets import QApplication, QWidget
+
+from app.project.autosave import Autosave
+from app.project.presence import Presence
+from app.project.storage import save
+from app.shell.app import Program, make_application
+from app.shell.garbage import Garbage
+from app.shell.settings import Settings
+from app.shell.tasks import ThreadTasks
+from tests.bench.performance.large import large_project
+
+QUARTET = Path(__file__).parents[2] / "resources" / "examples" / "quartet.mid"
+OURS = ("app.", "widgets.")
+OTHERS = ("pyqtgraph.", "vispy.")
+_PAGE = resource.getpagesize()
+
+
+@dataclass(frozen=True)
+class Footprint:
+    """What the process holds.
+
+    Attributes
+    ----------
+    memory_mb : float
+        Resident.
+    threads, files, processes, timers, widgets, objects : int
+        Python's threads, open file descriptors, child processes, active timers of Qt, widgets, all objects of Qt below
+        the application and its windows.
+    values : Counter
+        Python's objects of our classes and of the drawing libraries, by class.
+    widgets_by_class : Counter
+    """
+
+    memory_mb: float
+    threads: int
+    files: int
+    processes: int
+    timers: int
+    widgets: int
+    objects: int
+    values: Counter[str]
+    widgets_by_class: Counter[str]
+
+    def __str__(self) -> str:
+        return (
+            f"{self.memory_mb:7.1f} MB, {self.threads} threads, {self.files} files, {self.processes} processes, "
+            f"{self.timers} timers, {self.widgets} widgets, {self.objects} objects, {self.values.total()} values"
+        )
+
+
+def footprint() -> Footprint:
+    """What the process holds now, after everything that can go has gone."""
+    for _ in range(3):
+        QCoreApplication.processEvents()
+        QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete.value)
+        gc.collect()
+    application = QApplication.instance()
+    assert isinstance(application, QApplication)
+    found: dict[int, QObject] = {}
+    for top in (application, *QApplication.allWidgets()):
+        for each in (top, *top.findChildren(QObject)):
+            found[id(each)] = each
+    values: Counter[str] = Counter()
+    for each in gc.get_objects():
+        module = str(getattr(type(each), "__module__", ""))
+        if module.startswith((*OURS, *OTHERS)):
+            values[f"{module}.{type(each).__qualname__}"] += 1
+    return Footprint(
+        memory_mb=int(Path("/proc/self/statm").read_text().split()[1]) * _PAGE / 2**20,
+        threads=threading.active_count(),
+        files=sum(1 for _ in Path("/proc/self/fd").iterdir()),
+        processes=len(multiprocessing.active_children()) + len(_children()),
+        timers=sum(isinstance(each, QTimer) and each.isActive() for each in found.values()),
+        widgets=len(QApplication.allWidgets()),
+        objects=len(found),
+        values=values,
+        widgets_by_class=Counter(type(widget).__name__ for widget in QApplication.allWidgets()),
+    )
+
+
+def _children() -> list[str]:
+    return Path(f"/proc/self/task/{os.getpid()}/children").read_text().split()
+
+
+class LongDay:
+    """Somebody who does it all again and again.
+
+    Parameters
+    ----------
+    program : Program
+    pieces : sequence of Path
+        Opened in turn, in each round.
+    """
+
+    def __init__(self, program: Program, *pieces: Path) -> None:
+        self.program, self.session, self.pieces = program, program.session, pieces
+
+    def round(self) -> None:
+        """Every piece once: opened, looked at, heard, edited, closed."""
+        window = self.program.window
+        for path in self.pieces:
+            self.program.editor.files.open(path, ask=False)
+            self.until(lambda: self.program.editor.files.is_open)
+            self.until(lambda: self.session.performance.project is self.session.project)
+            self.dress()
+            self.move_panels()
+            self.fill_screen()
+            window.showMinimized()
+            self.wait(0.05)
+            window.showNormal()
+            self.play()
+            self.edit()
+            self.open_dialogs()
+            self.program.editor.files.close()
+            self.until(lambda: not self.program.editor.files.is_open)
+        # Without a piece the plans are of nothing, and the motion of what was open is let go of.
+        self.until(lambda: self.program.generator.ready_share >= 1.0 and self.program.generator.up_to_date)
+        tasks = self.program.tasks
+        assert isinstance(tasks, ThreadTasks)
+        self.until(lambda: tasks.is_idle)
+        self.wait(0.3)
+
+    def dress(self) -> None:
+        """Another theme and language, and back."""
+        for action_id in ("theme.light", "language.ja", "theme.dark", "language.en"):
+            self.trigger(action_id)
+            self.wait(0.02)
+
+    def move_panels(self) -> None:
+        """Every panel floated, docked, closed and shown."""
+        for name, dock in self.program.window.docks.items():
+            dock.setFloating(True)
+            self.wait(0.02)
+            dock.setFloating(False)
+            dock.close()
+            self.trigger(f"panel.{name}")
+            self.wait(0.02)
+        self.trigger("application.reset_layout")
+
+    def fill_screen(self) -> None:
+        """The viewport alone, every view, and back."""
+        self.trigger("application.full_screen")
+        for view in ("ensemble", "hands", "mouth", "front"):
+            self.trigger(f"viewport.{view}")
+            self.wait(0.05)
+        self.trigger("application.full_screen")
+
+    def play(self) -> None:
+        """A second is heard, or would be."""
+        self.session.set_playhead(2.0)
+        for source in ("synthesiser", "recording"):
+            self.session.listening.set(source=source)  # type: ignore[arg-type]
+            self.session.set_playing(True)
+            self.wait(0.3)
+            self.session.set_playing(False)
+
+    def edit(self) -> None:
+        """A note goes up, and down again."""
+        self.trigger("notes.select_all")
+        self.trigger("notes.up")
+        self.trigger("edit.undo")
+        self.wait(0.05)
+
+    def open_dialogs(self) -> None:
+        """Every dialog that stands beside the window, closed at once."""
+        for action_id in (
+            *("application.palette", "application.preferences", "application.shortcuts", "application.about"),
+            *("export.files", "export.playblast"),
+        ):
+            before = set(QApplication.topLevelWidgets())
+            self.trigger(action_id)
+            self.wait(0.02)
+            for widget in QApplication.topLevelWidgets():
+                if widget not in before and widget.isVisible():
+                    widget.close()
+            palette = self.program.window.findChild(QWidget, "palette")
+            if palette is not None:
+                palette.hide()
+
+    def trigger(self, action_id: str) -> None:
+        """Do what an action does, if it makes sense now."""
+        self.program.editor.table.refresh()
+        if self.session.actions[action_id].isEnabled():
+            self.session.actions[action_id].trigger()
+
+    def wait(self, seconds: float) -> None:
+        """Let the window work."""
+        end_s = time.monotonic() + seconds
+        while time.monotonic() < end_s:
+            QCoreApplication.processEvents()
+            time.sleep(0.002)
+
+    def until(self, ready: Callable[[], bool], most_s: float = 60.0) -> None:
+        """Let the window work until something is so."""
+        end_s = time.monotonic() + most_s
+        while not ready():
+            if time.monotonic() > end_s:
+                raise TimeoutError("the editor does not get there")
+            QCoreApplication.processEvents()
+            time.sleep(0.002)
+
+
+def larger_piece(folder: Path, players: int, notes: int) -> Path:
+    """A made-up project in a file."""
+    path = folder / f"{players} players.suisou"
+    save(large_project(players, notes), path)
+    return path
+
+
+def long_run(rounds: int, players: int = 20, notes: int = 500) -> None:
+    """Print what each round leaves, and in the end what grew."""
+    make_application()
+    garbage = Garbage()
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        settings = Settings(folder / "editor.ini")
+        settings.language = "en"
+        program = Program(settings, autosave=Autosave(Presence(folder / "recovery")))
+        program.window.resize(960, 640)
+        program.window.show()
+        day = LongDay(program, QUARTET, larger_piece(folder, players, notes))
+        marks: list[Footprint] = []
+        for number in range(rounds):
+            start_s = time.monotonic()
+            day.round()
+            marks.append(footprint())
+            print(f"{number:3}: {marks[-1]}  ({time.monotonic() - start_s:.1f} s)", flush=True)
+            if number >= 2:
+                grown = marks[-1].values - marks[-2].values + (marks[-1].widgets_by_class - marks[-2].widgets_by_class)
+                print("     ", dict(grown.most_common(14)), flush=True)
+        program.end()
+        garbage.stop()
+        program.window.hide()
+
+
+if __name__ == "__main__":
+    long_run(int(sys.argv[1]), *(int(argument) for argument in sys.argv[2:4]))
