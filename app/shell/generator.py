@@ -41,8 +41,9 @@ it worked: what the window does meanwhile is not held up, and with nobody there 
 MOST_REST_S = 0.1
 TELL_BROKEN_S = 0.5
 """Of contacts that are found broken while much is made, this often: every list of problems shows them anew."""
-REST_WHILE_JUDGING = 1.0
-"""Contacts of motion that nobody looks at are judged resting this many times as long as it worked."""
+REST_WHILE_JUDGING = 3.0
+"""Contacts of motion that there is no room to keep are judged while nothing plays, resting this many times as long as
+the work took: an hour of an orchestra takes minutes, and nobody waits for it."""
 REST_WHILE_PLAYING = 1.0
 """While the performance plays the worker rests this many times as long as it worked."""
 
@@ -273,7 +274,9 @@ class _Worker:
             self._changed.notify()
 
     def set_playing(self, playing: bool) -> None:
-        self._playing = playing
+        with self._changed:
+            self._playing = playing
+            self._changed.notify()
 
     def close(self) -> None:
         with self._changed:
@@ -288,7 +291,7 @@ class _Worker:
     def _run(self) -> None:
         while not self._closed:
             with self._changed:
-                while self._idle and not self._judging:
+                while self._idle and (self._playing or not self._judging):
                     self._changed.wait()
                 job, self._pending = self._pending, None
                 self._planning = job is not None
