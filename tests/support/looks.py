@@ -137,9 +137,10 @@ class Look:
         self.application = make_application()
         settings = Settings(folder / "editor.ini")
         settings.language, settings.theme = "en", theme
-        self.program = Program(
-            settings, ImmediateTasks(), Answers(), Autosave(Presence(folder / "recovery")), heard=False
-        )
+        answers = Answers()
+        answers.answer = "discard"
+        autosave = Autosave(Presence(folder / "recovery"))
+        self.program = Program(settings, ImmediateTasks(), answers, autosave, heard=False)
         self.session, self.window = self.program.session, self.program.window
         self.folder, self.pictures = folder, pictures
         self.found: dict[str, str] = {}
@@ -288,6 +289,8 @@ def main() -> None:
             look.selections()
             look.dialogs()
         look.sharp()
+        look.do("file.new")
+        look.both("empty_piece")
         for fault, state in look.found.items():
             print(f"{state}: {fault}")
         look.program.end()

@@ -69,7 +69,7 @@ class PlayersPanel(QWidget):
         self.list.setObjectName("player_list")
         self._empty = QLabel()
         self._empty.setWordWrap(True)
-        self._empty.setMargin(16)
+        self._empty.setContentsMargins(12, 4, 12, 4)
         self._parameters = ParameterSections(session)
         self._stage = StageSection(session)
         self._presets = PresetSection(session)
@@ -164,8 +164,12 @@ class PlayersPanel(QWidget):
         height = self._splitter.height()
         if self._divided or not height:
             return
-        wanted = self.list.height_of_rows() + self._tools["add"].sizeHint().height() + 14
-        upper = min(max(wanted, LEAST_LIST_PX), round(LIST_SHARE * height))
+        tools_px = self._tools["add"].sizeHint().height() + 14
+        if self._empty.isVisibleTo(self):
+            # A sentence is read to its end.
+            upper = self._empty.heightForWidth(self.width()) + tools_px
+        else:
+            upper = min(max(self.list.height_of_rows() + tools_px, LEAST_LIST_PX), round(LIST_SHARE * height))
         self._splitter.setSizes([upper, height - upper])
 
     def _changed(self, change: Change) -> None:
