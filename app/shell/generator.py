@@ -36,8 +36,10 @@ TELL_S = 0.04
 TELL_READY_S = 0.25
 """... and of how much is made this often."""
 GIVE_WAY = 3.0
-"""Before more is made that nobody waits for, the worker rests so many times as long as others had the processor while
-it worked: what the window does meanwhile is not held up, and with nobody there it works all the time."""
+"""Where the window or another thread worked too while something was made that nobody waits for, the worker rests so
+many times as long as that took: two threads of Python hold each other up far more than they compute."""
+OTHERS_S = 0.0005
+"""Less than this is no work: timers."""
 MOST_REST_S = 0.1
 TELL_BROKEN_S = 0.5
 """Of contacts that are found broken while much is made, this often: every list of problems shows them anew."""
@@ -323,7 +325,7 @@ class _Worker:
         self._teller.planned(performance, number, failed)
 
     def _make_motion(self) -> None:
-        start_s, cpu_s, wishes = time.monotonic(), time.thread_time(), self._wishes
+        start_s, wishes, others_s = time.monotonic(), self._wishes, time.process_time() - time.thread_time()
         try:
             more = self._live.work(self._interrupted)
         except Exception as fault:  # noqa: BLE001 - told in the window's thread
@@ -331,7 +333,7 @@ class _Worker:
             self._teller.fell(fault)
             return
         now_s = time.monotonic()
-        others_s = now_s - start_s - (time.thread_time() - cpu_s)
+        others_s = time.process_time() - time.thread_time() - others_s
         if not more:
             self._met = wishes
             self._judging = True
@@ -345,8 +347,8 @@ class _Worker:
             self._teller.worked(self._live.ready_share)
         if self._playing:
             time.sleep(REST_WHILE_PLAYING * (now_s - start_s))
-        elif not awaited:
-            self._rest(min(GIVE_WAY * others_s, MOST_REST_S), wishes)
+        elif not awaited and others_s > OTHERS_S:
+            self._rest(min(GIVE_WAY * (now_s - start_s), MOST_REST_S), wishes)
 
     def _rest(self, rest_s: float, wishes: int) -> None:
         """Until something else is wanted than these wishes, at most so long."""

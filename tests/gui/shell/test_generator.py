@@ -90,30 +90,38 @@ def test_the_viewport_is_told_only_of_poses_at_the_playhead(
 
 
 class Work:
-    """Motion whose making takes time: of the processor, or waiting for it."""
+    """Motion during whose making others work."""
 
-    def __init__(self, waits_s: float, is_seen: bool) -> None:
-        self.waits_s, self.is_seen, self.seen, self.ready_share, self.broken = waits_s, is_seen, 0, 0.5, {}
+    def __init__(self, others_s: float, is_seen: bool) -> None:
+        self.others_s, self.is_seen, self.seen, self.ready_share, self.broken = others_s, is_seen, 0, 0.5, {}
 
     def work(self, stop_wanted: object) -> bool:
-        time.sleep(self.waits_s)
+        def busy() -> None:
+            until_s = time.thread_time() + self.others_s
+            while time.thread_time() < until_s:
+                pass
+
+        other = threading.Thread(target=busy)
+        other.start()
+        other.join()
+        time.sleep(0.02)
         return True
 
 
 @pytest.mark.parametrize(
-    ("waits_s", "is_seen", "rests"), [(0.02, True, True), (0.0, True, False), (0.02, False, False)]
+    ("others_s", "is_seen", "rests"), [(0.02, True, True), (0.0, True, False), (0.02, False, False)]
 )
 def test_motion_that_nobody_waits_for_gives_way(
-    session: Session, generator: Generator, monkeypatch: pytest.MonkeyPatch, waits_s: float, is_seen: bool, rests: bool
+    session: Session, generator: Generator, monkeypatch: pytest.MonkeyPatch, others_s: float, is_seen: bool, rests: bool
 ) -> None:
     """Where others had the processor the worker rests longer than they did, unless somebody waits for what it makes."""
     generator.close()
-    worker = module._Worker(Work(waits_s, is_seen), generator._worker._teller)  # type: ignore[arg-type]
+    worker = module._Worker(Work(others_s, is_seen), generator._worker._teller)  # type: ignore[arg-type]
     rested: list[float] = []
     monkeypatch.setattr(worker, "_rest", lambda rest_s, wishes: rested.append(rest_s))
     for _ in range(7):
         worker._make_motion()
-    assert (min(rested, default=0.0) > 1.5 * max(waits_s, 0.01)) == rests
+    assert (min(rested, default=0.0) > 1.5 * max(others_s, 0.01)) == rests
 
 
 def test_what_is_wanted_ends_the_rest(generator: Generator) -> None:
