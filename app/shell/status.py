@@ -33,6 +33,8 @@ from widgets.common.tokens import LEAST_TARGET_PX, Tokens
 POLL_MS = 100
 NAME_PX = 48
 """The name of work may become this narrow."""
+MOTION_PX = 64
+"""Width of the bar that tells how much motion is made."""
 QUIET_S = 0.25
 """Work that is done sooner is not shown: a flash tells nothing."""
 INFORMATION_S = 6.0
@@ -101,8 +103,9 @@ class StatusLine(QStatusBar):
         self._motion_bar = QProgressBar()
         self._motion_bar.setObjectName("motion_ready")
         self._motion_bar.setTextVisible(False)
-        self._motion_bar.setFixedWidth(64)
-        self._motion_bar.setRange(0, 1000)
+        self._motion_bar.setFixedWidth(MOTION_PX)
+        # A step for a point: every other value would be drawn at once, and with it the whole window composed anew.
+        self._motion_bar.setRange(0, MOTION_PX)
         for widget in (self._saved, self._problems, self._rate, self._motion, self._motion_bar):
             self.addPermanentWidget(widget)
         self._details = _Details(session, self)
@@ -261,7 +264,7 @@ class StatusLine(QStatusBar):
     def _tell_motion(self) -> None:
         busy = self._ready < 1.0 and self._files.is_open
         self._motion_bar.setVisible(busy)
-        self._motion_bar.setValue(round(1000 * self._ready))
+        self._motion_bar.setValue(int(MOTION_PX * self._ready))
         self._motion.setVisible(self._files.is_open)
         if busy:
             self._motion.setText(self.tr("making motion"))

@@ -15,8 +15,7 @@ from app.plan.corrections import AddExpression, Correction, PinFingering, SetBre
 from app.project.edit import notes
 from app.project.edit.corrections import put
 from app.project.model import Project
-from tests.bench.performance.large import calibration_s
-from tests.bench.window.editor import LargeEditor, Turn, memory_mb
+from tests.bench.window.editor import LargeEditor, Turn, calibration_s, memory_mb
 from widgets.common.selection import Selection
 
 FRAMES = 60

@@ -11,7 +11,10 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from app.plan.corrections import Vary
+from app.errors import Message
+from app.performance.ensemble import Performance
+from app.plan.corrections import AddExpression, Vary
+from app.project.edit.corrections import put
 from app.shell.actions import ActionTable
 from app.shell.commands import edit, events, generate
 from app.shell.settings import Settings
@@ -102,3 +105,35 @@ def test_the_list_of_what_was_done_by_hand_has_it(panel: TimelinePanel, session:
 
 def region_id(lane: ActingLane) -> str:
     return next(region.event_id for region in lane.regions if region.kind == VARIED)
+
+
+def test_what_did_not_change_is_known_again_and_all_is_as_if_made_anew(session: Session, qtbot: QtBot) -> None:
+    panel = shown_panel(session)
+    qtbot.addWidget(panel)
+    lane, player = acting(panel), session.player
+    assert player is not None
+
+    def smile() -> None:
+        project = put(session.project, player.id, [AddExpression("x", "smile", 1920, 3840)])
+        session.apply(Message("edit.add_expression"), project)
+
+    def vary() -> None:
+        project = put(session.project, player.id, [Vary("varied-1", *SPAN, 5)])
+        session.apply(Message("edit.vary_everyone"), project)
+
+    def plan() -> None:
+        performance = Performance(session.project, session.performance)
+        performance.prepare()
+        session.set_performance(performance)
+
+    plan()
+    undo = session.document.undo
+    for change in (smile, undo, vary, undo):
+        change()
+        plan()
+        again, _ = lane.make_regions(session.performance.plan(player))
+        assert {id(region) for region in again} & {id(region) for region in lane.regions if region.kind == "sway"}
+        fresh = ActingLane(session, panel.axis)
+        assert lane.regions == fresh.regions
+        assert lane.groups == fresh.groups
+        fresh.deleteLater()

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
+import msgspec
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QGuiApplication
@@ -11,6 +14,7 @@ from PySide6.QtWidgets import QApplication
 from app.errors import Message
 from app.performance.ensemble import Performance
 from app.plan.model import Problem
+from app.project.edit import notes
 from tests.gui.timeline.conftest import SCALE, TPQ, Stage
 from tests.gui.timeline.hand import ALT, CTRL, MIDDLE, SHIFT, Hand
 from widgets.common.selection import Selection
@@ -512,3 +516,37 @@ def test_a_contact_that_the_motion_breaks_is_said_at_its_note(stage: Stage) -> N
     stage.hand.move(stage.middle("1:2"))
     stage.hand.move(stage.middle("1:3"))
     assert "9 mm" not in stage.roll.plot.toolTip()
+
+
+# The notes behind
+
+
+def test_the_notes_behind_are_drawn_once_until_they_or_what_is_shown_change(stage: Stage) -> None:
+    """Selecting and playing draw nothing of them anew; a change of theirs is never missed."""
+    session, roll = stage.session, stage.roll
+
+    def colour(note_id: str) -> str:
+        QApplication.processEvents()
+        x, y = stage.middle(note_id)
+        picture = roll.plot.viewport().grab().toImage()
+        ratio = picture.devicePixelRatio()
+        return picture.pixelColor(round(x * ratio), round(y * ratio)).name()
+
+    seen = colour("2:5")
+    drawn = roll.notes._behind
+    session.select(Selection(frozenset({"1:1"})))
+    session.set_playhead(2.0)
+    assert colour("2:5") == seen
+    assert roll.notes._behind is drawn
+    old = stage.middle("2:5")
+    assert session.attempt(Message("edit.move_notes", {"count": 1}), lambda it: notes.move(it, {"2:5"}, 0, -3))
+    assert stage.middle("2:5") != old
+    assert colour("2:5") == seen
+    session.document.undo()
+    assert colour("2:5") == seen
+    front, behind = session.project.players
+    red = (front, msgspec.structs.replace(behind, colour="#ff0000"))
+    session.apply(Message("edit.player_colour", {"count": 1}), replace(session.project, players=red))
+    assert colour("2:5") != seen
+    stage.panel.set_ghosts(Ghosts.ALONE)
+    assert colour("2:5") not in (seen, "#ff0000")
