@@ -264,13 +264,29 @@ class ControlJudge:
             frames[self._belongs(index)] = True
         return frames
 
-    def settled(self, control: Control) -> BoolArray:
-        """Frames at which a control should be where its note asks for it, away from rest: from the onset until it may
-        leave."""
-        targets = self.targets(control)
+    def kept(self, station: int, worked: IntArray, controls: Sequence[Control]) -> BoolArray:
+        """Frames of the notes that a finger works at this of its stations, until it may leave for the next note.
+
+        Parameters
+        ----------
+        worked : (N,) int
+            Its station in every note.
+        controls : sequence of Control
+            All that it works anywhere.
+        """
         frames = np.zeros(len(self._times_s), dtype=np.bool_)
-        for index in np.flatnonzero(targets != control.rest_value).tolist():
-            frames[self._span(self._notes[index].start_s, self._leaves_s(control, targets, index))] = True
+        targets = [(control, self.targets(control)) for control in controls]
+        for index in np.flatnonzero(worked == station).tolist():
+            span = self._belongs(index)
+            frames[span] = True
+            following = min(index + 1, len(self._notes) - 1)
+            leaves_s = [
+                self._leaves_s(control, values, index)
+                for control, values in targets
+                if values[index] != values[following]
+            ]
+            if leaves_s:
+                frames[self._span(min(leaves_s), math.inf).start : span.stop] = False
         return frames
 
     def targets_at_frames(self, control: Control) -> FloatArray:
@@ -448,14 +464,13 @@ def _contact(
         pressed, released = judge.working(instrument.control(contact.control), values[contact.control])
         frames = {"always": sounding, "pressed": pressed, "released": released}[contact.when]
     if place is not None:
-        frames = frames & judge.asked(working[place[0]] == place[1])
-        for name in worked_by(contact, instrument):
+        finger, station = place
+        names = sorted({name for found in stations(instrument)[finger] for name in found.controls})
+        frames = frames & judge.kept(station, working[finger], [instrument.control(name) for name in names])
+        for control in map(instrument.control, worked_by(contact, instrument)):
             # Of a hole without a moving part the finger itself is the measure: it closes it where it should or fails.
-            control = instrument.control(name)
             if control.motion is not None:
-                frames = frames & judge.working(control, values[name])[0]
-            else:
-                frames = frames & judge.settled(control)
+                frames = frames & judge.working(control, values[control.name])[0]
     gap_m = _gap_m(contact, instrument, traces, None if contact.control is None else judge)[frames]
     return _spread(gap_m, bound_mm(contact))
 

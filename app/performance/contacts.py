@@ -177,7 +177,7 @@ class ContactJudge:
             # Where the whole hand has moved, its fingers have with it.
             broken = (gaps_m * 1000.0 > bound_mm(contact)) & ~off[contact.part.split(".")[0]]
             if broken.any():
-                broken &= self._judged(index, controls, notes)
+                broken &= self._judged(index, controls, notes, times_s)
                 yield from _runs(("touch", contact.part, contact.control or ""), times_s, gaps_m, broken)
 
     def _breathing(self, times_s: FloatArray) -> BoolArray:
@@ -188,7 +188,7 @@ class ContactJudge:
         return inside
 
     def _judged(
-        self, index: int, controls: dict[str, FloatArray], notes: npt.NDArray[np.intp]
+        self, index: int, controls: dict[str, FloatArray], notes: npt.NDArray[np.intp], times_s: FloatArray
     ) -> BoolArray | Literal[True]:
         """Whether a contact that is not always there should be."""
         instrument = self._playing.instrument_map
@@ -197,6 +197,10 @@ class ContactJudge:
             wanted: BoolArray = self._working[place[0]][notes] == place[1]
             for name in worked_by(contact, instrument):
                 wanted = wanted & in_place(instrument.control(name), controls[name], self._targets[name][notes])
+            way = self._playing.stations.get(place[0])
+            if way is not None:
+                share = way.between(times_s)[2]
+                wanted = wanted & ((share <= 0.0) | (share >= 1.0))
             return wanted
         if contact.control is None or contact.when == "always":
             return True
