@@ -123,6 +123,8 @@ def _out_of_range(notes: tuple[Note, ...], times: LineTimes, instrument: Instrum
 
 
 def _early_starts(notes: tuple[Note, ...], problem: FingeringProblem, path: IntArray) -> list[Problem]:
+    if not problem.has_slide:
+        return []
     steps = np.arange(len(path) - 1)
     motions, times = problem.motions, problem.times
     share = motions.share[steps, path[:-1], path[1:]]

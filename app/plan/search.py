@@ -1,7 +1,8 @@
 """The search for fingerings: what every choice and every motion costs, and the cheapest way through a line.
 
 Viterbi over the ranked fingerings of every note, exact also where a cost concerns three notes (turning a slide back).
-Steps that cost nothing whatever is chosen divide a line into pieces that are solved apart, so slow music costs nothing.
+It looks only where leaving the first choices can pay, so slow music costs nothing. What fingers do between two pitches
+is counted in `app.plan.finger_ways`.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
+from app.plan.finger_ways import finger_ways
 from app.plan.line import IntArray, LineTimes
 from app.plan.model import FloatArray, Note
 from instrument_maps.model import Control, Fingering, InstrumentMap
@@ -21,11 +23,24 @@ BoolArray = npt.NDArray[np.bool_]
 
 # What choosing an alternate costs. The unit is one step down in rank.
 RANK_COST = 1.0
+MOST_RANKS = 3
+"""Further down the list an alternate is no stranger: woodwinds have many, ordered by little."""
 CENTS_PER_UNIT = 20.0
 """An alternate worse in tune than the first choice by this much costs one unit on a note that can be heard out: about
 what a listener notices in a melody."""
 HEARD_OUT_S = 0.25
 """Shorter notes do not let their intonation be heard; their cost falls in proportion."""
+FORKED_COST = 0.5
+"""A forked fingering sounds covered, beside its rank."""
+IN_PLACE_COST = 0.5
+"""A fingering that is meant for trills, fast passages, loud or soft notes costs this there, whatever its rank, ..."""
+OUT_OF_PLACE_COST = 3.0
+"""... and so much more than its rank elsewhere."""
+CONTEXTS = ("trill", "fast", "forte", "piano")
+"""Tags of fingerings that are meant for something."""
+QUICK_S = 0.15
+"""A note is fast that lasts no longer than this, from the one before or to the next."""
+LOUD, SOFT = 0.75, 0.35
 
 # What moving costs.
 FAST_S = 0.085
@@ -36,10 +51,18 @@ TRILL_S = 0.15
 TRILL_NOTES = 4
 TRILL_COST = 3.0
 """A trill repeats its motion, so it tires: hurry counts this much more."""
-LEVER_COST = 0.5
-"""A lever under a thumb of its own moves beside the others."""
-CONTRARY_COST = 0.5
-"""One finger going up while another goes down is harder than both going one way."""
+LIFTED_S = 0.12
+"""In a silence this long a finger is free: it goes from key to key for nothing."""
+KEY_TO_KEY_MOVES = 2
+"""Such a way counts as so many moves more when passages are compared."""
+EASY_STEP_S, HURRIED_STEP_S = 0.5, 0.12
+"""What is awkward costs nothing in steps this long, all in steps this short, in proportion between."""
+ROLL_COST = 0.8
+"""A finger rolls onto a further key, or off it."""
+TOGETHER_COST = 0.9
+"""A thumb's lever is turned while fingers move: on a double horn the sides are changed."""
+BREAK_COST, BREAK_FINGERS = 0.25, 3
+"""Each finger beyond so many that moves as the line crosses into another register."""
 SLIDE_EASY = 0.7
 """A slide that needs at most this part of the time it has costs nothing."""
 SLIDE_COST = 3.0
@@ -56,37 +79,56 @@ REVERSAL_COST = 0.5
 
 PHRASE_SILENCE_S = 0.25
 """A silence this long divides phrases, for the comparison with the first choices."""
-_MOVED = 0.5
 TOLERANCE = 1e-9
 """Rounding of sums of metres and shares."""
 
 
 @dataclass(frozen=True)
 class Table:
-    """Fingerings of the pitches of a line, padded to K: values (P, K, C), and costs (P, K)."""
+    """Fingerings of the pitches of a line, padded to K.
+
+    Attributes
+    ----------
+    choices : tuple of tuple of Fingering
+    values : (P, K, C) float64
+        Of the controls of pitch.
+    cost : (P, K) float64
+        What each costs by its rank.
+    cents : (P, K) float64
+    valid : (P, K) bool
+    meant_for : dict of str to (P, K) bool
+        Which are meant for a trill, for fast, loud or soft notes.
+    register : (P,) int64
+        How many breaks lie below the pitch.
+    """
 
     choices: tuple[tuple[Fingering, ...], ...]
     values: FloatArray
-    rank: IntArray
+    cost: FloatArray
     cents: FloatArray
     valid: BoolArray
+    meant_for: dict[str, BoolArray]
+    register: IntArray
 
 
 @dataclass(frozen=True)
 class Motions:
-    """What it takes to get from each fingering of a note to each of the next: arrays (N-1, K, K).
+    """What it takes to get from each fingering of a note to each of the next.
 
     Attributes
     ----------
-    fingers : moves of valves and levers, counted (contrary ones and levers weighted)
-    moves : the same, plainly counted
-    slide_m : travel of slides, metres
-    needed_s : time the slide's motion takes
-    share : part of the available time that the slide needs (over 1: it starts early)
-    cost : what the search pays
+    pair : (N-1,) int64
+        Of each step, its row in ``moves``.
+    moves : (U, K, K) float64
+        Fingers that move, by pair of pitches; a way from key to key counts as several.
+    slide_m, needed_s, share : (N-1, K, K) float64, or (N-1, 1, 1) without a slide
+        Travel of slides in metres, the time that takes, and the part of the available time that it is (over 1: it
+        starts early).
+    cost : (N-1, K, K) float64
+        What the search pays.
     """
 
-    fingers: FloatArray
+    pair: IntArray
     moves: FloatArray
     slide_m: FloatArray
     needed_s: FloatArray
@@ -132,49 +174,78 @@ class FingeringProblem:
     @cached_property
     def local_cost(self) -> FloatArray:
         """(N, K): what a fingering costs by itself; inf where there is none or a correction forbids it."""
-        table, index = self.table, self.pitch_index
+        table, index, times = self.table, self.pitch_index, self.times
         out_of_tune = np.maximum(np.abs(table.cents) - np.abs(table.cents[:, :1]), 0.0) / CENTS_PER_UNIT
-        heard = np.minimum(self.times.duration_s / HEARD_OUT_S, 1.0)[:, None]
-        cost = RANK_COST * (table.rank[index] - 1) + out_of_tune[index] * heard
+        heard = np.minimum(times.duration_s / HEARD_OUT_S, 1.0)[:, None]
+        cost = table.cost[index]
+        if table.meant_for:
+            step_s = np.diff(times.onset_s)
+            quick = _either_side(step_s <= QUICK_S, len(index))
+            places = {
+                "trill": _either_side(self.in_trill, len(index)),
+                "fast": quick,
+                "forte": times.loudness >= LOUD,
+                "piano": times.loudness <= SOFT,
+            }
+            meant, fits = np.zeros(cost.shape, dtype=bool), np.zeros(cost.shape, dtype=bool)
+            for tag, which in table.meant_for.items():
+                meant |= which[index]
+                fits |= which[index] & places[tag][:, None]
+            cost = np.where(meant, np.where(fits, IN_PLACE_COST, cost + OUT_OF_PLACE_COST), cost)
+        cost = cost + out_of_tune[index] * heard
         return np.where(self.allowed, cost, np.inf)
 
     @cached_property
     def motions(self) -> Motions:
         """What every step takes."""
-        times, index = self.times, self.pitch_index
-        values = self.table.values[index]
-        change = values[1:, None, :, :] - values[:-1, :, None, :]
-        played = times.duration_s[:-1]
+        times, index, count = self.times, self.pitch_index, len(self.table.choices)
         gap = np.maximum(times.onset_s[1:] - times.played_end_s[:-1], 0.0)
         step = np.maximum(times.onset_s[1:] - times.onset_s[:-1], 1e-3)
-        fingers, moves, slide_m, needed_s, share, slide_cost = (np.zeros(change.shape[:3]) for _ in range(6))
-        up, down = np.zeros(change.shape[:3], dtype=bool), np.zeros(change.shape[:3], dtype=bool)
-        for place, control in enumerate(self.controls):
-            delta = change[..., place]
-            if control.kind == "slide":
-                distance = np.abs(delta) * control.travel_m
-                takes = distance / (control.max_speed_m_s or SLIDE_MAX_SPEED_M_S)
-                available = np.maximum(gap + control.move_note_share * played, 1e-3)[:, None, None]
-                part = takes / available
-                slide_m += distance
-                share = np.maximum(share, part)
-                needed_s = np.maximum(needed_s, takes)
-                smear = np.where(gap > 0.0, 1.0, LEGATO_COST)[:, None, None]
-                slide_cost += smear * SLIDE_COST * np.clip(part - SLIDE_EASY, 0.0, 1.0 - SLIDE_EASY)
-                slide_cost += np.where(part > 1.0, SLIDE_LATE + SLIDE_LATE_RATE * (part - 1.0), 0.0)
-            else:
-                moved = np.abs(delta) > _MOVED
-                moves += moved
-                fingers += moved * (LEVER_COST if control.kind == "lever" else 1.0)
-                if control.kind == "press":
-                    up |= delta < -_MOVED
-                    down |= delta > _MOVED
-        fingers += CONTRARY_COST * (up & down)
+        pairs, pair = np.unique(index[:-1] * count + index[1:], return_inverse=True)
+        before, after = pairs // count, pairs % count
+        ways = finger_ways(self.table, self.controls)
+        fingers = ways.between(before, after)
+        crossing = self.table.register[before] != self.table.register[after]
+        crossed = np.where(crossing[:, None, None], np.maximum(fingers.moves - BREAK_FINGERS, 0.0), 0.0)
+        awkward = ROLL_COST * fingers.rolls + TOGETHER_COST * fingers.together + BREAK_COST * crossed
         hurry = np.maximum(FAST_S / step - 1.0, 0.0)
         trill_hurry = TRILL_COST * np.maximum(TRILL_S / step - 1.0, 0.0)
-        hurry = np.where(self.in_trill, np.maximum(trill_hurry, hurry), hurry)[:, None, None]
-        trill = np.where(self.in_trill, TRILL_COST, 1.0)[:, None, None]
-        return Motions(fingers, moves, slide_m, needed_s, share, fingers * hurry + slide_cost * trill)
+        hurry = np.where(self.in_trill, np.maximum(trill_hurry, hurry), hurry)
+        pace = np.clip((EASY_STEP_S - step) / (EASY_STEP_S - HURRIED_STEP_S), 0.0, 1.0)
+        touching = np.clip(1.0 - gap / LIFTED_S, 0.0, 1.0)
+        trill = np.where(self.in_trill, TRILL_COST, 1.0)
+        cost = np.zeros((len(pair), *fingers.weighted.shape[1:]))
+        for amount, rate in ((fingers.weighted, hurry), (awkward, pace), (fingers.key_to_key, touching * trill)):
+            if amount.any() and rate.any():
+                cost += amount[pair] * rate[:, None, None]
+        moves = fingers.moves + KEY_TO_KEY_MOVES * (fingers.key_to_key > 0.0)
+        nothing = np.zeros((len(pair), 1, 1))
+        if not self.has_slide:
+            return Motions(pair, moves, nothing, nothing, nothing, cost)
+        slide_m, needed_s, share, slide_cost = self._slides(gap)
+        cost += slide_cost * trill[:, None, None]
+        return Motions(pair, moves, slide_m, needed_s, share, cost)
+
+    def _slides(self, gap: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+        """Travel, time, share of the available time and cost of the slides' ways, each (N-1, K, K)."""
+        values, played = self.table.values[self.pitch_index], self.times.duration_s[:-1]
+        shape = (len(gap), values.shape[1], values.shape[1])
+        slide_m, needed_s, share, cost = (np.zeros(shape) for _ in range(4))
+        for place, control in enumerate(self.controls):
+            if control.kind != "slide":
+                continue
+            delta = values[1:, None, :, place] - values[:-1, :, None, place]
+            distance = np.abs(delta) * control.travel_m
+            takes = distance / (control.max_speed_m_s or SLIDE_MAX_SPEED_M_S)
+            available = np.maximum(gap + control.move_note_share * played, 1e-3)[:, None, None]
+            part = takes / available
+            slide_m += distance
+            share = np.maximum(share, part)
+            needed_s = np.maximum(needed_s, takes)
+            smear = np.where(gap > 0.0, 1.0, LEGATO_COST)[:, None, None]
+            cost += smear * SLIDE_COST * np.clip(part - SLIDE_EASY, 0.0, 1.0 - SLIDE_EASY)
+            cost += np.where(part > 1.0, SLIDE_LATE + SLIDE_LATE_RATE * (part - 1.0), 0.0)
+        return slide_m, needed_s, share, cost
 
     @cached_property
     def reversal_cost(self) -> FloatArray | None:
@@ -194,10 +265,10 @@ class FingeringProblem:
         steps = np.arange(first, last)
         a, b = path[first:last], path[first + 1 : last + 1]
         motions = self.motions
+        if not self.has_slide:
+            return Travel(0.0, float(motions.moves[motions.pair[steps], a, b].sum()), 0.0)
         return Travel(
-            float(motions.slide_m[steps, a, b].sum()),
-            0.0 if self.has_slide else float(motions.moves[steps, a, b].sum()),
-            float(motions.share[steps, a, b].max(initial=0.0)),
+            float(motions.slide_m[steps, a, b].sum()), 0.0, float(motions.share[steps, a, b].max(initial=0.0))
         )
 
     def path_cost(self, path: IntArray) -> float:
@@ -233,29 +304,49 @@ def fingering_problem(
     """Set up the search. ``pins`` maps note ids to labels that a correction demands; a label that is no fingering of
     its note is passed over (see `plan_fingerings`)."""
     pitches, pitch_index = np.unique(times.pitch, return_inverse=True)
-    choices = tuple(instrument.fingerings_for(int(pitch)) for pitch in pitches)
-    controls = tuple(control for control in instrument.controls if control.role == "pitch")
-    width = max((len(ranked) for ranked in choices), default=1)
-    values = np.zeros((len(choices), width, len(controls)))
-    rank = np.ones((len(choices), width), dtype=np.int64)
-    cents = np.zeros((len(choices), width))
-    valid = np.zeros((len(choices), width), dtype=bool)
-    for row, ranked in enumerate(choices):
-        for column, fingering in enumerate(ranked):
-            values[row, column] = [fingering.controls.get(item.name, item.rest_value) for item in controls]
-            rank[row, column] = fingering.rank
-            cents[row, column] = fingering.cents
-            valid[row, column] = True
-    allowed = valid[pitch_index]
+    table = _table(tuple(int(pitch) for pitch in pitches), instrument)
+    allowed = table.valid[pitch_index]
     if pins:
         for index, note in enumerate(notes):
-            pinned = _pinned(choices[pitch_index[index]], pins.get(note.id))
+            pinned = _pinned(table.choices[pitch_index[index]], pins.get(note.id))
             if pinned is not None:
                 allowed[index] = False
                 allowed[index, pinned] = True
-    return FingeringProblem(
-        times, Table(choices, values, rank, cents, valid), pitch_index.astype(np.int64), controls, allowed
-    )
+    return FingeringProblem(times, table, pitch_index.astype(np.int64), _pitch_controls(instrument), allowed)
+
+
+def _pitch_controls(instrument: InstrumentMap) -> tuple[Control, ...]:
+    return tuple(control for control in instrument.controls if control.role == "pitch")
+
+
+def _table(pitches: tuple[int, ...], instrument: InstrumentMap) -> Table:
+    choices = tuple(instrument.fingerings_for(pitch) for pitch in pitches)
+    controls = _pitch_controls(instrument)
+    shape = (len(choices), max((len(ranked) for ranked in choices), default=1))
+    values = np.zeros((*shape, len(controls)))
+    cost, cents, valid = np.zeros(shape), np.zeros(shape), np.zeros(shape, dtype=bool)
+    meant_for: dict[str, BoolArray] = {}
+    for row, ranked in enumerate(choices):
+        for column, fingering in enumerate(ranked):
+            values[row, column] = [fingering.controls.get(item.name, item.rest_value) for item in controls]
+            forked = FORKED_COST if fingering.rank > 1 and "forked" in fingering.tags else 0.0
+            cost[row, column] = RANK_COST * min(fingering.rank - 1, MOST_RANKS) + forked
+            cents[row, column] = fingering.cents
+            valid[row, column] = True
+            for tag in CONTEXTS:
+                if fingering.rank > 1 and tag in fingering.tags:
+                    meant_for.setdefault(tag, np.zeros(shape, dtype=bool))[row, column] = True
+    written = np.array([ranked[0].written_pitch for ranked in choices], dtype=np.int64)
+    register = np.searchsorted(np.sort(np.array(instrument.breaks, dtype=np.int64)), written, side="right")
+    return Table(choices, values, cost, cents, valid, meant_for, register.astype(np.int64))
+
+
+def _either_side(steps: BoolArray, count: int) -> BoolArray:
+    """(N,): whether the step to a note or from it is marked."""
+    notes = np.zeros(count, dtype=bool)
+    notes[:-1] |= steps
+    notes[1:] |= steps
+    return notes
 
 
 def _pinned(ranked: tuple[Fingering, ...], label: str | None) -> int | None:
@@ -267,32 +358,89 @@ def _pinned(ranked: tuple[Fingering, ...], label: str | None) -> int | None:
 def best_path(problem: FingeringProblem) -> IntArray:
     """The cheapest path: for every note the column of its fingering; ties go to the lower rank.
 
-    Steps that cost nothing whatever is chosen divide the line into independent pieces; only the others are searched.
+    Only where leaving the cheapest fingerings can pay is searched (see `_windows`).
     """
     local = problem.local_cost
     path: IntArray = np.argmin(local, axis=1).astype(np.int64)
-    cost = problem.motions.cost
-    reachable = problem.allowed[:-1, :, None] & problem.allowed[1:, None, :]
-    busy = np.flatnonzero((cost * reachable).any(axis=(1, 2)))
-    if len(busy) == 0:
-        return path
-    for run in np.split(busy, np.flatnonzero(np.diff(busy) > 1) + 1):
-        first, last = int(run[0]), int(run[-1]) + 1
-        path[first : last + 1] = _search(problem, first, last)
+    for first, last in _windows(problem, path):
+        path[first : last + 1] = _search(problem, path, first, last)
     return path
 
 
-def _search(problem: FingeringProblem, first: int, last: int) -> IntArray:
-    """Viterbi over pairs of neighbouring choices (a reversal concerns three notes), notes first..last inclusive."""
-    local, cost, reversal = problem.local_cost, problem.motions.cost, problem.reversal_cost
-    total = local[first][:, None] + cost[first] + local[first + 1][None, :]
+def _windows(problem: FingeringProblem, path: IntArray) -> list[tuple[int, int]]:
+    """Spans of notes outside of which no cheaper path leaves ``path``, the fingerings that are cheapest by themselves.
+
+    Notes in a row that leave it cost at least ``dearer`` each, and save no more than what the steps at and between them
+    cost above the least that they could. Spans for which that does not pay are left out, by the sums of savings.
+    """
+    count = len(path)
+    if count < 2:
+        return []
+    steps, cost, local = np.arange(count - 1), problem.motions.cost, problem.local_cost
+    possible = np.where(problem.allowed[:-1, :, None] & problem.allowed[1:, None, :], cost, np.inf)
+    saving = cost[steps, path[:-1], path[1:]] - possible.min(axis=(1, 2))
+    if problem.reversal_cost is not None:
+        turned = problem.reversal_cost[steps[:-1], path[:-2], path[1:-1], path[2:]]
+        saving[1:] += turned
+    if not (saving > TOLERANCE).any():
+        return []
+    others = local - local[np.arange(count), path][:, None]
+    others[np.arange(count), path] = np.inf
+    dearer = float(others.min())
+    # A span of notes first..last has the steps first-1..last; one step more on each side where three notes matter.
+    reach = 1 if problem.reversal_cost is None else 2
+    if not np.isfinite(dearer):
+        return []
+    sums = np.concatenate(([0.0], np.cumsum(saving - dearer)))
+    lowest = np.minimum.accumulate(sums)
+    highest = np.maximum.accumulate(sums[::-1])[::-1]
+    # Of a step: the best span of steps that holds it.
+    pays = highest[1:] - lowest[:-1] > -dearer * reach - TOLERANCE
+    held = np.zeros(count, dtype=bool)
+    held[:-1] |= pays
+    held[1:] |= pays
+    free = np.flatnonzero(held)
+    runs = np.split(free, np.flatnonzero(np.diff(free) > 1) + 1)
+    return [(max(int(run[0]) - reach, 0), min(int(run[-1]) + reach, count - 1)) for run in runs if len(run)]
+
+
+def _search(problem: FingeringProblem, path: IntArray, first: int, last: int) -> IntArray:
+    """Viterbi over notes first..last inclusive, whose ends stay as in ``path`` unless they are the line's."""
+    local, cost = problem.local_cost[first : last + 1].copy(), problem.motions.cost[first:last]
+    for end, is_lines in ((0, first == 0), (last - first, last == len(path) - 1)):
+        if not is_lines:
+            held = local[end, path[first + end]]
+            local[end] = np.inf
+            local[end, path[first + end]] = held
+    reversal = problem.reversal_cost
+    if reversal is None:
+        return _chain(local, cost)
+    return _chain_of_pairs(local, cost, reversal[first : max(last - 1, first)])
+
+
+def _chain(local: FloatArray, cost: FloatArray) -> IntArray:
+    """The cheapest way through a chain of choices."""
+    total = local[0]
+    back = np.empty((len(cost), local.shape[1]), dtype=np.int64)
+    ways = np.empty(cost.shape[1:])
+    for step, (there, own) in enumerate(zip(cost, local[1:], strict=True)):
+        np.add(total[:, None], there, out=ways)
+        ways.argmin(axis=0, out=back[step])
+        total = ways.min(axis=0) + own
+    chosen = [int(total.argmin())]
+    for origin in back[::-1]:
+        chosen.append(int(origin[chosen[-1]]))
+    return np.array(chosen[::-1], dtype=np.int64)
+
+
+def _chain_of_pairs(local: FloatArray, cost: FloatArray, reversal: FloatArray) -> IntArray:
+    """The same where a cost concerns three notes: a chain of pairs of neighbouring choices."""
+    total = local[0][:, None] + cost[0] + local[1][None, :]
     back: list[IntArray] = []
-    for note in range(first + 2, last + 1):
-        ways = total[:, :, None] if reversal is None else total[:, :, None] + reversal[note - 2]
-        origin = ways.argmin(axis=0)
-        best = ways.min(axis=0)
-        back.append(np.broadcast_to(origin, cost.shape[1:]))
-        total = best + cost[note - 1] + local[note][None, :]
+    for note in range(2, len(local)):
+        ways = total[:, :, None] + reversal[note - 2]
+        back.append(ways.argmin(axis=0))
+        total = ways.min(axis=0) + cost[note - 1] + local[note][None, :]
     before, here = np.unravel_index(int(total.argmin()), total.shape)
     chosen = [int(here), int(before)]
     for origin in reversed(back):

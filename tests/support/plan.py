@@ -81,7 +81,7 @@ def even(pitches: list[int], step_tick: int = 240, start_tick: int = 0, track: i
 
 _CARRIAGE = Carriage((0.0, 10.0, 20.0), (-5.0, 0.0, 5.0), (-5.0, 0.0, 5.0))
 _LOWERED = Lowered((0.0, -0.3, 0.1), 40.0, 0.0, 0.0)
-_FRAME: dict[str, Any] = {
+FRAME: dict[str, Any] = {
     "schema_version": 1,
     "model": "none.glb",
     "embouchure": Embouchure("cup", 0.66),
@@ -121,7 +121,7 @@ def valves() -> InstrumentMap:
     )  # fmt: skip
     return InstrumentMap(
         id="valves", name=Name("Valves", "Valves"), short_name="valves", plays=(), transposition_semitones=2,
-        range=Range(52, 82, 58, 74), controls=(*controls_, ring), fingerings=tuple(fingerings), **_FRAME,
+        range=Range(52, 82, 58, 74), controls=(*controls_, ring), fingerings=tuple(fingerings), **FRAME,
     )  # fmt: skip
 
 
@@ -158,5 +158,5 @@ def slide() -> InstrumentMap:
     )  # fmt: skip
     return InstrumentMap(
         id="slide", name=Name("Slide", "Slide"), short_name="slide", plays=(), transposition_semitones=0,
-        range=Range(40, 70, 46, 65), controls=controls_, fingerings=tuple(fingerings), **_FRAME,
+        range=Range(40, 70, 46, 65), controls=controls_, fingerings=tuple(fingerings), **FRAME,
     )  # fmt: skip

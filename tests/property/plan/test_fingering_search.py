@@ -15,10 +15,15 @@ from app.plan.search import best_path, fingering_problem
 from instrument_maps.load import bundled_maps
 from instrument_maps.model import Fingering, InstrumentMap
 from tests.support.plan import PlainClock, PlainNote, slide, valves
+from tests.support.woodwinds import clarinet, double_horn, oboe, saxophone
 
 INSTRUMENTS = {
     "valves": (valves(), 52, 80),
     "slide": (slide(), 40, 68),
+    "clarinet": (clarinet(), 52, 82),
+    "oboe": (oboe(), 60, 70),
+    "saxophone": (saxophone(), 62, 88),
+    "double horn": (double_horn(), 60, 77),
     "trumpet": (bundled_maps()["trumpet_Bb"], 52, 87),
     "trombone": (bundled_maps()["trombone_tenor_F_attachment"], 36, 77),
 }
@@ -40,47 +45,105 @@ def phrases(low: int, high: int, most: int) -> st.SearchStrategy[tuple[PlainNote
     return st.builds(build, st.integers(low, high), st.lists(step, min_size=1, max_size=most))
 
 
-def naive_cost(notes: tuple[PlainNote, ...], choice: list[Fingering], instrument: InstrumentMap) -> float:
-    """The documented costs, note by note, with plain floats: the slow and obvious second implementation."""
-    seconds = PlainClock().seconds
-    onset = [seconds(note.onset_tick) for note in notes]
-    end = [seconds(note.onset_tick + note.duration_tick) for note in notes]
-    pitch_controls = [control for control in instrument.controls if control.role == "pitch"]
-    cost = 0.0
-    for index, fingering in enumerate(choice):
-        first = instrument.fingerings_for(notes[index].pitch)[0]
-        cost += fingering.rank - 1
-        cost += max(abs(fingering.cents) - abs(first.cents), 0.0) / 20.0 * min((end[index] - onset[index]) / 0.25, 1.0)
+def trill_of(notes: tuple[PlainNote, ...], onset: list[float]) -> list[bool]:
     trill = [False] * max(len(notes) - 1, 0)
     for start in range(len(notes) - 3):
         pitches = [note.pitch for note in notes[start : start + 4]]
         quick = all(onset[start + k + 1] - onset[start + k] <= 0.15 for k in range(3))
         if quick and pitches[0] == pitches[2] and pitches[1] == pitches[3] and 1 <= abs(pitches[0] - pitches[1]) <= 2:
             trill[start : start + 3] = [True] * 3
+    return trill
+
+
+def choice_cost(fingering: Fingering, first: Fingering, length: float, in_trill: bool, fast: bool) -> float:
+    """All notes of these tests are of a middling loudness."""
+    cost = float(min(fingering.rank - 1, 3))
+    if fingering.rank > 1:
+        cost += 0.5 if "forked" in fingering.tags else 0.0
+        meant = set(fingering.tags) & {"trill", "fast", "forte", "piano"}
+        if ("trill" in meant and in_trill) or ("fast" in meant and fast):
+            cost = 0.5
+        elif meant:
+            cost += 3.0
+    return cost + max(abs(fingering.cents) - abs(first.cents), 0.0) / 20.0 * min(length / 0.25, 1.0)
+
+
+def held(fingering: Fingering, instrument: InstrumentMap) -> dict[str, frozenset[tuple[str, bool]]]:
+    """What each finger holds: names of controls, and whether wholly."""
+    result: dict[str, set[tuple[str, bool]]] = {}
+    for control in instrument.controls:
+        value = fingering.controls.get(control.name, control.rest_value)
+        if control.role == "pitch" and control.kind != "slide" and value > 0.0:
+            finger = fingering.fingers.get(control.name, control.finger)
+            result.setdefault(finger, set()).add((control.name, value > 0.5))
+    return {finger: frozenset(keys) for finger, keys in result.items()}
+
+
+def fingers_cost(a: Fingering, b: Fingering, instrument: InstrumentMap, step: float, gap: float, hurry: float) -> float:
+    """What the fingers' way from one fingering to another costs."""
+    levers = {control.name for control in instrument.controls if control.kind == "lever"}
+    before, after = held(a, instrument), held(b, instrument)
+    nothing: frozenset[tuple[str, bool]] = frozenset()
+    moved, weighted, jumps, rolls, turned = 0, 0.0, 0.0, 0, False
+    rise, fall = False, False
+    for finger in before.keys() | after.keys():
+        here, there = before.get(finger, nothing), after.get(finger, nothing)
+        if here == there:
+            continue
+        moved += 1
+        if {name for name, whole in here ^ there if whole} & levers:
+            weighted += 0.5
+            turned = True
+        else:
+            weighted += 1.0
+            rise |= bool({name for name, _ in here} - {name for name, _ in there})
+            fall |= bool({name for name, _ in there} - {name for name, _ in here})
+        if here and there:
+            if {name for name, _ in here} & {name for name, _ in there}:
+                rolls += 1
+            else:
+                jumps += {"little": 4.0, "ring": 3.0}.get(finger.split(".")[1], 1.5)
+    weighted += 0.5 if rise and fall else 0.0
+    flips = 1.0 if turned and rise | fall else 0.0
+    crosses = any((a.written_pitch >= edge) != (b.written_pitch >= edge) for edge in instrument.breaks)
+    pace = min(max((0.5 - step) / 0.38, 0.0), 1.0)
+    awkward = 0.8 * rolls + 0.9 * flips + (0.25 * max(moved - 3, 0) if crosses else 0.0)
+    return weighted * hurry + awkward * pace + jumps * max(1.0 - gap / 0.12, 0.0)
+
+
+def naive_cost(notes: tuple[PlainNote, ...], choice: list[Fingering], instrument: InstrumentMap) -> float:
+    """The documented costs, note by note, with plain floats: the slow and obvious second implementation."""
+    seconds = PlainClock().seconds
+    onset = [seconds(note.onset_tick) for note in notes]
+    end = [seconds(note.onset_tick + note.duration_tick) for note in notes]
+    slides = [control for control in instrument.controls if control.role == "pitch" and control.kind == "slide"]
+    trill = trill_of(notes, onset)
+    steps = [onset[index + 1] - onset[index] for index in range(len(notes) - 1)]
+    cost = 0.0
+    for index, fingering in enumerate(choice):
+        first = instrument.fingerings_for(notes[index].pitch)[0]
+        sides = [side for side in (index - 1, index) if 0 <= side < len(steps)]
+        in_trill, fast = any(trill[side] for side in sides), any(steps[side] <= 0.15 for side in sides)
+        cost += choice_cost(fingering, first, end[index] - onset[index], in_trill, fast)
     hurried, moved_by = [], []
-    for index in range(len(notes) - 1):
+    for index, step in enumerate(steps):
         a, b = choice[index], choice[index + 1]
-        step, gap = onset[index + 1] - onset[index], max(onset[index + 1] - end[index], 0.0)
-        fingers, ups, downs, slide_cost = 0.0, False, False, 0.0
-        share, change = 0.0, 0.0
-        for control in pitch_controls:
-            delta = b.controls.get(control.name, 0.0) - a.controls.get(control.name, 0.0)
-            if control.kind == "slide":
-                distance = abs(delta) * (control.motion.travel_m or 0.0)
-                share = distance / 2.5 / (gap + 0.5 * (end[index] - onset[index]))
-                smear = 1.0 if gap > 0.0 else 1.25
-                slide_cost += smear * 3.0 * min(max(share - 0.7, 0.0), 0.3)
-                slide_cost += 8.0 + 10.0 * (share - 1.0) if share > 1.0 else 0.0
-                change = delta
-            elif abs(delta) > 0.5:
-                fingers += 0.5 if control.kind == "lever" else 1.0
-                ups |= control.kind == "press" and delta < 0
-                downs |= control.kind == "press" and delta > 0
-        fingers += 0.5 if ups and downs else 0.0
+        gap = max(onset[index + 1] - end[index], 0.0)
         hurry = max(0.085 / step - 1.0, 0.0)
         if trill[index]:
             hurry = max(hurry, 3.0 * max(0.15 / step - 1.0, 0.0))
-        cost += fingers * hurry + slide_cost * (3.0 if trill[index] else 1.0)
+        share, change, slide_cost = 0.0, 0.0, 0.0
+        for control in slides:
+            delta = b.controls.get(control.name, 0.0) - a.controls.get(control.name, 0.0)
+            distance = abs(delta) * (control.motion.travel_m or 0.0)
+            share = distance / 2.5 / (gap + 0.5 * (end[index] - onset[index]))
+            smear = 1.0 if gap > 0.0 else 1.25
+            slide_cost += smear * 3.0 * min(max(share - 0.7, 0.0), 0.3)
+            slide_cost += 8.0 + 10.0 * (share - 1.0) if share > 1.0 else 0.0
+            change = delta
+        cost += slide_cost * (3.0 if trill[index] else 1.0)
+        jumps = fingers_cost(a, b, instrument, 9.0, gap, 0.0)
+        cost += fingers_cost(a, b, instrument, step, gap, hurry) + jumps * (2.0 if trill[index] else 0.0)
         hurried.append(max(share - 0.7, 0.0))
         moved_by.append(change)
     for index in range(len(notes) - 2):
@@ -111,7 +174,7 @@ def test_no_phrase_travels_further_or_faster_than_the_first_choices(name: str, d
     times = line_times(Line("p", notes, instrument), PlainClock())
     events, _ = plan_fingerings(notes, times, instrument, {})
     slides = [control for control in instrument.controls if control.role == "pitch" and control.kind == "slide"]
-    presses = [control for control in instrument.controls if control.role == "pitch" and control.kind == "press"]
+    kinds = {control.kind for control in instrument.controls if control.role == "pitch"}
     planned = [event.controls for event in events]
     first = [instrument.fingerings_for(note.pitch)[0].controls for note in notes]
 
@@ -124,8 +187,9 @@ def test_no_phrase_travels_further_or_faster_than_the_first_choices(name: str, d
                 free_s = times.onset_s[index + 1] - times.onset_s[index] - 0.5 * times.duration_s[index]
                 metres += distance
                 fastest = max(fastest, distance / free_s)
-            for control in presses:
-                moves += controls[index].get(control.name, 0.0) != controls[index + 1].get(control.name, 0.0)
+            for control in instrument.controls if kinds == {"press"} else ():
+                if control.role == "pitch":
+                    moves += controls[index].get(control.name, 0.0) != controls[index + 1].get(control.name, 0.0)
         return metres, moves, fastest
 
     silences = [float(times.onset_s[index + 1] - times.played_end_s[index]) for index in range(len(notes) - 1)]

@@ -1,0 +1,129 @@
+"""What each finger does on the way from one fingering to another: lifts, presses, rolls, goes from key to key.
+
+A finger is where the controls are that it holds; those that two pitches' fingerings ask for are compared all at once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+import numpy.typing as npt
+
+from app.plan.line import IntArray
+from app.plan.model import FloatArray
+from instrument_maps.model import Control, Fingering
+
+_DOWN = 0.5
+"""A control is held beyond this part of its way; short of it, a hole is half closed."""
+
+LEVER_COST = 0.5
+"""A lever under a thumb of its own moves beside the others."""
+CONTRARY_COST = 0.5
+"""One finger going up while another goes down is harder than both going one way."""
+KEY_TO_KEY_COST = {"little": 4.0, "ring": 3.0}
+KEY_TO_KEY_USUAL_COST = 1.5
+"""A finger that goes from one key to another without being free between smears the notes; most of all the little
+finger, which is why its keys are there twice."""
+
+
+class FingeringTable(Protocol):
+    """Fingerings by pitch, padded to the same number."""
+
+    @property
+    def choices(self) -> tuple[tuple[Fingering, ...], ...]: ...
+
+    @property
+    def valid(self) -> npt.NDArray[np.bool_]: ...
+
+
+@dataclass(frozen=True)
+class Ways:
+    """What fingers do between two pitches, for all their fingerings; each (U, K, K) float64.
+
+    Attributes
+    ----------
+    moves : fingers that move at all
+    weighted : the same, levers and contrary motion weighted
+    key_to_key : cost of the fingers that go from one key to another without being free
+    rolls : fingers that roll onto a further key, or off it
+    together : 1 where a lever is turned while other fingers move
+    """
+
+    moves: FloatArray
+    weighted: FloatArray
+    key_to_key: FloatArray
+    rolls: FloatArray
+    together: FloatArray
+
+
+@dataclass(frozen=True)
+class Finger:
+    """What one finger holds in every fingering, as bits of controls: (P, K) int64 each."""
+
+    name: str
+    holds: IntArray
+    half: IntArray
+    levers: int
+    """Bits of the levers, and of all that is not moved by fingers alone."""
+
+
+@dataclass(frozen=True)
+class FingerPlaces:
+    """Where every finger is in every fingering of a table."""
+
+    fingers: tuple[Finger, ...]
+    shape: tuple[int, int]
+
+    def between(self, before: IntArray, after: IntArray) -> Ways:
+        """Count what it takes from each fingering of the pitches ``before`` to each of those ``after``, (U,) both."""
+        shape = (len(before), self.shape[1], self.shape[1])
+        moves, weighted, key_to_key, rolls = (np.zeros(shape) for _ in range(4))
+        others, flips = np.zeros(shape), np.zeros(shape, dtype=bool)
+        up, down = np.zeros(shape, dtype=bool), np.zeros(shape, dtype=bool)
+        for finger in self.fingers:
+            a, b = finger.holds[before][:, :, None], finger.holds[after][:, None, :]
+            half_a, half_b = finger.half[before][:, :, None], finger.half[after][:, None, :]
+            moved = (a != b) | (half_a != half_b)
+            if not moved.any():
+                continue
+            lever = moved & (((a ^ b) & finger.levers) != 0)
+            whole_a, whole_b = a | half_a, b | half_b
+            busy = moved & (whole_a != 0) & (whole_b != 0)
+            apart = busy & ((whole_a & whole_b) == 0)
+            moves += moved
+            weighted += np.where(lever, LEVER_COST, 1.0) * moved
+            key_to_key += apart * KEY_TO_KEY_COST.get(finger.name.split(".")[1], KEY_TO_KEY_USUAL_COST)
+            rolls += busy & ~apart
+            flips |= lever
+            others += moved & ~lever
+            up |= moved & ~lever & ((whole_a & ~whole_b) != 0)
+            down |= moved & ~lever & ((whole_b & ~whole_a) != 0)
+        weighted += CONTRARY_COST * (up & down)
+        return Ways(moves, weighted, key_to_key, rolls, (flips & (others > 0.0)).astype(np.float64))
+
+
+def finger_ways(table: FingeringTable, controls: Sequence[Control]) -> FingerPlaces:
+    """Work out where the fingers are; slides are no fingers' matter."""
+    shape = (table.valid.shape[0], table.valid.shape[1])
+    names = sorted(
+        {control.finger for control in controls}
+        | {finger for ranked in table.choices for fingering in ranked for finger in fingering.fingers.values()}
+    )
+    bits = {control.name: 1 << place for place, control in enumerate(controls)}
+    holds = {name: np.zeros(shape, dtype=np.int64) for name in names}
+    half = {name: np.zeros(shape, dtype=np.int64) for name in names}
+    for row, ranked in enumerate(table.choices):
+        for column, fingering in enumerate(ranked):
+            for control in controls:
+                value = fingering.controls.get(control.name, control.rest_value)
+                if control.kind == "slide" or value <= 0.0:
+                    continue
+                finger = fingering.fingers.get(control.name, control.finger)
+                chosen = holds if value > _DOWN else half
+                chosen[finger][row, column] |= bits[control.name]
+    levers = sum(bits[control.name] for control in controls if control.kind == "lever")
+    found = (Finger(name, holds[name], half[name], levers) for name in names)
+    return FingerPlaces(tuple(finger for finger in found if finger.holds.any() or finger.half.any()), shape)
