@@ -31,8 +31,9 @@ import numpy as np
 from app.errors import Argument, Message
 from app.plan.corrections import BY_HAND, Correction, SetBreath, removed_ids, without_removed
 from app.plan.line import IntArray, LineTimes, Piece, Seeds
-from app.plan.lungs import EPSILON, air_used_s, catch_lengths_s, catch_places, drawn, levels
+from app.plan.lungs import EPSILON, air_used_s, catch_lengths_s, catch_places, drawn, levels, lungful_s
 from app.plan.model import BreathEvent, FloatArray, Note, PlayerParameters, Problem, TimeFrame
+from instrument_maps.model import Air
 
 LEAST_DEPTH = 0.3
 NOBODY = Seeds()
@@ -67,11 +68,14 @@ def plan_breaths(
     corrections: tuple[Correction, ...] = (),
     taken: frozenset[str] = frozenset(),
     seeds: Seeds = NOBODY,
+    air: Air | None = None,
 ) -> BreathPlan:
     """Place every breath of a line.
 
     Parameters
     ----------
+    air : Air or None
+        How long a lungful lasts on the instrument, as its map says.
     taken : frozenset of str
         Notes before which other players of the same part take catch breaths.
     seeds : Seeds
@@ -91,14 +95,12 @@ def plan_breaths(
     for event in [*kept, *by_hand]:
         if event.kind == "breath":
             refill[index_of[_note_id(event)]] = max(0.0, drawn(event.end_s - event.start_s) * _full(event))
-    level = levels(air_used_s(times), parameters.lung_s, refill)
-    catches = catch_places(notes, times, piece, parameters, refill, level, removed | hand_ids, taken, seeds)
+    used, lung_s = air_used_s(times, air), lungful_s(parameters, air)
+    level = levels(used, lung_s, refill)
+    catches = catch_places(notes, times, used, piece, lung_s, refill, level, removed | hand_ids, taken, seeds)
     length_s = catch_lengths_s(times)
     breaths = np.flatnonzero(refill > 0.0)
-    caught = [
-        _catch(notes, times, piece, level * parameters.lung_s, breaths, float(length_s[index]), index)
-        for index in catches
-    ]
+    caught = [_catch(notes, times, piece, level * lung_s, breaths, float(length_s[index]), index) for index in catches]
     for event, index in zip(caught, catches, strict=True):
         refill[index] = drawn(event.end_s - event.start_s)
     events = tuple(sorted([*kept, *by_hand, *caught], key=lambda event: (event.start_s, event.end_s)))
@@ -112,8 +114,8 @@ def plan_breaths(
                 message = Message("breath.inside_note", {"note": notes[index - 1].id})
                 problems.append(Problem(message, notes[index - 1].id, event.start_s, event.end_s))
     return BreathPlan(
-        events=_with_depths(events, times, parameters, refill, index_of),
-        problems=(*problems, *_too_long(notes, times, parameters, refill)),
+        events=_with_depths(events, used, lung_s, refill, index_of),
+        problems=(*problems, *_too_long(notes, times, used, lung_s, refill)),
         generated_ids=frozenset(event.id for event in (*generated, *caught)),
         early_end_s=early_end_s,
         catch_notes=frozenset(notes[index].id for index in catches),
@@ -237,20 +239,19 @@ def _note_id(event: BreathEvent) -> str:
 
 def _with_depths(
     events: tuple[BreathEvent, ...],
-    times: LineTimes,
-    parameters: PlayerParameters,
+    used: FloatArray,
+    lung_s: float,
     refill: FloatArray,
     index_of: dict[str, int],
 ) -> tuple[BreathEvent, ...]:
     """Depths by what the phrase to come needs, within what the time allows. Those set by hand stay."""
-    used = air_used_s(times)
     breaths = np.append(np.flatnonzero(refill > 0.0), len(refill))
     result = []
     for event in events:
         if not event.corrected:
             index = index_of[_note_id(event)]
             until = int(breaths[np.searchsorted(breaths, index, side="right")])
-            need = (used[until] - used[index]) / parameters.lung_s
+            need = (used[until] - used[index]) / lung_s
             most = 1.0 if event.kind == "preparation" else drawn(event.end_s - event.start_s)
             depth = min(max(LEAST_DEPTH + (1.0 - LEAST_DEPTH) * need, LEAST_DEPTH), max(most, LEAST_DEPTH), 1.0)
             event = msgspec.structs.replace(event, depth=round(float(depth), 4))
@@ -259,22 +260,21 @@ def _with_depths(
 
 
 def _too_long(
-    notes: tuple[Note, ...], times: LineTimes, parameters: PlayerParameters, refill: FloatArray
+    notes: tuple[Note, ...], times: LineTimes, used: FloatArray, lung_s: float, refill: FloatArray
 ) -> list[Problem]:
-    used = air_used_s(times)
-    level = levels(used, parameters.lung_s, refill)
+    level = levels(used, lung_s, refill)
     starts: IntArray = np.unique(np.concatenate(([0], np.flatnonzero(refill > 0.0))))
     ends = np.append(starts[1:], len(notes))
     problems = []
     for start, end in zip(starts.tolist(), ends.tolist(), strict=True):
         air_s = float(used[end] - used[start])
-        if air_s > level[start] * parameters.lung_s + EPSILON:
+        if air_s > level[start] * lung_s + EPSILON:
             start_s, end_s = float(times.onset_s[start]), float(times.played_end_s[end - 1])
             arguments = {
                 "note": notes[start].id,
                 "phrase_s": round(end_s - start_s, 2),
                 "air_s": round(air_s, 2),
-                "lung_s": round(float(level[start]) * parameters.lung_s, 2),
+                "lung_s": round(float(level[start]) * lung_s, 2),
             }
             problems.append(Problem(Message("breath.too_long", arguments), notes[start].id, start_s, end_s))
     return problems

@@ -238,9 +238,10 @@ def _plan_line(given: _Given, memo: Memo) -> tuple[PlayerPlan, frozenset[tuple[i
     taken = frozenset(note.id for note in notes if (note.onset_tick, note.pitch) in given.taken)
     breaths = memo.step(
         "breaths",
-        lambda: plan_breaths(notes, times, piece, parameters, frame, corrections, taken, seeds),
+        lambda: plan_breaths(notes, times, piece, parameters, frame, corrections, taken, seeds, instrument.air),
         *sound,
         piece,
+        instrument.air,
         tuple(getattr(parameters, name) for name in BREATH_PARAMETERS),
         frame,
         of(SetBreath, RemoveEvent, SetCue),

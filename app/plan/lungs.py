@@ -8,6 +8,7 @@ import numpy as np
 
 from app.plan.line import MEZZOFORTE, IntArray, LineTimes, Piece, Seeds
 from app.plan.model import FloatArray, Note, PlayerParameters
+from instrument_maps.model import Air
 
 FULL_BREATH_S = 0.5
 """Time a trained player needs to fill the lungs."""
@@ -19,7 +20,11 @@ CATCH_NOTE_SHARE = 0.4
 CATCH_MOST_SHARE = 0.5
 """... unless that would be no gasp: out of a short note as much as a gasp needs, at most this part."""
 LOUDNESS_RANGE = (0.6, 1.6)
-"""Air used by the softest and the loudest note, mezzoforte being 1."""
+"""Air used by the softest and the loudest note, mezzoforte being 1, on an instrument whose map says nothing else."""
+USUAL_LUNG_S = 9.0
+"""The lungs of `PlayerParameters.lung_s` as they are unless set: what a map's `Air` is about."""
+PIANO, FORTE = 0.39, 0.77
+"""Loudness of the dynamics a map's `Air` names: velocities 49 and 98 of 127."""
 
 # How good a place for a catch breath is (added up; the cost of a place is PLACE_COST minus this).
 PLACE_COST = 6.0
@@ -47,11 +52,20 @@ EPSILON = 1e-6
 """Rounding of air summed over an hour of notes, seconds."""
 
 
-def air_used_s(times: LineTimes) -> FloatArray:
+def air_used_s(times: LineTimes, air: Air | None = None) -> FloatArray:
     """(N + 1,): air taken by all notes before each, and by all, in seconds of playing at mezzoforte."""
-    low, high = LOUDNESS_RANGE
-    rate = np.interp(times.loudness, [0.0, MEZZOFORTE, 1.0], [low, 1.0, high])
+    if air is None:
+        low, high = LOUDNESS_RANGE
+        rate = np.interp(times.loudness, [0.0, MEZZOFORTE, 1.0], [low, 1.0, high])
+    else:
+        rates = [air.mezzoforte_s / lasts_s for lasts_s in (air.piano_s, air.mezzoforte_s, air.forte_s)]
+        rate = np.interp(times.loudness, [PIANO, MEZZOFORTE, FORTE], rates)
     return np.concatenate(([0.0], np.cumsum(times.duration_s * rate)))
+
+
+def lungful_s(parameters: PlayerParameters, air: Air | None = None) -> float:
+    """How long a player's full breath lasts at mezzoforte: what the map says, on lungs of the player's size."""
+    return parameters.lung_s * (1.0 if air is None else air.mezzoforte_s / USUAL_LUNG_S)
 
 
 def levels(used: FloatArray, lung_s: float, refill: FloatArray) -> FloatArray:
@@ -74,8 +88,9 @@ def drawn(length_s: float) -> float:
 def catch_places(
     notes: tuple[Note, ...],
     times: LineTimes,
+    used: FloatArray,
     piece: Piece,
-    parameters: PlayerParameters,
+    lung_s: float,
     refill: FloatArray,
     level: FloatArray,
     removed: frozenset[str],
@@ -90,13 +105,15 @@ def catch_places(
 
     Parameters
     ----------
+    used : (N + 1,) float
+        `air_used_s`.
+    lung_s : float
+        `lungful_s`.
     refill : (N,) float
         Part of the lungs that the breath before each note fills; 0 where there is none.
     level : (N,) float
         How full the lungs are at each note.
     """
-    used = air_used_s(times)
-    lung_s = parameters.lung_s
     length_s = catch_lengths_s(times)
     open_ = (length_s >= CATCH_MIN_S - EPSILON) & (refill == 0.0)
     open_[0] = False

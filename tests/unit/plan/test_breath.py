@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import itertools
 
+import msgspec
 import pytest
 
 from app.plan.generate import Line, Piece, make_plans, time_frame
 from app.plan.lungs import CATCH_MAX_S, CATCH_MIN_S, CATCH_NOTE_SHARE
 from app.plan.model import BreathEvent, PlayerParameters, PlayerPlan
+from instrument_maps.model import Air
 from tests.support.plan import PlainClock, PlainMetre, PlainNote, even, line_of, valves
 
 Q = 480
@@ -196,6 +198,32 @@ def test_loud_playing_needs_more_breaths_and_big_lungs_fewer() -> None:
         return len(plan(notes_, **parameters).breaths)  # type: ignore[arg-type]
 
     assert count(loud) > count(notes) > count(notes, lung_s=14.0)
+
+
+def test_an_instrument_that_takes_little_air_is_breathed_for_seldom() -> None:
+    notes = even([65 + index % 3 for index in range(120)], Q)
+
+    def breaths(notes_: tuple[PlainNote, ...], air: Air | None, **parameters: float) -> list[BreathEvent]:
+        instrument = msgspec.structs.replace(valves(), air=air)
+        line, clock = Line("p", notes_, instrument, PlayerParameters(**parameters)), PlainClock()
+        made = make_plans(Piece(clock, METRE), (line,), time_frame((line,), clock))["p"]
+        return [event for event in made.breaths if event.kind == "breath"]
+
+    oboe, flute, tuba = Air(40.0, 32.0, 25.0), Air(14.0, 9.0, 6.0), Air(10.0, 6.5, 4.0)
+    counts = [len(breaths(notes, air)) for air in (oboe, flute, tuba)]
+    assert counts == sorted(counts)
+    assert len(set(counts)) == 3
+    # 60 s: 32 on the first breath, 12.8 on each of 0.2 s out of a quarter (a full one takes 0.5 s).
+    assert counts[0] == 4
+    assert breaths(notes, Air(9.0, 9.0, 9.0)) == breaths(notes, None)
+    # What a map says is about usual lungs; larger ones last longer in proportion.
+    assert len(breaths(notes, tuba, lung_s=18.0)) == len(breaths(notes, Air(20.0, 13.0, 8.0)))
+    soft = tuple(PlainNote(n.id, n.onset_tick, n.duration_tick, n.pitch, 40 + i % 2) for i, n in enumerate(notes))
+    assert len(breaths(soft, flute)) < len(breaths(notes, flute))
+    (message,) = {
+        event.reason.arguments["lung_s"] for event in breaths(notes, oboe) if event.reason.id == "breath.catch"
+    }
+    assert message == 32.0
 
 
 def test_players_of_one_part_breathe_in_different_places() -> None:
