@@ -148,7 +148,7 @@ def open_project(arguments: argparse.Namespace) -> Project:
     settings = parse_settings(
         arguments.settings, [player.name for player in project.players], maps, tuple(characters())
     )
-    return with_settings(project, settings)
+    return with_settings(project, settings, maps)
 
 
 def _saved_project(arguments: argparse.Namespace) -> Project:

@@ -193,7 +193,7 @@ def _player_report(request: Request, player: Player, files: dict[str, str], meas
         part=request.performance.project.part(player).name,
         instrument=player.instrument_id,
         character=player.character_id,
-        posture=player.parameters.posture,
+        posture=request.performance.instrument(player).hold.possible(player.parameters.posture),
         files=files,
         stage=StagePlace(round(place.x_m, 4), round(place.z_m, 4), round(math.degrees(place.turn_rad), 3)),
         notes=sum(span.shows_onset(note.start_s) for note in plan.fingerings),

@@ -8,6 +8,7 @@ TEMPLATES: Final[dict[str, str]] = {
     "set.syntax": "--set {text}: expected PLAYER.parameter=value",
     "set.player_unknown": "--set: there is no player {player!r}; there are: {possible}",
     "set.parameter_unknown": "--set: there is no parameter {parameter!r}; there are: {possible}",
+    "set.posture_impossible": "--set: {player} plays {instrument}, which is not played {value}; possible: {possible}",
     "set.value_invalid": "--set: {parameter} cannot be {value!r}; possible: {possible}",
     "player.unknown": "there is no player {player!r}; there are: {possible}",
     "bars.none": "there are no bars {first} to {last}; the piece has {lowest} to {highest}",

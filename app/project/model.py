@@ -10,6 +10,7 @@ from functools import cached_property
 import msgspec
 import numpy as np
 
+from app.errors import UsageError
 from app.plan.corrections import Correction
 from app.plan.generate import PREROLL_BEATS
 from app.plan.model import PlayerParameters
@@ -167,7 +168,11 @@ def project_from_score(
             part_id=part.id,
             instrument_id=instrument.id,
             character_id=character,
-            parameters=PlayerParameters(amplitude=amplitude(seed, part.id), seed=player_seed(seed, part.id)),
+            parameters=PlayerParameters(
+                amplitude=amplitude(seed, part.id),
+                seed=player_seed(seed, part.id),
+                posture=instrument.hold.possible("standing"),
+            ),
             stage=place,
         )
         for part, name, instrument, character, place in zip(parts, names, instruments, cast, places, strict=True)
@@ -196,9 +201,16 @@ def map_choices(maps: Iterable[InstrumentMap]) -> tuple[MapChoice, ...]:
     )
 
 
-def with_settings(project: Project, settings: Sequence[Setting]) -> Project:
+def with_settings(project: Project, settings: Sequence[Setting], maps: Mapping[str, InstrumentMap]) -> Project:
     """The project with what a person set for its players; ``None`` as instrument or character keeps the automatic
-    choice."""
+    choice.
+
+    Raises
+    ------
+    UsageError
+        ``set.posture_impossible`` (player, instrument, value, possible): an instrument is not played standing, or not
+        seated.
+    """
     players = list(project.players)
     for index in range(len(players)):
         own = [setting for setting in settings if setting.player == index]
@@ -209,8 +221,22 @@ def with_settings(project: Project, settings: Sequence[Setting]) -> Project:
             player = msgspec.structs.replace(player, instrument_id=instrument)
         if isinstance(character, str):
             player = msgspec.structs.replace(player, character_id=character)
+        if "posture" in chosen and player.instrument_id in maps:
+            _require_posture(player, maps[player.instrument_id])
         players[index] = player
     return replace(project, players=tuple(players))
+
+
+def _require_posture(player: Player, instrument: InstrumentMap) -> None:
+    possible = instrument.hold.postures
+    if player.parameters.posture not in possible:
+        raise UsageError(
+            "set.posture_impossible",
+            player=player.name,
+            instrument=instrument.id,
+            value=player.parameters.posture,
+            possible=", ".join(possible),
+        )
 
 
 def characters_for(instruments: Sequence[InstrumentMap]) -> tuple[str, ...]:

@@ -461,7 +461,7 @@ def _with_new_players(project: Project, parts: Sequence[Part], maps: Mapping[str
                 part_id=part.id,
                 instrument_id=part.map_id,
                 character_id=characters_for(playing)[-1],
-                parameters=cast_parameters(project, player_id),
+                parameters=cast_parameters(project, player_id, playing[-1]),
                 stage=StagePosition(0.0, 0.0, 0.0),
             )
         )

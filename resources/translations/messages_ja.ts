@@ -868,6 +868,10 @@
             <translation>--set: パラメーター {parameter!r} はありません。指定できるもの: {possible}</translation>
         </message>
         <message>
+            <source>--set: {player} plays {instrument}, which is not played {value}; possible: {possible}</source>
+            <translation>--set: {player} の楽器 {instrument} は {value} では演奏しません。指定できるもの: {possible}</translation>
+        </message>
+        <message>
             <source>--set: {parameter} cannot be {value!r}; possible: {possible}</source>
             <translation>--set: {parameter} に {value!r} は指定できません。指定できる値: {possible}</translation>
         </message>

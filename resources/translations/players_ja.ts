@@ -48,8 +48,16 @@
         <translation>立奏</translation>
     </message>
     <message>
+        <source>Played seated only: {players}</source>
+        <translation>座奏のみの楽器です: {players}</translation>
+    </message>
+    <message>
         <source>Seated</source>
         <translation>座奏</translation>
+    </message>
+    <message>
+        <source>Played standing only: {players}</source>
+        <translation>立奏のみの楽器です: {players}</translation>
     </message>
     <message>
         <source>Automatic</source>

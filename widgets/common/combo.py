@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from PySide6.QtCore import QSize, Qt, Signal
-from PySide6.QtGui import QIcon, QWheelEvent
+from PySide6.QtGui import QIcon, QStandardItemModel, QWheelEvent
 from PySide6.QtWidgets import QComboBox, QSizePolicy, QWidget
 
 from widgets.common.numbers import MIXED
@@ -15,11 +15,12 @@ from widgets.common.tokens import LEAST_TARGET_PX
 
 @dataclass(frozen=True)
 class Option:
-    """Something to choose: what it is, its text, perhaps a picture."""
+    """Something to choose: what it is, its text, perhaps a picture; with a reason why not, it cannot be chosen."""
 
     id: str
     text: str
     icon: QIcon | None = None
+    reason: str = ""
 
 
 class Combo(QComboBox):
@@ -58,8 +59,16 @@ class Combo(QComboBox):
                 self.addItem(option.icon, option.text, option.id)
             else:
                 self.addItem(option.text, option.id)
+            if option.reason:
+                self._bar(self.count() - 1, option.reason)
         self.blockSignals(False)
         self.show_option(shown)
+
+    def _bar(self, index: int, reason: str) -> None:
+        model = self.model()
+        if isinstance(model, QStandardItemModel):
+            model.item(index).setEnabled(False)
+        self.setItemData(index, reason, Qt.ItemDataRole.ToolTipRole)
 
     @property
     def shown(self) -> str | None:

@@ -173,14 +173,27 @@ class ParameterSections(QWidget):
         self._part.show_option(_common(players, lambda player: player.part_id))
         self._instrument.show_option(_common(players, lambda player: player.instrument_id))
         self._character.show_option(_common(players, lambda player: player.character_id))
-        self._posture.show_option(_common(players, lambda player: player.parameters.posture))
+        self._show_postures(players)
         self._leader.show_option(_common(players, lambda player: _leader_id(player.parameters.cue_leader)))
         self._colour.show_colours(tuple(dict.fromkeys(self._session.colour(player) for player in players)))
-        casts = [edit.cast_parameters(project, player.id) for player in players]
+        casts = [edit.cast_parameters(project, player.id, edit.instrument_of(player)) for player in players]
         for name, slider in self._sliders.items():
             values = [float(getattr(player.parameters, name)) for player in players]
             defaults = [float(getattr(cast, name)) for cast in casts]
             slider.show_value(values[0], mixed=len(set(values)) > 1, default=defaults[0], by_hand=values != defaults)
+
+    def _show_postures(self, players: list[Player]) -> None:
+        """Offer what all instruments are played in, and say of the others why not."""
+        options = []
+        for id, text, reason in (
+            ("standing", self.tr("Standing"), self.tr("Played seated only: {players}")),
+            ("seated", self.tr("Seated"), self.tr("Played standing only: {players}")),
+        ):
+            barred = [player.name for player in players if id not in edit.postures_of(player)]
+            options.append(Option(id, text, reason=reason.format(players=", ".join(barred)) if barred else ""))
+        self._posture.set_options(options)
+        self._posture.setToolTip("\n".join(option.reason for option in options if option.reason))
+        self._posture.show_option(_common(players, edit.posture_of))
 
     # Editing
 
@@ -259,7 +272,6 @@ class ParameterSections(QWidget):
             self._labels[name].setText(text)
         self._instrument.set_options([Option(map.id, instrument_name(map)) for map in bundled_maps().values()])
         self._show_characters()
-        self._posture.set_options([Option("standing", self.tr("Standing")), Option("seated", self.tr("Seated"))])
         self._leader.set_options(
             [
                 Option("auto", self.tr("Automatic")),

@@ -15,7 +15,7 @@ from typing import Final
 
 import msgspec
 
-from app.errors import AppError
+from app.errors import AppError, MapError
 from app.plan.model import PlayerParameters
 from app.project import limits
 from app.project.anchors import moved
@@ -25,7 +25,8 @@ from app.project.model import Player, Project, characters_for
 from app.project.names import clean_name
 from app.project.parameters import Value, bounds
 from app.score.model import Part
-from instrument_maps.model import InstrumentMap
+from instrument_maps.load import find_map
+from instrument_maps.model import InstrumentMap, Posture
 
 SPREADS: Final[Mapping[str, float]] = {
     "amplitude": 0.5,
@@ -38,9 +39,33 @@ SPREADS: Final[Mapping[str, float]] = {
 """What `randomise` varies, and how far from the ensemble's middle at a spread of 1."""
 
 
-def cast_parameters(project: Project, player_id: str) -> PlayerParameters:
-    """The parameters a player has before anybody changes them."""
-    return PlayerParameters(amplitude=amplitude(project.seed, player_id), seed=player_seed(project.seed, player_id))
+def cast_parameters(project: Project, player_id: str, instrument: InstrumentMap | None = None) -> PlayerParameters:
+    """The parameters a player has before anybody changes them; with an instrument, in a posture it is played in."""
+    return PlayerParameters(
+        amplitude=amplitude(project.seed, player_id),
+        seed=player_seed(project.seed, player_id),
+        posture="standing" if instrument is None else instrument.hold.possible("standing"),
+    )
+
+
+def instrument_of(player: Player) -> InstrumentMap | None:
+    """The map of what a player plays; None where there is none that can be read."""
+    try:
+        return find_map(player.instrument_id)
+    except MapError:
+        return None
+
+
+def postures_of(player: Player) -> tuple[Posture, ...]:
+    """In what a player's instrument is played; both where it has no map."""
+    instrument = instrument_of(player)
+    return ("standing", "seated") if instrument is None else instrument.hold.postures
+
+
+def posture_of(player: Player) -> Posture:
+    """How a player is seen: as set, or in the only posture the instrument is played in."""
+    instrument = instrument_of(player)
+    return player.parameters.posture if instrument is None else instrument.hold.possible(player.parameters.posture)
 
 
 def change(project: Project, player_ids: Collection[str], **fields: object) -> Project:
@@ -82,7 +107,7 @@ def reset_parameters(project: Project, player_ids: Collection[str], names: Colle
     result = []
     for player in project.players:
         if player.id in player_ids:
-            cast = cast_parameters(project, player.id)
+            cast = cast_parameters(project, player.id, instrument_of(player))
             wanted = cast.__struct_fields__ if names is None else names
             values = {name: getattr(cast, name) for name in wanted}
             player = msgspec.structs.replace(player, parameters=msgspec.structs.replace(player.parameters, **values))
@@ -182,7 +207,7 @@ def add_player(
         part_id=part_id,
         instrument_id=instrument.id,
         character_id=characters_for([*playing, instrument])[-1],
-        parameters=cast_parameters(project, player_id),
+        parameters=cast_parameters(project, player_id, instrument),
         stage=StagePosition(0.0, 0.0, 0.0),
     )
     score = msgspec.structs.replace(project.score, parts=(*parts, part))

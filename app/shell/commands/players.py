@@ -81,9 +81,10 @@ def _step(session: Session, by: int) -> None:
 
 
 def toggle_posture(session: Session) -> None:
-    """Let the selected players sit down; stand up where all sit."""
-    chosen = session.players
-    seated = all(player.parameters.posture == "seated" for player in _chosen(session))
+    """Let the selected players sit down, those whose instruments are played so; stand up where all of them sit."""
+    free = [player for player in _chosen(session) if len(edit.postures_of(player)) > 1]
+    chosen = tuple(player.id for player in free)
+    seated = all(player.parameters.posture == "seated" for player in free)
     session.attempt(
         _count("edit.parameter_posture", len(chosen)),
         lambda project: edit.set_parameters(project, chosen, posture="standing" if seated else "seated"),
@@ -121,6 +122,10 @@ def reset(session: Session) -> None:
 
 def _has_players(session: Session) -> bool:
     return bool(session.players)
+
+
+def _may_sit_or_stand(session: Session) -> bool:
+    return any(len(edit.postures_of(player)) > 1 for player in _chosen(session))
 
 
 def _has_several(session: Session) -> bool:
@@ -212,7 +217,7 @@ ACTIONS: tuple[Action, ...] = (
         QT_TRANSLATE_NOOP("Action", "Sit down or stand up"),
         toggle_posture,
         "Edit/Players",
-        enabled=_has_players,
+        enabled=_may_sit_or_stand,
         icon="seated",
     ),
     Action(

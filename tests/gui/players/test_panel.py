@@ -6,14 +6,19 @@ import math
 from dataclasses import replace
 
 import pytest
+from msgspec.structs import replace as replace_struct
 from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QComboBox, QLineEdit, QMenu, QPushButton, QToolButton, QWidget
 from pytestqt.qtbot import QtBot
 
 from app.project.casting import stage_arc
+from app.project.edit import players as players_edit
 from app.project.edit.players import cast_parameters, duplicate_players
 from app.project.model import Player
+from app.shell.commands.players import toggle_posture
+from instrument_maps.load import find_map
+from widgets.common.combo import Combo
 from widgets.common.number_slider import NumberSlider
 from widgets.common.session import Session
 from widgets.players.panel import PlayersPanel
@@ -243,6 +248,38 @@ def test_every_choice_is_made_by_keys(panel: PlayersPanel, session: Session, nam
         QTest.keyClick(combo, Qt.Key.Key_Up)
     assert read(front(session)) != before
     assert len(session.document.done) == 1
+
+
+def test_a_posture_in_which_an_instrument_is_not_played_cannot_be_chosen(
+    panel: PlayersPanel, session: Session, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    seated = ids(session)[0]
+    instrument = find_map(front(session).instrument_id)
+    only = replace_struct(instrument, hold=replace_struct(instrument.hold, standing=None, lowered_standing=None))
+    monkeypatch.setattr(players_edit, "instrument_of", lambda player: only if player.id == seated else instrument)
+    session.set_players((ids(session)[1],))
+    session.set_players((seated,))
+    combo = child(panel, QComboBox, "player_posture")
+    assert isinstance(combo, Combo)
+    # As the player is seen, whatever the project says; the reason names the player.
+    assert combo.shown == "seated"
+    assert front(session).name in combo.toolTip()
+    combo.setFocus()
+    QTest.keyClick(combo, Qt.Key.Key_Up)
+    assert combo.shown == "seated"
+    assert session.document.done == ()
+    # With the others, who may stand, only those sit down and stand up.
+    session.set_players(tuple(ids(session)))
+    before = session.project
+    toggle_posture(session)
+    assert [player.parameters.posture for player in session.project.players] == [
+        before.players[0].parameters.posture, "seated", "seated", "seated",
+    ]  # fmt: skip
+    session.document.undo()
+    session.set_players((ids(session)[1],))
+    assert combo.toolTip() == ""
+    QTest.keyClick(combo, Qt.Key.Key_Down)
+    assert front(session).parameters.posture == "seated"
 
 
 def test_dice_and_reset(panel: PlayersPanel, session: Session) -> None:

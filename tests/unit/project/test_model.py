@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import msgspec
 import pytest
 
+from app.errors import UsageError
 from app.project.model import Project, map_choices, project_from_score, with_settings
 from app.project.parameters import parse_settings
 from app.rig.character import characters
@@ -51,7 +53,7 @@ def test_the_same_score_is_cast_the_same_way(quartet: Project) -> None:
 def test_settings_touch_only_whom_they_name(quartet: Project) -> None:
     names = [player.name for player in quartet.players]
     texts = ["Bass.amplitude=1", "Bass.instrument=trumpet_Bb", "Bass.character=woman_adult", "Pos..posture=seated"]
-    changed = with_settings(quartet, parse_settings(texts, names, MAPS, characters()))
+    changed = with_settings(quartet, parse_settings(texts, names, MAPS, characters()), MAPS)
     assert changed.players[:2] == quartet.players[:2]
     assert changed.players[2].parameters.posture == "seated"
     assert changed.players[3].instrument_id == TRUMPET
@@ -70,3 +72,21 @@ def test_the_reader_learns_what_the_maps_are_for() -> None:
     assert set(choices) == set(MAPS)
     assert "trumpet" in choices[TRUMPET].plays
     assert choices[TRUMPET].concert_low == MAPS[TRUMPET].range.low
+
+
+def test_an_instrument_that_is_only_played_seated_is(quartet: Project) -> None:
+    hold = msgspec.structs.replace(MAPS[TROMBONE].hold, standing=None, lowered_standing=None)
+    maps = {**MAPS, TROMBONE: msgspec.structs.replace(MAPS[TROMBONE], hold=hold)}
+    cast = project_from_score(quartet.score, maps)
+    assert [player.parameters.posture for player in cast.players] == ["standing", "standing", "seated", "seated"]
+    names = [player.name for player in cast.players]
+    settings = parse_settings(["Bass.posture=standing"], names, maps, characters())
+    with pytest.raises(UsageError) as caught:
+        with_settings(cast, settings, maps)
+    assert caught.value.message.id == "set.posture_impossible"
+    assert caught.value.message.arguments == {
+        "player": "Bass", "instrument": TROMBONE, "value": "standing", "possible": "seated",
+    }  # fmt: skip
+    # On another instrument the same player may stand.
+    settings = parse_settings(["Bass.posture=standing", f"Bass.instrument={TRUMPET}"], names, maps, characters())
+    assert with_settings(cast, settings, maps).players[3].parameters.posture == "standing"
