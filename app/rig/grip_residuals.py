@@ -31,7 +31,7 @@ from app.rig.hand import (
     wrist_from_mesh,
 )
 from app.rig.ik import TWIST_SHARE
-from app.rig.proxy import Bodies, gradient, inside
+from app.rig.proxy import Bodies, Nodes, gradient, inside
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -286,11 +286,10 @@ def inside_proxy(
     proxies: Bodies, node_place: FloatArray, node_turn: FloatArray, skin: FloatArray, radius: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
     """Depth (V,) of balls at (V, 3) below the proxy's surface, 0 outside, and the gradient (V, 3) of the distance."""
-    local = np.einsum("nji,vnj->vni", node_turn, skin[:, None] - node_place)
-    depth, owner = inside(proxies, local, radius)
+    nodes = Nodes(node_place, node_turn)
+    depth, owner = inside(proxies, nodes, skin, radius)
     hit = np.flatnonzero(owner >= 0)
     slope = np.zeros(skin.shape)
     if len(hit):
-        turn = node_turn[proxies.nodes[owner[hit]]]
-        slope[hit] = np.einsum("vij,vj->vi", turn, gradient(proxies, local[hit], owner[hit]))
+        slope[hit] = gradient(proxies, nodes, skin[hit], owner[hit])
     return depth, slope

@@ -9,6 +9,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -108,14 +109,22 @@ def near(all_bodies: Bodies, nodes_m: FloatArray, centre_m: FloatArray, radius_m
     return all_bodies.taken(_capsule(all_bodies.hulls, centre_m - nodes_m[all_bodies.nodes]) < radius_m)
 
 
-def inside(some: Bodies, points_m: FloatArray, radius_m: FloatArray) -> tuple[FloatArray, IntArray]:
+class Nodes(NamedTuple):
+    """Where the nodes of an instrument are in its frame: places (N, 3) and bases (N, 3, 3)."""
+
+    place_m: FloatArray
+    basis: FloatArray
+
+
+def inside(some: Bodies, nodes: Nodes, points_m: FloatArray, radius_m: FloatArray) -> tuple[FloatArray, IntArray]:
     """How deep balls reach into the union.
 
     Parameters
     ----------
     some : Bodies
-    points_m : (P, N, 3) float64
-        The centre of each ball in the frames of all nodes.
+    nodes : Nodes
+    points_m : (P, 3) float64
+        The centre of each ball in the instrument's frame.
     radius_m : (P,) float64
         0 for a point of the skin.
 
@@ -127,51 +136,63 @@ def inside(some: Bodies, points_m: FloatArray, radius_m: FloatArray) -> tuple[Fl
         The body it reaches deepest into; -1 outside.
     """
     depth, owner = np.zeros(len(points_m)), np.full(len(points_m), -1, dtype=np.intp)
-    if not len(some):
+    if not len(some) or not len(points_m):
         return depth, owner
-    point, body = _candidates(some, points_m, radius_m)
-    found = radius_m[point] - _measured(some, points_m[point, some.nodes[body]], body)
+    point, body = _candidates(some, nodes, points_m, radius_m)
+    found = radius_m[point] - _measured(some, _local(some, nodes, points_m[point], body), body)
     np.maximum.at(depth, point, found)
     deepest = (found > 0.0) & (found == depth[point])
     owner[point[deepest]] = body[deepest]
     return depth, owner
 
 
-def distance(some: Bodies, points_m: FloatArray) -> FloatArray:
-    """Signed distance (P,) to the union, negative inside, of points (P, N, 3) given in the frames of all nodes."""
+def distance(some: Bodies, nodes: Nodes, points_m: FloatArray) -> FloatArray:
+    """Signed distance (P,) of points (P, 3) of the instrument's frame to the union, negative inside."""
     count = len(points_m)
     point, body = (index.ravel() for index in np.mgrid[:count, : len(some)])
-    found = _measured(some, points_m[point, some.nodes[body]], body).reshape(count, len(some))
+    found = _measured(some, _local(some, nodes, points_m[point], body), body).reshape(count, len(some))
     nearest: FloatArray = found.min(axis=1, initial=np.inf)
     return nearest
 
 
-def gradient(some: Bodies, points_m: FloatArray, body: IntArray) -> FloatArray:
-    """Gradient (P, 3), in the body's node's frame, of the distance of each point (P, N, 3) to one body (P,)."""
-    local = points_m[np.arange(len(points_m)), some.nodes[body]]
+def gradient(some: Bodies, nodes: Nodes, points_m: FloatArray, body: IntArray) -> FloatArray:
+    """Gradient (P, 3) of the distance of each point (P, 3) to one body (P,), in the instrument's frame."""
+    local = _local(some, nodes, points_m, body)
     steps = _STEP_M * np.concatenate([np.eye(3), -np.eye(3)])
     found = _measured(some, (local + steps[:, None]).reshape(-1, 3), np.tile(body, 6)).reshape(6, -1)
     slope: FloatArray = (found[:3] - found[3:]).T / (2.0 * _STEP_M)
-    return slope
+    turned: FloatArray = (nodes.basis[some.nodes[body]] @ slope[:, :, None])[:, :, 0]
+    return turned
 
 
-def _candidates(some: Bodies, points_m: FloatArray, radius_m: FloatArray) -> tuple[IntArray, IntArray]:
-    """Pairs of ball and body whose hull the ball reaches; by products of matrices, node by node."""
-    points, owners = [], []
-    for node in np.unique(some.nodes):
-        members = np.flatnonzero(some.nodes == node)
-        a, radius = some.hulls[members, :3], some.hulls[members, 6]
-        span = some.hulls[members, 3:6] - a
-        length2 = np.einsum("bi,bi->b", span, span)
-        local = points_m[:, node]
-        along = local @ span.T - np.einsum("bi,bi->b", a, span)
-        share = np.clip(along / np.maximum(length2, 1e-12), 0.0, 1.0)
-        square = np.einsum("pi,pi->p", local, local)[:, None] - 2.0 * (local @ a.T) + np.einsum("bi,bi->b", a, a)
-        square += share * (share * length2 - 2.0 * along)
-        point, body = np.nonzero(square < np.square(radius_m[:, None] + radius))
-        points.append(point)
-        owners.append(members[body])
-    return np.concatenate(points), np.concatenate(owners)
+def _local(some: Bodies, nodes: Nodes, points_m: FloatArray, body: IntArray) -> FloatArray:
+    """Points (K, 3) in the frame of the node of a body (K,) each."""
+    node = some.nodes[body]
+    off = points_m - nodes.place_m[node]
+    local: FloatArray = (off[:, None, :] @ nodes.basis[node])[:, 0]
+    return local
+
+
+def _candidates(some: Bodies, nodes: Nodes, points_m: FloatArray, radius_m: FloatArray) -> tuple[IntArray, IntArray]:
+    """Pairs of ball and body whose hull the ball reaches: first the bodies near all balls together, then each."""
+    basis, place_m = nodes.basis[some.nodes], nodes.place_m[some.nodes]
+    a = (basis @ some.hulls[:, :3, None])[:, :, 0] + place_m
+    span = (basis @ (some.hulls[:, 3:6] - some.hulls[:, :3])[:, :, None])[:, :, 0]
+    length2 = _dot(span, span)
+    middle = (points_m.min(axis=0) + points_m.max(axis=0)) / 2.0
+    off = points_m - middle
+    reach_m = float(np.sqrt(_dot(off, off).max())) + float(radius_m.max())
+    from_a = middle - a
+    share = np.clip(_dot(from_a, span) / np.maximum(length2, 1e-12), 0.0, 1.0)
+    from_a = from_a - span * share[:, None]
+    members = np.flatnonzero(_dot(from_a, from_a) < np.square(some.hulls[:, 6] + reach_m))
+    a, span, length2 = a[members] - middle, span[members], length2[members]
+    along = off @ span.T - _dot(a, span)
+    square = _dot(off, off)[:, None] - 2.0 * (off @ a.T) + _dot(a, a)
+    shares = np.clip(along / np.maximum(length2, 1e-12), 0.0, 1.0)
+    square += shares * (shares * length2 - 2.0 * along)
+    point, body = np.nonzero(square < np.square(radius_m[:, None] + some.hulls[members, 6]))
+    return point, members[body]
 
 
 def _measured(some: Bodies, local_m: FloatArray, body: IntArray) -> FloatArray:

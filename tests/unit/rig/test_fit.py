@@ -90,8 +90,8 @@ def test_no_hand_is_inside_the_instrument(held: Held) -> None:
         part = skinning.patch(held.character, skinning.mesh_named(held.character, mark.mesh), mark.vertices)
         skin = _on_instrument(held, hand, transforms, skinning.deform(part, transforms))
         for frame in range(0, len(GRID), 4):
-            local = np.einsum("nji,vnj->vni", bases[frame], skin[frame][:, None] - nodes[frame])
-            depth, _ = proxy.inside(bodies, local, np.zeros(len(local)))
+            placed = proxy.Nodes(nodes[frame], bases[frame])
+            depth, _ = proxy.inside(bodies, placed, skin[frame], np.zeros(len(skin[frame])))
             assert depth.max() <= 0.003, (hand.side, GRID[frame])
 
 

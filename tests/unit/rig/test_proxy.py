@@ -15,37 +15,45 @@ SHAPES: list[Proxy] = [
 ]
 
 
+REST = proxy.Nodes(np.zeros((1, 3)), np.eye(3)[None])
+
+
 @pytest.mark.parametrize("shape", SHAPES, ids=lambda shape: type(shape).__name__)
 def test_a_step_of_the_distance_along_the_slope_ends_on_the_surface(shape: Proxy) -> None:
     some = proxy.bodies([shape], ["root"])
-    points = np.random.default_rng(3).uniform(-0.15, 0.15, size=(3000, 1, 3))
-    far = proxy.distance(some, points)
-    slope = proxy.gradient(some, points, np.zeros(len(points), dtype=np.intp))
+    points = np.random.default_rng(3).uniform(-0.15, 0.15, size=(3000, 3))
+    far = proxy.distance(some, REST, points)
+    slope = proxy.gradient(some, REST, points, np.zeros(len(points), dtype=np.intp))
     # On the ridges inside a body the slope jumps; outside it never does.
     outside = far > 1e-4
     np.testing.assert_allclose(np.linalg.norm(slope[outside], axis=1), 1.0, atol=1e-5)
-    landed = points[:, 0] - slope * far[:, None]
-    np.testing.assert_allclose(proxy.distance(some, landed[outside][:, None]), 0.0, atol=1e-7)
+    landed = points - slope * far[:, None]
+    np.testing.assert_allclose(proxy.distance(some, REST, landed[outside]), 0.0, atol=1e-7)
 
 
 def test_a_point_is_inside_where_the_union_says_so_and_as_deep() -> None:
     some = proxy.bodies(SHAPES, ["root"])
-    points = np.random.default_rng(4).uniform(-0.12, 0.12, size=(20000, 1, 3))
-    depth, owner = proxy.inside(some, points, np.zeros(len(points)))
-    far = proxy.distance(some, points)
+    points = np.random.default_rng(4).uniform(-0.12, 0.12, size=(20000, 3))
+    depth, owner = proxy.inside(some, REST, points, np.zeros(len(points)))
+    far = proxy.distance(some, REST, points)
     np.testing.assert_allclose(depth, np.maximum(-far, 0.0), atol=1e-12)
     assert np.count_nonzero(depth) > 50
     np.testing.assert_array_equal(owner >= 0, depth > 0.0)
     radius = np.random.default_rng(5).uniform(0.0, 0.03, size=len(points))
-    reached, _ = proxy.inside(some, points, radius)
+    reached, _ = proxy.inside(some, REST, points, radius)
     np.testing.assert_allclose(reached, np.maximum(radius - far, 0.0), atol=1e-12)
 
 
 def test_bodies_move_with_their_nodes() -> None:
     some = proxy.bodies([Capsule("a", (0.0, 0.0, 0.0), (0.0, 0.0, 0.1), 0.01)], ["root", "a"])
-    point = np.array([0.5, 0.0, 0.05])
-    depth, _ = proxy.inside(some, np.stack([point, point - [0.5, 0.0, 0.0]])[None], np.zeros(1))
-    assert depth[0] == pytest.approx(0.01)
+    places, turns = np.array([[0.0, 0.0, 0.0], [0.5, 0.0, 0.0]]), np.tile(np.eye(3), (2, 1, 1))
+    turns[1] = [[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]]
+    nodes = proxy.Nodes(places, turns)
+    points = np.array([[0.55, 0.0, 0.0], [0.5, 0.0, 0.05], [0.55, 0.008, 0.0]])
+    depth, owner = proxy.inside(some, nodes, points, np.zeros(3))
+    np.testing.assert_allclose(depth, [0.01, 0.0, 0.002], atol=1e-12)
+    slope = proxy.gradient(some, nodes, points[2:], owner[2:])
+    np.testing.assert_allclose(slope, [[0.0, 1.0, 0.0]], atol=1e-6)
 
 
 def test_far_bodies_are_left_out() -> None:
