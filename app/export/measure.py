@@ -23,6 +23,7 @@ from app.formats.fbx.scene import FbxScene
 from app.performance.contacts import FEET_MM, LIPS_MM, TOUCH_MM, bound_mm, in_place
 from app.plan.model import BreathEvent, FingeringEvent, PlayerPlan
 from app.rig import quaternion
+from app.rig.lips import meeting
 from app.rig.model import Character, Landmark
 from app.rig.stations import MOST_HOVER_M, aside_m, only_at, stations, stations_of_notes, worked_by
 from instrument_maps.model import ROOT, Contact, Control, InstrumentMap
@@ -163,6 +164,7 @@ def measure_player(
     """
     if player_scene.clip is None or instrument_scene.clip is None:
         raise ValueError("a file without a clip cannot be measured")
+    character = meeting(character, instrument, body)
     player = Playback(player_scene, player_scene.clip)
     held = Playback(instrument_scene, instrument_scene.clip)
     fps = player.clip.fps

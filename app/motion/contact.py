@@ -25,6 +25,10 @@ CLEAR_M = 0.035
 """On its way down and up the instrument swings ahead by this much, clear of the chin."""
 
 
+FREE_DEG = 10.0
+"""An instrument whose carriage has this much room from end to end goes along with the head."""
+
+
 @dataclass(frozen=True)
 class Carried:
     """World transform of the instrument: (F, 3) and (F, 4) float64."""
@@ -65,6 +69,24 @@ def held_angles(carriage: Carriage, motion: BodyMotion) -> tuple[FloatArray, Flo
     return pitch, turned, usual + within(held["roll"], high - usual, usual - low)
 
 
+def _going_along(with_head: FloatArray, carriage: Carriage) -> FloatArray:
+    """The head's turn (F, 4), as far as the instrument goes along with it.
+
+    One that hangs free goes along wholly. One that lies on the lap or stands on the floor, whose carriage leaves no
+    room, stays as it is, and the lips turn on it.
+    """
+    ranges = (carriage.pitch_down_deg, carriage.yaw_left_deg, carriage.roll_left_deg)
+    rooms_deg = [high - low for low, _, high in ranges]
+    if min(rooms_deg) >= FREE_DEG:
+        return with_head
+    turn = quaternion.to_rotation_vector(with_head)
+    for axis, room_deg in enumerate(rooms_deg):
+        if room_deg < FREE_DEG:
+            half_rad = float(np.deg2rad(room_deg / 2.0))
+            turn[:, axis] = within(turn[:, axis] * room_deg / FREE_DEG, half_rad, half_rad)
+    return quaternion.from_rotation_vector(turn)
+
+
 def carry(
     hold: Hold,
     carriage: Carriage,
@@ -98,8 +120,10 @@ def carry(
     lips_m = contact_m + (carried_m + grip_of_lips_m - contact_m) * on_one[:, None]
     pitch, yaw, roll = held_angles(carriage, motion)
     with_head = quaternion.multiply(body.head, quaternion.conjugate(base.head))
-    pitch = pitch - motion.bell_cue_rad + motion.bell_down_rad
-    rotation = quaternion.multiply(with_head, attitude(pitch, yaw - motion.bell_right_rad, roll))
+    low_rad, _, high_rad = np.deg2rad(carriage.pitch_down_deg)
+    pitch = pitch + within(-motion.bell_cue_rad, high_rad - pitch, pitch - low_rad) + motion.bell_down_rad
+    turned = attitude(pitch, yaw - motion.bell_right_rad, roll)
+    rotation = quaternion.multiply(_going_along(with_head, carriage), turned)
     position_m = body.head_m + quaternion.rotate(body.head, lips_m)
     if not np.any(lowering):
         return Carried(position_m, rotation)

@@ -22,6 +22,7 @@ from app.plan.model import FingeringEvent, PlayerPlan, Problem
 from app.rig import quaternion
 from app.rig.hold import hand_targets
 from app.rig.instrument import node_transforms
+from app.rig.lips import meeting
 from app.rig.model import Character, InstrumentModel
 from app.rig.skeleton import forward
 from app.rig.skinning import landmark_joints, landmark_positions
@@ -104,8 +105,9 @@ class ContactJudge:
     """
 
     def __init__(self, playing: Playing, character: Character, model: InstrumentModel) -> None:
-        self._playing, self._character, self._model = playing, character, model
         plan, instrument = playing.plan, playing.instrument_map
+        self._playing, self._model = playing, model
+        self._character = meeting(character, instrument, playing.body)
         self._starts_s = np.array([event.start_s for event in plan.fingerings])
         self._ends_s = np.array([event.end_s for event in plan.fingerings])
         self._breaths_s = np.array([(event.start_s, event.end_s) for event in plan.breaths]).reshape(-1, 2)
@@ -119,7 +121,7 @@ class ContactJudge:
         self._marks = tuple(dict.fromkeys([*(contact.part for contact in instrument.contacts), LIPS]))
         skeleton = character.skeleton
         self._wrists = {hand.side: skeleton.index(f"{hand.side}Hand") for hand in playing.player.hold.hands}
-        self._joints = sorted({*landmark_joints(character, self._marks), *self._wrists.values()})
+        self._joints = sorted({*landmark_joints(self._character, self._marks), *self._wrists.values()})
         self._legs = playing.player.place.legs
 
     def breaks(self, motion: Motion) -> tuple[Break, ...]:

@@ -8,7 +8,7 @@ with the jaw as far open as it must be.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
@@ -115,6 +115,25 @@ def fit_lips(character: Character, instrument_map: InstrumentMap, body: Body) ->
         gap_deltas_m=gap,
         jaw=jaw,
     )
+
+
+def meeting(character: Character, instrument_map: InstrumentMap, body: Body) -> Character:
+    """The character with its landmarks ``lips.contact`` and ``lips.upper`` where the instrument is played, and where it
+    stays while the mouth is open: what a judge of contacts measures. Of a cup they are there already."""
+    places = lip_places(character, instrument_map, body)
+    if places.contact is character.landmarks["lips.contact"]:
+        return character
+    vertices = (tuple(place.vertices.tolist()) for place in (places.contact, places.carrier))
+    return _with_lips(character, places.contact.mesh, *vertices)
+
+
+@lru_cache(maxsize=64)
+def _with_lips(character: Character, mesh: str, contact: tuple[int, ...], carrier: tuple[int, ...]) -> Character:
+    own = {
+        name: Landmark(mesh, np.array(vertices, dtype=np.int32))
+        for name, vertices in (("lips.contact", contact), ("lips.upper", carrier))
+    }
+    return replace(character, landmarks={**character.landmarks, **own})
 
 
 def _in_head(character: Character, place: Landmark) -> tuple[FloatArray, dict[str, FloatArray]]:
