@@ -34,7 +34,7 @@ FORKED_COST = 0.5
 """A forked fingering sounds covered, beside its rank."""
 IN_PLACE_COST = 0.5
 """A fingering that is meant for trills, fast passages, loud or soft notes costs this there, whatever its rank, ..."""
-OUT_OF_PLACE_COST = 3.0
+OUT_OF_PLACE_COST = 6.0
 """... and so much more than its rank elsewhere."""
 CONTEXTS = ("trill", "fast", "forte", "piano")
 """Tags of fingerings that are meant for something."""

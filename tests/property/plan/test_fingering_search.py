@@ -64,7 +64,7 @@ def choice_cost(fingering: Fingering, first: Fingering, length: float, in_trill:
         if ("trill" in meant and in_trill) or ("fast" in meant and fast):
             cost = 0.5
         elif meant:
-            cost += 3.0
+            cost += 6.0
     return cost + max(abs(fingering.cents) - abs(first.cents), 0.0) / 20.0 * min(length / 0.25, 1.0)
 
 
