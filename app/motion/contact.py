@@ -69,16 +69,22 @@ def held_angles(carriage: Carriage, motion: BodyMotion) -> tuple[FloatArray, Flo
     return pitch, turned, usual + within(held["roll"], high - usual, usual - low)
 
 
+def freedom(carriage: Carriage) -> float:
+    """How free an instrument is to move with the body: 1 where it hangs free, 0 where it lies and has no room."""
+    ranges = (carriage.pitch_down_deg, carriage.yaw_left_deg, carriage.roll_left_deg)
+    return min(1.0, min(high - low for low, _, high in ranges) / FREE_DEG)
+
+
 def _going_along(with_head: FloatArray, carriage: Carriage) -> FloatArray:
     """The head's turn (F, 4), as far as the instrument goes along with it.
 
     One that hangs free goes along wholly. One that lies on the lap or stands on the floor, whose carriage leaves no
     room, stays as it is, and the lips turn on it.
     """
+    if freedom(carriage) == 1.0:
+        return with_head
     ranges = (carriage.pitch_down_deg, carriage.yaw_left_deg, carriage.roll_left_deg)
     rooms_deg = [high - low for low, _, high in ranges]
-    if min(rooms_deg) >= FREE_DEG:
-        return with_head
     turn = quaternion.to_rotation_vector(with_head)
     for axis, room_deg in enumerate(rooms_deg):
         if room_deg < FREE_DEG:

@@ -7,9 +7,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from fractions import Fraction
 
+import msgspec
 import numpy as np
 
 from app.motion.body import BodyMotion, Layers, body_motion
+from app.motion.contact import freedom
 from app.motion.controls import control_curves
 from app.motion.curve import EVERYWHERE, Curve, Envelopes, FloatArray, frame_times, moves
 from app.motion.face import Face, face_morphs, usual_morphs
@@ -22,12 +24,15 @@ from app.plan.model import PlayerParameters, PlayerPlan, TimeFrame, same_events
 from app.rig.carriage import carrying
 from app.rig.hold import Hold, Lips
 from app.rig.model import Character
-from instrument_maps.model import InstrumentMap
+from instrument_maps.model import Carriage, InstrumentMap
 from metadata.load import load_expressions
 from metadata.model import Body, Embouchure, Expression, Posture
 
 PLANNED_WITH = ("breath_min_beats", "breath_last_beat_beats", "breath_prepare_beats", "lung_s", "cue_leader")
 """Parameters that decide what is planned, and not how a plan looks."""
+
+SETTLED = 0.6
+"""Part of their amplitude, and of their sway once more, that players keep whose instrument lies on the lap."""
 
 
 def frame_count(time_frame: TimeFrame, fps: Fraction) -> int:
@@ -46,6 +51,7 @@ class Playing:
     instrument_map : InstrumentMap
     beat_ticks : int
     parameters : PlayerParameters
+        As set, with less sway where the instrument lies still.
     posture : Posture
         With head and trunk turned to the instrument.
     body : Body
@@ -173,6 +179,7 @@ def prepare(
         before = None
     known = load_expressions() if expressions is None else expressions
     carriage = instrument_map.hold.carriage(parameters.posture)
+    parameters = _settled(parameters, carriage)
     posture = carrying(body, instrument_map.hold.possible(parameters.posture), carriage)
     tension = parameters.embouchure_tension
     if before is None:
@@ -227,6 +234,19 @@ def _fingers(
     hovers = any(control.hover_m for control in instrument_map.controls)
     raised = raised_curve(plan.fingerings) if hovers else moves(())
     return controls, station_curves(plan.fingerings, instrument_map, controls), raised
+
+
+def _settled(parameters: PlayerParameters, carriage: Carriage) -> PlayerParameters:
+    """The parameters of somebody whose instrument moves as little as its carriage says: the lips must stay with it."""
+    share = SETTLED + (1.0 - SETTLED) * freedom(carriage)
+    if share == 1.0:
+        return parameters
+    return msgspec.structs.replace(
+        parameters,
+        amplitude=share * parameters.amplitude,
+        sway=share * parameters.sway,
+        weight_shift=share * parameters.weight_shift,
+    )
 
 
 def _comparable(

@@ -134,6 +134,7 @@ def test_what_has_no_room_to_swing_stays_while_the_lips_stay_on_it() -> None:
     on_lap, free = made(carried(lap)), made(carried(FREE))
     assert np.ptp(angles_deg(free), axis=0).min() > 4.0
     assert np.ptp(angles_deg(on_lap), axis=0).max() < 4.0
+    assert np.ptp(on_lap.instrument_position_m[:, 0]) < 0.6 * np.ptp(free.instrument_position_m[:, 0])
     for motion in (on_lap, free):
         skeleton = CHARACTER.skeleton
         place_m, head = forward(skeleton, motion.rotations, motion.hips_m).of(skeleton.index("head"))
