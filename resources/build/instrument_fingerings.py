@@ -13,6 +13,8 @@ semitone, which real bells keep within a few cents up to the twelfth.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from typing import NamedTuple
 
 NAMES = ("C", "C sharp", "D", "E flat", "E", "F", "F sharp", "G", "A flat", "A", "B flat", "B")
 
@@ -29,6 +31,12 @@ TROMBONE_FIRST = {
     60: "3", 61: "2", 62: "1", 63: "3", 64: "2", 65: "1", 66: "3", 67: "2", 68: "3", 69: "2", 70: "1", 71: "2",
     72: "1", 73: "2", 74: "1", 75: "3", 76: "2", 77: "1",
 }  # fmt: skip
+
+BASS_TROMBONE_FIRST = {
+    29: "6", 30: "5", 31: "4", 32: "3", 33: "2", 34: "1", 35: "TG4", 36: "T6",
+    **{pitch: place for pitch, place in TROMBONE_FIRST.items() if 36 < pitch < 75},
+}  # fmt: skip
+"""The pedal tones, B 1 with both valves, then as on the tenor."""
 
 VALVE_SEMITONES = {"1": 2, "2": 1, "3": 3}
 COMBINATIONS = ("0", "2", "1", "12", "3", "23", "13", "123")
@@ -110,22 +118,47 @@ def slide_place_m(tube_m: float, semitones: float) -> float:
     return tube_m * (2 ** (semitones / 12) - 1) / 2
 
 
-def trombone() -> list[dict[str, object]]:
-    """Rows of the tenor trombone with F attachment, concert pitch and rank ascending."""
+class Side(NamedTuple):
+    """The slide with some of the triggers worked.
+
+    ``sign`` is their labels, ``semitones`` what they lower the tube by, ``places`` how many positions its slide has,
+    ``partials`` the harmonics in use: above the sixth the valve tubes are stuffy and nobody plays them there.
+    """
+
+    sign: str
+    triggers: tuple[str, ...]
+    semitones: int
+    places: int
+    partials: range
+
+
+TENOR_SIDES = (
+    Side("", (), 0, 7, range(2, HIGHEST_PARTIAL + 1)),
+    Side("T", ("trigger",), TRIGGER_SEMITONES, 6, range(2, 7)),
+)
+BASS_SIDES = (
+    Side("", (), 0, 7, range(1, HIGHEST_PARTIAL + 1)),
+    Side("T", ("trigger",), TRIGGER_SEMITONES, 6, range(2, 7)),
+    Side("G", ("second_trigger",), 4, 6, range(2, 5)),
+    # both: F and G flat tubing together make the D tube
+    Side("TG", ("trigger", "second_trigger"), 8, 5, range(2, 4)),
+)
+
+
+def trombone(
+    first_choices: dict[int, str] = TROMBONE_FIRST, sides: Sequence[Side] = TENOR_SIDES
+) -> list[dict[str, object]]:
+    """Rows of a trombone, concert pitch and rank ascending; without arguments of the tenor with F attachment."""
     rows: list[dict[str, object]] = []
-    for written, first in TROMBONE_FIRST.items():
+    for written, first in first_choices.items():
         found: dict[str, dict[str, object]] = {}
-        for trigger in (False, True):
-            fundamental = 34 - TRIGGER_SEMITONES * trigger
-            tube_m = TROMBONE_TUBE_M * 2 ** (TRIGGER_SEMITONES * trigger / 12)
-            for position in range(1, 7 if trigger else 8):
-                label = f"T{position}" if trigger else str(position)
-                for partial in range(2, HIGHEST_PARTIAL + 1):
+        for side in sides:
+            tube_m = TROMBONE_TUBE_M * 2 ** (side.semitones / 12)
+            for position in range(1, side.places + 1):
+                label = f"{side.sign}{position}"
+                for partial in side.partials:
                     semitones, deviation = partial_cents(partial)
-                    if partial == 11 or fundamental + semitones - (position - 1) != written:
-                        continue
-                    # above the sixth partial the F side is stuffy: nobody plays it there
-                    if trigger and partial > 6:
+                    if partial == 11 or 34 - side.semitones + semitones - (position - 1) != written:
                         continue
                     lowered = (position - 1) + deviation / 100
                     place_m = min(max(slide_place_m(tube_m, lowered), 0.0), SLIDE_TRAVEL_M)
@@ -133,17 +166,16 @@ def trombone() -> list[dict[str, object]]:
                     cents = 100 * (lowered - reached)
                     if abs(cents) > 25:
                         continue
-                    found[label] = {"place": place_m, "cents": cents, "partial": partial, "trigger": trigger}
+                    found[label] = {"place": place_m, "cents": cents, "partial": partial, "side": side}
         if first not in found:
             raise ValueError(f"concert {written}: {first} is not in tune anywhere")
-        others = sorted((label for label in found if label != first), key=lambda label: unfamiliar(found[label], label))
+        others = sorted((label for label in found if label != first), key=lambda label: unfamiliar(found[label]))
         for rank, label in enumerate((first, *others), start=1):
             row = found[label]
             controls = {"slide": round(float(row["place"]) / SLIDE_TRAVEL_M, 4)}
             if controls["slide"] == 0:
                 controls = {}
-            if row["trigger"]:
-                controls["trigger"] = 1.0
+            controls |= dict.fromkeys(row["side"].triggers, 1.0)
             tags = ["raised"] if row["partial"] in (5, 7, 10) and label not in ("1", "T1") else []
             rows.append(
                 {
@@ -159,12 +191,13 @@ def trombone() -> list[dict[str, object]]:
     return rows
 
 
-def unfamiliar(row: dict[str, object], label: str) -> float:
+def unfamiliar(row: dict[str, object]) -> float:
     """Rank alternates: far places, the trigger high up and the seventh partial are rare."""
     cost = float(row["place"]) * 10 + abs(float(row["cents"])) / 10
     cost += 3 * (row["partial"] == 7)
-    if row["trigger"]:
+    if row["side"].sign:
         cost += {2: 0.5, 3: 1.0, 4: 3.0}.get(int(row["partial"]), 8.0)
+        cost += 2.0 * (row["side"].sign != "T")
     return cost
 
 
@@ -194,3 +227,4 @@ def as_toml(rows: list[dict[str, object]], transposition: int) -> str:
 if __name__ == "__main__":
     print(as_toml(trumpet(), 2))
     print(as_toml(trombone(), 0))
+    print(as_toml(trombone(BASS_TROMBONE_FIRST, BASS_SIDES), 0))

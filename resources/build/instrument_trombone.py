@@ -1,4 +1,5 @@
-"""The tenor trombone with F attachment: a large bore instrument, closed length 1.15 m, bell 216 mm.
+"""The tenor trombone with F attachment, a large bore instrument (closed length 1.15 m, bell 216 mm), and the bass
+trombone (bell 241 mm) with a second rotor in line, for the left middle finger.
 
 The two legs of the slide lie in a plane turned 30 degrees from the vertical: the mouthpiece's leg above, the
 bell's below and left of it. The bell section rises from the lower leg to the player's left, so that its bow
@@ -6,6 +7,9 @@ passes over the left shoulder; the F tubing lies in its plane, the rotor on the 
 """
 
 from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -43,7 +47,7 @@ TRAVEL_M = 0.62
 STAY_R = 0.0048
 GOOSENECK = LOWER + 0.030 * ACROSS
 BELL = LOWER + 0.165 * ACROSS
-BELL_Z, BELL_R = 0.335, 0.108
+BELL_Z = 0.335
 REAR_Z = -0.180
 BELL_STAY_Z = 0.0185
 RECEIVER_R = 0.0108
@@ -51,31 +55,57 @@ TRIGGER_PIVOT = LOWER + 0.0190 * ACROSS + np.array([0, 0, -0.008])
 TRIGGER_PAD = LOWER + 0.0420 * ACROSS + 0.014 * OUT + np.array([0, 0, -0.004])
 TRIGGER_RAD = 0.30
 ROTOR_Z = -0.085
+SECOND_LEVER = 0.050 * DOWN + 0.0865 * Z - 0.004 * LEFT
+"""The second lever's paddle, in front of the inner slide's brace; its pad faces the finger that pulls it."""
+SECOND_PULL = np.array([0.0, 0.0, -1.0])
+SECOND_TRAVEL_M = 0.007
 
 
-def build() -> Model:
+@dataclass(frozen=True)
+class Layout:
+    """What differs: the bell's radius, the mouthpiece's size beside the tenor's, whether there is a second rotor."""
+
+    bell_r: float
+    mouthpiece: float = 1.0
+    second: bool = False
+
+    def bell_radius(self, distance: Array) -> Array:
+        """Outer radius of the bell at a distance from its rim: a Bessel horn."""
+        return self.bell_r * (0.0190 / (0.0190 + distance)) ** 0.70
+
+
+TENOR = Layout(bell_r=0.108)
+BASS = Layout(bell_r=0.1205, mouthpiece=1.06, second=True)
+
+
+def build(at: Layout = TENOR) -> Model:
     """Build the model."""
     model = Model()
     model.node("slide", SLIDE_WIDTH / 2 * DOWN + OUTER_BRACE_Z * Z)
     model.node("trigger", TRIGGER_PIVOT)
-    _mouthpiece(model)
+    if at.second:
+        model.node("second_trigger", SECOND_LEVER)
+    _mouthpiece(model, at.mouthpiece)
     _inner_slide(model)
     _outer_slide(model)
-    _gooseneck(model)
-    _bell(model)
+    _gooseneck(model, at)
+    _bell(model, at)
     _attachment(model)
     _trigger(model)
+    if at.second:
+        _second_rotor(model)
+        _second_lever(model)
     return model
 
 
-def _mouthpiece(model: Model) -> None:
+def _mouthpiece(model: Model, size: float) -> None:
     profile = [
         (0.0240, 0.0005), (0.0210, 0.0035), (0.0160, 0.0080), (0.0100, 0.0108), (0.0045, 0.0123), (0.0016, 0.0129),
         (0.0004, 0.0140), (0.0, 0.0157), (0.0005, 0.0178), (0.0020, 0.0192), (0.0042, 0.0197), (0.0075, 0.0196),
         (0.0090, 0.0186), (0.0140, 0.0178), (0.0220, 0.0158), (0.0300, 0.0120), (0.0360, 0.0088), (0.0420, 0.0073),
         (0.0500, 0.0067), (0.0640, 0.0063), (0.0640, 0.0),
     ]  # fmt: skip
-    model.add("silver", turned((0, 0, 0), Z, profile, sides=56, hard_deg=50))
+    model.add("silver", turned((0, 0, 0), Z, [(z, size * r) for z, r in profile], sides=56, hard_deg=50))
 
 
 def _inner_slide(model: Model) -> None:
@@ -140,7 +170,7 @@ def _end_stay(z: float) -> Shape:
     return _brace(tuple(0.0080 * DOWN + z * Z), tuple((SLIDE_WIDTH - 0.0080) * DOWN + z * Z), 0.0030)
 
 
-def _gooseneck(model: Model) -> None:
+def _gooseneck(model: Model, at: Layout) -> None:
     line = bend(
         [LOWER + 0.020 * Z, LOWER - 0.004 * Z, GOOSENECK - 0.050 * Z, GOOSENECK - 0.075 * Z], [0.05, 0.05], 0.003
     )
@@ -150,7 +180,7 @@ def _gooseneck(model: Model) -> None:
     for foot, size in ((GOOSENECK, 1.0), (BELL, 1.22)):
         model.add("nickel_silver", turned(foot - 0.122 * Z, -Z, [(z, r * size) for z, r in sleeve]))
     model.add(
-        "nickel_silver", _brace(tuple(LOWER + 0.0100 * ACROSS + BELL_STAY_Z * Z), _bell_edge(BELL_STAY_Z), 0.0033)
+        "nickel_silver", _brace(tuple(LOWER + 0.0100 * ACROSS + BELL_STAY_Z * Z), _bell_edge(at, BELL_STAY_Z), 0.0033)
     )
     model.add(
         "nickel_silver",
@@ -158,19 +188,14 @@ def _gooseneck(model: Model) -> None:
     )
 
 
-def _bell_edge(z: float) -> tuple[float, float, float]:
-    edge = BELL - float(bell_radius(np.array(BELL_Z - z))) * ACROSS + z * Z
+def _bell_edge(at: Layout, z: float) -> tuple[float, float, float]:
+    edge = BELL - float(at.bell_radius(np.array(BELL_Z - z))) * ACROSS + z * Z
     return (float(edge[0]), float(edge[1]), float(edge[2]))
 
 
-def bell_radius(distance: Array) -> Array:
-    """Outer radius of the bell at a distance from its rim: a Bessel horn."""
-    return BELL_R * (0.0190 / (0.0190 + distance)) ** 0.70
-
-
-def _bell(model: Model) -> None:
+def _bell(model: Model, at: Layout) -> None:
     bow = half_circle(GOOSENECK + REAR_Z * Z, BELL + REAR_Z * Z, -Z, 40)
-    thick = float(bell_radius(np.array(BELL_Z - REAR_Z)))
+    thick = float(at.bell_radius(np.array(BELL_Z - REAR_Z)))
     share = np.linspace(0, 1, len(bow) + 2)
     line = joined(GOOSENECK + (REAR_Z + 0.020) * Z, bow, BELL + (REAR_Z + 0.020) * Z)
     model.add("lacquered_brass", tube(line, 0.0092 + share * (thick - 0.0092), sides=32))
@@ -187,12 +212,14 @@ def _bell(model: Model) -> None:
     straight = resampled(np.array([BELL + (REAR_Z + 0.010) * Z, BELL + 0.06 * Z]), 0.02)
     flare_z = BELL_Z - np.geomspace(0.0006, BELL_Z - 0.06, 46)[::-1]
     flare = joined(straight, BELL + flare_z[:, None] * Z)
-    model.add("lacquered_brass", tube(flare, bell_radius(BELL_Z - flare[:, 2]), sides=72, closed=False))
+    model.add("lacquered_brass", tube(flare, at.bell_radius(BELL_Z - flare[:, 2]), sides=72, closed=False))
 
-    model.add("lacquered_brass", torus(BELL + BELL_Z * Z, Z, BELL_R - 0.0008, 0.0014, around=80, sides=12))
+    model.add("lacquered_brass", torus(BELL + BELL_Z * Z, Z, at.bell_r - 0.0008, 0.0014, around=80, sides=12))
     inner_z = BELL_Z - np.geomspace(0.0006, 0.30, 40)
     inside = BELL + inner_z[:, None] * Z
-    model.add("inner_brass", tube(inside, bell_radius(BELL_Z - inner_z) - 0.0007, sides=72, closed=False, proxy=False))
+    model.add(
+        "inner_brass", tube(inside, at.bell_radius(BELL_Z - inner_z) - 0.0007, sides=72, closed=False, proxy=False)
+    )
 
 
 def _attachment(model: Model) -> None:
@@ -222,6 +249,49 @@ def _attachment(model: Model) -> None:
     model.add("nickel_silver", _brace(tuple(at(0.1105, 0, -0.080)), tuple(at(0.1225, 0, -0.080)), 0.0026))
 
 
+def _second_rotor(model: Model) -> None:
+    """The G flat rotor behind the first and its tubing, a shorter loop on the near side of the bell section."""
+    rotor = GOOSENECK + (ROTOR_Z - 0.046) * Z
+    body = [
+        (-0.0175, 0), (-0.0175, 0.0150), (-0.0160, 0.0166), (-0.0125, 0.0166), (-0.0115, 0.0156), (0.0115, 0.0156),
+        (0.0125, 0.0166), (0.0160, 0.0166), (0.0175, 0.0150), (0.0175, 0.0055), (0.0212, 0.0055), (0.0220, 0.0045),
+        (0.0220, 0),
+    ]  # fmt: skip
+    model.add("nickel_silver", turned(rotor, OUT, body, sides=40))
+
+    def at(across: float, out: float, z: float) -> Array:
+        return GOOSENECK + across * ACROSS + out * OUT + z * Z
+
+    near, far = -0.0195, -0.0400
+    out = bend(
+        [at(0, near + 0.008, -0.131), at(0.006, far, -0.131), at(0.020, far, -0.120), at(0.022, far, -0.055)], 0.009
+    )
+    turn_1 = half_circle(at(0.022, far, -0.050), at(0.056, far, -0.050), Z, 20)
+    turn_2 = half_circle(at(0.056, far, -0.170), at(0.092, far, -0.170), -Z, 20)
+    turn_3 = half_circle(at(0.092, far, -0.060), at(0.072, far + 0.0005, -0.060), Z, 16)
+    back = bend([at(0.072, far, -0.062), at(0.072, far, -0.128), at(0.040, near - 0.004, -0.138),
+                 at(0.010, near + 0.004, -0.136)], [0.014, 0.014])  # fmt: skip
+    model.add("lacquered_brass", tube(joined(out, turn_1, turn_2, turn_3, back), 0.0083, sides=22))
+    model.add(
+        "nickel_silver", _brace(tuple(at(0.056, -0.0085, -0.100)), tuple(at(0.056, far + 0.0080, -0.100)), 0.0024)
+    )
+
+
+def _second_lever(model: Model) -> None:
+    """A paddle for the left middle finger before the inner slide's brace, on a rod that slides beside the lower leg."""
+    node = "second_trigger"
+    paddle = [(-0.0034, 0), (-0.0034, 0.0070), (-0.0028, 0.0080), (-0.0006, 0.0080), (0.0, 0.0070), (0.0, 0)]
+    model.add("nickel_silver", turned(SECOND_LEVER, -SECOND_PULL, paddle, sides=32), node=node)
+    corner = SECOND_LEVER - 0.0020 * Z + (SLIDE_WIDTH - 0.050 + 0.0135) * DOWN
+    rod = bend([SECOND_LEVER - 0.0020 * Z, corner, corner - 0.105 * Z], 0.012)
+    model.add("nickel_silver", tube(rod, 0.0021, sides=14), node=node)
+    for z in (0.020, 0.052):
+        guide = [(0, 0), (0, 0.0036), (0.006, 0.0036), (0.006, 0)]
+        model.add("nickel_silver", turned(corner + (z - corner[2]) * Z, Z, guide, sides=16))
+        model.add("nickel_silver", _brace(tuple(LOWER + 0.0085 * DOWN + (z + 0.003) * Z),
+                                          tuple(LOWER + 0.0115 * DOWN + (z + 0.003) * Z), 0.0018))  # fmt: skip
+
+
 def _trigger(model: Model) -> None:
     node = "trigger"
     pivot = TRIGGER_PIVOT
@@ -245,7 +315,7 @@ def _trigger(model: Model) -> None:
     model.add("nickel_silver", tube([pivot + 0.0085 * OUT, link_end], 0.0015, sides=12))
 
 
-def contacts() -> list[dict[str, object]]:
+def contacts(at: Layout = TENOR) -> list[dict[str, object]]:
     """Where a trained player's hands touch it, in the root frame."""
     found: list[dict[str, object]] = []
 
@@ -277,8 +347,14 @@ def contacts() -> list[dict[str, object]]:
     touch("left.thumb.pad", "trigger", TRIGGER_PAD, 0.0, -Z, "trigger")
     touch("left.index.pad", "root", 0.066 * Z, 0.0084, 0.8 * LEFT - 0.6 * DOWN)
     # ring and little finger close around the lower leg as far as the hand's size lets them: no fixed touch
-    touch("left.middle.pad", "root", INNER_BRACE_Z * Z + 0.050 * DOWN, STAY_R, Z - 0.8 * LEFT)
+    if at.second:
+        touch("left.middle.pad", "second_trigger", SECOND_LEVER, 0.0, -SECOND_PULL, "second_trigger")
+    else:
+        touch("left.middle.pad", "root", INNER_BRACE_Z * Z + 0.050 * DOWN, STAY_R, Z - 0.8 * LEFT)
     return found
 
 
-INSTRUMENTS = {"trombone_tenor_F_attachment": (build, contacts)}
+INSTRUMENTS = {
+    name: (partial(build, at), partial(contacts, at))
+    for name, at in (("trombone_tenor_F_attachment", TENOR), ("trombone_bass_F_Gb", BASS))
+}
