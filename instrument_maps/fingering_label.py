@@ -1,6 +1,6 @@
 """The short form of a fingering: what it says of the controls, and the other way round.
 
-Of valves and levers it is their signs put together (``"13"``, ``"T12"``, ``"0"`` for none); of keys and holes their
+Of valves and levers it is their signs put together (``"13"``, ``"T12"``, ``"0"`` for no valve, ``"T0"``); of keys and holes their
 signs sorted, one space between (``"L1 L2 R1"``, ``"(open)"`` for none). A slide's place is not in its label.
 """
 
@@ -29,12 +29,12 @@ def controls_of(label: str, controls: Iterable[Control]) -> dict[str, float] | N
     if any(control.kind == "slide" for control in pitch):
         return None
     words = says_words(pitch)
-    if label == (OPEN if words else NONE):
+    if words and label == OPEN:
         return {}
     by_label = {control.label: control for control in pitch if control.label}
     halves = {f"{sign}{HALF}": control for sign, control in by_label.items() if control.half_value is not None}
     values: dict[str, float] = {}
-    for sign in label.split() if words else label:
+    for sign in label.split() if words else label.replace(NONE, ""):
         if sign in by_label:
             values[by_label[sign].name] = 1.0
         elif sign in halves:

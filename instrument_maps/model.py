@@ -15,6 +15,7 @@ At rest the frames of all nodes of a model differ from the root's by a translati
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Literal, NamedTuple, TypeAlias, TypeVar
 
 import msgspec
@@ -410,6 +411,9 @@ class Acoustics(_Table, frozen=True):
         Effective length of the plain tube.
     semitones : dict of str to int
         What each pitch control lowers the tube by when it is alone (valves, a trigger).
+    compensator : str or None
+        The valve with which the others lengthen the tube in proportion, so that their sum with it is in tune: it sends
+        the air through them once more, or to tubes of their own (the other side of a double horn).
     slide_control : str or None
         The playing slide, whose places are ``tube_m x (2**(semitones/12) - 1) / 2`` from closed, times the
         length of the tube with the other controls.
@@ -419,6 +423,13 @@ class Acoustics(_Table, frozen=True):
     tube_m: float
     semitones: dict[str, int]
     slide_control: str | None = None
+    compensator: str | None = None
+
+    def lengthened(self, controls: Mapping[str, float]) -> float:
+        """How many times as long as the plain tube it is with these controls, the slide closed."""
+        shares = {name: controls.get(name, 0.0) * (2 ** (steps / 12) - 1) for name, steps in self.semitones.items()}
+        again = shares.pop(self.compensator, 0.0) if self.compensator is not None else 0.0
+        return (1 + again) * (1 + sum(shares.values()))
 
 
 class Fingering(_Table, frozen=True):

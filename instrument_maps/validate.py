@@ -7,7 +7,7 @@ from collections import Counter, defaultdict
 from collections.abc import Callable, Iterator
 from typing import TypeAlias
 
-from instrument_maps.fingering_label import WORDS, says_words, words_of
+from instrument_maps.fingering_label import NONE, WORDS, says_words, words_of
 from instrument_maps.model import (
     MOVERS,
     PARTS,
@@ -34,7 +34,7 @@ Problem: TypeAlias = tuple[str, str]
 
 _UNIT_TOLERANCE = 1e-3
 _REACH_M = 3.0
-_CENTS = 100.0
+_CENTS = 200.0
 _HARMONICS = 20
 _HARMONIC_SEMITONES = 0.6
 """The furthest that a harmonic in use is from its note: the eleventh, half a semitone."""
@@ -330,6 +330,8 @@ def _acoustics(instrument: InstrumentMap) -> Iterator[Problem]:
         if semitones == 0:
             yield f"acoustics.semitones.{name}", "is 0: such a control does not change the pitch"
         yield from _within(f"acoustics.semitones.{name}", semitones, -12, 24)
+    if acoustics.compensator is not None and acoustics.compensator not in acoustics.semitones:
+        yield "acoustics.compensator", f"'{acoustics.compensator}' is not among acoustics.semitones"
     if acoustics.slide_control is not None and acoustics.slide_control not in controls:
         yield "acoustics.slide_control", f"there is no control named '{acoustics.slide_control}'"
 
@@ -436,8 +438,9 @@ def _label(path: str, fingering: Fingering, instrument: InstrumentMap) -> Iterat
     told = "".join(sign for sign in fingering.label if not sign.isspace())
     if any(control.kind == "slide" for control in pitch):
         told = told.rstrip("0123456789")
-    named = "".join(control.label for control in signed) or ("0" if told.isdigit() else "")
-    if Counter(told) != Counter(named):
+    named = "".join(control.label for control in signed)
+    plain = told.replace(NONE, "") if told.count(NONE) <= 1 else told
+    if Counter(plain) != Counter(named) or (NONE in told and any(sign.isdigit() for sign in plain)):
         yield path, f"'{fingering.label}' does not name what the controls say, '{named or 'a place of the slide'}'"
 
 

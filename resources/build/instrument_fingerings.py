@@ -12,8 +12,11 @@ semitone, which real bells keep within a few cents up to the twelfth.
 
 from __future__ import annotations
 
+import itertools
 import math
+import sys
 from collections.abc import Sequence
+from functools import partial as partial_of
 from typing import NamedTuple
 
 NAMES = ("C", "C sharp", "D", "E flat", "E", "F", "F sharp", "G", "A flat", "A", "B flat", "B")
@@ -113,35 +116,35 @@ def trumpet() -> list[dict[str, object]]:
     return rows
 
 
-def slide_place_m(tube_m: float, semitones: float) -> float:
-    """How far the slide is out to lower a tube by so many semitones."""
-    return tube_m * (2 ** (semitones / 12) - 1) / 2
-
-
 class Side(NamedTuple):
     """The slide with some of the triggers worked.
 
-    ``sign`` is their labels, ``semitones`` what they lower the tube by, ``places`` how many positions its slide has,
-    ``partials`` the harmonics in use: above the sixth the valve tubes are stuffy and nobody plays them there.
+    ``sign`` is their labels, ``tubes`` what each lowers the tube by when alone, ``places`` how many positions the slide
+    has, ``partials`` the harmonics in use: above the sixth the valve tubes are stuffy and nobody plays them there.
     """
 
     sign: str
     triggers: tuple[str, ...]
-    semitones: int
+    tubes: tuple[int, ...]
     places: int
     partials: range
 
+    @property
+    def semitones(self) -> int:
+        """What the valves lower the tube by, by name: a ninth semitone of both together is lost, they give a D."""
+        return min(sum(self.tubes), 8)
+
 
 TENOR_SIDES = (
-    Side("", (), 0, 7, range(2, HIGHEST_PARTIAL + 1)),
-    Side("T", ("trigger",), TRIGGER_SEMITONES, 6, range(2, 7)),
+    Side("", (), (), 7, range(2, HIGHEST_PARTIAL + 1)),
+    Side("T", ("trigger",), (TRIGGER_SEMITONES,), 6, range(2, 7)),
 )
 BASS_SIDES = (
-    Side("", (), 0, 7, range(1, HIGHEST_PARTIAL + 1)),
-    Side("T", ("trigger",), TRIGGER_SEMITONES, 6, range(2, 7)),
-    Side("G", ("second_trigger",), 4, 6, range(2, 5)),
+    Side("", (), (), 7, range(1, HIGHEST_PARTIAL + 1)),
+    Side("T", ("trigger",), (TRIGGER_SEMITONES,), 6, range(2, 7)),
+    Side("G", ("second_trigger",), (4,), 6, range(2, 5)),
     # both: F and G flat tubing together make the D tube
-    Side("TG", ("trigger", "second_trigger"), 8, 5, range(2, 4)),
+    Side("TG", ("trigger", "second_trigger"), (TRIGGER_SEMITONES, 4), 5, range(2, 4)),
 )
 
 
@@ -153,17 +156,16 @@ def trombone(
     for written, first in first_choices.items():
         found: dict[str, dict[str, object]] = {}
         for side in sides:
-            tube_m = TROMBONE_TUBE_M * 2 ** (side.semitones / 12)
+            closed_m = TROMBONE_TUBE_M * (1 + sum(2 ** (steps / 12) - 1 for steps in side.tubes))
             for position in range(1, side.places + 1):
                 label = f"{side.sign}{position}"
                 for partial in side.partials:
                     semitones, deviation = partial_cents(partial)
                     if partial == 11 or 34 - side.semitones + semitones - (position - 1) != written:
                         continue
-                    lowered = (position - 1) + deviation / 100
-                    place_m = min(max(slide_place_m(tube_m, lowered), 0.0), SLIDE_TRAVEL_M)
-                    reached = 12 * math.log2(1 + 2 * place_m / tube_m)
-                    cents = 100 * (lowered - reached)
+                    wanted_m = TROMBONE_TUBE_M * 2 ** ((34 + semitones + deviation / 100 - written) / 12)
+                    place_m = min(max((wanted_m - closed_m) / 2, 0.0), SLIDE_TRAVEL_M)
+                    cents = 1200 * math.log2(wanted_m / (closed_m + 2 * place_m))
                     if abs(cents) > 25:
                         continue
                     found[label] = {"place": place_m, "cents": cents, "partial": partial, "side": side}
@@ -201,6 +203,123 @@ def unfamiliar(row: dict[str, object]) -> float:
     return cost
 
 
+class Valves(NamedTuple):
+    """A brass instrument with valves, in the pitches its player reads.
+
+    ``fundamental`` is the written pitch of the open tube's first harmonic. ``semitones`` says by sign of the label what
+    each valve or lever lowers the tube by when it is alone; ``compensator`` is the valve with which the others lengthen
+    the tube in proportion: it sends the air through them once more, or to tubes of their own (a double horn). ``first``
+    gives the published first choices; other combinations of at most ``most`` valves follow.
+    """
+
+    fundamental: int
+    semitones: dict[str, int]
+    first: dict[int, str]
+    compensator: str = ""
+    most: int = 3
+    partials: range = range(2, HIGHEST_PARTIAL + 1)
+
+
+def valved(instrument: Valves) -> list[dict[str, object]]:
+    """Rows of an instrument with valves, written pitch and rank ascending."""
+    signs = list(instrument.semitones)
+    sets = [pick for count in range(instrument.most + 1) for pick in itertools.combinations(signs, count)]
+    labels = {_label(pick): pick for pick in sets} | {label: _signs(label) for label in instrument.first.values()}
+    rows: list[dict[str, object]] = []
+    for written, first in sorted(instrument.first.items()):
+        found: dict[str, tuple[float, int]] = {}
+        for label, pick in labels.items():
+            ratio = _ratio(instrument, pick)
+            for partial in instrument.partials:
+                cents = 100 * (instrument.fundamental + 12 * math.log2(partial / ratio) - written)
+                usable = partial not in SKIPPED_PARTIALS and partial not in (13, 14)
+                if abs(cents) <= (MOST_OFF_CENTS if label == first else 45) and (usable or label == first):
+                    found[label] = min(found.get(label, (1e9, 0)), (cents, partial), key=lambda one: abs(one[0]))
+        if first not in found:
+            raise ValueError(f"written {written}: {first} is no harmonic of its tube")
+        others = sorted((label for label in found if label != first), key=lambda label: _rarity(found[label][0], label))
+        for rank, label in enumerate((first, *others[:MOST_ALTERNATES]), start=1):
+            tags = [] if rank == 1 else ["trill"] if rank == 2 else ["fast"]
+            rows.append({"written_pitch": written, "rank": rank, "label": label, "controls": {}, "correction": {},
+                         "cents": round(found[label][0]), "tags": tags})  # fmt: skip
+    return rows
+
+
+MOST_ALTERNATES = 4
+MOST_OFF_CENTS = 180
+"""A first choice may be so far off where a sum of valves is short, all four without a compensator: slides are drawn."""
+
+
+def _label(pick: tuple[str, ...]) -> str:
+    """Levers before valves; a lever alone or nothing shows the open valves."""
+    text = "".join(sorted(pick, key=lambda sign: (sign.isdigit(), sign)))
+    return text if any(sign.isdigit() for sign in text) else f"{text}0"
+
+
+def _signs(label: str) -> tuple[str, ...]:
+    return tuple(sign for sign in label if sign != "0")
+
+
+def _ratio(instrument: Valves, pick: tuple[str, ...]) -> float:
+    """How many times the open tube's length a combination is."""
+    shares = {sign: 2 ** (instrument.semitones[sign] / 12) - 1 for sign in pick}
+    again = shares.pop(instrument.compensator, 0.0)
+    return (1 + again) * (1 + sum(shares.values()))
+
+
+def _rarity(cents: float, label: str) -> float:
+    """Players take what is in tune and has few valves."""
+    return abs(cents) + 12 * len(_signs(label))
+
+
+def _shifted(first: dict[int, str], semitones: int) -> dict[int, str]:
+    return {written + semitones: label for written, label in first.items()}
+
+
+HORN_F_FIRST = {
+    42: "123", 43: "13", 44: "23", 45: "12", 46: "1", 47: "2", 48: "0", 49: "123", 50: "13", 51: "23", 52: "12",
+    53: "1", 54: "2", 55: "0", 56: "23", 57: "12", 58: "1", 59: "2", 60: "0", 61: "12", 62: "1", 63: "2", 64: "0",
+    65: "1", 66: "2", 67: "0", 68: "23", 69: "12", 70: "1", 71: "2", 72: "0", 73: "2", 74: "0", 75: "2", 76: "0",
+    77: "1", 78: "2", 79: "0", 80: "23", 81: "12", 82: "1", 83: "2", 84: "0",
+}  # fmt: skip
+"""From written F 3 the chart; below, the same valves on the second harmonic."""
+HORN_DOUBLE_FIRST = {
+    **{written: label for written, label in HORN_F_FIRST.items() if written < 68},
+    68: "T23", 69: "T12", 70: "T1", 71: "T2", 72: "T0", 73: "T23", 74: "T12", 75: "T1", 76: "T2", 77: "T0", 78: "T2",
+    79: "T0", 80: "T23", 81: "T12", 82: "T1", 83: "T2", 84: "T0",
+}  # fmt: skip
+"""The F side up to written G 4, then the B flat side."""
+TUBA_FIRST = {
+    23: "1234", 24: "134", 25: "234", 26: "124", 27: "14", 28: "24", 29: "4", 30: "23", 31: "12", 32: "1", 33: "2",
+    34: "0", 35: "24", 36: "4", 37: "23", 38: "12", 39: "1", 40: "2", 41: "0", 42: "23", 43: "12", 44: "1", 45: "2",
+    46: "0", 47: "12", 48: "1", 49: "2", 50: "0", 51: "1", 52: "2", 53: "0", 54: "23", 55: "12", 56: "1", 57: "2",
+    58: "0",
+}  # fmt: skip
+"""On BB flat: of the chart's unordered fingerings that with the fourth valve for 13 and 123, else the simplest."""
+BARITONE_FIRST = {
+    40: "123", 41: "13", **{written + 12: label for written, label in TUBA_FIRST.items() if written >= 30},
+} | {47: "123", 48: "13"}  # fmt: skip
+SOUSAPHONE_FIRST = {**_shifted(BARITONE_FIRST, -12)}
+EUPHONIUM_FIRST = {written + 12: label for written, label in TUBA_FIRST.items()}
+FOUR = {"1": 2, "2": 1, "3": 3, "4": 5}
+HORN_PARTIALS = range(2, 17)
+VALVED = {
+    "horn_F_single": (Valves(36, VALVE_SEMITONES, HORN_F_FIRST, partials=HORN_PARTIALS), 7),
+    "horn_double_F_Bb": (
+        Valves(36, {**VALVE_SEMITONES, "T": -5}, HORN_DOUBLE_FIRST, compensator="T", partials=HORN_PARTIALS),
+        7,
+    ),
+    "euphonium_Bb_bassclef": (Valves(34, FOUR, EUPHONIUM_FIRST, compensator="4"), 0),
+    "euphonium_baritone_Bb_treble": (Valves(48, FOUR, _shifted(EUPHONIUM_FIRST, 14), compensator="4"), 14),
+    "baritone_Bb": (Valves(48, VALVE_SEMITONES, _shifted(BARITONE_FIRST, 14)), 14),
+    "tuba_BBb": (Valves(22, FOUR, TUBA_FIRST, compensator="4"), 0),
+    "sousaphone_BBb": (Valves(22, VALVE_SEMITONES, SOUSAPHONE_FIRST), 0),
+    "tuba_CC": (Valves(24, FOUR, _shifted(TUBA_FIRST, 2)), 0),
+    "tuba_Eb": (Valves(27, FOUR, _shifted(TUBA_FIRST, 5), compensator="4"), 0),
+    "tuba_F": (Valves(29, FOUR, _shifted(TUBA_FIRST, 7)), 0),
+}
+
+
 def as_toml(rows: list[dict[str, object]], transposition: int) -> str:
     """The ``fingerings`` array, one line each, with the note's names as comments."""
     lines = ["fingerings = ["]
@@ -225,6 +344,11 @@ def as_toml(rows: list[dict[str, object]], transposition: int) -> str:
 
 
 if __name__ == "__main__":
-    print(as_toml(trumpet(), 2))
-    print(as_toml(trombone(), 0))
-    print(as_toml(trombone(BASS_TROMBONE_FIRST, BASS_SIDES), 0))
+    tables = {
+        "trumpet_Bb": (trumpet, 2),
+        "trombone_tenor_F_attachment": (trombone, 0),
+        "trombone_bass_F_Gb": (partial_of(trombone, BASS_TROMBONE_FIRST, BASS_SIDES), 0),
+    } | {name: (partial_of(valved, instrument), shift) for name, (instrument, shift) in VALVED.items()}
+    for name in sys.argv[1:] or tables:
+        rows, shift = tables[name]
+        print(f"# {name}\n{as_toml(rows(), shift)}")

@@ -13,6 +13,7 @@ from instrument_maps.model import Fingering, InstrumentMap
 TRUMPET = bundled_maps()["trumpet_Bb"]
 TROMBONE = bundled_maps()["trombone_tenor_F_attachment"]
 MAPS = [pytest.param(instrument, id=name) for name, instrument in bundled_maps().items()]
+BRASS = [param for param in MAPS if param.values[0].acoustics is not None]
 
 THESIS_TABLE_3_1 = {
     # concert pitch: trumpet valves, trombone position
@@ -86,11 +87,14 @@ def sounding_cents(instrument: InstrumentMap, fingering: Fingering, partial: int
     """
     acoustics = instrument.acoustics
     assert acoustics is not None
-    added = sum(
-        fingering.controls.get(name, 0.0) * (2 ** (semitones / 12) - 1)
-        for name, semitones in acoustics.semitones.items()
-    )
-    length_m = acoustics.tube_m * (1 + added)
+    ratio = again = 1.0
+    for name, semitones in acoustics.semitones.items():
+        added = fingering.controls.get(name, 0.0) * (2 ** (semitones / 12) - 1)
+        if name == acoustics.compensator:
+            again += added
+        else:
+            ratio += added
+    length_m = acoustics.tube_m * ratio * again
     if acoustics.slide_control is not None:
         length_m += 2 * slide_m(fingering)
     lowered = 1200 * math.log2(length_m / acoustics.tube_m)
@@ -98,10 +102,10 @@ def sounding_cents(instrument: InstrumentMap, fingering: Fingering, partial: int
     return harmonic(partial) - lowered - wanted
 
 
-@pytest.mark.parametrize("instrument", MAPS)
+@pytest.mark.parametrize("instrument", BRASS)
 def test_every_fingering_is_a_harmonic_of_its_tube_and_its_cents_are_true(instrument: InstrumentMap) -> None:
     for fingering in instrument.fingerings:
-        deviation = min((sounding_cents(instrument, fingering, partial) for partial in range(2, 13)), key=abs)
+        deviation = min((sounding_cents(instrument, fingering, partial) for partial in range(1, 17)), key=abs)
         assert abs(deviation) < 60, fingering
         assert fingering.cents == pytest.approx(deviation, abs=2.0), fingering
 
