@@ -181,7 +181,7 @@ def _wound_once_more(model: Model, at: Layout) -> None:
     low, lower = TAIL_Y + 0.022, TAIL_Y - 0.012
     x, back, last = -0.006, at.first_valve - 0.052, at.valves[2]
     _tuning_slide(model, at, low)
-    leg = bend([(0, low, at.front - 0.068), (0, low, last + 0.045), (x, low, last + 0.02), (x, low, back)], 0.03)
+    leg = bend([(0, low, at.front - 0.068), (0, low, last + 0.040), (x, low, last + 0.010), (x, low, back)], 0.03)
     bow = half_circle((x, low, back), (x, lower, back), -Z, 20)
     on = bend([(x, lower, back), (x, lower, last - 0.014), (VALVE_X, lower + 0.016, last)], 0.014)
     model.add("lacquered_brass", tube(joined(leg, bow, on), 0.0066))
@@ -201,8 +201,8 @@ def _through_first_valve(model: Model, at: Layout) -> None:
     model.add("lacquered_brass", tube(into_valve, 0.0064))
     screw = [(0, 0), (0, 0.0022), (0.008, 0.0022), (0.009, 0.0055), (0.011, 0.0055), (0.012, 0.0)]
     model.add("nickel_silver", turned((0, 0.005, first - 0.064), Y, screw, sides=18))
-    stay = bend([(0, 0, first - 0.012), (0, 0, last + 0.034), (VALVE_X, 0, last + 0.034), (VALVE_X, 0, last)], 0.010)
-    model.add("lacquered_brass", tube(stay, 0.0062))
+    model.add("lacquered_brass", tube([(0, 0, first - 0.012), (0, 0, last + 0.036)], 0.0062))
+    model.add("lacquered_brass", _brace((0.0040, 0, last), (VALVE_X - CASING_R + 0.001, 0, last), 0.0024))
 
 
 def _brace(start: tuple[float, float, float], end: tuple[float, float, float], thick: float = 0.0022) -> Shape:

@@ -97,7 +97,7 @@ def test_unreadable_files_are_map_errors(tmp_path: Path) -> None:
         ('node = "valve_3"', 'node = "valve_2"', "controls[2].node", "'valve_2' is used twice"),
         ('used_with = ["12"]', 'used_with = ["21"]', "controls[3].used_with[0]", "no fingering is labelled '21'"),
         ('part = "right.ring.pad"', 'part = "right.toe.pad"', "contacts[2].part", "'right.toe.pad' is not a part of a"),
-        ('"cornet"', '"cornett0"', "substitutes_for[0]", "'cornett0' is not in the vocabulary"),
+        ('plays = ["trumpet"]', 'plays = ["trumpett0"]', "plays[0]", "'trumpett0' is not in the vocabulary"),
         ("low = 52", "low = 51", "fingerings", "written pitch 53 (concert 51) has none"),
         ("high = 87 ", "high = 86 ", None, "is not in the range"),
         ('label = "123", controls = { valve_1', 'label = "123", controls = { valve_9', None, "valve_9"),
