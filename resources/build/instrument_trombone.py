@@ -55,7 +55,7 @@ TRIGGER_PIVOT = LOWER + 0.0190 * ACROSS + np.array([0, 0, -0.008])
 TRIGGER_PAD = LOWER + 0.0420 * ACROSS + 0.014 * OUT + np.array([0, 0, -0.004])
 TRIGGER_RAD = 0.30
 ROTOR_Z = -0.085
-SECOND_LEVER = 0.050 * DOWN + 0.0865 * Z - 0.004 * LEFT
+SECOND_LEVER = 0.046 * DOWN + 0.0875 * Z - 0.001 * LEFT
 """The second lever's paddle, in front of the inner slide's brace; its pad faces the finger that pulls it."""
 SECOND_PULL = np.array([0.0, 0.0, -1.0])
 SECOND_TRAVEL_M = 0.007
@@ -282,7 +282,7 @@ def _second_lever(model: Model) -> None:
     node = "second_trigger"
     paddle = [(-0.0034, 0), (-0.0034, 0.0070), (-0.0028, 0.0080), (-0.0006, 0.0080), (0.0, 0.0070), (0.0, 0)]
     model.add("nickel_silver", turned(SECOND_LEVER, -SECOND_PULL, paddle, sides=32), node=node)
-    corner = SECOND_LEVER - 0.0020 * Z + (SLIDE_WIDTH - 0.050 + 0.0135) * DOWN
+    corner = SECOND_LEVER - 0.0020 * Z + (SLIDE_WIDTH - 0.046 + 0.0135) * DOWN
     rod = bend([SECOND_LEVER - 0.0020 * Z, corner, corner - 0.105 * Z], 0.012)
     model.add("nickel_silver", tube(rod, 0.0021, sides=14), node=node)
     for z in (0.020, 0.052):

@@ -65,6 +65,7 @@ class Layout:
     flare: float = 0.65
     bell_x: float = 0.0375
     saddle_ahead: float = 0.0
+    middle_y: float = -0.0355
     third_bow: float = 0.0
     airway: str = "trumpet"
 
@@ -99,11 +100,11 @@ TRUMPET = Layout(shank=0.072, first_valve=TRUMPET_FIRST_VALVE, front=0.386, bell
 TRUMPET_C = replace(TRUMPET, front=0.378, bell=0.472, back=0.140, third_bow=-0.008)
 CORNET = Layout(
     shank=0.050, first_valve=0.152, front=0.322, bell=0.395, bell_r=0.0595, back=0.048, flare_m=0.0175, flare=0.70,
-    bell_x=0.050, saddle_ahead=0.014, airway="cornet",
+    bell_x=0.053, saddle_ahead=0.013, middle_y=-0.0380, airway="cornet",
 )  # fmt: skip
 FLUGELHORN = Layout(
     shank=0.052, first_valve=0.163, front=0.330, bell=0.460, bell_r=0.0760, back=0.080, flare_m=0.031, flare=0.86,
-    bell_x=0.054, saddle_ahead=0.009, airway="flugelhorn",
+    bell_x=0.054, saddle_ahead=0.011, middle_y=-0.0380, airway="flugelhorn",
 )  # fmt: skip
 
 
@@ -469,7 +470,7 @@ def contacts(at: Layout = TRUMPET) -> list[dict[str, object]]:
     touch(
         "left.middle.pad",
         "root",
-        _on(np.array([VALVE_X, -0.0355, at.valves[2]]), CASING_R, np.array([-0.42, 0, 0.907])),
+        _on(np.array([VALVE_X, at.middle_y, at.valves[2]]), CASING_R, np.array([-0.42, 0, 0.907])),
     )
     within = np.array([0, 0.65, 0.76])
     within /= np.linalg.norm(within)

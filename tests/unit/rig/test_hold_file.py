@@ -81,7 +81,7 @@ def test_a_damaged_or_foreign_file_is_none(tmp_path: Path, shipped: tuple[str, H
 def test_the_digest_knows_what_the_hands_touch() -> None:
     character, model, instrument, body = inputs(*PAIRS[0])
     digest = digest_of(character, model, instrument, body)
-    contact = msgspec.structs.replace(instrument.contacts[0], position_m=(0.0, 0.0, 0.0))
+    contact = msgspec.structs.replace(instrument.contacts[0], position_m=(0.0, 0.001, 0.0))
     moved = msgspec.structs.replace(instrument, contacts=(contact, *instrument.contacts[1:]))
     assert digest_of(character, model, moved, body) != digest
     renamed = msgspec.structs.replace(instrument, short_name="other", fingerings=())
