@@ -35,7 +35,8 @@ DEPTH_M = 0.006
 """... and no further inside the mouth than this: there are gums and teeth."""
 UPPER_SHARE, LOWER_SHARE = 0.3, 0.7
 """The upper lip goes along with the jaw by less than this share, the lower lip by more."""
-EDGE_VERTICES = 2
+SAME_M = 1e-4
+"""A vertex that is off the middle by less belongs to both halves."""
 ROUNDS = 3
 """How often the edges are found anew with the jaw that they ask for; they have settled after two."""
 
@@ -144,7 +145,6 @@ def _in_head(character: Character, place: Landmark) -> tuple[FloatArray, dict[st
     return positions.mean(axis=0), moving
 
 
-@lru_cache(maxsize=64)
 def _skin(character: Character, place: Landmark) -> tuple[FloatArray, dict[str, FloatArray]]:
     """Vertices (V, 3) in the head's frame at rest, and what the morphs add to them."""
     part = patch(character, mesh_named(character, place.mesh), place.vertices)
@@ -220,11 +220,13 @@ class _Mouth:
             jaw = float(np.clip((opening_m - gap_m) / (drop[upper].mean() - drop[lower].mean()), 0.0, 1.0))
         return upper, lower
 
-    @staticmethod
-    def _edge(height: FloatArray, depth: FloatArray, own: npt.NDArray[np.bool_]) -> IntArray:
+    def _edge(self, height: FloatArray, depth: FloatArray, own: npt.NDArray[np.bool_]) -> IntArray:
+        """The lowest vertex of each half of the lip, so that the edge is in the middle."""
         front = float(np.percentile(depth[own], 90.0))
-        rows = np.flatnonzero(own & (depth > front - DEPTH_M))
-        return np.sort(rows[np.argsort(height[rows], kind="stable")[:EDGE_VERTICES]])
+        outside = own & (depth > front - DEPTH_M)
+        off_m = self.positions_m[:, 0] - self.seam_m[0]
+        halves = (np.flatnonzero(outside & half) for half in (off_m > -SAME_M, off_m < SAME_M))
+        return np.array([rows[height[rows].argmin()] for rows in halves], dtype=np.intp)
 
 
 @lru_cache(maxsize=32)

@@ -129,7 +129,7 @@ def test_the_lips_close_around_what_is_between_them_and_open_for_the_air(name: s
     places = lip_places(case.character, case.instrument, BODY)
     height_m = case.skin_m(places.upper)[:, 1] - case.skin_m(places.lower)[:, 1]
     # The instrument turns a little against the head.
-    assert np.abs(height_m[case.sounding] - apart_m - opening_m).max() < 1e-3
+    assert np.abs(height_m[case.sounding] - apart_m - opening_m).max() < 1.2e-3
     at_the_lips = ~case.spans(
         *((gesture.start_s, gesture.end_s) for gesture in case.plan.gestures if gesture.kind == "lower_instrument")
     )
