@@ -161,6 +161,10 @@ def _tempo(tempos: list[Table]) -> str:
     return f"{min(values):.4g} to {max(values):.4g} ({len(values)} changes)"
 
 
+FIRST, FIRST_WORDS = 10, 3
+"""So many fingerings of each player are shown."""
+
+
 def _row(player: Table) -> tuple[str, ...]:
     pitches = [note["pitch"] for note in player["notes"]]
     span = f"{note_name(min(pitches))}-{note_name(max(pitches))}" if pitches else "-"
@@ -172,5 +176,12 @@ def _row(player: Table) -> tuple[str, ...]:
         span,
         str(breaths),
         str(len(player["cues"])),
-        " ".join(note["fingering"] for note in player["notes"][:10]),
+        _fingerings([note["fingering"] for note in player["notes"][:FIRST]]),
     )
+
+
+def _fingerings(labels: list[str]) -> str:
+    """Labels of several words are told apart by a comma, and are fewer."""
+    if not any(" " in label for label in labels):
+        return " ".join(labels)
+    return ", ".join(labels[:FIRST_WORDS])
