@@ -116,8 +116,8 @@ def test_tables_are_fine_enough_that_fingers_move_evenly(held: Held) -> None:
     rotations = finger_rotations(held.hold, {c.name: fine for c in held.instrument.controls}, len(fine))
     step = quaternion.multiply(quaternion.conjugate(rotations[:-1]), rotations[1:])
     speed = np.linalg.norm(quaternion.to_rotation_vector(step), axis=2)
-    # No joint turns more than half a degree while a control moves by 1/400: nothing jumps from one solution to another.
-    assert np.degrees(speed.max()) < 0.5
+    # No joint turns more than 0.7 degrees while a control moves by 1/400: nothing jumps from one solution to another.
+    assert np.degrees(speed.max()) < 0.7
 
 
 def test_the_lips_move_with_the_face_as_the_skin_does(held: Held) -> None:
