@@ -27,6 +27,8 @@ PATH = Path(__file__).with_name("vocabulary.toml")
 # A token is a word, one kana or kanji (Japanese has no spaces), a number or an accidental.
 _WIDE = re.compile(r"[\u3040-\u30ff\u3400-\u9fff]")
 _TOKEN = re.compile(r"[\u3040-\u30ff\u3400-\u9fff]|[^\W\d_\u3040-\u30ff\u3400-\u9fff]+|\d+|[♭♯#]")
+_NAME_LETTERS = 4
+"""In a running text "Ob" or "Tr" may be anything; "Oboe" is not."""
 _CAMEL = re.compile(r"(?<=[a-z])(?=[A-Z])")
 
 
@@ -41,8 +43,16 @@ class Instrument(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         The first is the English name for people; matching ignores case, diacritics, width and punctuation.
     programs : tuple of int
         General MIDI programs, 0..127.
+    family : str
+        Of a wind: the section it sits in, one of those in the table's ``seating``.
+    sort_of : str
+        Id of the more general instrument that this is a size or key of: a clarinet in A is a sort of clarinet. A part
+        for the one may be played by the other where nothing fits better.
+    by_name_only : bool
+        Nobody is given this instrument because of the range of the notes alone.
     any_pitch : bool
-        A wind section without a range of its own ("brass"): the range of its notes decides who plays.
+        A wind section without a range of its own ("brass"): the range of its notes decides who plays, among
+        ``families`` where they are named.
     vague : bool
         Its names may mean a part of any instrument ("Voice 1"): the program of a wind says more.
     """
@@ -51,11 +61,16 @@ class Instrument(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     kind: Literal["wind", "percussion", "other"]
     names: tuple[str, ...]
     programs: tuple[int, ...] = ()
+    family: str = ""
+    sort_of: str = ""
+    by_name_only: bool = False
+    families: tuple[str, ...] = ()
     any_pitch: bool = False
     vague: bool = False
 
 
 class _Table(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    seating: tuple[tuple[str, ...], ...]
     instruments: tuple[Instrument, ...]
 
 
@@ -66,14 +81,21 @@ class Vocabulary:
     ----------
     instruments : tuple of Instrument
         Names and programs belong to one instrument each.
+    file : str
+        The table's name for messages.
+    seating : tuple of tuple of str
+        Families of winds, by row from the audience's side, each row from the audience's left.
 
     Raises
     ------
     MapError
-        If a name or a program belongs to two.
+        If a name or a program belongs to two, or a kind or a family is not in the table.
     """
 
-    def __init__(self, instruments: tuple[Instrument, ...], file: str) -> None:
+    def __init__(
+        self, instruments: tuple[Instrument, ...], file: str, seating: tuple[tuple[str, ...], ...] = ()
+    ) -> None:
+        self.seating = seating
         self.instruments = {instrument.id: instrument for instrument in instruments}
         self._by_program: dict[int, Instrument] = {}
         self._by_tokens: dict[tuple[str, ...], Instrument] = {}
@@ -88,10 +110,55 @@ class Vocabulary:
                 if not tokens or self._by_tokens.setdefault(tokens, instrument) is not instrument:
                     raise MapError("vocabulary.invalid", file=file, detail=f"'{name}' belongs to two instruments")
         self._longest = max(map(len, self._by_tokens), default=0)
+        families = {"", *(family for row in seating for family in row)}
+        for instrument in instruments:
+            for family in (instrument.family, *instrument.families):
+                if family not in families:
+                    raise MapError("vocabulary.invalid", file=file, detail=f"'{family}' has no place in the seating")
+            above = [instrument.id]
+            while (more := self.instruments.get(above[-1])) is not None and more.sort_of:
+                if more.sort_of in above or more.sort_of not in self.instruments:
+                    detail = f"'{instrument.id}' is a sort of '{more.sort_of}', which is no other instrument"
+                    raise MapError("vocabulary.invalid", file=file, detail=detail)
+                above.append(more.sort_of)
 
     def by_program(self, program: int) -> Instrument | None:
         """The instrument of a General MIDI program, 0..127."""
         return self._by_program.get(program)
+
+    def is_sort(self, id: str, general: str) -> bool:
+        """Whether an instrument is a sort of another one, over any number of steps."""
+        known = self.instruments.get(id)
+        return (
+            known is not None
+            and bool(known.sort_of)
+            and (known.sort_of == general or self.is_sort(known.sort_of, general))
+        )
+
+    def lineage(self, id: str) -> tuple[str, ...]:
+        """An instrument and what it is a sort of, from itself to the most general."""
+        known = self.instruments.get(id)
+        return (id, *(self.lineage(known.sort_of) if known is not None and known.sort_of else ()))
+
+    def family(self, ids: tuple[str, ...]) -> str:
+        """The section of the first of these instruments that has one; empty if none has."""
+        families = (self.instruments[id].family for id in ids if id in self.instruments)
+        return next((family for family in families if family), "")
+
+    def all_by_name(self, text: str) -> tuple[Instrument, ...]:
+        """Every instrument that a running text names, once, in its order. Abbreviations do not count."""
+        tokens, found, start = _tokens(text), dict[str, Instrument](), 0
+        while start < len(tokens):
+            step = 1
+            for length in range(min(self._longest, len(tokens) - start), 0, -1):
+                own = tokens[start : start + length]
+                named = self._by_tokens.get(own)
+                if named is not None and (len("".join(own)) >= _NAME_LETTERS or _WIDE.match(own[0])):
+                    found.setdefault(named.id, named)
+                    step = length
+                    break
+            start += step
+        return tuple(found.values())
 
     def by_name(self, text: str) -> Instrument | None:
         """The instrument that a text names.
@@ -139,7 +206,7 @@ def vocabulary() -> Vocabulary:
         table = msgspec.convert(tomllib.loads(PATH.read_text(encoding="utf-8")), _Table)
     except (tomllib.TOMLDecodeError, msgspec.ValidationError) as error:
         raise MapError("vocabulary.invalid", file=PATH.name, detail=str(error)) from error
-    return Vocabulary(table.instruments, PATH.name)
+    return Vocabulary(table.instruments, PATH.name, table.seating)
 
 
 # Worked out here, under the import's lock: two threads that use a type for the first time at once crash msgspec.

@@ -46,6 +46,9 @@ TEMPLATES: Final[dict[str, str]] = {
         "({lowest} to {highest})"
     ),
     "score.substituted": "{part}: there is no instrument map for {instrument}; {map} plays it instead",
+    "score.told_by_file": (
+        "{part}: neither its name nor its program says what it is; the file's name does, so {map} plays it"
+    ),
     "score.chosen_by_range": (
         "{part}: neither its name nor its program says what it is; {map} plays it because the range fits"
     ),

@@ -18,6 +18,8 @@ Warnings
 --------
 score.substituted : part, instrument, map
     "{part}: there is no instrument map for {instrument}; {map} plays it instead"
+score.told_by_file : part, map
+    "{part}: neither its name nor its program says what it is; the file's name does, so {map} plays it"
 score.chosen_by_range : part, map
     "{part}: neither its name nor its program says what it is; {map} plays it because the range fits"
 score.chosen_by_range_partly : part, map, outside, total
@@ -32,86 +34,15 @@ score.voices : part, voices
 from __future__ import annotations
 
 from collections.abc import Sequence
-from operator import sub
 
 import msgspec
 
 from app.errors import Message
-from app.score.model import ControllerCurve, Note, Part, UnplayedPart
+from app.score.choose import Candidates, How, MapChoice, Stream, candidates, plays, recognised, refusal
+from app.score.model import Note, Part, UnplayedPart
 from app.score.tempo import TempoMap
 from app.score.voices import split_voices
 from instrument_maps.vocabulary import Instrument, vocabulary
-
-PERCUSSION_CHANNEL = 9
-_NEEDED_SHARE = 0.5
-
-
-class MapChoice(msgspec.Struct, frozen=True):
-    """What an instrument map can be chosen for.
-
-    Attributes
-    ----------
-    map_id : str
-    plays, substitutes_for : tuple of str
-        Ids in the vocabulary of instruments: its own, and those it may stand in for.
-    concert_low, concert_high : int
-        Its range at concert pitch, both included, MIDI numbers.
-    """
-
-    map_id: str
-    plays: tuple[str, ...]
-    substitutes_for: tuple[str, ...]
-    concert_low: int
-    concert_high: int
-
-
-class Stream(msgspec.Struct, frozen=True):
-    """The notes of one track on one channel, as read.
-
-    Attributes
-    ----------
-    track : int
-        Counted from 0.
-    channel : int
-    name, instrument_name : str
-        The track's texts for people, empty if there are none.
-    program : int or None
-    onset_ticks, end_ticks, pitches, velocities, numbers : list of int
-        One entry per note, by onset; ``numbers`` is the note's place among the track's note-ons, from 1.
-    curves : tuple of ControllerCurve
-    """
-
-    track: int
-    channel: int
-    name: str
-    instrument_name: str
-    program: int | None
-    onset_ticks: list[int]
-    end_ticks: list[int]
-    pitches: list[int]
-    velocities: list[int]
-    numbers: list[int]
-    curves: tuple[ControllerCurve, ...]
-
-    def notes(self) -> list[Note]:
-        """The notes, in the same order."""
-        ids = [f"{self.track + 1}:{number}" for number in self.numbers]
-        durations = map(sub, self.end_ticks, self.onset_ticks)
-        return list(map(Note, ids, self.onset_ticks, durations, self.pitches, self.velocities))
-
-
-def recognised(stream: Stream) -> Instrument | None:
-    """The instrument that names or numbers give to a track; None if they give none."""
-    words = vocabulary()
-    named = [words.by_name(text) for text in (stream.name, stream.instrument_name) if text]
-    telling = next((found for found in named if found is not None and not found.vague), None)
-    if telling is not None:
-        return telling
-    vague = next((found for found in named if found is not None), None)
-    if stream.channel == PERCUSSION_CHANNEL:
-        return vague or words.instruments["drums"]
-    numbered = None if stream.program is None else words.by_program(stream.program)
-    return numbered if vague is None or (numbered is not None and numbered.kind == "wind") else vague
 
 
 def parts_of(
@@ -152,9 +83,7 @@ class PartWish(msgspec.Struct, frozen=True):
 
 def usual_wishes(streams: Sequence[Stream], maps: Sequence[MapChoice]) -> tuple[PartWish, ...]:
     """What names, programs and ranges say: a wish, which a person may change, for every stream somebody can play."""
-    return tuple(
-        PartWish((index,)) for index, stream in enumerate(streams) if _refusal(stream, recognised(stream), maps) is None
-    )
+    return tuple(PartWish((index,)) for index, stream in enumerate(streams) if refusal(stream, maps) is None)
 
 
 def wished_parts(
@@ -174,31 +103,32 @@ def wished_parts(
     warnings: list[Message] = []
     for wish in wishes:
         chosen = [streams[index] for index in wish.streams]
-        instrument = next((found for found in map(recognised, chosen) if found is not None), None)
-        # What is not known, or has no map of its own, goes to the one whose range fits.
-        known = [] if instrument is None or instrument.any_pitch else _maps_for(instrument, maps)
-        candidates = [choice for choice in maps if choice.map_id == wish.map_id] or known or list(maps)
+        found = _found(chosen, wish.map_id, maps)
+        instrument = found.instrument
         notes = [note for stream in chosen for note in stream.notes()]
         if len(chosen) > 1:
             notes.sort(key=lambda note: (note.onset_tick, note.pitch))
         voices = split_voices(notes, tempo_map) if wish.split else [tuple(notes)]
         curves = next((stream.curves for stream in chosen if stream.curves), ())
         name = wish.name or chosen[0].name or chosen[0].instrument_name
-        mine = _parts(msgspec.structs.replace(chosen[0], curves=curves), name, instrument, voices, candidates)
+        mine = _parts(msgspec.structs.replace(chosen[0], curves=curves), name, instrument, voices, found)
         parts += mine
         if len(mine) > 1:
             warnings.append(Message("score.voices", {"part": mine[0].name, "voices": len(mine)}))
         if wish.map_id is not None:
             continue
-        if not known:
+        if found.how is How.RANGE:
             warnings += [_range_warning(part, maps) for part in mine]
-        elif instrument is not None:
+            continue
+        if found.how is How.FILE:
+            warnings.append(Message("score.told_by_file", {"part": mine[0].name, "map": mine[0].map_id}))
+        if instrument is not None:
             warnings += _substitutions(mine, instrument, maps)
     asked = {index for wish in wishes for index in wish.streams}
     unplayed = tuple(
         UnplayedPart(
             stream_name(stream),
-            _refusal(stream, recognised(stream), maps) or Message("score.left_out"),
+            refusal(stream, maps) or Message("score.left_out"),
             len(stream.pitches),
             max(stream.end_ticks),
         )
@@ -213,8 +143,18 @@ def _substitutions(parts: Sequence[Part], instrument: Instrument, maps: Sequence
     return [
         Message("score.substituted", {"part": parts[0].name, "instrument": instrument.names[0], "map": map_id})
         for map_id in dict.fromkeys(part.map_id for part in parts)
-        if not any(choice.map_id == map_id and instrument.id in choice.plays for choice in maps)
+        if not any(choice.map_id == map_id and plays(choice, instrument) for choice in maps)
     ]
+
+
+def _found(chosen: Sequence[Stream], map_id: str | None, maps: Sequence[MapChoice]) -> Candidates:
+    """The maps a wish may be given to: the one a person named, else what the tracks say and fit."""
+    named = tuple(choice for choice in maps if choice.map_id == map_id)
+    found = candidates(chosen, maps)
+    if not named and not found.maps:
+        # A person wants it played though no map is for it.
+        return Candidates(How.RANGE, found.instrument, tuple(maps))
+    return Candidates(How.SAID, found.instrument, named) if named else found
 
 
 def stream_name(stream: Stream) -> str:
@@ -228,12 +168,12 @@ def _parts(
     name: str,
     instrument: Instrument | None,
     voices: Sequence[tuple[Note, ...]],
-    candidates: Sequence[MapChoice],
+    found: Candidates,
 ) -> list[Part]:
     """A part for every voice."""
     parts = []
     for voice, notes in enumerate(voices):
-        chosen = _best_by_range([note.pitch for note in notes], candidates)
+        chosen = found.best([note.pitch for note in notes])
         parts.append(
             Part(
                 id=f"{stream.track + 1}.{stream.channel + 1}.{voice + 1}",
@@ -249,42 +189,6 @@ def _parts(
             )
         )
     return parts
-
-
-def _maps_for(instrument: Instrument, maps: Sequence[MapChoice]) -> list[MapChoice]:
-    """The maps that play an instrument, else those that stand in for it."""
-    return [choice for choice in maps if instrument.id in choice.plays] or [
-        choice for choice in maps if instrument.id in choice.substitutes_for
-    ]
-
-
-def _refusal(stream: Stream, instrument: Instrument | None, maps: Sequence[MapChoice]) -> Message | None:
-    """Why nobody plays a track; None if somebody does."""
-    if instrument is not None and not instrument.any_pitch:
-        if instrument.kind != "wind":
-            id_ = "score.percussion" if instrument.kind == "percussion" else "score.not_wind"
-            return Message(id_, {"instrument": instrument.names[0]})
-        return None if _maps_for(instrument, maps) else Message("score.no_map", {"instrument": instrument.names[0]})
-    if max((_share(stream.pitches, choice) for choice in maps), default=0.0) <= _NEEDED_SHARE:
-        return Message("score.outside_ranges", {"lowest": min(stream.pitches), "highest": max(stream.pitches)})
-    return None
-
-
-def _share(pitches: Sequence[int], choice: MapChoice) -> float:
-    """How many of the notes a map reaches, 0..1."""
-    if choice.concert_low <= min(pitches) and max(pitches) <= choice.concert_high:
-        return 1.0
-    return sum(choice.concert_low <= pitch <= choice.concert_high for pitch in pitches) / len(pitches)
-
-
-def _best_by_range(pitches: Sequence[int], candidates: Sequence[MapChoice]) -> MapChoice:
-    """The map that reaches most of the notes; among equals the one whose limits they stay away from furthest."""
-    lowest, highest = min(pitches), max(pitches)
-
-    def rank(choice: MapChoice) -> tuple[float, int]:
-        return _share(pitches, choice), min(lowest - choice.concert_low, choice.concert_high - highest)
-
-    return max(candidates, key=rank)
 
 
 def _range_warning(part: Part, maps: Sequence[MapChoice]) -> Message:

@@ -45,9 +45,10 @@ import mido
 import msgspec
 
 from app.errors import FileError, Message
+from app.score.choose import PERCUSSION_CHANNEL, MapChoice, Stream, told_by_file
 from app.score.chunks import Container, Track, read_container
 from app.score.model import Metre, Part, Score, UnplayedPart
-from app.score.parts import PERCUSSION_CHANNEL, MapChoice, PartWish, Stream, parts_of, wished_parts
+from app.score.parts import PartWish, parts_of, wished_parts
 from app.score.repair import Repaired, last_system_message, repaired
 from app.score.tempo import TempoChange, TempoMap
 from app.score.texts import decoded
@@ -161,7 +162,7 @@ def read_contents(path: Path, *, encoding: str | None = None) -> MidiContents:
         tempo_map=tempo_map,
         metres=metres,
         pickup_ticks=pickup_ticks,
-        streams=tuple(_streams(tracks, encoding)),
+        streams=tuple(told_by_file(_streams(tracks, encoding), path.stem)),
         warnings=(*warnings, *tempo_warnings, *metre_warnings),
     )
 

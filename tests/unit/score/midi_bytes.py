@@ -5,8 +5,8 @@ from __future__ import annotations
 import tempfile
 from pathlib import Path
 
+from app.score.choose import MapChoice
 from app.score.model import Score
-from app.score.parts import MapChoice
 from app.score.read import read_midi
 
 TRUMPET = MapChoice("trumpet", ("trumpet",), ("cornet", "flugelhorn"), 52, 82)
@@ -33,10 +33,12 @@ def note(pitch: int, ticks: int = 48, channel: int = 0, delta: int = 0) -> bytes
     return bytes([delta, 0x90 | channel, pitch, 64, ticks, 0x80 | channel, pitch, 0])
 
 
-def score_of(data: bytes, *, encoding: str | None = None, maps: tuple[MapChoice, ...] = MAPS) -> Score:
+def score_of(
+    data: bytes, *, encoding: str | None = None, maps: tuple[MapChoice, ...] = MAPS, stem: str = "piece"
+) -> Score:
     """What the reader makes of the bytes of a file."""
     with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "piece.mid"
+        path = Path(folder) / f"{stem}.mid"
         path.write_bytes(data)
         return read_midi(path, encoding=encoding, maps=maps)
 

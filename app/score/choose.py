@@ -1,0 +1,226 @@
+"""Which instrument map plays a track: what its names, its program or the file's name say, then the range of its notes.
+
+An exact entry of the vocabulary goes before its kind: a part for the clarinet in A goes to the map of the clarinet in
+A, else to that of a clarinet; one for a recorder to the size its notes fit.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from enum import Enum
+from operator import sub
+
+import msgspec
+
+from app.errors import Message
+from app.score.model import ControllerCurve, Note
+from instrument_maps.vocabulary import Instrument, vocabulary
+
+PERCUSSION_CHANNEL = 9
+_NEEDED_SHARE = 0.5
+_OWN_SHARE = 0.97
+"""A part for an instrument is played on just this one where it has nearly all notes, not on another size or key of it
+for the sake of one."""
+
+
+class MapChoice(msgspec.Struct, frozen=True):
+    """What an instrument map can be chosen for.
+
+    Attributes
+    ----------
+    map_id : str
+    plays, substitutes_for : tuple of str
+        Ids in the vocabulary of instruments: its own, and those it may stand in for.
+    concert_low, concert_high : int
+        Its range at concert pitch, both included, MIDI numbers.
+    """
+
+    map_id: str
+    plays: tuple[str, ...]
+    substitutes_for: tuple[str, ...]
+    concert_low: int
+    concert_high: int
+
+
+class Stream(msgspec.Struct, frozen=True):
+    """The notes of one track on one channel, as read.
+
+    Attributes
+    ----------
+    track : int
+        Counted from 0.
+    channel : int
+    name, instrument_name : str
+        The track's texts for people, empty if there are none.
+    program : int or None
+    onset_ticks, end_ticks, pitches, velocities, numbers : list of int
+        One entry per note, by onset; ``numbers`` is the note's place among the track's note-ons, from 1.
+    curves : tuple of ControllerCurve
+    told : tuple of str
+        Of a track that says nothing itself: ids of the instruments that the file's name says it may be for.
+    """
+
+    track: int
+    channel: int
+    name: str
+    instrument_name: str
+    program: int | None
+    onset_ticks: list[int]
+    end_ticks: list[int]
+    pitches: list[int]
+    velocities: list[int]
+    numbers: list[int]
+    curves: tuple[ControllerCurve, ...]
+    told: tuple[str, ...] = ()
+
+    def notes(self) -> list[Note]:
+        """The notes, in the same order."""
+        ids = [f"{self.track + 1}:{number}" for number in self.numbers]
+        durations = map(sub, self.end_ticks, self.onset_ticks)
+        return list(map(Note, ids, self.onset_ticks, durations, self.pitches, self.velocities))
+
+
+class How(Enum):
+    """What chose the maps a track may go to."""
+
+    SAID = "said"
+    """Its names or its program."""
+    FILE = "file"
+    """The file's name."""
+    RANGE = "range"
+    """Nothing but its notes."""
+
+
+class Candidates(msgspec.Struct, frozen=True):
+    """The maps a track may go to.
+
+    Attributes
+    ----------
+    how : How
+    instrument : Instrument or None
+        What the track is for, where that is said.
+    maps : tuple of MapChoice
+    exact : frozenset of str
+        Ids of the maps that play just this instrument, not a kind of it.
+    """
+
+    how: How
+    instrument: Instrument | None
+    maps: tuple[MapChoice, ...]
+    exact: frozenset[str] = frozenset()
+
+    def best(self, pitches: Sequence[int]) -> MapChoice:
+        """The map that plays just this instrument where it has the notes; else the one that reaches most of them, among
+        equals the one in the middle of whose range they lie."""
+
+        lowest, highest = min(pitches), max(pitches)
+
+        def rank(choice: MapChoice) -> tuple[bool, float, int, int]:
+            share = _share(pitches, choice)
+            below, above = lowest - choice.concert_low, choice.concert_high - highest
+            return choice.map_id in self.exact and share >= _OWN_SHARE, share, -abs(below - above), min(below, above)
+
+        return max(self.maps, key=rank)
+
+
+def recognised(stream: Stream) -> Instrument | None:
+    """The instrument that a track's names or numbers, or else the file's name, give to it; None if they give none."""
+    said = _said(stream)
+    return vocabulary().instruments[stream.told[0]] if said is None and len(stream.told) == 1 else said
+
+
+def _said(stream: Stream) -> Instrument | None:
+    """What a track says of itself."""
+    words = vocabulary()
+    named = [words.by_name(text) for text in (stream.name, stream.instrument_name) if text]
+    telling = next((found for found in named if found is not None and not found.vague), None)
+    if telling is not None:
+        return telling
+    vague = next((found for found in named if found is not None), None)
+    if stream.channel == PERCUSSION_CHANNEL:
+        return vague or words.instruments["drums"]
+    numbered = None if stream.program is None else words.by_program(stream.program)
+    return numbered if vague is None or (numbered is not None and numbered.kind == "wind") else vague
+
+
+def told_by_file(streams: Sequence[Stream], title: str) -> list[Stream]:
+    """Give the winds that a file's name or title names to the tracks that say nothing themselves.
+
+    As many as there are such tracks go to them in their order ("oboe and bassoon"); else each of them may be any of
+    those named, as its notes fit. A section alone ("brass quintet") leaves it to them who of the section plays.
+    """
+    silent = [index for index, stream in enumerate(streams) if _said(stream) is None]
+    winds = [found for found in vocabulary().all_by_name(title) if found.kind == "wind"]
+    sections = [found.id for found in winds if found.any_pitch]
+    named = [found.id for found in winds if not found.any_pitch] or sections[:1]
+    told = list(streams)
+    for place, index in enumerate(silent):
+        own = (named[place],) if len(named) == len(silent) else tuple(dict.fromkeys(named))
+        told[index] = msgspec.structs.replace(streams[index], told=own)
+    return told
+
+
+def candidates(streams: Sequence[Stream], maps: Sequence[MapChoice]) -> Candidates:
+    """The maps that tracks which are played as one may go to; those whose range fits where nothing is said."""
+    said = next((found for found in map(_said, streams) if found is not None), None)
+    if said is not None and not said.any_pitch:
+        return _of_instrument(How.SAID, said, maps)
+    told = dict.fromkeys(id for stream in streams for id in stream.told) if said is None else {}
+    pitches = [pitch for stream in streams for pitch in stream.pitches]
+    named = [vocabulary().instruments[id] for id in told]
+    found = [_of_instrument(How.FILE, one, maps) for one in named if not one.any_pitch]
+    fitting = [one for one in found if any(_share(pitches, choice) > _NEEDED_SHARE for choice in one.maps)]
+    if len(fitting) == 1:
+        return fitting[0]
+    if fitting:
+        together = {choice.map_id: choice for one in fitting for choice in one.maps}
+        return Candidates(How.FILE, None, tuple(together.values()))
+    section = said or next((one for one in named if one.any_pitch), None)
+    families = () if section is None else section.families
+    usual = _where(maps, lambda one: not one.by_name_only and (not families or one.family in families))
+    return Candidates(How.RANGE, section, tuple(usual or maps))
+
+
+def refusal(stream: Stream, maps: Sequence[MapChoice]) -> Message | None:
+    """Why nobody plays a track; None if somebody does."""
+    instrument = _said(stream)
+    if instrument is not None and not instrument.any_pitch:
+        if instrument.kind != "wind":
+            id_ = "score.percussion" if instrument.kind == "percussion" else "score.not_wind"
+            return Message(id_, {"instrument": instrument.names[0]})
+        found = candidates([stream], maps).maps
+        return None if found else Message("score.no_map", {"instrument": instrument.names[0]})
+    choices = candidates([stream], maps).maps
+    if max((_share(stream.pitches, choice) for choice in choices), default=0.0) <= _NEEDED_SHARE:
+        return Message("score.outside_ranges", {"lowest": min(stream.pitches), "highest": max(stream.pitches)})
+    return None
+
+
+def plays(choice: MapChoice, instrument: Instrument) -> bool:
+    """Whether a map plays an instrument, or a sort of it."""
+    return any(id == instrument.id or vocabulary().is_sort(id, instrument.id) for id in choice.plays)
+
+
+def _of_instrument(how: How, instrument: Instrument, maps: Sequence[MapChoice]) -> Candidates:
+    """The maps that play an instrument, those of its sorts among them; else those that stand in for it; else those of
+    the kind it is a sort of."""
+    exact = frozenset(choice.map_id for choice in maps if instrument.id in choice.plays)
+    own = [choice for choice in maps if plays(choice, instrument)]
+    own = own or [choice for choice in maps if instrument.id in choice.substitutes_for]
+    if not own and instrument.sort_of:
+        general = _of_instrument(how, vocabulary().instruments[instrument.sort_of], maps)
+        return Candidates(how, instrument, general.maps, general.exact)
+    return Candidates(how, instrument, tuple(own), exact)
+
+
+def _where(maps: Iterable[MapChoice], wanted: Callable[[Instrument], bool]) -> list[MapChoice]:
+    """The maps of which something they play is wanted; also those that play nothing the vocabulary knows."""
+    known = vocabulary().instruments
+    return [choice for choice in maps if any(id not in known or wanted(known[id]) for id in choice.plays)]
+
+
+def _share(pitches: Sequence[int], choice: MapChoice) -> float:
+    """How many of the notes a map reaches, 0..1."""
+    if choice.concert_low <= min(pitches) and max(pitches) <= choice.concert_high:
+        return 1.0
+    return sum(choice.concert_low <= pitch <= choice.concert_high for pitch in pitches) / len(pitches)
