@@ -20,7 +20,7 @@ _DOWN = 0.5
 """A control is held beyond this part of its way; short of it, a hole is half closed."""
 
 LEVER_COST = 0.5
-"""A lever under a thumb of its own moves beside the others."""
+"""A thumb that has a lever of its own moves beside the fingers."""
 CONTRARY_COST = 0.5
 """One finger going up while another goes down is harder than both going one way."""
 KEY_TO_KEY_COST = {"little": 4.0, "ring": 3.0}
@@ -49,7 +49,7 @@ class Ways:
     weighted : the same, levers and contrary motion weighted
     key_to_key : cost of the fingers that go from one key to another without being free
     rolls : fingers that roll onto a further key, or off it
-    together : 1 where a lever is turned while other fingers move
+    together : 1 where a thumb's lever is turned while fingers move
     """
 
     moves: FloatArray
@@ -67,7 +67,7 @@ class Finger:
     holds: IntArray
     half: IntArray
     levers: int
-    """Bits of the levers, and of all that is not moved by fingers alone."""
+    """Bits of the thumbs' levers."""
 
 
 @dataclass(frozen=True)
@@ -124,6 +124,7 @@ def finger_ways(table: FingeringTable, controls: Sequence[Control]) -> FingerPla
                 finger = fingering.fingers.get(control.name, control.finger)
                 chosen = holds if value > _DOWN else half
                 chosen[finger][row, column] |= bits[control.name]
-    levers = sum(bits[control.name] for control in controls if control.kind == "lever")
+    # Under a finger a lever is worked like any valve.
+    levers = sum(bits[item.name] for item in controls if item.kind == "lever" and item.finger.endswith(".thumb"))
     found = (Finger(name, holds[name], half[name], levers) for name in names)
     return FingerPlaces(tuple(finger for finger in found if finger.holds.any() or finger.half.any()), shape)

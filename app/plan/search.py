@@ -180,7 +180,7 @@ class FingeringProblem:
         cost = table.cost[index]
         if table.meant_for:
             step_s = np.diff(times.onset_s)
-            quick = _either_side(step_s <= QUICK_S, len(index))
+            quick = _either_side(step_s <= QUICK_S + TOLERANCE, len(index))
             places = {
                 "trill": _either_side(self.in_trill, len(index)),
                 "fast": quick,
@@ -289,7 +289,7 @@ def trill_steps(times: LineTimes) -> BoolArray:
     if count < TRILL_NOTES:
         return result
     interval = np.diff(times.pitch)
-    quick = (np.diff(times.onset_s) <= TRILL_S) & (np.abs(interval) >= 1) & (np.abs(interval) <= 2)
+    quick = (np.diff(times.onset_s) <= TRILL_S + TOLERANCE) & (np.abs(interval) >= 1) & (np.abs(interval) <= 2)
     turns = quick[1:] & quick[:-1] & (interval[1:] == -interval[:-1])
     need = TRILL_NOTES - 2
     windows: BoolArray = np.asarray(np.lib.stride_tricks.sliding_window_view(turns, need).all(axis=1))

@@ -114,4 +114,4 @@ def double_horn() -> InstrumentMap:
     rows: list[Row] = []
     for pitch, (first, other) in sides.items():
         rows += [(pitch, first or "0"), (pitch, other or "0", "alternate")]
-    return made("double_horn", keys, rows, levers="T")
+    return made("double_horn", keys, rows, levers="T 1 2 3")

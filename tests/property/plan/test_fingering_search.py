@@ -49,7 +49,7 @@ def trill_of(notes: tuple[PlainNote, ...], onset: list[float]) -> list[bool]:
     trill = [False] * max(len(notes) - 1, 0)
     for start in range(len(notes) - 3):
         pitches = [note.pitch for note in notes[start : start + 4]]
-        quick = all(onset[start + k + 1] - onset[start + k] <= 0.15 for k in range(3))
+        quick = all(onset[start + k + 1] - onset[start + k] <= 0.15 + 1e-9 for k in range(3))
         if quick and pitches[0] == pitches[2] and pitches[1] == pitches[3] and 1 <= abs(pitches[0] - pitches[1]) <= 2:
             trill[start : start + 3] = [True] * 3
     return trill
@@ -81,7 +81,7 @@ def held(fingering: Fingering, instrument: InstrumentMap) -> dict[str, frozenset
 
 def fingers_cost(a: Fingering, b: Fingering, instrument: InstrumentMap, step: float, gap: float, hurry: float) -> float:
     """What the fingers' way from one fingering to another costs."""
-    levers = {control.name for control in instrument.controls if control.kind == "lever"}
+    levers = {one.name for one in instrument.controls if one.kind == "lever" and one.finger.endswith("thumb")}
     before, after = held(a, instrument), held(b, instrument)
     nothing: frozenset[tuple[str, bool]] = frozenset()
     moved, weighted, jumps, rolls, turned = 0, 0.0, 0.0, 0, False
@@ -123,7 +123,7 @@ def naive_cost(notes: tuple[PlainNote, ...], choice: list[Fingering], instrument
     for index, fingering in enumerate(choice):
         first = instrument.fingerings_for(notes[index].pitch)[0]
         sides = [side for side in (index - 1, index) if 0 <= side < len(steps)]
-        in_trill, fast = any(trill[side] for side in sides), any(steps[side] <= 0.15 for side in sides)
+        in_trill, fast = any(trill[side] for side in sides), any(steps[side] <= 0.15 + 1e-9 for side in sides)
         cost += choice_cost(fingering, first, end[index] - onset[index], in_trill, fast)
     hurried, moved_by = [], []
     for index, step in enumerate(steps):
