@@ -1016,6 +1016,10 @@
             <translation>{part}: {instrument} のマップがないため、{map} で代わりに演奏します</translation>
         </message>
         <message>
+            <source>{part}: neither its name nor its program says what it is; the file's name does, so {map} plays it</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>{part}: neither its name nor its program says what it is; {map} plays it because the range fits</source>
             <translation>{part}: 名前からもプログラム番号からも楽器が分かりません。音域が合う {map} で演奏します</translation>
         </message>

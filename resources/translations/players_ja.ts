@@ -157,8 +157,8 @@
         <translation>一息の長さ</translation>
     </message>
     <message>
-        <source>Longer phrases get a catch breath</source>
-        <translation>これより長いフレーズではカンニングブレスが入ります</translation>
+        <source>On a usual instrument; longer or shorter on one that takes less or more air. Longer phrases get a catch breath</source>
+        <translation>一般的な楽器での長さです。息の消費が少ない楽器では長く、多い楽器では短くなります。これより長いフレーズでは途中で息を継ぎます</translation>
     </message>
     <message>
         <source>Embouchure tension</source>

@@ -307,7 +307,14 @@ class ParameterSections(QWidget):
                 self.tr("Prepared from"), beats,
                 self.tr("In a rest from this length on, the player gets ready, then breathes on the last beat"),
             ),
-            "lung_s": (self.tr("A full lung lasts"), seconds, self.tr("Longer phrases get a catch breath")),
+            "lung_s": (
+                self.tr("A full lung lasts"),
+                seconds,
+                self.tr(
+                    "On a usual instrument; longer or shorter on one that takes less or more air. "
+                    "Longer phrases get a catch breath"
+                ),
+            ),
             "embouchure_tension": (
                 self.tr("Embouchure tension"), "×", self.tr("How tight the lips look, times the natural amount"),
             ),
