@@ -1017,7 +1017,7 @@
         </message>
         <message>
             <source>{part}: neither its name nor its program says what it is; the file's name does, so {map} plays it</source>
-            <translation type="unfinished" />
+            <translation>{part}: パート名とプログラムからは楽器が分かりません。ファイル名から {map} が演奏します</translation>
         </message>
         <message>
             <source>{part}: neither its name nor its program says what it is; {map} plays it because the range fits</source>
