@@ -8,15 +8,13 @@ map.syntax : file, line, column, detail
     "{file}, line {line}, column {column}: {detail}"
 map.invalid : file, path, detail
     "{file}: {path}: {detail}"
-map.unknown : id
-    "There is no instrument map named '{id}'"
 """
 
 from __future__ import annotations
 
 import re
 import tomllib
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -100,53 +98,21 @@ def bundled_maps() -> Mapping[str, InstrumentMap]:
     return _folder_maps(FOLDER)
 
 
-def find_map(id: str, extra_folders: Iterable[Path] = ()) -> InstrumentMap:
-    """Return the map of this id; a person's own folders win over the bundled ones.
-
-    Raises
-    ------
-    MapError
-        ``map.unknown`` where no folder has it, or what is wrong with its file.
-    """
-    for folder in extra_folders:
-        path = folder / f"{id}.toml"
-        if path.is_file():
-            return _named_map(path)
-    try:
-        return bundled_maps()[id]
-    except KeyError:
-        raise MapError("map.unknown", id=id) from None
-
-
-def all_maps(extra_folders: Iterable[Path] = ()) -> dict[str, InstrumentMap]:
-    """Return the bundled maps and those of a person's own folders, by id; own ones win."""
-    maps = dict(bundled_maps())
-    for folder in extra_folders:
-        maps.update(_folder_maps(folder))
-    return dict(sorted(maps.items()))
-
-
-def model_path(instrument: InstrumentMap, extra_folders: Iterable[Path] = ()) -> Path:
-    """Return the file of a map's model: beside a person's own map, else the bundled one.
-
-    Raises
-    ------
-    MapError
-        ``map.unreadable`` where no folder has it.
-    """
-    for folder in (*extra_folders, MODELS):
-        if (folder / instrument.model).is_file():
-            return folder / instrument.model
-    raise MapError("map.unreadable", file=instrument.model, detail="no such model")
+def model_path(instrument: InstrumentMap) -> Path:
+    """Return the file of a bundled map's model; MapError (``map.unreadable``) where there is none."""
+    path = MODELS / instrument.model
+    if not path.is_file():
+        raise MapError("map.unreadable", file=instrument.model, detail="no such model")
+    return path
 
 
 def _folder_maps(folder: Path) -> dict[str, InstrumentMap]:
     paths = sorted(path for path in folder.glob("*.toml") if path.name not in NOT_MAPS)
-    return {path.stem: _named_map(path) for path in paths}
+    return {path.stem: named_map(path) for path in paths}
 
 
-def _named_map(path: Path) -> InstrumentMap:
-    """The map of a folder, where its file's name is what finds it."""
+def named_map(path: Path) -> InstrumentMap:
+    """Return the map of a file of a folder, where its file's name is what finds it. Raises as `load_map`."""
     instrument = load_map(path)
     if instrument.id != path.stem:
         detail = f"'{instrument.id}' is not the file's name, '{path.stem}'"
@@ -194,20 +160,21 @@ def _parsed(text: str, file: str) -> dict[str, Any]:
         raise MapError("map.syntax", file=file, line=1, column=1, detail="nested too deeply") from error
 
 
-def _extended(table: dict[str, Any], file: str, above: tuple[str, ...]) -> dict[str, Any]:
+def _extended(table: dict[str, Any], file: str, above: tuple[Path, ...]) -> dict[str, Any]:
     """A map's table laid over the one it extends, which is looked for beside it and then among the bundled maps."""
     if BASE not in table:
         return table
-    base = table[BASE]
+    base, own = table[BASE], Path(file).absolute()
     if not isinstance(base, str) or not base.isidentifier():
         raise MapError("map.invalid", file=file, path=BASE, detail=f"{base!r} is not the id of a map")
-    if base in above or base == Path(file).stem:
-        raise MapError("map.invalid", file=file, path=BASE, detail=f"'{base}' extends itself")
-    paths = [folder / f"{base}.toml" for folder in (Path(file).parent, FOLDER)]
+    # A person's own map may extend the bundled one of its own name.
+    paths = [path for path in (folder / f"{base}.toml" for folder in (own.parent, FOLDER)) if path != own]
     path = next((path for path in paths if path.is_file()), None)
+    if path in above or (path is None and base == own.stem):
+        raise MapError("map.invalid", file=file, path=BASE, detail=f"'{base}' extends itself")
     if path is None:
         raise MapError("map.invalid", file=file, path=BASE, detail=f"there is no map named '{base}'")
-    below = _extended(_parsed(_text(path), str(path)), str(path), (*above, base))
+    below = _extended(_parsed(_text(path), str(path)), str(path), (*above, own))
     return extended(below, table)
 
 
@@ -217,17 +184,6 @@ def _place(text: str, found: re.Match[str] | None) -> tuple[int, int]:
         return int(found.group(1)), int(found.group(2))
     lines = text.split("\n")
     return len(lines), len(lines[-1]) + 1
-
-
-__all__ = [
-    "all_maps",
-    "bundled_maps",
-    "check_map",
-    "find_map",
-    "load_map",
-    "model_path",
-    "parse_map",
-]
 
 
 # Worked out here, under the import's lock: two threads that use a type for the first time at once crash msgspec.

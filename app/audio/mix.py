@@ -13,7 +13,7 @@ from app.audio.synth import Phrase, Synthesiser, phrases, program_of
 from app.audio.track import RATE_HZ, Block, Mix, Piece, Track
 from app.errors import Cancelled
 from app.project.model import Player, Project
-from instrument_maps.load import find_map
+from instrument_maps.library import find_map
 
 _LEVEL: Final = 4.5
 """The soundfont's tones are some 30 dB below full scale; an ensemble of any size comes to about -18."""

@@ -36,9 +36,9 @@ def add_command(commands: Commands) -> None:
 
 def list_maps(arguments: argparse.Namespace) -> None:
     """Print every bundled map: id, name, concert range, number of fingerings."""
-    from instrument_maps.load import bundled_maps
+    from instrument_maps.library import all_maps
 
-    maps = bundled_maps().values()
+    maps = all_maps().values()
     width = max((len(instrument.id) for instrument in maps), default=0)
     names = max((len(instrument.name.en) for instrument in maps), default=0)
     for instrument in maps:

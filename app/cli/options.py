@@ -17,7 +17,7 @@ from app.project.parameters import parameter_names, parse_settings
 from app.project.storage import is_project_file, load
 from app.rig.character import characters
 from app.score.read import read_midi
-from instrument_maps.load import bundled_maps
+from instrument_maps.library import all_maps
 from instrument_maps.model import InstrumentMap
 
 Commands: TypeAlias = "argparse._SubParsersAction[argparse.ArgumentParser]"
@@ -143,7 +143,7 @@ def open_project(arguments: argparse.Namespace) -> Project:
     AppError
         Those of reading, and `UsageError` of what makes no sense, ``project.encoding`` (file) among them.
     """
-    maps = bundled_maps()
+    maps = all_maps()
     project = _saved_project(arguments) if is_project_file(arguments.file) else _cast_project(arguments, maps)
     settings = parse_settings(
         arguments.settings, [player.name for player in project.players], maps, tuple(characters())

@@ -12,6 +12,7 @@ TEMPLATES: Final[dict[str, str]] = {
     "gltf.unsupported": "{file} uses {what}, which is not supported",
     "gltf.too_large": "{file} describes more data than any character has",
     "instruments.invalid": "{file} is not valid; problems: {count}",
+    "instruments.read_again": "read again: {maps}",
     "map.unreadable": "{file}: cannot be read: {detail}",
     "map.syntax": "{file}, line {line}, column {column}: {detail}",
     "map.invalid": "{file}: {path}: {detail}",

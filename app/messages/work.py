@@ -9,6 +9,7 @@ TEMPLATES: Final[dict[str, str]] = {
     "work.save": "saving",
     "work.autosave": "writing unsaved work down",
     "work.plan": "planning what {players} players do",
+    "work.instruments": "reading your instruments",
     "work.load_figures": "loading the players' figures",
     "work.compare": "what the generator would do for {player}",
     "work.reimport": "reading the MIDI file again",

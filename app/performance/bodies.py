@@ -9,7 +9,7 @@ from app.rig.hold import Hold
 from app.rig.hold_file import hold_for
 from app.rig.instrument import load_instrument
 from app.rig.model import Character, InstrumentModel
-from instrument_maps.load import model_path
+from instrument_maps.library import model_path
 from instrument_maps.model import InstrumentMap
 from metadata.load import load_body
 from metadata.model import Body

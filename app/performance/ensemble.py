@@ -21,7 +21,7 @@ from app.plan.memo import Memo
 from app.plan.model import PlayerPlan, Problem, TimeFrame
 from app.project.model import Player, Project
 from app.rig.character import characters
-from instrument_maps.load import find_map
+from instrument_maps.library import library
 from instrument_maps.model import InstrumentMap
 from metadata.load import load_expressions
 from metadata.model import Expression
@@ -37,6 +37,8 @@ class Performance:
 
     A player whose instrument there is no map of, or who is a character that is not there, keeps a place: the plan has
     a problem and, without a map, no events; the others play on.
+
+    Its instruments are those there are when it is made.
 
     Parameters
     ----------
@@ -57,6 +59,7 @@ class Performance:
         if hours > MOST_HOURS:
             raise AppError("piece.too_long", hours=round(hours, 1), most_hours=MOST_HOURS)
         self.project = project
+        self.library = library()
         # One that was never played knows nothing, but may know of one that was.
         self._before: Performance | None = before if before is None or before.planned else before._before
         self._memo: Memo = Memo(None if self._before is None else self._before._memo)
@@ -237,7 +240,7 @@ class Performance:
 
     def instrument(self, player: Player) -> InstrumentMap:
         """The map of what a player plays. Raises MapError where there is none of its id."""
-        return find_map(player.instrument_id)
+        return self.library.find(player.instrument_id)
 
 
 def _work(line: Line, before: Line | None) -> int:

@@ -20,8 +20,8 @@ from app.project.parameters import Setting
 from app.project.parameters import with_settings as parameters_with
 from app.rig.character import bundled_character, characters
 from app.rig.model import Character
-from app.score.model import Note, Part, Score
 from app.score.choose import MapChoice
+from app.score.model import Note, Part, Score
 from instrument_maps.model import Control, InstrumentMap
 from metadata.model import Expression
 

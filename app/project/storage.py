@@ -37,7 +37,7 @@ from app.project.model import AudioTrack, Player, Project
 from app.project.remarks import sayable
 from app.rig.character import characters
 from app.score.model import Note, Score
-from instrument_maps.load import bundled_maps
+from instrument_maps.library import all_maps
 from metadata.model import Expression
 
 SUFFIX: Final = ".suisou"
@@ -191,7 +191,7 @@ def missing(project: Project) -> tuple[Message, ...]:
 
     Messages: ``project.instrument_missing`` (player, id), ``project.character_missing`` (player, id).
     """
-    instruments, bodies = bundled_maps(), characters()
+    instruments, bodies = all_maps(), characters()
     found = []
     for player in project.players:
         if player.instrument_id not in instruments:

@@ -24,6 +24,7 @@ from app.shell.faults import Faults, log_path
 from app.shell.files import Files
 from app.shell.garbage import Garbage
 from app.shell.generator import Generator
+from app.shell.instruments import InstrumentWatch
 from app.shell.language import Language
 from app.shell.questions import Dialogs, Questions
 from app.shell.settings import Settings, settings_path
@@ -115,8 +116,9 @@ class Program(QObject):
         self.session.theme_changed.connect(self._dress)
         self._dress()
         self.generator = Generator(self.session, self.tasks)
-        # A child of the session: it stays.
+        # Children of the session: they stay.
         Sound(self.session, heard=heard)
+        InstrumentWatch(self.session)
         self.editor.table = ActionTable(self.session, settings, rows())
         self.language.changed.connect(self.editor.table.retranslate)
         self.window = Window(self.editor, self.generator)

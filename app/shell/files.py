@@ -22,7 +22,7 @@ from app.project.recovery import Recoverable, discard, recover, recoverable, rec
 from app.score.read import MidiContents, read_contents
 from app.shell.questions import Questions
 from app.shell.settings import Settings
-from instrument_maps.load import bundled_maps
+from instrument_maps.library import all_maps
 from widgets.common.session import Session, Severity
 
 MIDI_SUFFIXES: Final = (".mid", ".midi", ".smf", ".kar", ".rmi")
@@ -186,7 +186,7 @@ class Files(QObject):
             contents = read_contents(path)
             if ask:
                 return contents, None
-            maps = bundled_maps()
+            maps = all_maps()
             return contents, import_project(contents, usual_rows(contents, maps), maps, source)
 
         def done(read: Read) -> None:

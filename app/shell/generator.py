@@ -22,6 +22,7 @@ from app.plan.model import Problem
 from app.project.document import Change
 from app.project.model import Project
 from app.shell.calls import window_calls
+from instrument_maps.library import library
 from widgets.common.session import Session, Severity
 from widgets.common.tasks import Progress, StopWanted, Tasks
 
@@ -86,6 +87,7 @@ class Generator(QObject):
         self._end = weakref.finalize(self, self._worker.close)
         session.changed.connect(self._project_changed)
         session.performance_changed.connect(self._show)
+        session.instruments_changed.connect(self._plan_again)
         session.playhead_changed.connect(self._want)
         session.players_changed.connect(self._want)
         session.playing_changed.connect(self._worker.set_playing)
@@ -94,8 +96,9 @@ class Generator(QObject):
 
     @property
     def up_to_date(self) -> bool:
-        """Whether the session's plans are those of its project."""
-        return self._session.performance.project is self._session.project
+        """Whether the session's plans are those of its project, on the instruments there are now."""
+        performance = self._session.performance
+        return performance.project is self._session.project and performance.library is library()
 
     @property
     def ready_share(self) -> float:
@@ -112,6 +115,9 @@ class Generator(QObject):
             self._long = False
             self._worker.drop()
         self._plan(change.after)
+
+    def _plan_again(self) -> None:
+        self._plan(self._session.project)
 
     def _plan(self, project: Project) -> None:
         if self._long:

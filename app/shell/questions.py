@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QApplication, QDialog, QFileDialog, QMessageBox, Q
 
 from app.project.model import Project
 from app.score.read import MidiContents
-from instrument_maps.load import bundled_maps
+from instrument_maps.library import all_maps
 from widgets.common.tokens import Tokens
 
 Answer = Literal["save", "discard", "cancel"]
@@ -68,7 +68,7 @@ class Dialogs:
         """See `Questions`."""
         from widgets.dialogs.import_midi import ImportDialog
 
-        dialog = ImportDialog(contents, bundled_maps(), source, tokens, _parent())
+        dialog = ImportDialog(contents, all_maps(), source, tokens, _parent())
         try:
             return dialog.project() if dialog.exec() == QDialog.DialogCode.Accepted else None
         finally:

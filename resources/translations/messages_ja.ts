@@ -1060,6 +1060,10 @@
             <translation>{file} に問題が {count} 件あります</translation>
         </message>
         <message>
+            <source>read again: {maps}</source>
+            <translation>再読み込みしました：{maps}</translation>
+        </message>
+        <message>
             <source>{file}: cannot be read: {detail}</source>
             <translation>{file}: 読み込めません: {detail}</translation>
         </message>
@@ -1106,6 +1110,10 @@
         <message>
             <source>planning what {players} players do</source>
             <translation>{players} 人の演奏を組み立てています</translation>
+        </message>
+        <message>
+            <source>reading your instruments</source>
+            <translation>自分の楽器を読み込んでいます</translation>
         </message>
         <message>
             <source>loading the players' figures</source>

@@ -84,6 +84,10 @@ class Session(QObject):
         Somebody tells the person something: a `Message` and a `Severity`.
     revealed(float)
         This time (seconds) should come into view.
+    instruments_changed()
+        Some instrument is another one, or is there no more (`instrument_maps.library`).
+    instruments_saved()
+        A map was written into the person's own folder.
     """
 
     changed = Signal(object)
@@ -102,6 +106,8 @@ class Session(QObject):
     preview_changed = Signal()
     noticed = Signal(object, object)
     revealed = Signal(float)
+    instruments_changed = Signal()
+    instruments_saved = Signal()
 
     def __init__(self, project: Project, tasks: Tasks) -> None:
         super().__init__()

@@ -11,7 +11,7 @@ from app.errors import Argument, Message
 from app.messages import PITCHES, TEMPLATES, filled
 from app.project.model import Player
 from app.score.model import Note, Score
-from instrument_maps.load import bundled_maps
+from instrument_maps.library import all_maps
 from instrument_maps.model import PARTS
 from widgets.common.event_names import kind_name, pose_name
 from widgets.common.instrument_name import instrument_name
@@ -75,7 +75,7 @@ def _player(session: Session, player_id: str | None) -> Player | None:
 
 
 def _pitch(session: Session, pitch: float, player: Player | None) -> str:
-    instrument = bundled_maps().get(player.instrument_id) if player is not None else None
+    instrument = all_maps().get(player.instrument_id) if player is not None else None
     semitones = instrument.transposition_semitones if instrument is not None else 0
     return pitch_text(session.pitch_display, round(pitch), semitones)
 
@@ -174,7 +174,7 @@ _WORDS: Mapping[str, Callable[[], dict[str, str]]] = {
         "right": QCoreApplication.translate("Told", "right"),
     },
     "touch": _touches,
-    "map": lambda: {id: instrument_name(instrument) for id, instrument in bundled_maps().items()},
+    "map": lambda: {id: instrument_name(instrument) for id, instrument in all_maps().items()},
     "control": _controls,
     "angle": lambda: {
         "up": QCoreApplication.translate("Told", "up and down"),

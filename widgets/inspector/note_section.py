@@ -11,7 +11,7 @@ from app.plan.model import EmbouchureEvent, FingeringEvent, PlayerPlan
 from app.project.edit import events as edit_events
 from app.project.edit import notes as edit_notes
 from app.project.model import Player, Project
-from instrument_maps.load import find_map
+from instrument_maps.library import find_map
 from instrument_maps.model import Fingering, InstrumentMap
 from widgets.common.chip import Chip
 from widgets.common.flow import FlowLayout

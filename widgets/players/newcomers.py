@@ -5,14 +5,14 @@ from __future__ import annotations
 from app.errors import Message
 from app.project.edit import players as edit
 from app.project.model import Project
-from instrument_maps.load import bundled_maps
+from instrument_maps.library import all_maps
 from widgets.common.instrument_name import instrument_name
 from widgets.common.session import Session
 
 
 def add_player(session: Session, instrument_id: str) -> None:
     """Add a player of this instrument, in front."""
-    maps = bundled_maps()
+    maps = all_maps()
     instrument = maps[instrument_id]
     name = instrument_name(instrument)
     made: list[str] = []

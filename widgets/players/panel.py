@@ -19,7 +19,7 @@ from PySide6.QtWidgets import (
 from app.errors import Message
 from app.project.document import Change
 from app.project.edit import players as edit
-from instrument_maps.load import bundled_maps
+from instrument_maps.library import all_maps
 from widgets.common.icons import icon
 from widgets.common.instrument_name import instrument_name
 from widgets.common.number_slider import NumberSlider
@@ -194,7 +194,7 @@ class PlayersPanel(QWidget):
         plans = performance.plans if performance.planned else {}
         first = min((plan.cues[0] for plan in plans.values() if plan.cues), key=lambda cue: cue.start_s, default=None)
         leader = first.player_id if first is not None else None
-        maps = bundled_maps()
+        maps = all_maps()
         rows = []
         for player in project.players:
             instrument = maps.get(player.instrument_id)
@@ -262,7 +262,7 @@ class PlayersPanel(QWidget):
         menu = QMenu(self)
         menu.setObjectName("instrument_menu")
         menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        for instrument in bundled_maps().values():
+        for instrument in all_maps().values():
             action = menu.addAction(instrument_name(instrument))
             action.triggered.connect(lambda _=False, id=instrument.id: self.add(id))
         button = self._tools["add"]

@@ -14,7 +14,7 @@ from app.errors import Message
 from app.project.edit import players as edit
 from app.project.model import Player, Project
 from app.rig.character import characters
-from instrument_maps.load import bundled_maps
+from instrument_maps.library import all_maps
 from widgets.common.combo import Combo, Option
 from widgets.common.icons import icon
 from widgets.common.instrument_name import character_name, instrument_name
@@ -89,6 +89,7 @@ class ParameterSections(QWidget):
         self._make_seed()
         self.retranslate()
         session.theme_changed.connect(self._dress)
+        session.instruments_changed.connect(self._instruments_changed)
         self._dress()
 
     # Building
@@ -270,7 +271,7 @@ class ParameterSections(QWidget):
         }
         for name, text in texts.items():
             self._labels[name].setText(text)
-        self._instrument.set_options([Option(map.id, instrument_name(map)) for map in bundled_maps().values()])
+        self._show_instruments()
         self._show_characters()
         self._leader.set_options(
             [
@@ -282,6 +283,13 @@ class ParameterSections(QWidget):
         self._colour.setToolTip(self.tr("Colour of the player in the timeline and on the stage"))
         self._dice.setToolTip(self.tr("Another seed for each"))
         self._retranslate_sliders()
+        self.show_players()
+
+    def _show_instruments(self) -> None:
+        self._instrument.set_options([Option(map.id, instrument_name(map)) for map in all_maps().values()])
+
+    def _instruments_changed(self) -> None:
+        self._show_instruments()
         self.show_players()
 
     def _retranslate_sliders(self) -> None:

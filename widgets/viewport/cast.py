@@ -19,7 +19,7 @@ from app.rig import quaternion
 from app.rig.instrument import node_transforms
 from app.rig.model import Character, InstrumentModel, Skeleton
 from app.rig.skeleton import rest_positions
-from instrument_maps.load import find_map
+from instrument_maps.library import find_map
 from instrument_maps.model import InstrumentMap
 from metadata.model import Posture
 from widgets.viewport.poses import Posed

@@ -7,12 +7,13 @@ from dataclasses import dataclass, replace
 
 from app.errors import AppError, Message
 from app.project.model import Player, Project
+from instrument_maps.library import library
 from widgets.common.tasks import Progress, StopWanted
 from widgets.viewport.cast import Kit, Stage, kit_of, member_of
 from widgets.viewport.geometry import Crowd
 from widgets.viewport.renderer import Shapes, crowd_of, shapes_of
 
-CastKey = tuple[tuple[str, str, str, str, float, float, float], ...]
+CastKey = tuple[tuple[str, str, str, str, int, float, float, float], ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,12 +32,14 @@ class Loaded:
 
 def cast_key(project: Project) -> CastKey:
     """What the stage depends on: while it is the same, nothing has to be loaded."""
+    instruments = library()
     return tuple(
         (
             player.id,
             player.character_id,
             player.instrument_id,
             player.parameters.posture,
+            instruments.revisions.get(player.instrument_id, 0),
             player.stage.x_m,
             player.stage.z_m,
             player.stage.turn_rad,
@@ -47,7 +50,7 @@ def cast_key(project: Project) -> CastKey:
 
 def same_figures(one: CastKey, other: CastKey) -> bool:
     """Whether two stages differ in places alone, so that nothing has to be loaded."""
-    return [row[:4] for row in one] == [row[:4] for row in other]
+    return [row[:5] for row in one] == [row[:5] for row in other]
 
 
 def load(project: Project, before: Shapes | None, progress: Progress, stop_wanted: StopWanted) -> Loaded | None:

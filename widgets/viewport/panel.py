@@ -104,6 +104,7 @@ class ViewportPanel(QWidget):
         session, scene = self._session, self.scene
         session.changed.connect(self._project_changed)
         session.performance_changed.connect(self._performance_changed)
+        session.instruments_changed.connect(self._instruments_changed)
         session.players_changed.connect(self._players_changed)
         session.selection_changed.connect(self._update)
         session.playhead_changed.connect(self.refresh)
@@ -385,6 +386,10 @@ class ViewportPanel(QWidget):
     def _send(self, renderer: Renderer, loaded: Loaded) -> None:
         renderer.set_stage(loaded.stage, loaded.shapes, loaded.crowd)
         self.scene.sent(loaded.shapes)
+
+    def _instruments_changed(self) -> None:
+        if self._canvas is not None:
+            self.scene.load()
 
     def _performance_changed(self) -> None:
         self._settle_until_s = perf_counter() + SETTLED_S

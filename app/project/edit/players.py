@@ -25,7 +25,7 @@ from app.project.model import Player, Project, characters_for
 from app.project.names import clean_name
 from app.project.parameters import Value, bounds
 from app.score.model import Part
-from instrument_maps.load import find_map
+from instrument_maps.library import find_map
 from instrument_maps.model import InstrumentMap, Posture
 
 SPREADS: Final[Mapping[str, float]] = {

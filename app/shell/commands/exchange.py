@@ -14,7 +14,7 @@ from app.shell.action import QT_TRANSLATE_NOOP, Action
 from app.shell.editor import editor_of
 from app.shell.files import MIDI_SUFFIXES
 from app.version import program_version
-from instrument_maps.load import all_maps
+from instrument_maps.library import all_maps
 from widgets.common.session import Session, Severity
 from widgets.common.tasks import Progress, StopWanted
 from widgets.common.text import note_text

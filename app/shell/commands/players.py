@@ -6,7 +6,7 @@ from app.errors import Message
 from app.project.edit import players as edit
 from app.project.model import Player
 from app.shell.action import QT_TRANSLATE_NOOP, Action
-from instrument_maps.load import bundled_maps
+from instrument_maps.library import all_maps
 from widgets.common.session import Session
 from widgets.players import newcomers
 
@@ -22,7 +22,7 @@ def _count(id: str, players: int) -> Message:
 def add(session: Session) -> None:
     """Add somebody who plays what the player in front plays; the first instrument there is in an empty project."""
     front = session.player
-    known = bundled_maps()
+    known = all_maps()
     instrument_id = front.instrument_id if front is not None and front.instrument_id in known else next(iter(known))
     newcomers.add_player(session, instrument_id)
 

@@ -12,7 +12,7 @@ from app.plan.corrections import PinFingering, SetEmbouchure
 from app.project.edit.corrections import put
 from app.project.model import Player
 from app.score.model import Note
-from instrument_maps.load import find_map
+from instrument_maps.library import find_map
 from tests.gui.inspector.hands import child, click, drag, number, type_into
 from widgets.common.chip import Chip
 from widgets.common.selection import EventKey, Selection

@@ -17,7 +17,7 @@ from app.project.edit import players as players_edit
 from app.project.edit.players import cast_parameters, duplicate_players
 from app.project.model import Player
 from app.shell.commands.players import toggle_posture
-from instrument_maps.load import find_map
+from instrument_maps.library import find_map
 from widgets.common.combo import Combo
 from widgets.common.number_slider import NumberSlider
 from widgets.common.session import Session

@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 
 from app.errors import MapError
 from instrument_maps import load
-from instrument_maps.load import all_maps, bundled_maps, check_map, find_map, load_map, model_path, parse_map
+from instrument_maps.library import find_map
+from instrument_maps.load import bundled_maps, check_map, load_map, model_path, named_map, parse_map
 
 BUNDLED = sorted(path for path in load.FOLDER.glob("*.toml") if path.name not in load.NOT_MAPS)
 TRUMPET = (load.FOLDER / "trumpet_Bb.toml").read_text("utf-8")
@@ -39,15 +40,6 @@ def test_unknown_map_is_named() -> None:
         find_map("serpent")
     assert caught.value.message.id == "map.unknown"
     assert caught.value.message.arguments == {"id": "serpent"}
-
-
-def test_own_folder_wins(tmp_path: Path) -> None:
-    own = tmp_path / "trumpet_Bb.toml"
-    own.write_text(TRUMPET.replace('short_name = "Tpt."', 'short_name = "My trumpet"'), "utf-8")
-    assert find_map("trumpet_Bb", [tmp_path]).short_name == "My trumpet"
-    assert all_maps([tmp_path])["trumpet_Bb"].short_name == "My trumpet"
-    assert find_map("trumpet_Bb").short_name == "Tpt."
-    assert check_map(own) == ()
 
 
 @pytest.mark.parametrize(
@@ -133,7 +125,7 @@ def test_a_map_may_be_checked_under_any_name_but_is_found_by_its_own(tmp_path: P
     assert check_map(copy) == ()
     assert load_map(copy).id == "trumpet_Bb"
     with pytest.raises(MapError) as caught:
-        all_maps([tmp_path])
+        named_map(copy)
     assert caught.value.message.arguments["path"] == "id"
 
 

@@ -5,7 +5,7 @@ import tomllib
 import pytest
 
 from app.errors import MapError
-from instrument_maps.load import all_maps
+from instrument_maps.library import all_maps
 from instrument_maps.vocabulary import PATH, Instrument, Vocabulary, vocabulary
 
 CALLED = {

@@ -1,0 +1,77 @@
+"""A person's own instruments in the running editor: edited beside it, they play on at once."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+from pytestqt.qtbot import QtBot
+
+import instrument_maps.library as module
+from instrument_maps.library import FOLDER_VARIABLE
+from instrument_maps.load import bundled_maps
+from tests.gui.conftest import QUARTET
+from tests.gui.shell.conftest import Start
+
+# The first choice of written D 5 is another one here.
+OWN = """extends = "trumpet_Bb"
+id = "trumpet_Bb"
+fingerings = [
+  { written_pitch = 74, rank = 1, label = "13" },
+]
+"""
+
+
+def write(path: Path, text: str, second: int) -> None:
+    path.write_text(text, "utf-8")
+    os.utime(path, (second, second))
+
+
+def test_a_map_that_is_edited_is_played_at_once_and_a_wrong_one_is_told(
+    start: Start, qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    folder = tmp_path / "mine" / "instruments"
+    monkeypatch.setenv(FOLDER_VARIABLE, str(folder))
+    monkeypatch.setattr(module, "_library", None)
+    program = start()
+    session = program.session
+    told: list[tuple[str, dict[str, object]]] = []
+    session.noticed.connect(lambda message, severity: told.append((message.id, dict(message.arguments))))
+    program.editor.files.open(QUARTET)
+    trumpet = next(player for player in session.project.players if player.instrument_id == "trumpet_Bb")
+    trombone = next(player for player in session.project.players if player.instrument_id.startswith("trombone"))
+
+    def labels() -> set[str]:
+        notes = {note.id for note in session.project.part(trumpet).notes if note.pitch == 72}
+        plan = session.performance.plans[trumpet.id]
+        return {event.label for event in plan.fingerings if event.note_id in notes}
+
+    qtbot.waitUntil(lambda: session.performance.project is session.project and session.performance.planned)
+    assert labels() <= {"1", "13"}
+    before = session.performance
+    # The folder is made while the editor runs.
+    folder.mkdir(parents=True)
+    qtbot.wait(400)
+    write(folder / "trumpet_Bb.toml", OWN, 1)
+    qtbot.waitUntil(lambda: session.performance is not before and session.performance.planned, timeout=5000)
+    assert labels() == {"13"}
+    assert session.performance.plans[trombone.id] is before.plans[trombone.id]
+    assert program.generator.up_to_date
+    assert told[-1] == ("instruments.read_again", {"maps": "trumpet_Bb"})
+    # A wrong file: told with its place, and what was good plays on.
+    good = session.performance
+    write(folder / "trumpet_Bb.toml", OWN.replace('label = "13"', 'label = "19"'), 2)
+    qtbot.waitUntil(lambda: told[-1][0] == "map.invalid", timeout=5000)
+    assert told[-1][1]["file"] == str(folder / "trumpet_Bb.toml")
+    assert str(told[-1][1]["path"]).startswith("fingerings[")
+    assert labels() == {"13"}
+    assert session.performance.instrument(trumpet) is good.instrument(trumpet)
+    # Saved as editors do, by renaming a new file over the old one: the watch goes on.
+    write(folder / "new", OWN.replace('label = "13"', 'label = "1"'), 3)
+    (folder / "new").replace(folder / "trumpet_Bb.toml")
+    qtbot.waitUntil(lambda: labels() == {"1"}, timeout=5000)
+    # Gone: the bundled one again.
+    (folder / "trumpet_Bb.toml").unlink()
+    qtbot.waitUntil(lambda: session.performance.instrument(trumpet) is bundled_maps()["trumpet_Bb"], timeout=5000)
+    monkeypatch.setattr(module, "_library", None)
