@@ -5,6 +5,7 @@ Fingerings are those of method books, reduced to the notes that the tests need; 
 
 from __future__ import annotations
 
+import random
 from typing import Any
 
 from instrument_maps.model import Control, Fingering, InstrumentMap, Name, Range
@@ -115,3 +116,15 @@ def double_horn() -> InstrumentMap:
     for pitch, (first, other) in sides.items():
         rows += [(pitch, first or "0"), (pitch, other or "0", "alternate")]
     return made("double_horn", keys, rows, levers="T 1 2 3")
+
+
+def many_keys() -> InstrumentMap:
+    """Twenty-five keys and eight fingerings of every note, by chance: more than any woodwind asks for."""
+    chance = random.Random(4)
+    movers = ("left.little", "right.little", "left.index", "right.index", "left.thumb")
+    keys = HOLES | {f"k{number}": chance.choice(movers) for number in range(18)}
+    rows: list[Row] = []
+    for pitch in range(50, 92):
+        labels = {" ".join(sorted(chance.sample(sorted(keys), chance.randint(1, 9)))) for _ in range(8)}
+        rows += [(pitch, label, chance.choice(("alternate", "trill", "fast", "forked"))) for label in sorted(labels)]
+    return made("many_keys", keys, rows, breaks=(71,))

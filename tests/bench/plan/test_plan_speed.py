@@ -11,6 +11,7 @@ from app.plan.line import line_times
 from app.plan.search import best_path, fingering_problem
 from instrument_maps.load import bundled_maps
 from tests.support.plan import PlainClock, PlainMetre, even
+from tests.support.woodwinds import many_keys
 
 pytestmark = pytest.mark.bench
 
@@ -19,9 +20,9 @@ PITCHES = [58 + (index * 7 + (index // 5) * 3) % 12 for index in range(1000)]
 CLOCK = PlainClock(((0, 150.0),))
 
 
-@pytest.mark.parametrize("name", ["trumpet_Bb", "trombone_tenor_F_attachment"])
+@pytest.mark.parametrize("name", ["trumpet_Bb", "trombone_tenor_F_attachment", "many keys"])
 def test_a_thousand_hurried_notes(name: str) -> None:
-    instrument = bundled_maps()[name]
+    instrument = many_keys() if name == "many keys" else bundled_maps()[name]
     line = Line("p", even(PITCHES, 120), instrument)
     frame = time_frame((line,), CLOCK)
     piece = Piece(CLOCK, (PlainMetre(0, 4, 4),))
