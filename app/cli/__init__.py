@@ -32,6 +32,7 @@ examples:
   suisou export quartet.mid --to out --format fbx --fps 30 --from-bar 1 --to-bar 8
   suisou export quartet.mid --to out --set "*.amplitude=0.8" --set "trombone.posture=seated"
   suisou instruments
+  suisou instruments scale trumpet_Bb
 """
 
 

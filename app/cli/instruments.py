@@ -1,8 +1,9 @@
-"""``suisou instruments``: list the instrument maps, or check one."""
+"""``suisou instruments``: list the instrument maps, show the fingerings of one, or check one."""
 
 from __future__ import annotations
 
 import argparse
+from collections.abc import Sequence
 from pathlib import Path
 
 from app.cli.options import Commands
@@ -20,11 +21,20 @@ def add_command(commands: Commands) -> None:
     """Declare the sub-command."""
     command = commands.add_parser(
         "instruments",
-        help="list the instrument maps, or check one",
-        description="Lists the instrument maps the program knows. 'instruments check FILE' validates a map.",
+        help="list the instrument maps, show the fingerings of one, or check one",
+        description="Lists the instrument maps the program knows, bundled and your own. 'instruments scale ID' prints "
+        "the fingerings of an instrument from its lowest note to its highest, 'instruments check FILE' validates a map.",
     )
     command.set_defaults(run=list_maps)
     actions = command.add_subparsers(title="actions", metavar="ACTION")
+    scale = actions.add_parser(
+        "scale",
+        help="print the fingerings of an instrument in a chromatic scale of its range",
+        description="Prints every note of an instrument's range with its fingerings, first choice first.",
+    )
+    scale.add_argument("id", metavar="ID", help="an instrument, as 'suisou instruments' lists it")
+    scale.add_argument("--first", action="store_true", help="print first choices only")
+    scale.set_defaults(run=print_scale)
     check = actions.add_parser(
         "check",
         help="validate a map: says the line of a syntax error, else the key path that is wrong",
@@ -35,16 +45,60 @@ def add_command(commands: Commands) -> None:
 
 
 def list_maps(arguments: argparse.Namespace) -> None:
-    """Print every bundled map: id, name, concert range, number of fingerings."""
-    from instrument_maps.library import all_maps
+    """Print every map: id, name, concert range, transposition, what the player moves; then a person's own folder and
+    what is wrong in it."""
+    from instrument_maps.library import library
 
-    maps = all_maps().values()
-    width = max((len(instrument.id) for instrument in maps), default=0)
-    names = max((len(instrument.name.en) for instrument in maps), default=0)
-    for instrument in maps:
-        span = f"{note_name(instrument.range.low)} - {note_name(instrument.range.high)}"
-        controls = ", ".join(control.name for control in instrument.controls)
-        print(f"{instrument.id:{width}}  {instrument.name.en:{names}}  {span:9}  {controls}")
+    known = library()
+    rows = [
+        (
+            f"{instrument.id}{'*' if instrument.id in known.own else ''}",
+            instrument.name.en,
+            f"{note_name(instrument.range.low)} - {note_name(instrument.range.high)}",
+            transposition(instrument.transposition_semitones),
+            ", ".join(control.label or control.name for control in instrument.controls),
+        )
+        for instrument in known.maps.values()
+    ]
+    print("\n".join(_left(("id", "name", "sounds", "written", "controls"), rows)))
+    print(f"\nyour own (*): {known.folder}")
+    for problems in known.problems.values():
+        for problem in problems:
+            print(f"  {text(problem)}")
+
+
+def print_scale(arguments: argparse.Namespace) -> None:
+    """Print the fingerings of a chromatic scale. Raises MapError where there is no such instrument."""
+    from instrument_maps.library import find_map
+
+    instrument = find_map(arguments.id)
+    rows = []
+    for pitch in range(instrument.range.low, instrument.range.high + 1):
+        for fingering in instrument.fingerings_for(pitch)[: 1 if arguments.first else None]:
+            first = fingering.rank == 1
+            rows.append(
+                (
+                    note_name(pitch) if first else "",
+                    note_name(fingering.written_pitch) if first else "",
+                    str(fingering.rank),
+                    fingering.label,
+                    f"{fingering.cents:+.0f}" if round(fingering.cents) else "",
+                    ", ".join(fingering.tags),
+                )
+            )
+    print("\n".join(_left(("sounds", "written", "rank", "fingering", "cents", "for"), rows)))
+
+
+def transposition(semitones: int) -> str:
+    """How the written pitch differs from what sounds: ``"+2"``, ``"as it sounds"``."""
+    return f"{semitones:+d}" if semitones else "as it sounds"
+
+
+def _left(head: tuple[str, ...], rows: Sequence[tuple[str, ...]]) -> list[str]:
+    """Columns, all to the left."""
+    table = [head, *rows]
+    widths = [max(len(row[column]) for row in table) for column in range(len(head))]
+    return ["  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in table]
 
 
 def check_map(arguments: argparse.Namespace) -> None:

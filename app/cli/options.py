@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import math
+import sys
 from collections.abc import Mapping
 from dataclasses import replace
 from fractions import Fraction
@@ -11,13 +12,14 @@ from pathlib import Path
 from typing import TypeAlias
 
 from app.errors import UsageError
+from app.messages import text as worded
 from app.plan.generate import PREROLL_BEATS, PREROLL_LEAST_S
 from app.project.model import Project, map_choices, project_from_score, with_settings
 from app.project.parameters import parameter_names, parse_settings
 from app.project.storage import is_project_file, load
 from app.rig.character import characters
 from app.score.read import read_midi
-from instrument_maps.library import all_maps
+from instrument_maps.library import library
 from instrument_maps.model import InstrumentMap
 
 Commands: TypeAlias = "argparse._SubParsersAction[argparse.ArgumentParser]"
@@ -136,14 +138,18 @@ def add_source_options(command: argparse.ArgumentParser) -> None:
 
 
 def open_project(arguments: argparse.Namespace) -> Project:
-    """The project that a file holds, or a MIDI file with its players cast; what the options say comes on top.
+    """The project that a file holds, or a MIDI file with its players cast; what the options say comes on top. What is
+    wrong with a person's own instruments is said, and those are left out.
 
     Raises
     ------
     AppError
         Those of reading, and `UsageError` of what makes no sense, ``project.encoding`` (file) among them.
     """
-    maps = all_maps()
+    known = library()
+    maps = known.maps
+    for problems in known.problems.values():
+        print(f"suisou: {worded(problems[0])}", file=sys.stderr)
     project = _saved_project(arguments) if is_project_file(arguments.file) else _cast_project(arguments, maps)
     settings = parse_settings(
         arguments.settings, [player.name for player in project.players], maps, tuple(characters())

@@ -14,6 +14,7 @@ import mido
 import pytest
 
 from app.cli import main
+from instrument_maps.load import bundled_maps
 
 ROOT = Path(__file__).parents[3]
 MIDI = ROOT / "tests" / "data" / "midi"
@@ -299,3 +300,19 @@ def test_no_window_toolkit_is_loaded() -> None:
     )
     done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, check=True)
     assert done.stdout.decode().splitlines()[-1] == "[]"
+
+
+def test_a_scale_has_every_note_of_the_range_with_its_first_choice(run: Run) -> None:
+    for instrument in bundled_maps().values():
+        status, out, _ = run("instruments", "scale", instrument.id, "--first")
+        assert status == 0
+        head, *rows = out.splitlines()
+        assert head.split() == ["sounds", "written", "rank", "fingering", "cents", "for"]
+        assert len(rows) == instrument.range.high - instrument.range.low + 1
+        at = head.index("fingering")
+        for pitch, row in zip(range(instrument.range.low, instrument.range.high + 1), rows, strict=True):
+            assert row[at:].startswith(instrument.fingerings_for(pitch)[0].label)
+    assert len(run("instruments", "scale", "trumpet_Bb")[1].splitlines()) > 1 + 36
+    status, out, err = run("instruments", "scale", "serpent")
+    assert (status, out) == (1, "")
+    assert "serpent" in err
