@@ -23,7 +23,7 @@ def add_command(commands: Commands) -> None:
         "instruments",
         help="list the instrument maps, show the fingerings of one, or check one",
         description="Lists the instrument maps the program knows, bundled and your own. 'instruments scale ID' prints "
-        "the fingerings of an instrument from its lowest note to its highest, 'instruments check FILE' validates a map.",
+        "all fingerings of an instrument, 'instruments check FILE' validates a map.",
     )
     command.set_defaults(run=list_maps)
     actions = command.add_subparsers(title="actions", metavar="ACTION")
