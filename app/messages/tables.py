@@ -16,6 +16,13 @@ TEMPLATES: Final[dict[str, str]] = {
     "map.unreadable": "{file}: cannot be read: {detail}",
     "map.syntax": "{file}, line {line}, column {column}: {detail}",
     "map.invalid": "{file}: {path}: {detail}",
+    "map.not_rewritten": (
+        "{file}: its table of fingerings is written in a way that cannot be changed here; change it in a text editor"
+    ),
+    "fingering.unknown_sign": "{text!r} says nothing on this instrument; its signs are: {signs}",
+    "fingering.unknown_place": "{text!r} is no place of the slide; there are: {places}",
+    "fingering.twice": "{text!r} is there already for this note",
+    "fingering.last": "the only fingering of a note cannot be removed",
     "map.unknown": "there is no instrument map named {id!r}",
     "metadata.missing": "there is no {kind} named {name!r}; there are: {known}",
     "metadata.syntax": "{file}: {detail}",

@@ -1,0 +1,316 @@
+"""Edits of a map's table of fingerings, as pure functions; and a person's own map file that says what they changed.
+
+Every edit returns another tuple of fingerings, sorted and with ranks that count from 1; `problems_of` says what a map
+with them would be refused for.
+
+Messages
+--------
+fingering.unknown_sign : text, signs
+    "'{text}' says nothing on this instrument; its signs are: {signs}"
+fingering.unknown_place : text, places
+    "'{text}' is no place of the slide; there are: {places}"
+fingering.twice : text
+    "'{text}' is there already for this note"
+fingering.last : (nothing)
+    "the only fingering of a note cannot be removed"
+map.not_rewritten : file
+    "{file}: its table of fingerings is written in a way that cannot be changed here; change it in a text editor"
+"""
+
+from __future__ import annotations
+
+import json
+import re
+import tomllib
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Any, TypeAlias
+
+import msgspec
+
+from app.errors import MapError, UsageError
+from app.formats.atomic import atomic_write
+from instrument_maps.extend import BASE
+from instrument_maps.fingering_label import HALF, NONE, OPEN, controls_of, says_words, words_of
+from instrument_maps.load import bundled_maps, parse_map
+from instrument_maps.model import Fingering, InstrumentMap
+from instrument_maps.validate import Problem, problems
+
+Table: TypeAlias = tuple[Fingering, ...]
+
+TAGS = ("alternate", "trill", "fast", "forked", "raised", "forte", "piano")
+"""Why one would take an alternate: the words that the maps use."""
+_OURS = frozenset({BASE, "id", "fingerings"})
+_ROW_KEYS = ("written_pitch", "rank", "label", "controls", "cents", "correction", "fingers", "tags")
+
+
+def read_label(instrument: InstrumentMap, text: str) -> tuple[str, dict[str, float]]:
+    """What a person typed, as the label of a fingering and the values it says.
+
+    Signs may come in any order and case where that is not ambiguous; a place of the slide is where the other
+    fingerings of that label have it.
+
+    Raises
+    ------
+    UsageError
+        ``fingering.unknown_sign``, ``fingering.unknown_place``.
+    """
+    pitch = [control for control in instrument.controls if control.role == "pitch"]
+    text = " ".join(text.split())
+    if any(control.kind == "slide" for control in pitch):
+        known = [one for one in instrument.fingerings if one.label.casefold() == text.casefold()]
+        if not known:
+            places = dict.fromkeys(one.label for one in instrument.fingerings)
+            raise UsageError("fingering.unknown_place", text=text, places=", ".join(sorted(places)))
+        middle = sorted(known, key=lambda one: sorted(one.controls.values()))[len(known) // 2]
+        return middle.label, dict(middle.controls)
+    signs = {control.label: control.label for control in pitch if control.label}
+    signs |= {f"{control.label}{HALF}": f"{control.label}{HALF}" for control in pitch if control.half_value is not None}
+    folded: dict[str, list[str]] = {}
+    for sign in signs:
+        folded.setdefault(sign.casefold(), []).append(sign)
+
+    def meant(word: str) -> str:
+        near = folded.get(word.casefold(), [])
+        return word if word in signs or len(near) != 1 else near[0]
+
+    words = says_words(pitch)
+    none = OPEN if words else NONE
+    if text.casefold() in ("", none, OPEN, "open", NONE):
+        return none, {}
+    told = " ".join(map(meant, text.replace(",", " ").split())) if words else "".join(map(meant, text.replace(" ", "")))
+    values = controls_of(told, pitch)
+    if values is None:
+        raise UsageError("fingering.unknown_sign", text=text, signs=", ".join([none, *signs]))
+    return (words_of(values, pitch) if words else told), values
+
+
+def with_label(instrument: InstrumentMap, table: Table, written: int, rank: int, text: str) -> Table:
+    """The table with another label, and what it says, of one fingering. Raises as `read_label`, and
+    ``fingering.twice``."""
+    label, controls = read_label(instrument, text)
+    if any(one.label == label and one.rank != rank for one in of_pitch(table, written)):
+        raise UsageError("fingering.twice", text=label)
+    old = next(one for one in of_pitch(table, written) if one.rank == rank)
+    if old.label == label:
+        return table
+    return _changed(table, written, rank, label=label, controls=controls, correction={}, fingers={})
+
+
+def with_cents(table: Table, written: int, rank: int, cents: float) -> Table:
+    """The table with other cents of one fingering."""
+    return _changed(table, written, rank, cents=float(cents))
+
+
+def with_tags(table: Table, written: int, rank: int, tags: Iterable[str]) -> Table:
+    """The table with other tags of one fingering."""
+    return _changed(table, written, rank, tags=tuple(dict.fromkeys(tag.strip() for tag in tags if tag.strip())))
+
+
+def moved(table: Table, written: int, rank: int, by: int) -> Table:
+    """The table with one fingering earlier (``by`` -1) or later among those of its note."""
+    own = list(of_pitch(table, written))
+    target = rank - 1 + by
+    if not 0 <= target < len(own):
+        return table
+    own.insert(target, own.pop(rank - 1))
+    return _with_pitch(table, written, own)
+
+
+def added(instrument: InstrumentMap, table: Table, written: int, text: str) -> Table:
+    """The table with one more alternate of a note, the last of them. Raises as `with_label`."""
+    label, controls = read_label(instrument, text)
+    own = of_pitch(table, written)
+    if any(one.label == label for one in own):
+        raise UsageError("fingering.twice", text=label)
+    new = Fingering(written, len(own) + 1, label, controls, tags=("alternate",))
+    return _with_pitch(table, written, [*own, new])
+
+
+def removed(table: Table, written: int, rank: int) -> Table:
+    """The table without one fingering. Raises UsageError ``fingering.last``."""
+    own = of_pitch(table, written)
+    if len(own) < 2:
+        raise UsageError("fingering.last")
+    return _with_pitch(table, written, [one for one in own if one.rank != rank])
+
+
+def reverted(table: Table, base: Table, written: int) -> Table:
+    """The table with the fingerings that another one has for a note."""
+    return _with_pitch(table, written, list(of_pitch(base, written)))
+
+
+def of_pitch(table: Table, written: int) -> Table:
+    """The fingerings of a written pitch."""
+    return tuple(one for one in table if one.written_pitch == written)
+
+
+def problems_of(instrument: InstrumentMap, table: Table) -> tuple[Problem, ...]:
+    """What a map with this table would be refused for."""
+    return tuple(problems(msgspec.structs.replace(instrument, fingerings=table)))
+
+
+def _changed(table: Table, written: int, rank: int, **fields: Any) -> Table:
+    return tuple(
+        msgspec.structs.replace(one, **fields) if (one.written_pitch, one.rank) == (written, rank) else one
+        for one in table
+    )
+
+
+def _with_pitch(table: Table, written: int, own: Sequence[Fingering]) -> Table:
+    ranked = [msgspec.structs.replace(one, rank=place) for place, one in enumerate(own, 1)]
+    others = [one for one in table if one.written_pitch != written]
+    return tuple(sorted([*others, *ranked], key=lambda one: (one.written_pitch, one.rank)))
+
+
+# A person's own file
+
+
+def base_table(instrument: InstrumentMap, path: Path | None) -> Table:
+    """The fingerings an own map has from the one it extends; of a bundled map its own; none where it stands alone."""
+    if path is None:
+        return instrument.fingerings
+    text = path.read_text("utf-8-sig")
+    base = tomllib.loads(text).get(BASE)
+    if not isinstance(base, str):
+        return ()
+    bare = f'{BASE} = "{base}"\nid = "{instrument.id}"\n'
+    return parse_map(bare, str(path)).fingerings
+
+
+def own_text(instrument: InstrumentMap, table: Table, text: str | None, file: str) -> str | None:
+    """The text of a person's own map with this table of fingerings; None where nothing is left to say.
+
+    Parameters
+    ----------
+    instrument : InstrumentMap
+        As it is now.
+    table : tuple of Fingering
+    text : str or None
+        Of the person's file as it is, whose other lines stay; None: there is none, and the bundled map is extended.
+    file : str
+        Its path: what it extends is looked for beside it.
+
+    Raises
+    ------
+    MapError
+        ``map.not_rewritten``; what `parse_map` finds wrong with the result.
+    """
+    known: dict[str, Any] = {} if text is None else tomllib.loads(text)
+    fresh = text is None
+    if text is None:
+        text = (
+            f"# {instrument.name.en}: your own version. What is not said here is as in the map it extends.\n\n"
+            f'{BASE} = "{instrument.id}"\nid = "{instrument.id}"\n'
+        )
+    base = tomllib.loads(text).get(BASE)
+    below = bundled_maps()[instrument.id].fingerings if fresh else ()
+    if not fresh and isinstance(base, str):
+        below = parse_map(f'{BASE} = "{base}"\nid = "{instrument.id}"\n', file).fingerings
+    pitches = sorted({one.written_pitch for one in table})
+    told = [
+        one for pitch in pitches if of_pitch(table, pitch) != of_pitch(below, pitch) for one in of_pitch(table, pitch)
+    ]
+    if not told and (fresh or set(known) <= _OURS):
+        return None
+    result = _without_block(text)
+    if told:
+        result = _with_block(result, _block(told, instrument))
+    try:
+        read = parse_map(result, file)
+        rest = {key: value for key, value in tomllib.loads(result).items() if key != "fingerings"}
+    except MapError as error:
+        if error.message.id == "map.syntax":
+            raise MapError("map.not_rewritten", file=file) from error
+        raise
+    if read.fingerings != table or (not fresh and rest != {key: v for key, v in known.items() if key != "fingerings"}):
+        raise MapError("map.not_rewritten", file=file)
+    return result
+
+
+def save_own(instrument: InstrumentMap, table: Table, folder: Path) -> Path | None:
+    """Write a person's own map with this table; returns its path, None where it says nothing any more and was removed.
+
+    Raises
+    ------
+    MapError
+        As `own_text`; ``map.unreadable`` for a file of theirs that cannot be read.
+    FileError
+        The folder or the file cannot be written.
+    """
+    path = folder / f"{instrument.id}.toml"
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        before = path.read_text("utf-8-sig") if path.is_file() else None
+        text = own_text(instrument, table, before, str(path))
+        if text is None:
+            path.unlink(missing_ok=True)
+            return None
+    except (OSError, UnicodeDecodeError) as error:
+        raise MapError("map.unreadable", file=str(path), detail=str(error)) from error
+    with atomic_write(path) as stream:
+        stream.write(text.encode())
+    return path
+
+
+def _block(told: Sequence[Fingering], instrument: InstrumentMap) -> str:
+    rows = "\n".join(f"  {_row(one, instrument)}," for one in told)
+    return f"fingerings = [\n{rows}\n]\n"
+
+
+def _row(one: Fingering, instrument: InstrumentMap) -> str:
+    values = msgspec.structs.asdict(one)
+    if controls_of(one.label, instrument.controls) == one.controls:
+        values["controls"] = {}
+    if not one.cents:
+        del values["cents"]
+    return _inline({key: values[key] for key in _ROW_KEYS if values.get(key) not in (None, {}, ())})
+
+
+def _inline(value: Any) -> str:
+    if isinstance(value, dict):
+        return "{ " + ", ".join(f"{key} = {_inline(item)}" for key, item in value.items()) + " }"
+    if isinstance(value, list | tuple):
+        return "[" + ", ".join(map(_inline, value)) + "]"
+    if isinstance(value, str):
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+    return repr(value)
+
+
+_KEY = re.compile(r"^fingerings\s*=\s*\[", re.MULTILINE)
+_TABLE = re.compile(r"^\s*\[", re.MULTILINE)
+
+
+def _without_block(text: str) -> str:
+    """The text without its list of fingerings."""
+    found = _KEY.search(text)
+    if found is None:
+        return text
+    end = _closing(text, found.end())
+    return text[: found.start()] + text[end:].lstrip("\n")
+
+
+def _with_block(text: str, block: str) -> str:
+    """The text with a list of fingerings before its first table: what follows a table's header belongs to it."""
+    first = _TABLE.search(text)
+    at = len(text) if first is None else first.start()
+    head = text[:at].rstrip("\n")
+    return f"{head}\n\n{block}" + (f"\n{text[at:].lstrip(chr(10))}" if text[at:].strip() else "")
+
+
+def _closing(text: str, at: int) -> int:
+    """Where the list ends whose opening bracket lies before ``at``: strings and comments do not count."""
+    depth, quote = 1, ""
+    while at < len(text) and depth:
+        sign = text[at]
+        if quote:
+            at += 1 if sign == "\\" and quote == '"' else 0
+            quote = "" if sign == quote else quote
+        elif sign == "#":
+            at = text.find("\n", at) if "\n" in text[at:] else len(text)
+        elif sign in "\"'":
+            quote = sign
+        else:
+            depth += (sign == "[") - (sign == "]")
+        at += 1
+    return at
