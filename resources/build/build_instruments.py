@@ -19,15 +19,17 @@ from typing import Any
 
 import numpy as np
 
-from resources.build import instrument_trombone, instrument_trumpet
+from resources.build import instrument_horn, instrument_trombone, instrument_trumpet, instrument_tuba
 from resources.build.instrument_glb import write
 from resources.build.instrument_mesh import Model
 
 ROOT = Path(__file__).parents[2]
 MARK = "# --- from the model"
 FAMILIES = (
+    instrument_horn,
     instrument_trombone,
     instrument_trumpet,
+    instrument_tuba,
 )
 INSTRUMENTS: dict[str, tuple[Callable[[], Any], ...]] = {
     name: makers for family in FAMILIES for name, makers in family.INSTRUMENTS.items()
@@ -38,11 +40,13 @@ def main(names: list[str]) -> None:
     """Build the named instruments, all of them without names."""
     for name in names or list(INSTRUMENTS):
         build, contacts, *keys = INSTRUMENTS[name]
+        table = ROOT / "instrument_maps" / f"{name}.toml"
+        head = table.read_text("utf-8").partition(MARK)[0]
+        if f'model = "{name}.glb"' not in head:
+            continue  # the model of the map it extends, with all that follows from it
         model = build()
         path = ROOT / "resources" / "instruments" / f"{name}.glb"
         write(model, path)
-        table = ROOT / "instrument_maps" / f"{name}.toml"
-        head = table.read_text("utf-8").partition(MARK)[0]
         table.write_text(head + from_model(model, contacts(), "".join(tables() for tables in keys)), "utf-8")
         triangles = sum(len(part.shape.faces) for part in model.parts)
         print(f"{name}: {triangles} triangles, {path.stat().st_size / 1e6:.2f} MB")

@@ -233,7 +233,7 @@ def valved(instrument: Valves) -> list[dict[str, object]]:
             for partial in instrument.partials:
                 cents = 100 * (instrument.fundamental + 12 * math.log2(partial / ratio) - written)
                 usable = partial not in SKIPPED_PARTIALS and partial not in (13, 14)
-                if abs(cents) <= (MOST_OFF_CENTS if label == first else 45) and (usable or label == first):
+                if abs(cents) <= (MOST_OFF_CENTS if label == first else 40) and (usable or label == first):
                     found[label] = min(found.get(label, (1e9, 0)), (cents, partial), key=lambda one: abs(one[0]))
         if first not in found:
             raise ValueError(f"written {written}: {first} is no harmonic of its tube")

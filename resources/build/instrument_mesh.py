@@ -148,6 +148,7 @@ def tube(
     side: ArrayLike | None = None,
     proxy: bool = True,
     hard_deg: float = 35.0,
+    tolerance_m: float = 0.0012,
 ) -> Shape:
     """A tube along a centre line.
 
@@ -161,6 +162,7 @@ def tube(
     side : direction of the first normal
     proxy : hand out capsules and cones for it
     hard_deg : edges of the profile sharper than this stay edges
+    tolerance_m : how far the capsules may be off the tube
     """
     centres = np.asarray(line, float)
     radius = np.broadcast_to(np.asarray(radii, float), (len(centres),)).copy()
@@ -173,7 +175,7 @@ def tube(
     else:
         radius_c, arc_c, rows = radius, arc, np.arange(len(centres))
     shape = _skin(centres[rows], tangents[rows], across[rows], over[rows], arc_c, radius_c, sides, flat, hard_deg)
-    proxies = _tube_proxies(centres, radius * max(flat)) if proxy else ()
+    proxies = _tube_proxies(centres, radius * max(flat), tolerance_m) if proxy else ()
     return Shape(shape.points, shape.normals, shape.uvs, shape.faces, tuple(proxies))
 
 

@@ -170,7 +170,7 @@ def test_labels_say_what_the_controls_do(instrument: InstrumentMap) -> None:
             assert fingering.label == pressed + position
             assert 1 <= int(position) <= 7
         elif not any(control.kind in ("key", "hole") for control in instrument.controls):
-            assert fingering.label.replace("0", "") == pressed
+            assert sorted(fingering.label.replace("0", "")) == sorted(pressed)
 
 
 def test_slide_stands_within_a_hand_of_its_position() -> None:
