@@ -7,6 +7,7 @@ import pytest
 from app.plan.fingering import plan_fingerings
 from app.plan.generate import Line
 from app.plan.line import line_times
+from instrument_maps.load import bundled_maps
 from instrument_maps.model import InstrumentMap
 from tests.support.plan import PlainClock, line_of
 from tests.support.woodwinds import clarinet, double_horn, oboe, saxophone
@@ -95,6 +96,18 @@ def test_the_saxophones_b_flat_depends_on_where_it_comes_from() -> None:
 def test_the_saxophones_high_f_is_at_the_front_by_leaps_and_on_the_palm_in_scales() -> None:
     assert keys([84, 88, 84], saxophone(), FAST)[1] >= {"f"}
     assert keys([86, 87, 88, 87, 86], saxophone())[2] >= {"pD", "pE", "pF"}
+
+
+def test_the_bundled_double_horn_stays_on_one_side_in_fast_passages() -> None:
+    horn = bundled_maps()["horn_double_F_Bb"]
+    up = horn.transposition_semitones
+
+    def thumb(written: list[int], step_tick: int, bpm: float) -> list[bool]:
+        return ["thumb_valve" in held for held in keys([pitch - up for pitch in written], horn, step_tick, bpm)]
+
+    assert thumb([60, 62, 64, 65, 67, 69, 71, 72, 74], EASY, 120.0) == [False] * 5 + [True] * 4
+    assert not any(thumb([65, 67, 69, 67, 65, 67, 69, 67], FAST, 130.0))
+    assert thumb([65, 67, 69, 67, 65], 480, 80.0) == [False, False, True, False, False]
 
 
 def test_the_double_horns_thumb_changes_sides_once_in_a_scale_and_not_to_and_fro() -> None:
