@@ -1,6 +1,6 @@
 """How the bundled bodies hold the bundled instruments, measured again through the whole character's skin."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -9,12 +9,13 @@ from app.errors import UsageError
 from app.rig import proxy, quaternion, skinning
 from app.rig.character import bundled_character, characters
 from app.rig.fit import fit_hold
-from app.rig.hold import HandHold, Hold, finger_rotations, hand_targets
+from app.rig.hold import HandHold, Hold, Placed, finger_rotations, hand_targets
 from app.rig.hold_file import hold_for
 from app.rig.instrument import bundled_instrument, node_transforms, part_transform
-from app.rig.lips import fit_lips
+from app.rig.lips import fit_lips, lip_places
 from app.rig.model import Character, InstrumentModel
 from app.rig.skeleton import JointTransforms, forward
+from app.rig.stations import Station, stations
 from instrument_maps.load import bundled_maps
 from instrument_maps.model import Contact, InstrumentMap
 from metadata.load import load_body, load_skeleton
@@ -38,61 +39,98 @@ def held(request: pytest.FixtureRequest) -> Held:
     return Held(character, instrument, model, hold_for(character, model, instrument, load_body()))
 
 
-def _controls(held: Held) -> dict[str, np.ndarray]:
-    """Every control goes from rest to its end at once."""
-    return {control.name: GRID for control in held.instrument.controls}
+def _rounds(held: Held) -> range:
+    """Each finger goes to its first place, then to its second ..."""
+    return range(max(len(places) for places in stations(held.instrument).values()))
 
 
-def _fingers(held: Held) -> JointTransforms:
+def _at(held: Held, place: int) -> dict[str, Station]:
+    """Where the fingers are in a round: those with fewer places at home."""
+    return {finger: places[place if place < len(places) else 0] for finger, places in stations(held.instrument).items()}
+
+
+def _controls(held: Held, place: int = 0) -> dict[str, np.ndarray]:
+    """Every control that is worked in a round goes from rest to its end, all at once."""
+    worked = {name for station in _at(held, place).values() for name in station.controls}
+    carried = {control.name for control in held.instrument.controls if control.finger.endswith(".hand")}
+    return dict.fromkeys(worked | carried, GRID)
+
+
+def _fingers(held: Held, place: int = 0) -> JointTransforms:
     """The whole character, only its fingers posed."""
+    placed = {}
+    for finger, places in stations(held.instrument).items():
+        index = np.full(len(GRID), place if place < len(places) else 0)
+        placed[finger] = Placed(index, index, np.zeros(len(GRID)))
     rotations = np.tile(quaternion.IDENTITY, (len(GRID), len(held.character.skeleton.names), 1))
-    rotations[:, list(held.hold.finger_joints)] = finger_rotations(held.hold, _controls(held), len(GRID))
+    turned = finger_rotations(held.hold, _controls(held, place), len(GRID), placed)
+    rotations[:, list(held.hold.finger_joints)] = turned
     return forward(held.character.skeleton, rotations)
 
 
-def _on_instrument(held: Held, hand: HandHold, transforms: JointTransforms, points: np.ndarray) -> np.ndarray:
+def _on_instrument(
+    held: Held, hand: HandHold, transforms: JointTransforms, points: np.ndarray, place: int = 0
+) -> np.ndarray:
     """Take points (F, V, 3) of the posed character to where the hand carries them, in the instrument's frame."""
     wrist, _ = transforms.of(held.character.skeleton.index(f"{hand.side}Hand"))
     still, unturned = np.zeros((len(GRID), 3)), np.tile(quaternion.IDENTITY, (len(GRID), 1))
-    place, turn = hand_targets(hand, still, unturned, _controls(held))
-    return place[:, None] + quaternion.rotate(turn[:, None], points - wrist[:, None])
+    spot, turn = hand_targets(hand, still, unturned, _controls(held, place))
+    return spot[:, None] + quaternion.rotate(turn[:, None], points - wrist[:, None])
 
 
-def _touch(held: Held, contact: Contact) -> np.ndarray:
+def _touch(held: Held, contact: Contact, worked: dict[str, np.ndarray]) -> np.ndarray:
     place = held.model.node_positions_m[held.model.node_names.index(contact.node)] + contact.position_m
     mover = next((control for control in held.instrument.controls if control.node == contact.node), None)
-    if mover is None:
+    if mover is None or mover.name not in worked:
         return np.tile(place, (len(GRID), 1))
     moved, turn = part_transform(mover.motion, GRID)
     return quaternion.rotate(turn, place) + moved
 
 
 def test_every_touch_is_met_over_the_whole_travel(held: Held) -> None:
-    transforms = _fingers(held)
-    for hand in held.hold.hands:
-        contacts = [c for c in held.instrument.contacts if c.part.startswith(f"{hand.side}.")]
-        points = skinning.landmark_positions(held.character, [c.part for c in contacts], transforms)
-        placed = _on_instrument(held, hand, transforms, points)
-        for number, contact in enumerate(contacts):
-            off = np.linalg.norm(placed[:, number] - _touch(held, contact), axis=1)
-            counts = {"always": GRID >= 0.0, "pressed": GRID > 0.0, "released": GRID == 0.0}[contact.when]
-            assert off[counts].max() <= (0.0015 if contact.grip == "firm" else 0.003), contact.part
-        assert all(fit.distance_m <= 0.0015 for fit in hand.contacts if fit.firm)
+    for place in _rounds(held):
+        transforms, worked = _fingers(held, place), _controls(held, place)
+        kept = {index for station in _at(held, place).values() for index in station.contacts}
+        for hand in held.hold.hands:
+            contacts = [
+                contact
+                for index, contact in enumerate(held.instrument.contacts)
+                if contact.part.startswith(f"{hand.side}.")
+                and (index in kept or f"{hand.side}.{contact.part.split('.')[1]}" not in stations(held.instrument))
+            ]
+            points = skinning.landmark_positions(held.character, [c.part for c in contacts], transforms)
+            placed = _on_instrument(held, hand, transforms, points, place)
+            for number, contact in enumerate(contacts):
+                off = np.linalg.norm(placed[:, number] - _touch(held, contact, worked), axis=1)
+                counts = {"always": GRID >= 0.0, "pressed": GRID > 0.0, "released": GRID == 0.0}[contact.when]
+                if contact.control is not None and held.instrument.control(contact.control).hover_m > 0.0:
+                    # it waits over its key, and is on it when the key is down
+                    assert off[0] <= 0.020, contact
+                    counts = GRID == 1.0
+                assert off[counts].max() <= _allowed_m(contact, place), contact
+
+
+def _allowed_m(contact: Contact, place: int) -> float:
+    """A millimetre and a half; three where a part only lies there, and two at places a finger goes to."""
+    if contact.grip != "firm":
+        return 0.003
+    return 0.0015 if place == 0 else 0.002
 
 
 def test_no_hand_is_inside_the_instrument(held: Held) -> None:
-    transforms = _fingers(held)
     bodies = proxy.bodies(held.instrument.proxy, held.model.node_names)
-    nodes, turns = node_transforms(held.model, held.instrument, _controls(held), len(GRID))
-    bases = quaternion.to_matrix(turns)
-    for hand in held.hold.hands:
-        mark = held.character.landmarks[f"{hand.side}.hand"]
-        part = skinning.patch(held.character, skinning.mesh_named(held.character, mark.mesh), mark.vertices)
-        skin = _on_instrument(held, hand, transforms, skinning.deform(part, transforms))
-        for frame in range(0, len(GRID), 4):
-            placed = proxy.Nodes(nodes[frame], bases[frame])
-            depth, _ = proxy.inside(bodies, placed, skin[frame], np.zeros(len(skin[frame])))
-            assert depth.max() <= 0.003, (hand.side, GRID[frame])
+    for place in _rounds(held):
+        transforms, worked = _fingers(held, place), _controls(held, place)
+        nodes, turns = node_transforms(held.model, held.instrument, worked, len(GRID))
+        bases = quaternion.to_matrix(turns)
+        for hand in held.hold.hands:
+            mark = held.character.landmarks[f"{hand.side}.hand"]
+            part = skinning.patch(held.character, skinning.mesh_named(held.character, mark.mesh), mark.vertices)
+            skin = _on_instrument(held, hand, transforms, skinning.deform(part, transforms), place)
+            for frame in range(0, len(GRID), 4 if place == 0 else 20):
+                placed = proxy.Nodes(nodes[frame], bases[frame])
+                depth, _ = proxy.inside(bodies, placed, skin[frame], np.zeros(len(skin[frame])))
+                assert depth.max() <= 0.003, (hand.side, place, GRID[frame])
 
 
 def test_fingers_stay_within_human_limits(held: Held) -> None:
@@ -121,8 +159,11 @@ def test_tables_are_fine_enough_that_fingers_move_evenly(held: Held) -> None:
 
 
 def test_the_lips_move_with_the_face_as_the_skin_does(held: Held) -> None:
-    character = held.character
-    lips = fit_lips(character, held.instrument, load_body())
+    body = load_body()
+    places = lip_places(held.character, held.instrument, body)
+    marks = {**held.character.landmarks, "contact": places.contact, "carrier": places.carrier}
+    character = replace(held.character, landmarks=marks)
+    lips = fit_lips(held.character, held.instrument, body)
     generator = np.random.default_rng(1)
     weights = {name: generator.uniform(size=3) for name in ("jawOpen", "mouthPucker", "mouthPressLeft", "browInnerUp")}
     rotations = np.tile(quaternion.IDENTITY, (3, len(character.skeleton.names), 1))
@@ -130,12 +171,13 @@ def test_the_lips_move_with_the_face_as_the_skin_does(held: Held) -> None:
     rotations[:, head] = quaternion.from_rotation_vector(generator.normal(size=(3, 3)))
     transforms = forward(character.skeleton, rotations)
     place, turn = transforms.of(head)
-    skin = skinning.landmark_positions(character, ["lips.contact"], transforms, weights)[:, 0]
+    skin = skinning.landmark_positions(character, ["contact"], transforms, weights)[:, 0]
     np.testing.assert_allclose(place + quaternion.rotate(turn, lips.contact_m(weights, 3)), skin, atol=1e-6)
     still = {name: np.zeros(3) for name in weights}
     np.testing.assert_allclose(lips.carried_m(still, 3), lips.contact_m(still, 3), atol=1e-12)
-    opened = {"jawOpen": np.ones(3)}
-    assert np.all(lips.contact_m(opened, 3)[:, 1] < lips.carried_m(opened, 3)[:, 1])
+    if not np.array_equal(places.carrier.vertices, places.contact.vertices):
+        opened = {"jawOpen": np.ones(3)}
+        assert np.all(lips.contact_m(opened, 3)[:, 1] < lips.carried_m(opened, 3)[:, 1])
 
 
 def test_how_far_the_arm_must_be_helped_grows_with_the_slide(held: Held) -> None:
