@@ -19,7 +19,14 @@ from typing import Any
 
 import numpy as np
 
-from resources.build import instrument_horn, instrument_recorder, instrument_trombone, instrument_trumpet, instrument_tuba
+from resources.build import (
+    instrument_horn,
+    instrument_oboe,
+    instrument_recorder,
+    instrument_trombone,
+    instrument_trumpet,
+    instrument_tuba,
+)
 from resources.build.instrument_glb import write
 from resources.build.instrument_mesh import Model
 
@@ -27,6 +34,7 @@ ROOT = Path(__file__).parents[2]
 MARK = "# --- from the model"
 FAMILIES = (
     instrument_horn,
+    instrument_oboe,
     instrument_recorder,
     instrument_trombone,
     instrument_trumpet,
