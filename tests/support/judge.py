@@ -46,9 +46,13 @@ TUBE_M = 2.76
 TRAVEL_M = 0.62
 
 
-def family(instrument: str) -> str:
-    """trumpet or trombone."""
-    return instrument.split("_")[0]
+FAMILY = {
+    "trumpet_Bb": "trumpet",
+    "cornet_Bb": "trumpet",
+    "flugelhorn_Bb": "trumpet",
+    "trombone_tenor_F_attachment": "trombone",
+}
+"""Instruments whose published table is here: three valves in B flat, or the tenor's slide."""
 
 
 def opened(path: Path) -> mido.MidiFile:
@@ -216,12 +220,14 @@ def _expected_controls(kind: str, label: str, controls: Mapping[str, float]) -> 
 
 def _fingerings(player: Mapping[str, Any]) -> list[str]:
     wrong = []
-    kind = family(player["instrument"])
+    kind = FAMILY.get(player["instrument"])
     notes = player["notes"]
     for index, note in enumerate(notes):
         label, pitch, controls = note["fingering"], note["pitch"], note["controls"]
-        if any(not 0.0 <= value <= 1.0 for value in controls.values()):
-            wrong.append(f"note {note['id']}: controls {controls}")
+        if not label or any(not 0.0 <= value <= 1.0 for value in controls.values()):
+            wrong.append(f"note {note['id']}: '{label}' with controls {controls}")
+        if kind is None:
+            continue
         if not _expected_controls(kind, label, controls):
             wrong.append(f"note {note['id']}: {label} with {controls}")
         around = [
