@@ -11,6 +11,8 @@ fingering.unknown_place : text, places
     "'{text}' is no place of the slide; there are: {places}"
 fingering.twice : text
     "'{text}' is there already for this note"
+fingering.no_number : text
+    "'{text}' is no number of cents"
 fingering.last : (nothing)
     "the only fingering of a note cannot be removed"
 map.not_rewritten : file
@@ -22,6 +24,7 @@ from __future__ import annotations
 import json
 import re
 import tomllib
+from collections import Counter
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -95,6 +98,26 @@ def with_label(instrument: InstrumentMap, table: Table, written: int, rank: int,
     if old.label == label:
         return table
     return _changed(table, written, rank, label=label, controls=controls, correction={}, fingers={})
+
+
+def read_cents(text: str) -> float:
+    """What a person typed, as cents; nothing is 0. Raises UsageError ``fingering.no_number`` (text)."""
+    try:
+        return float(text.replace("−", "-").replace(",", ".").removesuffix("¢") or 0.0)
+    except ValueError:
+        raise UsageError("fingering.no_number", text=text) from None
+
+
+def free_label(instrument: InstrumentMap, table: Table, written: int) -> str | None:
+    """A label that a note has not got yet and that is right for it, the most used one first; None if there is none."""
+    own = {one.label for one in of_pitch(table, written)}
+    counts = Counter(one.label for one in instrument.fingerings)
+    for label, _ in counts.most_common():
+        if label not in own:
+            more = added(instrument, table, written, label)
+            if not problems_of(instrument, more):
+                return label
+    return None
 
 
 def with_cents(table: Table, written: int, rank: int, cents: float) -> Table:

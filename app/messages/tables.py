@@ -22,6 +22,7 @@ TEMPLATES: Final[dict[str, str]] = {
     "fingering.unknown_sign": "{text!r} says nothing on this instrument; its signs are: {signs}",
     "fingering.unknown_place": "{text!r} is no place of the slide; there are: {places}",
     "fingering.twice": "{text!r} is there already for this note",
+    "fingering.no_number": "{text!r} is no number of cents",
     "fingering.last": "the only fingering of a note cannot be removed",
     "map.unknown": "there is no instrument map named {id!r}",
     "metadata.missing": "there is no {kind} named {name!r}; there are: {known}",

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 from PySide6.QtCore import QFileSystemWatcher, QObject, QTimer
 
 from app.errors import Message
@@ -75,10 +73,3 @@ class InstrumentWatch(QObject):
             self._watcher.removePaths(sorted(gone))
         if new := wanted - watched:
             self._watcher.addPaths(sorted(new))
-
-
-def open_own_folder() -> Path:
-    """The folder of a person's own maps, made where it is not there yet."""
-    folder = own_folder()
-    folder.mkdir(parents=True, exist_ok=True)
-    return folder

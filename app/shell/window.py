@@ -277,6 +277,15 @@ class Window(QMainWindow):
 
         show_preferences(self.editor, page)
 
+    def show_instruments(self) -> None:
+        """Show the instruments and their fingerings; once."""
+        from widgets.dialogs.instrument_map import InstrumentsDialog
+
+        dialog = self.findChild(InstrumentsDialog) or InstrumentsDialog(self.session, self)
+        dialog.show()
+        dialog.raise_()
+        dialog.activateWindow()
+
     def show_about(self) -> None:
         """Say which program this is."""
         from app.shell.about import AboutDialog

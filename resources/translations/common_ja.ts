@@ -142,6 +142,49 @@
     </message>
 </context>
 <context>
+    <name>Fingering</name>
+    <message>
+        <source>L</source>
+        <translation>左</translation>
+    </message>
+    <message>
+        <source>R</source>
+        <translation>右</translation>
+    </message>
+    <message>
+        <source>thumb</source>
+        <translation>親指</translation>
+    </message>
+    <message>
+        <source>index</source>
+        <translation>人差し指</translation>
+    </message>
+    <message>
+        <source>middle</source>
+        <translation>中指</translation>
+    </message>
+    <message>
+        <source>ring</source>
+        <translation>薬指</translation>
+    </message>
+    <message>
+        <source>little</source>
+        <translation>小指</translation>
+    </message>
+    <message>
+        <source>hand</source>
+        <translation>手</translation>
+    </message>
+    <message>
+        <source>{hand} {part}</source>
+        <translation>{hand}{part}</translation>
+    </message>
+    <message>
+        <source>{cm} cm</source>
+        <translation>{cm} cm</translation>
+    </message>
+</context>
+<context>
     <name>Language</name>
     <message>
         <source>en</source>

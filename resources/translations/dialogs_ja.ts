@@ -210,6 +210,173 @@
     </message>
 </context>
 <context>
+    <name>InstrumentsDialog</name>
+    <message>
+        <source>Your own version: {file}</source>
+        <translation>自分のバージョン：{file}</translation>
+    </message>
+    <message>
+        <source>Bundled</source>
+        <translation>付属</translation>
+    </message>
+    <message>
+        <source>sounds {low} to {high}</source>
+        <translation>実音 {low}～{high}</translation>
+    </message>
+    <message>
+        <source>written {low} to {high} ({semitones} semitones)</source>
+        <translation>記譜 {low}～{high}（{semitones} 半音）</translation>
+    </message>
+    <message>
+        <source>cup mouthpiece</source>
+        <translation>カップマウスピース</translation>
+    </message>
+    <message>
+        <source>single reed</source>
+        <translation>シングルリード</translation>
+    </message>
+    <message>
+        <source>double reed</source>
+        <translation>ダブルリード</translation>
+    </message>
+    <message>
+        <source>lip plate</source>
+        <translation>リッププレート</translation>
+    </message>
+    <message>
+        <source>beak</source>
+        <translation>歌口（リコーダー型）</translation>
+    </message>
+    <message>
+        <source>treble clef</source>
+        <translation>ト音記号</translation>
+    </message>
+    <message>
+        <source>bass clef</source>
+        <translation>ヘ音記号</translation>
+    </message>
+    <message>
+        <source>alto clef</source>
+        <translation>アルト記号</translation>
+    </message>
+    <message>
+        <source>tenor clef</source>
+        <translation>テノール記号</translation>
+    </message>
+    <message>
+        <source>standing</source>
+        <translation>立奏</translation>
+    </message>
+    <message>
+        <source>seated</source>
+        <translation>座奏</translation>
+    </message>
+    <message>
+        <source>a breath lasts {soft} to {loud} s</source>
+        <translation>一息 {soft}～{loud} 秒</translation>
+    </message>
+    <message>
+        <source>model {file}</source>
+        <translation>モデル {file}</translation>
+    </message>
+    <message>
+        <source>Every fingering that is right for this note is there already.</source>
+        <translation>この音に使える運指はすべて登録されています。</translation>
+    </message>
+    <message>
+        <source>Instruments</source>
+        <translation>楽器</translation>
+    </message>
+    <message>
+        <source>Higher Choice</source>
+        <translation>優先順位を上げる</translation>
+    </message>
+    <message>
+        <source>Lower Choice</source>
+        <translation>優先順位を下げる</translation>
+    </message>
+    <message>
+        <source>Add Alternate</source>
+        <translation>替え指を追加</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>削除</translation>
+    </message>
+    <message>
+        <source>Revert This Note</source>
+        <translation>この音を元に戻す</translation>
+    </message>
+    <message>
+        <source>Revert All Notes</source>
+        <translation>すべての音を元に戻す</translation>
+    </message>
+    <message>
+        <source>Undo</source>
+        <translation>元に戻す</translation>
+    </message>
+    <message>
+        <source>Redo</source>
+        <translation>やり直す</translation>
+    </message>
+    <message>
+        <source>Show My Folder</source>
+        <translation>自分のフォルダを開く</translation>
+    </message>
+    <message>
+        <source>Save as My Own</source>
+        <translation>自分用に保存</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>閉じる</translation>
+    </message>
+    <message>
+        <source>Written</source>
+        <translation>記譜音</translation>
+    </message>
+    <message>
+        <source>Sounds</source>
+        <translation>実音</translation>
+    </message>
+    <message>
+        <source>Choice</source>
+        <translation>順位</translation>
+    </message>
+    <message>
+        <source>Fingering</source>
+        <translation>運指</translation>
+    </message>
+    <message>
+        <source>Cents</source>
+        <translation>セント</translation>
+    </message>
+    <message>
+        <source>For</source>
+        <translation>用途</translation>
+    </message>
+    <message>
+        <source>Click keys to change the fingering, or type it in the table.</source>
+        <translation>キーをクリックするか、表に入力して運指を変更します。</translation>
+    </message>
+    <message>
+        <source>Fingerings of {count} instruments are not saved.</source>
+        <translation>{count} 個の楽器の運指が保存されていません。</translation>
+    </message>
+    <message>
+        <source>Save</source>
+        <translation>保存</translation>
+    </message>
+    <message>
+        <source>Discard</source>
+        <translation>破棄</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>キャンセル</translation>
+    </message>
+</context>
+<context>
     <name>PlayblastDialog</name>
     <message>
         <source>The film is written: {file}</source>
@@ -327,6 +494,10 @@
 <context>
     <name>PreferencesDialog</name>
     <message>
+        <source>Your own: {maps}</source>
+        <translation>自分の楽器：{maps}</translation>
+    </message>
+    <message>
         <source>Preferences</source>
         <translation>環境設定</translation>
     </message>
@@ -337,6 +508,18 @@
     <message>
         <source>Keyboard Shortcuts</source>
         <translation>キーボードショートカット</translation>
+    </message>
+    <message>
+        <source>Instruments</source>
+        <translation>楽器</translation>
+    </message>
+    <message>
+        <source>Show Folder</source>
+        <translation>フォルダを開く</translation>
+    </message>
+    <message>
+        <source>Your own instruments: a map (.toml) and a model (.glb) in this folder. They are read again as soon as they change.</source>
+        <translation>自分の楽器：このフォルダに置いたマップ（.toml）とモデル（.glb）。変更するとすぐに読み込み直されます。</translation>
     </message>
     <message>
         <source>Language</source>

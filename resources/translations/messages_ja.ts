@@ -1076,6 +1076,30 @@
             <translation>{file}: {path}: {detail}</translation>
         </message>
         <message>
+            <source>{file}: its table of fingerings is written in a way that cannot be changed here; change it in a text editor</source>
+            <translation>{file}：運指表がここでは変更できない書き方になっています。テキストエディタで変更してください</translation>
+        </message>
+        <message>
+            <source>{text!r} says nothing on this instrument; its signs are: {signs}</source>
+            <translation>{text!r} はこの楽器では意味がありません。使える記号：{signs}</translation>
+        </message>
+        <message>
+            <source>{text!r} is no place of the slide; there are: {places}</source>
+            <translation>{text!r} というスライドポジションはありません。使えるもの：{places}</translation>
+        </message>
+        <message>
+            <source>{text!r} is there already for this note</source>
+            <translation>{text!r} はこの音にすでに登録されています</translation>
+        </message>
+        <message>
+            <source>{text!r} is no number of cents</source>
+            <translation>{text!r} はセントの数値ではありません</translation>
+        </message>
+        <message>
+            <source>the only fingering of a note cannot be removed</source>
+            <translation>音に残った唯一の運指は削除できません</translation>
+        </message>
+        <message>
             <source>there is no instrument map named {id!r}</source>
             <translation>{id!r} というインストゥルメントマップはありません</translation>
         </message>

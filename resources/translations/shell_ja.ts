@@ -83,6 +83,10 @@
         <translation>ライトテーマ</translation>
     </message>
     <message>
+        <source>Instruments...</source>
+        <translation>楽器...</translation>
+    </message>
+    <message>
         <source>Preferences...</source>
         <translation>環境設定...</translation>
     </message>

@@ -244,6 +244,7 @@ class Look:
             "about": lambda: self.do("application.about"),
             "preferences": lambda: self.do("application.preferences"),
             "shortcuts": lambda: self.do("application.shortcuts"),
+            "instruments": lambda: self.do("application.instruments"),
             "export": lambda: self.do("export.files"),
             "playblast": lambda: self.do("export.playblast"),
             "reimport": lambda: self.do("file.reimport"),

@@ -6,7 +6,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
 
-from PySide6.QtCore import QEvent, QSize, Qt, Signal
+from PySide6.QtCore import QEvent, QSize, Qt, QUrl, Signal
+from PySide6.QtGui import QDesktopServices
 from PySide6.QtWidgets import (
     QButtonGroup,
     QComboBox,
@@ -15,13 +16,17 @@ from PySide6.QtWidgets import (
     QFormLayout,
     QHBoxLayout,
     QLabel,
+    QLineEdit,
+    QPushButton,
     QRadioButton,
     QTabWidget,
     QVBoxLayout,
     QWidget,
 )
 
+from instrument_maps.library import library, own_folder
 from widgets.common.session import Session, TimeDisplay
+from widgets.common.text import message_text
 from widgets.common.tokens import THEMES
 from widgets.dialogs.shortcuts import ShortcutRow, ShortcutsPage
 
@@ -105,13 +110,19 @@ class PreferencesDialog(QDialog):
         self.shortcuts = ShortcutsPage(session, shortcuts, conflicts, menu_of)
         self.shortcuts.chosen.connect(self.shortcut_chosen)
         self.tabs.addTab(self.shortcuts, "")
+        self.tabs.addTab(self._instruments_page(), "")
         self._buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
         self._buttons.rejected.connect(self.reject)
         column = QVBoxLayout(self)
         column.setContentsMargins(10, 8, 10, 10)
         column.addWidget(self.tabs, 1)
         column.addWidget(self._buttons)
-        for signal in (session.theme_changed, session.time_display_changed, pitch.changed):
+        for signal in (
+            session.theme_changed,
+            session.time_display_changed,
+            session.instruments_changed,
+            pitch.changed,
+        ):
             signal.connect(self.refresh)
         self.retranslate()
         self.refresh()
@@ -139,9 +150,46 @@ class PreferencesDialog(QDialog):
         self._groups.append(group)
         self._row(name, field)
 
+    def _instruments_page(self) -> QWidget:
+        """Where a person's own maps are, and what is wrong with them."""
+        page = QWidget()
+        column = QVBoxLayout(page)
+        column.setContentsMargins(16, 16, 16, 16)
+        column.setSpacing(12)
+        self._own, self._found = QLabel(), QLabel()
+        self._folder = QLineEdit(str(own_folder()))
+        self._folder.setObjectName("preferences_instruments")
+        self._folder.setReadOnly(True)
+        self._open = QPushButton()
+        self._open.setObjectName("preferences_instruments_open")
+        self._open.clicked.connect(self._open_folder)
+        for label in (self._own, self._found):
+            label.setWordWrap(True)
+        self._found.setObjectName("preferences_instruments_found")
+        self._found.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        line = QHBoxLayout()
+        line.addWidget(self._folder, 1)
+        line.addWidget(self._open)
+        column.addWidget(self._own)
+        column.addLayout(line)
+        column.addWidget(self._found)
+        column.addStretch(1)
+        return page
+
+    def _open_folder(self) -> None:
+        folder = own_folder()
+        folder.mkdir(parents=True, exist_ok=True)
+        QDesktopServices.openUrl(QUrl.fromLocalFile(str(folder)))
+
+    def _show_instruments(self) -> None:
+        known = library()
+        wrong = [message_text(problems[0], self._session) for problems in known.problems.values()]
+        found = [self.tr("Your own: {maps}").format(maps=", ".join(known.own))] if known.own else []
+        self._found.setText("\n\n".join([*found, *(f"⚠ {text}" for text in wrong)]))
+
     def show_page(self, page: str) -> None:
-        """``"general"`` or ``"shortcuts"``."""
-        self.tabs.setCurrentIndex(1 if page == "shortcuts" else 0)
+        """``"general"``, ``"shortcuts"`` or ``"instruments"``."""
+        self.tabs.setCurrentIndex({"shortcuts": 1, "instruments": 2}.get(page, 0))
         if page == "shortcuts":
             self.shortcuts.search.setFocus(Qt.FocusReason.OtherFocusReason)
 
@@ -158,6 +206,7 @@ class PreferencesDialog(QDialog):
         )
         for key in chosen:
             self._radios[key].setChecked(True)
+        self._show_instruments()
 
     def _choose_theme(self, name: str) -> None:
         self._session.set_tokens(THEMES[name])
@@ -170,6 +219,14 @@ class PreferencesDialog(QDialog):
         self.setWindowTitle(self.tr("Preferences"))
         self.tabs.setTabText(0, self.tr("General"))
         self.tabs.setTabText(1, self.tr("Keyboard Shortcuts"))
+        self.tabs.setTabText(2, self.tr("Instruments"))
+        self._open.setText(self.tr("Show Folder"))
+        self._own.setText(
+            self.tr(
+                "Your own instruments: a map (.toml) and a model (.glb) in this folder. They are read again as soon as "
+                "they change."
+            )
+        )
         for name, text in (
             ("language", self.tr("Language")),
             ("theme", self.tr("Theme")),

@@ -14,6 +14,8 @@ from app.project.model import Player, Project
 from instrument_maps.library import find_map
 from instrument_maps.model import Fingering, InstrumentMap
 from widgets.common.chip import Chip
+from widgets.common.fingering_diagram import FingeringDiagram
+from widgets.common.fingering_text import short_label
 from widgets.common.flow import FlowLayout
 from widgets.common.musical_time import beat_ticks, place_text, tick_of_place
 from widgets.common.number_slider import NumberSlider
@@ -22,7 +24,6 @@ from widgets.common.section import Section
 from widgets.common.session import Session
 from widgets.common.text import message_text, sentence
 from widgets.inspector.by_hand import ByHandLine
-from widgets.inspector.fingering_diagram import FingeringDiagram
 from widgets.inspector.generated import Generated
 from widgets.inspector.pitch_reading import pitch_from
 from widgets.inspector.selected import NoteFinder, SelectedNotes, fingering_of, selected_notes
@@ -205,7 +206,7 @@ class NoteSection(QWidget):
             # The same chips stay, so that the keyboard stays where it is.
             self._chip_labels = labels
             self._chips.clear()
-            self._chip_of = {label: Chip(self._session, label, cents) for label, cents in labels}
+            self._chip_of = {label: Chip(self._session, short_label(label), cents) for label, cents in labels}
             for label, chip in self._chip_of.items():
                 chip.setObjectName(f"chip_{label}")
                 chip.clicked.connect(lambda _=False, label=label: self._pin(label))
@@ -226,7 +227,10 @@ class NoteSection(QWidget):
             "alternate": self.tr("alternate"),
         }
         lines = [
-            self.tr("first choice") if fingering.rank == 1 else self.tr("choice no. {rank}").format(rank=fingering.rank)
+            *([fingering.label] if " " in fingering.label else []),
+            self.tr("first choice")
+            if fingering.rank == 1
+            else self.tr("choice no. {rank}").format(rank=fingering.rank),
         ]
         lines += [tags.get(tag, tag) for tag in fingering.tags]
         if round(fingering.cents):
@@ -434,6 +438,8 @@ def _lips_of(plan: PlayerPlan | None, note_id: str) -> EmbouchureEvent | None:
 
 
 def _spaced(label: str, instrument: InstrumentMap) -> str:
-    """``"13"`` as ``"1·3"`` where it names keys one by one."""
+    """``"13"`` as ``"1·3"`` where it names valves one by one."""
+    if " " in label:
+        return short_label(label)
     signs = {control.label for control in instrument.controls if control.label}
     return "·".join(label) if len(label) > 1 and all(sign in signs for sign in label) else label

@@ -11,6 +11,7 @@ from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
 from PySide6.QtGui import QBrush, QColor, QFontMetricsF, QImage, QPainter, QPen, QPolygonF, QStaticText
 
 from app.plan.model import PlayerPlan, Problem
+from widgets.common.fingering_text import short_label
 from widgets.common.pitch import BLACK
 from widgets.timeline.lane import LaneItem
 from widgets.timeline.note_table import NoteTable
@@ -236,7 +237,7 @@ class Labels(LaneItem):
             for event in plan.fingerings:
                 place = index.get(event.note_id)
                 if place is not None:
-                    pairs.append((place, event.label, event.corrected))
+                    pairs.append((place, short_label(event.label), event.corrected))
         pairs.sort()
         self._fingered = np.array([place for place, _, _ in pairs], np.int64)
         self._said = [(label, corrected) for _, label, corrected in pairs]

@@ -20,6 +20,11 @@ def preferences(session: Session) -> None:
     editor_of(session).window.show_preferences("general")
 
 
+def instruments(session: Session) -> None:
+    """Show the instruments and their fingerings."""
+    editor_of(session).window.show_instruments()
+
+
 def shortcuts(session: Session) -> None:
     """Show the keyboard shortcuts."""
     editor_of(session).window.show_preferences("shortcuts")
@@ -195,6 +200,13 @@ ACTIONS: tuple[Action, ...] = (
         partial(language, "ja"),
         "View/Language",
         checked=lambda session: editor_of(session).language.code == "ja",
+    ),
+    Action(
+        "application.instruments",
+        QT_TRANSLATE_NOOP("Action", "Instruments..."),
+        instruments,
+        "Edit",
+        "Ctrl+Alt+I",
     ),
     Action(
         "application.preferences",

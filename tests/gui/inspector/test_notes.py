@@ -18,7 +18,7 @@ from widgets.common.chip import Chip
 from widgets.common.selection import EventKey, Selection
 from widgets.common.session import Session
 from widgets.inspector.by_hand import ByHandLine
-from widgets.inspector.fingering_diagram import FingeringDiagram, slide_slots
+from widgets.common.fingering_diagram import FingeringDiagram, slide_slots
 from widgets.inspector.panel import InspectorPanel
 from widgets.inspector.pitch_reading import pitch_from
 

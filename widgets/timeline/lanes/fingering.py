@@ -15,6 +15,7 @@ from app.plan.model import FingeringEvent, PlayerPlan
 from app.project.document import Change
 from app.project.model import Player
 from instrument_maps.model import Control, InstrumentMap
+from widgets.common.fingering_text import short_label
 from widgets.common.selection import Selection
 from widgets.common.session import Session
 from widgets.common.text import message_text
@@ -169,8 +170,9 @@ class _Bars(LaneItem):
             painter.setPen(strong if is_chosen or event.corrected or event.rank > 1 else text)
             inset = 8.0 if event.corrected else 2.0
             box = QRectF(x + inset, top, max(wide - inset, 15.0), LABEL_PX)
-            if wide >= painter.fontMetrics().horizontalAdvance(event.label) + inset:
-                draw_text(painter, box, event.label)
+            label = short_label(event.label)
+            if wide >= painter.fontMetrics().horizontalAdvance(label) + inset:
+                draw_text(painter, box, label)
 
 
 class FingeringLane(Lane):

@@ -5,11 +5,23 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from PySide6.QtCore import QCoreApplication, QPointF, QRectF, QSize, Qt
-from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPaintEvent, QPen
-from PySide6.QtWidgets import QSizePolicy, QWidget
+from PySide6.QtCore import QCoreApplication, QEvent, QPointF, QRectF, QSize, Qt, Signal
+from PySide6.QtGui import (
+    QColor,
+    QFont,
+    QFontMetricsF,
+    QHelpEvent,
+    QMouseEvent,
+    QPainter,
+    QPaintEvent,
+    QPen,
+    QResizeEvent,
+)
+from PySide6.QtWidgets import QSizePolicy, QToolTip, QWidget
 
+from instrument_maps.fingering_label import says_words
 from instrument_maps.model import Control, InstrumentMap
+from widgets.common.key_chart import Chart, chart
 from widgets.common.session import Session
 from widgets.common.tokens import Tokens
 
@@ -17,8 +29,6 @@ DOWN = 0.5
 """A key further than this counts as down."""
 TOP_PX = 30.0
 COLUMN_PX = 50.0
-_MANY = 6
-"""More keys than this are drawn as a fingering chart, a row for each hand."""
 
 
 @dataclass(frozen=True)
@@ -73,7 +83,15 @@ def slide_slots(instrument: InstrumentMap, control: Control) -> tuple[Slot, ...]
 
 class FingeringDiagram(QWidget):
     """Valves as tops that are filled when down, levers beside them, a slide as a rail with its positions and a hand,
-    many keys as a chart with a row for each hand; each with the finger that works it."""
+    each with the finger that works it; keys and holes of a woodwind as a chart with a row for each hand.
+
+    Signals
+    -------
+    pressed(str)
+        A key, valve or hole of this name was clicked, where the diagram was told to listen (`set_editable`).
+    """
+
+    pressed = Signal(str)
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -81,8 +99,15 @@ class FingeringDiagram(QWidget):
         self._instrument: InstrumentMap | None = None
         self._values: dict[str, float] = {}
         self._slots: dict[str, tuple[Slot, ...]] = {}
+        self._editable = False
+        self._chart: Chart | None = None
+        self.setMouseTracking(True)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         session.theme_changed.connect(self.update)
+
+    def set_editable(self, editable: bool) -> None:
+        """Whether keys can be clicked."""
+        self._editable = editable
 
     @property
     def values(self) -> Mapping[str, float]:
@@ -98,6 +123,7 @@ class FingeringDiagram(QWidget):
                 for control in instrument.controls
                 if control.kind == "slide" and control.role == "pitch"
             }
+            self._chart = None
             self.updateGeometry()
         self._values = {control.name: controls.get(control.name, control.rest_value) for control in instrument.controls}
         self.setAccessibleDescription(self.spoken())
@@ -137,21 +163,17 @@ class FingeringDiagram(QWidget):
         font.setPointSizeF(9.0)
         return font
 
-    def _rows(self) -> list[tuple[str, list[Control]]]:
-        """Keys in rows: all in one, or by hand where there are many."""
-        keys = self._keys()
-        if len(keys) <= _MANY:
-            return [("", keys)] if keys else []
-        return [
-            (hand, row)
-            for hand in ("left", "right")
-            if (row := [control for control in keys if control.finger.startswith(hand)])
-        ]
-
     @property
-    def _by_hands(self) -> bool:
-        """Whether there is a row for each hand."""
-        return len(self._rows()) > 1
+    def _is_chart(self) -> bool:
+        """Whether it is drawn as a chart of keys and holes."""
+        return self._instrument is not None and says_words(self._instrument.controls)
+
+    def chart(self) -> Chart:
+        """Where the keys and holes are."""
+        assert self._instrument is not None
+        if self._chart is None:
+            self._chart = chart(self._instrument, self.width(), QFontMetricsF(self._small()).horizontalAdvance)
+        return self._chart
 
     def _key_row_px(self) -> float:
         return TOP_PX + self._line_px() + 8.0
@@ -178,11 +200,50 @@ class FingeringDiagram(QWidget):
         painter.setPen(QColor(tokens.text if down else tokens.text_dim))
         under = QRectF(centre.x() - column_px / 2, centre.y() + radius + 3.0, column_px, self._line_px())
         metrics, text = QFontMetricsF(self._small()), finger_text(control.finger)
-        if self._by_hands or metrics.horizontalAdvance(text) > column_px - 2:
+        if metrics.horizontalAdvance(text) > column_px - 2:
             text = part_text(control.finger.partition(".")[2])
         painter.drawText(
             under, Qt.AlignmentFlag.AlignCenter, metrics.elidedText(text, Qt.TextElideMode.ElideRight, column_px - 1)
         )
+
+    def _paint_chart(self, painter: QPainter, tokens: Tokens) -> None:
+        drawn = self.chart()
+        painter.setFont(self._small())
+        metrics = QFontMetricsF(self._small())
+        for hand, top, tall in drawn.rows:
+            painter.setPen(QColor(tokens.text_dim))
+            painter.drawText(QRectF(6.0, top, 16.0, tall), Qt.AlignmentFlag.AlignCenter, hand_text(hand))
+        for cell in drawn.cells:
+            value = self._values[cell.control.name]
+            down, half = value > 0.0, cell.control.half_value is not None and 0.0 < value < 1.0
+            painter.setPen(QPen(QColor(tokens.accent if down else tokens.line_strong), 1.5))
+            painter.setBrush(QColor(tokens.accent if down and not half else tokens.surface))
+            radius = cell.box.height() / 2.0 if cell.home else 4.0
+            painter.drawRoundedRect(cell.box, radius, radius)
+            if half:
+                # The half of a hole that the finger leaves open is the upper one.
+                painter.setBrush(QColor(tokens.accent))
+                painter.drawChord(cell.box, 180 * 16, 180 * 16)
+            painter.setPen(
+                QColor(tokens.accent_text if down and not half else tokens.text if down else tokens.text_dim)
+            )
+            text = metrics.elidedText(cell.control.label, Qt.TextElideMode.ElideRight, cell.box.width() - 2.0)
+            painter.drawText(cell.box, Qt.AlignmentFlag.AlignCenter, text)
+
+    def _keys_px(self) -> float:
+        if self._is_chart:
+            return self.chart().height - 6.0
+        return self._key_row_px() if self._keys() else 0.0
+
+    def _control_at(self, x: float, y: float) -> Control | None:
+        if self._instrument is None:
+            return None
+        if self._is_chart:
+            return self.chart().at(x, y)
+        keys = self._keys()
+        column_px = min(COLUMN_PX * 1.3, (self.width() - 12.0) / max(len(keys), 1))
+        place = int((x - (self.width() - column_px * len(keys)) / 2.0) // column_px)
+        return keys[place] if 0 <= place < len(keys) and 6.0 <= y <= 6.0 + self._key_row_px() else None
 
     def _paint_rail(self, painter: QPainter, tokens: Tokens, control: Control, top: float) -> None:
         left, right, value = 18.0, self.width() - 18.0, self._values[control.name]
@@ -248,10 +309,30 @@ class FingeringDiagram(QWidget):
 
     # Qt's own names
 
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        self._chart = None
+        super().resizeEvent(event)
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        at = event.position()
+        control = self._control_at(at.x(), at.y())
+        if self._editable and control is not None and event.button() == Qt.MouseButton.LeftButton:
+            self.pressed.emit(control.name)
+            return
+        super().mousePressEvent(event)
+
+    def event(self, event: QEvent) -> bool:
+        if isinstance(event, QHelpEvent) and event.type() == QEvent.Type.ToolTip:
+            control = self._control_at(event.pos().x(), event.pos().y())
+            text = "" if control is None else f"{control.label or control.name}\n{finger_text(control.finger)}"
+            QToolTip.showText(event.globalPos(), text, self)
+            return True
+        return super().event(event)
+
     def sizeHint(self) -> QSize:
         if self._instrument is None:
             return QSize(200, 40)
-        height = 8.0 + len(self._rows()) * self._key_row_px() + sum(self._rail_px(slide) for slide in self._slides())
+        height = 8.0 + self._keys_px() + sum(self._rail_px(slide) for slide in self._slides())
         height += -(-len(self._correcting()) // 2) * (self._line_px() + 8.0)
         return QSize(200, round(height) + 4)
 
@@ -266,19 +347,16 @@ class FingeringDiagram(QWidget):
         painter.setPen(QPen(QColor(tokens.line), 1.0))
         painter.setBrush(QColor(tokens.sunken))
         painter.drawRoundedRect(QRectF(self.rect()).adjusted(0.5, 0.5, -0.5, -0.5), 5, 5)
-        top = 6.0
-        gutter = 20.0 if self._by_hands else 0.0
-        for hand, row in self._rows():
-            column_px = min(COLUMN_PX * 1.3, (self.width() - 12.0 - gutter) / len(row))
-            left = gutter + (self.width() - gutter - column_px * len(row)) / 2.0
-            if gutter:
-                painter.setFont(self.font())
-                painter.setPen(QColor(tokens.text_dim))
-                painter.drawText(QRectF(6.0, top, gutter, TOP_PX), Qt.AlignmentFlag.AlignCenter, hand_text(hand))
-            for number, control in enumerate(row):
-                centre = QPointF(left + (number + 0.5) * column_px, top + TOP_PX / 2.0)
+        if self._is_chart:
+            self._paint_chart(painter, tokens)
+        else:
+            keys = self._keys()
+            column_px = min(COLUMN_PX * 1.3, (self.width() - 12.0) / max(len(keys), 1))
+            left = (self.width() - column_px * len(keys)) / 2.0
+            for number, control in enumerate(keys):
+                centre = QPointF(left + (number + 0.5) * column_px, 6.0 + TOP_PX / 2.0)
                 self._paint_key(painter, tokens, control, centre, column_px)
-            top += self._key_row_px()
+        top = 6.0 + self._keys_px()
         for slide in self._slides():
             self._paint_rail(painter, tokens, slide, top)
             top += self._rail_px(slide)

@@ -1,0 +1,646 @@
+"""The instruments and their fingerings: a table that can be edited beside the drawn fingering, saved as one's own.
+
+What the bundled map says stays what it is: a change makes a map of the person's own that extends it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import partial
+
+import msgspec
+from PySide6.QtCore import QEvent, QModelIndex, QPersistentModelIndex, QSize, Qt, QUrl, Signal
+from PySide6.QtGui import QCloseEvent, QColor, QDesktopServices, QKeySequence, QShortcut
+from PySide6.QtWidgets import (
+    QAbstractItemView,
+    QCompleter,
+    QDialog,
+    QGridLayout,
+    QHBoxLayout,
+    QHeaderView,
+    QLabel,
+    QLineEdit,
+    QListWidget,
+    QListWidgetItem,
+    QMessageBox,
+    QPushButton,
+    QSplitter,
+    QStyledItemDelegate,
+    QStyleOptionViewItem,
+    QTableWidget,
+    QTableWidgetItem,
+    QVBoxLayout,
+    QWidget,
+)
+
+from app.errors import AppError, MapError
+from instrument_maps import fingering_table as edit
+from instrument_maps.fingering_label import says_words, words_of
+from instrument_maps.library import library
+from instrument_maps.model import Fingering, InstrumentMap
+from widgets.common.fingering_diagram import DOWN, FingeringDiagram
+from widgets.common.instrument_name import instrument_name
+from widgets.common.pitch import LETTERS, pitch_name, syllables
+from widgets.common.session import Session, Severity
+from widgets.common.text import message_text
+
+WRITTEN, SOUNDS, RANK, LABEL, CENTS, TAGS = range(6)
+_PLACE = Qt.ItemDataRole.UserRole
+
+
+@dataclass
+class Draft:
+    """What a person made of one instrument's table, with every state before and after.
+
+    Attributes
+    ----------
+    instrument : InstrumentMap
+        As it is in the library.
+    base : tuple of Fingering
+        What the map it extends has.
+    states : list of tuple of Fingering
+    at : int
+        The state that is shown.
+    """
+
+    instrument: InstrumentMap
+    base: edit.Table
+    states: list[edit.Table] = field(default_factory=list)
+    at: int = 0
+    _judged: tuple[edit.Table, tuple[tuple[str, str], ...]] | None = None
+
+    @property
+    def table(self) -> edit.Table:
+        """The table as it is now."""
+        return self.states[self.at]
+
+    @property
+    def is_saved(self) -> bool:
+        """Whether it is what the library has."""
+        return self.table == self.instrument.fingerings
+
+    @property
+    def problems(self) -> tuple[tuple[str, str], ...]:
+        """What the map would be refused for."""
+        if self._judged is None or self._judged[0] is not self.table:
+            self._judged = (self.table, edit.problems_of(self.instrument, self.table))
+        return self._judged[1]
+
+
+class InstrumentsDialog(QDialog):
+    """Shows every instrument's facts and fingerings, and edits the fingerings."""
+
+    saved = Signal(str)
+
+    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setObjectName("instruments")
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        self._session = session
+        self._drafts: dict[str, Draft] = {}
+        self._filling = False
+        self._list = QListWidget()
+        self._list.setObjectName("instruments_list")
+        self._facts, self._file, self._problem = QLabel(), QLabel(), QLabel()
+        self._title = QLabel()
+        self._title.setObjectName("instruments_title")
+        self._facts.setObjectName("instruments_facts")
+        self._problem.setObjectName("instruments_problem")
+        self._table = QTableWidget(0, 6)
+        self._table.setObjectName("instruments_fingerings")
+        self._diagram = FingeringDiagram(session)
+        self._diagram.setObjectName("instruments_diagram")
+        self._diagram.set_editable(True)
+        self._hint = QLabel()
+        names = ("up", "down", "add", "remove", "revert", "revert_all", "undo", "redo", "folder", "save", "close")
+        self._buttons = {name: QPushButton() for name in names}
+        self._build()
+        self._connect()
+        self.retranslate()
+        front = session.player
+        self._fill_list(front.instrument_id if front is not None else "")
+
+    # Building
+
+    def _build(self) -> None:
+        for name, button in self._buttons.items():
+            button.setObjectName(f"instruments_{name}")
+            button.setAutoDefault(False)
+        for label in (self._facts, self._file, self._problem, self._hint):
+            label.setWordWrap(True)
+        self._file.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        table = self._table
+        table.verticalHeader().hide()
+        table.setShowGrid(False)
+        table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
+        table.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
+        triggers = QAbstractItemView.EditTrigger
+        table.setEditTriggers(triggers.DoubleClicked | triggers.EditKeyPressed | triggers.AnyKeyPressed)
+        table.setItemDelegate(_Completing(self._choices, table))
+        header = table.horizontalHeader()
+        header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
+        header.setSectionResizeMode(LABEL, QHeaderView.ResizeMode.Stretch)
+        header.setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
+        edits = QGridLayout()
+        for place, name in enumerate(("up", "down", "add", "remove", "revert", "revert_all", "undo", "redo")):
+            edits.addWidget(self._buttons[name], place // 2, place % 2)
+        side = QWidget()
+        column = QVBoxLayout(side)
+        column.setContentsMargins(8, 0, 0, 0)
+        column.addWidget(self._diagram)
+        column.addWidget(self._hint)
+        column.addLayout(edits)
+        column.addWidget(self._problem)
+        column.addStretch(1)
+        work = QSplitter()
+        work.addWidget(table)
+        work.addWidget(side)
+        work.setStretchFactor(0, 1)
+        work.setSizes([560, 320])
+        work.setChildrenCollapsible(False)
+        right = QWidget()
+        lines = QVBoxLayout(right)
+        lines.setContentsMargins(8, 0, 0, 0)
+        lines.addWidget(self._title)
+        lines.addWidget(self._facts)
+        lines.addWidget(self._file)
+        lines.addWidget(work, 1)
+        everything = QSplitter()
+        everything.addWidget(self._list)
+        everything.addWidget(right)
+        everything.setStretchFactor(1, 1)
+        everything.setSizes([230, 900])
+        everything.setChildrenCollapsible(False)
+        foot = QHBoxLayout()
+        foot.addWidget(self._buttons["folder"])
+        foot.addStretch(1)
+        foot.addWidget(self._buttons["save"])
+        foot.addWidget(self._buttons["close"])
+        whole = QVBoxLayout(self)
+        whole.addWidget(everything, 1)
+        whole.addLayout(foot)
+
+    def _connect(self) -> None:
+        does: dict[str, Callable[[], object]] = {
+            "up": lambda: self._move(-1),
+            "down": lambda: self._move(1),
+            "add": self._add,
+            "remove": self._remove,
+            "revert": self._revert,
+            "revert_all": self._revert_all,
+            "undo": lambda: self._step(-1),
+            "redo": lambda: self._step(1),
+            "folder": self._open_folder,
+            "save": self.save,
+            "close": self.close,
+        }
+        for name, run in does.items():
+            self._buttons[name].clicked.connect(partial(_call, run))
+        for keys, run in (
+            (QKeySequence.StandardKey.Undo, does["undo"]),
+            (QKeySequence.StandardKey.Redo, does["redo"]),
+            (QKeySequence.StandardKey.Save, does["save"]),
+        ):
+            QShortcut(QKeySequence(keys), self).activated.connect(partial(_call, run))
+        for keys_text, run in (("Alt+Up", does["up"]), ("Alt+Down", does["down"])):
+            QShortcut(QKeySequence(keys_text), self).activated.connect(partial(_call, run))
+        self._list.currentRowChanged.connect(lambda _: self._show())
+        self._table.itemSelectionChanged.connect(self._show_row)
+        self._table.itemChanged.connect(self._edited)
+        self._diagram.pressed.connect(self._toggle)
+        self._session.instruments_changed.connect(self._library_changed)
+        self._session.pitch_display.changed.connect(self._show)
+        self._session.theme_changed.connect(self._show)
+
+    # The instruments
+
+    def _fill_list(self, chosen: str) -> None:
+        self._list.blockSignals(True)
+        self._list.clear()
+        for id, instrument in library().maps.items():
+            item = QListWidgetItem(instrument_name(instrument))
+            item.setData(_PLACE, id)
+            self._list.addItem(item)
+        self._list.blockSignals(False)
+        places = [self._list.item(row).data(_PLACE) for row in range(self._list.count())]
+        self._list.setCurrentRow(places.index(chosen) if chosen in places else 0)
+        self._show()
+
+    def choose(self, id: str) -> None:
+        """Show this instrument."""
+        self._fill_list(id)
+
+    @property
+    def draft(self) -> Draft | None:
+        """What is shown."""
+        item = self._list.currentItem()
+        return None if item is None else self._draft_of(str(item.data(_PLACE)))
+
+    def _draft_of(self, id: str) -> Draft | None:
+        known = self._drafts.get(id)
+        if known is not None:
+            return known
+        instrument = library().maps.get(id)
+        if instrument is None:
+            return None
+        self._drafts[id] = Draft(instrument, _base_of(instrument), [instrument.fingerings])
+        return self._drafts[id]
+
+    def _library_changed(self) -> None:
+        """Files changed: what nobody edits here is read anew, what somebody edits stays."""
+        now, shown = library(), self.draft
+        for id, draft in list(self._drafts.items()):
+            instrument = now.maps.get(id)
+            if instrument is None or (draft.is_saved and draft.table != instrument.fingerings):
+                del self._drafts[id]
+            else:
+                draft.instrument, draft.base = instrument, _base_of(instrument)
+        self._fill_list(shown.instrument.id if shown is not None else "")
+
+    # Showing
+
+    def _show(self) -> None:
+        draft = self.draft
+        if draft is None:
+            return
+        own = library().own.get(draft.instrument.id)
+        self._title.setText(f"<b>{instrument_name(draft.instrument)}</b>  {draft.instrument.id}")
+        self._facts.setText(self._facts_of(draft.instrument))
+        self._file.setText(
+            self.tr("Your own version: {file}").format(file=str(own)) if own is not None else self.tr("Bundled")
+        )
+        self._fill_table(draft)
+        self._show_state()
+
+    def _facts_of(self, instrument: InstrumentMap) -> str:
+        low, high, shift = instrument.range.low, instrument.range.high, instrument.transposition_semitones
+        pitch = self._name
+        facts = [self.tr("sounds {low} to {high}").format(low=pitch(low), high=pitch(high))]
+        if shift:
+            written = self.tr("written {low} to {high} ({semitones} semitones)")
+            facts.append(written.format(low=pitch(low + shift), high=pitch(high + shift), semitones=f"{shift:+d}"))
+        kinds = {
+            "cup": self.tr("cup mouthpiece"),
+            "single_reed": self.tr("single reed"),
+            "double_reed": self.tr("double reed"),
+            "air_jet": self.tr("lip plate"),
+            "fipple": self.tr("beak"),
+        }
+        clefs = {
+            "treble": self.tr("treble clef"),
+            "bass": self.tr("bass clef"),
+            "alto": self.tr("alto clef"),
+            "tenor": self.tr("tenor clef"),
+        }
+        postures = {"standing": self.tr("standing"), "seated": self.tr("seated")}
+        facts += [clefs[instrument.clef], kinds[instrument.embouchure.kind]]
+        facts.append(" / ".join(postures[posture] for posture in instrument.hold.postures))
+        air = instrument.air
+        if air is not None:
+            facts.append(self.tr("a breath lasts {soft} to {loud} s").format(soft=air.piano_s, loud=air.forte_s))
+        facts.append(self.tr("model {file}").format(file=instrument.model))
+        return " · ".join(facts)
+
+    def _name(self, pitch: int) -> str:
+        display = self._session.pitch_display
+        return pitch_name(pitch, display.middle_c_octave, syllables() if display.syllables else LETTERS)
+
+    def _fill_table(self, draft: Draft, chosen: tuple[int, int] | None = None) -> None:
+        chosen = chosen or self._chosen()
+        self._filling = True
+        self._table.setUpdatesEnabled(False)
+        self._table.setRowCount(len(draft.table))
+        shift = draft.instrument.transposition_semitones
+        mark = QColor(self._session.tokens.by_hand)
+        base = {(one.written_pitch, one.rank): one for one in draft.base}
+        for row, one in enumerate(draft.table):
+            first = one.rank == 1
+            texts = (
+                self._name(one.written_pitch) if first else "",
+                self._name(one.written_pitch - shift) if first else "",
+                str(one.rank),
+                one.label,
+                f"{one.cents:g}" if one.cents else "",
+                ", ".join(one.tags),
+            )
+            for column, text in enumerate(texts):
+                item = QTableWidgetItem(text)
+                item.setData(_PLACE, (one.written_pitch, one.rank))
+                if column < LABEL:
+                    item.setFlags(item.flags() & ~Qt.ItemFlag.ItemIsEditable)
+                if column == LABEL:
+                    item.setToolTip(one.label)
+                if base and base.get((one.written_pitch, one.rank)) != one:
+                    item.setForeground(mark)
+                self._table.setItem(row, column, item)
+        self._table.setUpdatesEnabled(True)
+        places = [(one.written_pitch, one.rank) for one in draft.table]
+        at = places.index(chosen) if chosen in places else 0
+        self._filling = False
+        self._table.setCurrentCell(at, LABEL)
+        self._show_row()
+
+    def _chosen(self) -> tuple[int, int] | None:
+        """Written pitch and rank of the chosen row."""
+        item = self._table.item(self._table.currentRow(), LABEL)
+        return None if item is None else tuple(item.data(_PLACE))
+
+    def _fingering(self) -> Fingering | None:
+        draft, row = self.draft, self._table.currentRow()
+        return draft.table[row] if draft is not None and 0 <= row < len(draft.table) else None
+
+    def _show_row(self) -> None:
+        draft, one = self.draft, self._fingering()
+        if self._filling or draft is None or one is None:
+            return
+        self._diagram.show_fingering(draft.instrument, one.controls)
+        self._show_state()
+
+    def _show_state(self) -> None:
+        """Which buttons make sense, what is wrong, which instruments are not saved."""
+        draft, one = self.draft, self._fingering()
+        if draft is None:
+            return
+        own = edit.of_pitch(draft.table, one.written_pitch) if one is not None else ()
+        wrong = draft.problems
+        enabled = {
+            "up": one is not None and one.rank > 1,
+            "down": one is not None and one.rank < len(own),
+            "remove": len(own) > 1,
+            "revert": one is not None and own != edit.of_pitch(draft.base, one.written_pitch) != (),
+            "revert_all": bool(draft.base) and draft.table != draft.base,
+            "undo": draft.at > 0,
+            "redo": draft.at < len(draft.states) - 1,
+            "save": not draft.is_saved and not wrong,
+        }
+        for name, is_enabled in enabled.items():
+            self._buttons[name].setEnabled(is_enabled)
+        self._tell("\n".join(f"{_named(path, draft.table, self._name)}: {detail}" for path, detail in wrong[:3]))
+        for row in range(self._list.count()):
+            item = self._list.item(row)
+            id = str(item.data(_PLACE))
+            known, is_own = self._drafts.get(id), id in library().own
+            instrument = library().maps[id]
+            unsaved = known is not None and not known.is_saved
+            item.setText(f"{instrument_name(instrument)}{' •' if unsaved else ''}")
+            tokens = self._session.tokens
+            item.setForeground(QColor(tokens.by_hand if is_own or unsaved else tokens.text))
+
+    def _tell(self, text: str) -> None:
+        self._problem.setStyleSheet(f"color: {self._session.tokens.error};")
+        self._problem.setText(text)
+
+    def _choices(self, column: int) -> list[str]:
+        """What a cell may be completed to."""
+        draft = self.draft
+        if draft is None:
+            return []
+        if column == LABEL:
+            return list(dict.fromkeys(one.label for one in draft.instrument.fingerings))
+        return list(edit.TAGS) if column == TAGS else []
+
+    # Editing
+
+    def _do(self, change: Callable[[Draft], edit.Table], chosen: tuple[int, int] | None = None) -> bool:
+        """Change the table by one step; what cannot be is told beside it."""
+        draft = self.draft
+        if draft is None:
+            return False
+        try:
+            table = change(draft)
+        except AppError as error:
+            self._fill_table(draft)
+            self._tell(message_text(error.message, self._session))
+            return False
+        if table != draft.table:
+            del draft.states[draft.at + 1 :]
+            draft.states.append(table)
+            draft.at += 1
+        self._fill_table(draft, chosen)
+        self._show_state()
+        return True
+
+    def _edited(self, item: QTableWidgetItem) -> None:
+        if self._filling:
+            return
+        (written, rank), text, column = item.data(_PLACE), item.text(), item.column()
+        if column == LABEL:
+            self._do(lambda draft: edit.with_label(draft.instrument, draft.table, written, rank, text))
+        elif column == CENTS:
+            self._do(lambda draft: edit.with_cents(draft.table, written, rank, self._number(text)))
+        elif column == TAGS:
+            self._do(lambda draft: edit.with_tags(draft.table, written, rank, text.split(",")))
+
+    def _number(self, text: str) -> float:
+        """Raises UsageError for what is no number."""
+        return edit.read_cents(text)
+
+    def _move(self, by: int) -> None:
+        one = self._fingering()
+        if one is not None:
+            written, rank = one.written_pitch, one.rank
+            self._do(lambda draft: edit.moved(draft.table, written, rank, by), (written, rank + by))
+
+    def _add(self) -> None:
+        """One more alternate, of which the label is to be typed: it begins as the first fingering the note has not."""
+        one, draft = self._fingering(), self.draft
+        if one is None or draft is None:
+            return
+        label, written = edit.free_label(draft.instrument, draft.table, one.written_pitch), one.written_pitch
+        if label is None:
+            self._tell(self.tr("Every fingering that is right for this note is there already."))
+            return
+        place = (written, len(edit.of_pitch(draft.table, written)) + 1)
+        if self._do(lambda draft: edit.added(draft.instrument, draft.table, written, label), place):
+            self._table.setFocus(Qt.FocusReason.OtherFocusReason)
+            item = self._table.currentItem()
+            if item is not None:
+                self._table.editItem(item)
+
+    def _remove(self) -> None:
+        one = self._fingering()
+        if one is not None:
+            written, rank = one.written_pitch, one.rank
+            self._do(lambda draft: edit.removed(draft.table, written, rank), (written, max(rank - 1, 1)))
+
+    def _revert(self) -> None:
+        one = self._fingering()
+        if one is not None:
+            written = one.written_pitch
+            self._do(lambda draft: edit.reverted(draft.table, draft.base, written), (written, 1))
+
+    def _revert_all(self) -> None:
+        self._do(lambda draft: draft.base)
+
+    def _toggle(self, name: str) -> None:
+        """A key was clicked in the drawing: up, down, and half down where it may be."""
+        draft, one = self.draft, self._fingering()
+        if draft is None or one is None:
+            return
+        control = draft.instrument.control(name)
+        value = one.controls.get(name, control.rest_value)
+        steps = [0.0, 1.0] if control.half_value is None else [0.0, 1.0, control.half_value]
+        after = steps[(steps.index(value) + 1) % len(steps)] if value in steps else 0.0 if value >= DOWN else 1.0
+        values = {**one.controls, name: after}
+        pitch = [control for control in draft.instrument.controls if control.role == "pitch"]
+        if says_words(pitch):
+            label = words_of(values, pitch)
+        else:
+            down = [control.label for control in pitch if control.kind != "slide" and values.get(control.name, 0.0) > 0]
+            label = "".join(down) or "0"
+            if any(control.kind == "slide" for control in pitch):
+                place = one.label.lstrip("".join(control.label for control in pitch))
+                label = "".join(down) + place
+        written, rank = one.written_pitch, one.rank
+        self._do(lambda draft: edit.with_label(draft.instrument, draft.table, written, rank, label))
+
+    def _step(self, by: int) -> None:
+        draft = self.draft
+        if draft is not None and 0 <= draft.at + by < len(draft.states):
+            draft.at += by
+            self._fill_table(draft)
+            self._show_state()
+
+    # Files
+
+    def save(self) -> bool:
+        """Write the shown instrument's table as the person's own; whether it was done, or there was nothing to do."""
+        draft = self.draft
+        if draft is None or draft.is_saved:
+            return True
+        try:
+            edit.save_own(draft.instrument, draft.table, library().folder)
+        except AppError as error:
+            self._tell(message_text(error.message, self._session))
+            self._session.notice(error.message, Severity.ERROR)
+            return False
+        # The watch reads it now; until then it is known already.
+        draft.instrument = msgspec.structs.replace(draft.instrument, fingerings=draft.table)
+        self._session.instruments_saved.emit()
+        self.saved.emit(draft.instrument.id)
+        self._show()
+        return True
+
+    def _open_folder(self) -> None:
+        folder = library().folder
+        folder.mkdir(parents=True, exist_ok=True)
+        QDesktopServices.openUrl(QUrl.fromLocalFile(str(folder)))
+
+    # Words
+
+    def retranslate(self) -> None:
+        """Set every text."""
+        self.setWindowTitle(self.tr("Instruments"))
+        texts = {
+            "up": self.tr("Higher Choice"),
+            "down": self.tr("Lower Choice"),
+            "add": self.tr("Add Alternate"),
+            "remove": self.tr("Remove"),
+            "revert": self.tr("Revert This Note"),
+            "revert_all": self.tr("Revert All Notes"),
+            "undo": self.tr("Undo"),
+            "redo": self.tr("Redo"),
+            "folder": self.tr("Show My Folder"),
+            "save": self.tr("Save as My Own"),
+            "close": self.tr("Close"),
+        }
+        for name, text in texts.items():
+            self._buttons[name].setText(text)
+        self._table.setHorizontalHeaderLabels(
+            [
+                self.tr("Written"),
+                self.tr("Sounds"),
+                self.tr("Choice"),
+                self.tr("Fingering"),
+                self.tr("Cents"),
+                self.tr("For"),
+            ]
+        )
+        self._hint.setText(self.tr("Click keys to change the fingering, or type it in the table."))
+        if self._list.count():
+            self._show()
+
+    # Qt's own names
+
+    def sizeHint(self) -> QSize:
+        return QSize(1180, 740)
+
+    def changeEvent(self, event: QEvent) -> None:
+        if event.type() == QEvent.Type.LanguageChange:
+            self.retranslate()
+        super().changeEvent(event)
+
+    def reject(self) -> None:
+        """Escape asks as closing does."""
+        self.close()
+
+    def closeEvent(self, event: QCloseEvent) -> None:
+        unsaved = [draft for draft in self._drafts.values() if not draft.is_saved]
+        if unsaved:
+            answer = self.ask(len(unsaved))
+            if answer == "cancel" or (answer == "save" and not self._save_all(unsaved)):
+                event.ignore()
+                return
+        super().closeEvent(event)
+
+    def ask(self, count: int) -> str:
+        """``"save"``, ``"discard"`` or ``"cancel"``."""
+        box = QMessageBox(self)
+        box.setWindowTitle(self.tr("Instruments"))
+        box.setText(self.tr("Fingerings of {count} instruments are not saved.").format(count=count))
+        save = box.addButton(self.tr("Save"), QMessageBox.ButtonRole.AcceptRole)
+        discard = box.addButton(self.tr("Discard"), QMessageBox.ButtonRole.DestructiveRole)
+        box.setEscapeButton(box.addButton(self.tr("Cancel"), QMessageBox.ButtonRole.RejectRole))
+        box.exec()
+        clicked = box.clickedButton()
+        return "save" if clicked is save else "discard" if clicked is discard else "cancel"
+
+    def _save_all(self, drafts: list[Draft]) -> bool:
+        for draft in drafts:
+            self.choose(draft.instrument.id)
+            if not self.save():
+                return False
+        return True
+
+
+class _Completing(QStyledItemDelegate):
+    """Completes what is typed to what the instrument's other fingerings say."""
+
+    def __init__(self, choices: Callable[[int], list[str]], parent: QWidget) -> None:
+        super().__init__(parent)
+        self._choices = choices
+
+    def createEditor(
+        self, parent: QWidget, option: QStyleOptionViewItem, index: QModelIndex | QPersistentModelIndex
+    ) -> QWidget:
+        """A line to type in."""
+        line = QLineEdit(parent)
+        completer = QCompleter(self._choices(index.column()), line)
+        completer.setCaseSensitivity(Qt.CaseSensitivity.CaseInsensitive)
+        completer.setFilterMode(Qt.MatchFlag.MatchContains)
+        line.setCompleter(completer)
+        return line
+
+
+def _base_of(instrument: InstrumentMap) -> edit.Table:
+    """What the map that an instrument extends has; of a bundled one its own."""
+    try:
+        return edit.base_table(instrument, library().own.get(instrument.id))
+    except (MapError, OSError, ValueError):
+        # Their file is wrong now and an earlier version in use: there is nothing to go back to.
+        return instrument.fingerings
+
+
+def _named(path: str, table: edit.Table, name: Callable[[int], str]) -> str:
+    """The place of a problem as a person knows it: the note instead of the row's number."""
+    head, bracket, rest = path.partition("[")
+    row, _, key = rest.partition("]")
+    if head == "fingerings" and bracket and row.isdigit() and int(row) < len(table):
+        one = table[int(row)]
+        return f"{name(one.written_pitch)} ({one.label}){key and ' '}{key.lstrip('.')}"
+    return path
+
+
+def _call(run: Callable[[], object], *_: object) -> None:
+    run()
