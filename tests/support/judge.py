@@ -194,14 +194,15 @@ def _cues(
         for note in player["notes"]
     )
     reach = spans[0][1]
-    ends = {round(cue["end_s"], 6): player["name"] for player in found["players"] for cue in player["cues"]}
+    ends = [cue["end_s"] for player in found["players"] for cue in player["cues"]]
     for onset, end in spans[1:]:
         if onset > reach:
             rest_s = slow_seconds(onset, changes, quarter) - slow_seconds(reach, changes, quarter)
-            entry_s = round(slow_seconds(onset, changes, quarter), 6)
-            if rest_s >= 4.0 and onset - reach >= 2 * felt_beat * quarter and entry_s not in ends:
+            entry_s = slow_seconds(onset, changes, quarter)
+            given = any(abs(end_s - entry_s) < 1e-5 for end_s in ends)
+            if rest_s >= 4.0 and onset - reach >= 2 * felt_beat * quarter and not given:
                 wrong.append(f"nobody gives the entry at {entry_s} after {rest_s} s of rest")
-            if rest_s < 2.0 and onset - reach < 4 * quarter and entry_s in ends:
+            if rest_s < 2.0 and onset - reach < 4 * quarter and given:
                 wrong.append(f"a cue at {entry_s} after {rest_s} s of rest")
         reach = max(reach, end)
     return wrong
