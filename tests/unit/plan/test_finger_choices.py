@@ -85,6 +85,23 @@ def test_the_oboes_ring_finger_never_goes_from_its_hole_to_the_f_key() -> None:
     assert keys([64, 65, 67], oboes)[1] >= {"F"}
 
 
+def test_the_bundled_oboe_has_its_three_f_where_players_take_them() -> None:
+    bundled = bundled_maps()["oboe"]
+    labels = {control.name: control.label for control in bundled.controls}
+
+    def signs(pitches: list[int]) -> list[set[str]]:
+        return [{labels[name] for name in held} for held in keys(pitches, bundled)]
+
+    assert "Lp_f" in signs([62, 65, 62])[1]
+    assert "Lp_f" in signs([63, 65, 63])[1]
+    assert "Rr_f" in signs([64, 65, 67])[1]
+    forked = signs([62, 65, 68])[1]
+    assert "R3" in forked
+    assert not forked & {"Lp_f", "Rr_f"}
+    # From C to E flat one little finger cannot do both: the left hand has the key too.
+    assert "Lp_ees" in signs([60, 63, 60])[1]
+
+
 def test_the_saxophones_b_flat_depends_on_where_it_comes_from() -> None:
     saxophones = saxophone()
     # The chromatic scale takes the side key: with bis the index would roll off.
