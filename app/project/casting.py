@@ -6,6 +6,7 @@ import hashlib
 import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
+from itertools import pairwise
 
 import msgspec
 
@@ -18,6 +19,12 @@ MOST_IN_ARC = 12
 """More stand in rows, as a band does."""
 FRONT_RADIUS_M, ROW_DEPTH_M = 2.6, 1.5
 """Radius of the first of several rows, and room behind it for a slide and a stand."""
+ELBOW_M = 0.36
+"""From a player's middle to an elbow: nobody needs less room to a side."""
+BACK_M = 0.35
+"""From a player's middle to the back of a chair."""
+CLEAR_M = 0.12
+"""Between what neighbours hold."""
 
 NATURAL_AMPLITUDE = 0.5
 AMPLITUDE_SPREAD = 0.12
@@ -37,27 +44,73 @@ class StagePosition(msgspec.Struct, frozen=True):
     turn_rad: float
 
 
-def stage_arc(count: int) -> tuple[StagePosition, ...]:
+class Footprint(msgspec.Struct, frozen=True):
+    """The room a player takes, and where the usual seating has them.
+
+    Attributes
+    ----------
+    row, place : int
+        Of the instrument's section in the seating of a band: rows from the audience, places from its left.
+    left_m, right_m, ahead_m : float
+        How far the instrument goes to the player's left, right and ahead, as it is usually carried.
+    """
+
+    row: int = 0
+    place: int = 0
+    left_m: float = 0.0
+    right_m: float = 0.0
+    ahead_m: float = 0.0
+
+
+def stage_seats(footprints: Sequence[Footprint]) -> tuple[StagePosition, ...]:
+    """Places for an ensemble, in its order: an arc for a few, the rows of a band for many.
+
+    Neighbours stand as far apart as what they hold asks for. In rows everybody sits with their section, the sections
+    in the usual order; one that has too many for a row goes on in another behind it.
+    """
+    if len(footprints) <= MOST_IN_ARC:
+        return stage_arc(len(footprints), _spacing(footprints))
+    order = sorted(range(len(footprints)), key=lambda index: (footprints[index].row, footprints[index].place))
+    rows: list[list[int]] = []
+    for index in order:
+        if not rows or footprints[rows[-1][0]].row != footprints[index].row or len(rows[-1]) >= MOST_IN_ARC:
+            rows.append([])
+        rows[-1].append(index)
+    places: dict[int, StagePosition] = {}
+    radius = FRONT_RADIUS_M
+    for row in rows:
+        own = [footprints[index] for index in row]
+        if places:
+            radius += max(ROW_DEPTH_M, BACK_M + CLEAR_M + max(one.ahead_m for one in own))
+        spacing = _spacing(own)
+        radius = max(radius, spacing / (2.0 * math.sin(ARC_RAD / max(len(row) - 1, 1) / 2.0)))
+        step = 2.0 * math.asin(min(1.0, spacing / 2.0 / radius))
+        places.update(zip(row, _row(len(row), step, radius), strict=True))
+    return tuple(places[index] for index in range(len(footprints)))
+
+
+def _spacing(row: Sequence[Footprint]) -> float:
+    """Between neighbours, from the audience's left: each has the next at the left hand."""
+    needed = [
+        max(one.left_m, ELBOW_M) + max(other.right_m, ELBOW_M) + CLEAR_M
+        for one, other in pairwise(row)
+    ]
+    return max([SPACING_M, *needed])
+
+
+def stage_arc(count: int, spacing_m: float = SPACING_M) -> tuple[StagePosition, ...]:
     """Places of an ensemble on an arc open to the audience, in the order of the score from the audience's left (-X).
 
-    Everyone stands a neighbour's distance apart and faces the middle of the arc's opening, half way between a
-    colleague across and the audience. More players than one arc holds stand in rows behind one another, the first of
-    the score in front.
+    Everyone stands ``spacing_m`` from the next and faces the middle of the arc's opening, half way between a
+    colleague across and the audience. More players than one arc holds stand in rows, the first of the score in front.
     """
+    if count > MOST_IN_ARC:
+        return stage_seats((Footprint(),) * count)
     if count < 2:
         return (StagePosition(0.0, 0.0, 0.0),) * count
-    if count <= MOST_IN_ARC:
-        # The arc grows with its players: first in angle at the least radius, then in radius.
-        step = min(ARC_RAD / (count - 1), 2.0 * math.asin(min(1.0, SPACING_M / 2.0 / LEAST_RADIUS_M)))
-        return _row(count, step, max(LEAST_RADIUS_M, SPACING_M / (2.0 * math.sin(step / 2.0))))
-    places: list[StagePosition] = []
-    radius = FRONT_RADIUS_M
-    while len(places) < count:
-        step = 2.0 * math.asin(SPACING_M / 2.0 / radius)
-        room = int(ARC_RAD / step) + 1
-        places += _row(min(room, count - len(places)), step, radius)
-        radius += ROW_DEPTH_M
-    return tuple(places)
+    # The arc grows with its players: first in angle at the least radius, then in radius.
+    step = min(ARC_RAD / (count - 1), 2.0 * math.asin(min(1.0, spacing_m / 2.0 / LEAST_RADIUS_M)))
+    return _row(count, step, max(LEAST_RADIUS_M, spacing_m / (2.0 * math.sin(step / 2.0))))
 
 
 def _row(count: int, step: float, radius: float) -> tuple[StagePosition, ...]:

@@ -14,7 +14,8 @@ from app.errors import UsageError
 from app.plan.corrections import Correction
 from app.plan.generate import PREROLL_BEATS
 from app.plan.model import PlayerParameters
-from app.project.casting import StagePosition, amplitude, choose_characters, player_seed, stage_arc
+from app.project.casting import StagePosition, amplitude, choose_characters, player_seed, stage_seats
+from app.project.footprint import footprint
 from app.project.names import unique_names
 from app.project.parameters import Setting
 from app.project.parameters import with_settings as parameters_with
@@ -160,7 +161,7 @@ def project_from_score(
     instruments = [maps[part.map_id] for part in parts]
     names = unique_names(part.name for part in parts)
     cast = characters_for(instruments)
-    places = stage_arc(len(parts))
+    places = stage_seats([footprint(instrument) for instrument in instruments])
     players = tuple(
         Player(
             id=part.id,

@@ -19,7 +19,8 @@ from app.errors import AppError, MapError
 from app.plan.model import PlayerParameters
 from app.project import limits
 from app.project.anchors import moved
-from app.project.casting import SPACING_M, StagePosition, amplitude, chance, player_seed, stage_arc
+from app.project.casting import SPACING_M, StagePosition, amplitude, chance, player_seed, stage_seats
+from app.project.footprint import footprint
 from app.project.ids import MADE_PART, fresh_note_ids, fresh_part_ids, fresh_player_ids
 from app.project.model import Player, Project, characters_for
 from app.project.names import clean_name
@@ -165,12 +166,12 @@ def reseed(project: Project, player_ids: Collection[str]) -> Project:
 
 
 def arc_of(project: Project) -> tuple[StagePosition, ...]:
-    """The places of the automatic arc, in the order of the players."""
-    return stage_arc(len(project.players))
+    """The places of the usual seating, in the order of the players."""
+    return stage_seats([footprint(instrument_of(player)) for player in project.players])
 
 
 def arrange(project: Project) -> Project:
-    """Put everyone on an arc open to the audience, in the order of the players."""
+    """Put everyone in the usual seating: a few on an arc open to the audience, many in the rows of a band."""
     return place(project, {player.id: spot for player, spot in zip(project.players, arc_of(project), strict=True)})
 
 

@@ -1,0 +1,87 @@
+"""How much room an instrument takes on the stage, and where its section sits: from its map and the vocabulary alone."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+import numpy.typing as npt
+
+from app.project.casting import Footprint
+from app.rig import quaternion
+from instrument_maps.model import ROOT, Box, Capsule, Carriage, Cone, Cylinder, InstrumentMap, Ring
+from instrument_maps.vocabulary import vocabulary
+
+LIPS_AHEAD_M = 0.12
+"""The lips are so far before the middle of the body."""
+
+
+def footprint(instrument: InstrumentMap | None) -> Footprint:
+    """The room that a player of an instrument takes; of nobody knows which, what a body takes."""
+    if instrument is None:
+        return Footprint(row=len(vocabulary().seating))
+    family = vocabulary().family(instrument.plays)
+    seats = [
+        (row, place)
+        for row, names in enumerate(vocabulary().seating)
+        for place, name in enumerate(names)
+        if name == family
+    ]
+    row, place = seats[0] if seats else (len(vocabulary().seating), 0)
+    ends = _ends(instrument)
+    if not len(ends):
+        return Footprint(row, place)
+    left, right, ahead = 0.0, 0.0, 0.0
+    for posture in instrument.hold.postures:
+        carried = quaternion.rotate(_turn(instrument.hold.carriage(posture)), ends)
+        left, right = max(left, float(carried[:, 0].max())), max(right, float(-carried[:, 0].min()))
+        ahead = max(ahead, float(carried[:, 2].max()) + LIPS_AHEAD_M)
+    return Footprint(row, place, left, right, ahead)
+
+
+def _turn(carriage: Carriage) -> npt.NDArray[np.float64]:
+    """As it is usually carried: yaw, then pitch, then roll."""
+    yaw, pitch, roll = (
+        np.radians(angles[1]) for angles in (carriage.yaw_left_deg, carriage.pitch_down_deg, carriage.roll_left_deg)
+    )
+    about_y = quaternion.from_axis_angle(np.array([0.0, 1.0, 0.0]), yaw)
+    about_x = quaternion.from_axis_angle(np.array([1.0, 0.0, 0.0]), pitch)
+    about_z = quaternion.from_axis_angle(np.array([0.0, 0.0, 1.0]), -roll)
+    return quaternion.multiply(about_y, quaternion.multiply(about_x, about_z))
+
+
+def _ends(instrument: InstrumentMap) -> npt.NDArray[np.float64]:
+    """Points around the bodies of the model, in the root's frame; what a hand pulls out, also where it goes."""
+    travels = {
+        control.node: np.array(control.motion.axis) * control.travel_m
+        for control in instrument.controls
+        if control.motion is not None and control.travel_m
+    }
+    found = []
+    for points, node in _bodies(instrument):
+        if node == ROOT:
+            found.append(points)
+        elif node in travels:
+            found += [points, points + travels[node]]
+    return np.concatenate(found) if found else np.zeros((0, 3))
+
+
+def _bodies(instrument: InstrumentMap) -> Iterator[tuple[npt.NDArray[np.float64], str]]:
+    """Corners of a box around every body, with its node."""
+    corners = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
+    for body in instrument.proxy:
+        if isinstance(body, Box):
+            third = np.cross(body.x_axis, body.y_axis)
+            axes = np.array([body.x_axis, body.y_axis, third]) * np.array(body.half_m)[:, None]
+            yield np.array(body.centre_m) + corners @ axes, body.node
+        elif isinstance(body, Ring):
+            yield np.array(body.centre_m) + corners * (body.radius_m + body.tube_radius_m), body.node
+        else:
+            radii = (body.radius_a_m, body.radius_b_m) if isinstance(body, Cone) else (body.radius_m, body.radius_m)
+            assert isinstance(body, Capsule | Cylinder | Cone)
+            yield (
+                np.concatenate(
+                    [np.array(end) + corners * size for end, size in zip((body.a_m, body.b_m), radii, strict=True)]
+                ),
+                body.node,
+            )
