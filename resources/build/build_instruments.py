@@ -20,6 +20,7 @@ from typing import Any
 import numpy as np
 
 from resources.build import (
+    instrument_bassoon,
     instrument_horn,
     instrument_oboe,
     instrument_recorder,
@@ -33,6 +34,7 @@ from resources.build.instrument_mesh import Model
 ROOT = Path(__file__).parents[2]
 MARK = "# --- from the model"
 FAMILIES = (
+    instrument_bassoon,
     instrument_horn,
     instrument_oboe,
     instrument_recorder,

@@ -184,7 +184,7 @@ def test_a_name_beats_a_number_and_a_number_nothing(
     ("pitches", "family"),
     [
         ((55, 67, 79), ("trumpet", "clarinet")),
-        ((38, 53, 70), ("trombone", "horn")),
+        ((38, 53, 70), ("trombone", "horn", "bassoon")),
         ((10, 11, 12), None),
         ((120, 121, 122), None),
     ],
