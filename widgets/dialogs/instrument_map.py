@@ -582,7 +582,8 @@ class InstrumentsDialog(QDialog):
             if answer == "cancel" or (answer == "save" and not self._save_all(unsaved)):
                 event.ignore()
                 return
-        super().closeEvent(event)
+        # Qt's own would call `reject`, and that closes.
+        event.accept()
 
     def ask(self, count: int) -> str:
         """``"save"``, ``"discard"`` or ``"cancel"``."""
