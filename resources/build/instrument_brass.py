@@ -189,12 +189,13 @@ def loop(
     radius: float,
     drawn: float = 0.45,
     node: str = "root",
+    tolerance_m: float = 0.0022,
 ) -> None:
     """A valve slide: two legs side by side, their sleeves, and the bow that is drawn."""
     a, b, way = np.asarray(start, float), np.asarray(end, float), unit(out)
     foot = length - float(np.linalg.norm(b - a)) / 2
     line = joined(a, half_circle(a + foot * way, b + foot * way, way, 10), b)
-    model.add(BRASS, tube(line, radius + 0.0003, sides=16, tolerance_m=0.0022), node=node)
+    model.add(BRASS, tube(line, radius + 0.0003, sides=16, tolerance_m=tolerance_m), node=node)
     for foot in (a, b):
         sleeve = [(0, 0), (0, radius + 0.0009), (drawn * length, radius + 0.0009), (drawn * length, 0)]
         model.add(NICKEL, turned(foot, way, sleeve, sides=16, proxy=False), node=node)
@@ -246,7 +247,7 @@ def bell(
         share = (along[:tail] / along[tail]) ** 1.6
         radii = np.r_[start_r + share * (radii[0] - start_r), radii]
     solid = tail + int(np.searchsorted(-distance, -open_m)) if open_m else len(line) - 1
-    model.add(BRASS, tube(line, radii, sides=sides, closed=False, proxy=not open_m, tolerance_m=COARSE_M))
+    model.add(BRASS, tube(line, radii, sides=sides, closed=False, proxy=not open_m))
     rim_bead = 0.0016
     angles = np.linspace(0, 2 * np.pi, 48, endpoint=False)
     across, over = _square_to(way)

@@ -230,9 +230,11 @@ def valved(instrument: Valves) -> list[dict[str, object]]:
         found: dict[str, tuple[float, int]] = {}
         for label, pick in labels.items():
             ratio = _ratio(instrument, pick)
+            lower = sum(instrument.semitones[sign] for sign in pick)
             for partial in instrument.partials:
                 cents = 100 * (instrument.fundamental + 12 * math.log2(partial / ratio) - written)
-                usable = partial not in SKIPPED_PARTIALS and partial not in (13, 14)
+                near = abs(instrument.fundamental + 12 * math.log2(partial) - lower - written) < 0.5
+                usable = near and partial not in SKIPPED_PARTIALS and partial not in (13, 14)
                 if abs(cents) <= (MOST_OFF_CENTS if label == first else 40) and (usable or label == first):
                     found[label] = min(found.get(label, (1e9, 0)), (cents, partial), key=lambda one: abs(one[0]))
         if first not in found:

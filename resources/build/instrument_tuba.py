@@ -1,8 +1,8 @@
 """Euphonium, baritone, tubas: upright instruments held before the body.
 
 Sizes are those of common instruments. Euphonium: height 680 mm, bell 300 mm, valves 34 mm apart with a way of 18 mm,
-the fourth at the side for the left hand. Baritone: bell 240 mm, a narrower bore. Tubas: B flat height 920 mm, bell
-430 mm; E flat 860 mm and 410 mm; valves 40 mm apart with a way of 20 mm.
+the fourth at the side for the left hand. Baritone: bell 240 mm, a narrower bore. Tuba: B flat height 920 mm, bell
+430 mm; valves 32 mm apart with a way of 17 mm, the fourth of a row nearer to the player for the little finger.
 
 Instruments with valves on top carry their bell on the player's right: the row of valves goes to the right, off the
 player, and the fingers of the right hand lie on it from behind. An instrument is drawn in a frame with the axes "from
@@ -51,6 +51,8 @@ class Layout:
     branch_r : radius of the outer branch at its lower end
     first_valve, apart, row : the first valve along the width, distance of the valves, their number
     button : height of the fingers' buttons
+    fourth_back : how much nearer to the player the fourth valve of a row is, for the little finger
+    thumb : the thumb's ring above the valves' level, and to the front
     side_valve : place of the fourth valve of a compensating instrument, its button's height second
     """
 
@@ -72,6 +74,8 @@ class Layout:
     shank: float
     top_bow: float
     bore: float = 0.0090
+    fourth_back: float = 0.0
+    thumb: tuple[float, float] = (0.004, -0.016)
     side_valve: tuple[float, float, float] | None = None
     left_grip: tuple[float, float] = (-0.30, 60.0)
 
@@ -83,6 +87,15 @@ class Layout:
         front = np.array([np.sin(ahead), 0.0, np.cos(ahead)])
         axes = np.array([np.cos(lean) * level - np.sin(lean) * up, np.cos(lean) * up + np.sin(lean) * level, front])
         return Frame(np.array(self.middle), axes)
+
+    def valve(self, k: int, v: float) -> tuple[float, float, float]:
+        """A place on the axis of a valve of the row."""
+        return (self.first_valve + k * self.apart, v, -self.fourth_back if k == 3 else 0.0)
+
+    @property
+    def inner_branch(self) -> tuple[float, float, float]:
+        """Where the branch in front of the valves stands: along the width, to the front, and its radius at the top."""
+        return (2.4 * self.branch_r + 0.012, self.branch_r + self.piston.casing_r + 0.014, 0.62 * self.branch_r)
 
     @property
     def valves(self) -> list[float]:
@@ -133,30 +146,20 @@ TUBA_BB = Layout(
     bottom=-0.565,
     rim=0.360,
     width=0.330,
-    branch_r=0.050,
-    bell=Bell(0.2150, 0.085, 0.62),
-    first_valve=0.098,
-    apart=0.040,
+    branch_r=0.054,
+    bell=Bell(0.2150, 0.092, 0.62),
+    first_valve=0.104,
+    apart=0.032,
     row=4,
     button=-0.130,
-    piston=Piston(casing_r=0.0155, bottom=-0.130, button_r=0.0120, button=0.082),
+    piston=Piston(casing_r=0.0135, bottom=-0.130, button_r=0.0115, button=0.082),
     rim_r=0.0180,
     outer_r=0.0225,
     shank=0.062,
     top_bow=0.020,
-    bore=0.0110,
-)
-TUBA_EB = replace(
-    TUBA_BB,
-    middle=(0.080, 0.0, 0.120),
-    bottom=-0.558,
-    rim=0.305,
-    width=0.315,
-    branch_r=0.046,
-    bell=Bell(0.2050, 0.080, 0.62),
-    row=3,
-    side_valve=(-0.088, -0.235, 0.030),
-    top_bow=-0.02,
+    bore=0.0105,
+    fourth_back=0.027,
+    thumb=(0.004, -0.018),
 )
 
 
@@ -164,15 +167,15 @@ def build(at: Layout) -> Model:
     """Build the model."""
     model, f = Model(), at.frame()
     up = f.way(0, 1, 0)
-    for k, u in enumerate(at.valves):
-        model.node(f"valve_{k + 1}", f.at((u, at.button, 0.0)))
+    for k in range(at.row):
+        model.node(f"valve_{k + 1}", f.at(at.valve(k, at.button)))
     if at.side_valve:
         model.node("valve_4", f.at(at.side_valve))
     mouthpiece(model, at.rim_r, at.outer_r, at.shank + 0.012, 0.030, 0.0066)
     receiver(model, (0, 0, at.shank), Z, 0.0088, 0.032)
-    for k, u in enumerate(at.valves):
-        at.piston.build(model, f"valve_{k + 1}", f.at((u, at.foot, 0.0)), up)
-    _airway(model, at, f)
+    for k in range(at.row):
+        at.piston.build(model, f"valve_{k + 1}", f.at(at.valve(k, at.foot)), up)
+    airway(model, at, f)
     _slides(model, at, f)
     if at.side_valve:
         _side_valve(model, at, f)
@@ -180,7 +183,7 @@ def build(at: Layout) -> Model:
     return model
 
 
-def _airway(model: Model, at: Layout, f: Frame) -> None:
+def airway(model: Model, at: Layout, f: Frame) -> None:
     """Leadpipe, the branches and bows after the valves, the bell."""
     level, front, first, last = at.foot - 0.045, at.piston.casing_r, at.valves[0], at.valves[-1]
     over = f.at((first - 0.004, at.foot + 0.030, 0.075 + front))
@@ -198,12 +201,12 @@ def _airway(model: Model, at: Layout, f: Frame) -> None:
     half = at.width / 2
     floor = at.bottom + half + at.branch_r
     bow = arc(f, (half, floor, 0.0), half, -90, 90, step_m=0.012)
-    rise = f.at((0.0, at.top_bow - 0.06, 0.0))
+    across = 2.4 * at.branch_r + 0.012
+    rise = f.at((0.0, at.top_bow - 0.46 * across - 0.015, 0.0))
     outer = joined(rise[None], bow)
     out = f.way(0, 1, 0)
     bell(model, at.bell, f.at((at.width, at.rim, 0.0)), out, outer, 0.62 * at.branch_r, rings=30)
     # the branch before it: over the top, down in front of the valves, round at the floor, up to the last valve
-    across = 2.4 * at.branch_r + 0.012
     deep = at.branch_r + front + 0.014
     low = floor - 0.25 * half
     turn = min(0.034, 0.48 * (last - across))
@@ -257,7 +260,7 @@ def _slides(model: Model, at: Layout, f: Frame) -> None:
         if k == 1:
             loop(model, start, end, unit(-0.9 * f.way(0, 0, 1) + 0.44 * down), 0.036, r, drawn=0.4)
         else:
-            loop(model, start, end, down, length, r)
+            loop(model, start, end, down, length, r, tolerance_m=0.0012)
 
 
 def _side_valve(model: Model, at: Layout, f: Frame) -> None:
@@ -291,7 +294,7 @@ def _side_valve(model: Model, at: Layout, f: Frame) -> None:
 
 
 def _ring_place(at: Layout) -> tuple[float, float, float]:
-    return (at.first_valve - at.piston.casing_r - 0.0125, at.foot + 0.004, -0.016)
+    return (at.first_valve - at.piston.casing_r - 0.0125, at.foot + at.thumb[0], at.thumb[1])
 
 
 RING_R, RING_THICK = 0.0135, 0.0017
@@ -304,7 +307,7 @@ def _thumb_ring(model: Model, at: Layout, f: Frame) -> None:
     model.add(
         NICKEL,
         tube(
-            [edge, f.at((at.first_valve - 0.5 * at.piston.casing_r, at.foot + 0.004, -0.4 * at.piston.casing_r))],
+            [edge, f.at((at.first_valve - 0.5 * at.piston.casing_r, at.foot + at.thumb[0], -0.4 * at.piston.casing_r))],
             0.0022,
             sides=12,
         ),
@@ -322,7 +325,7 @@ def contacts(at: Layout) -> list[dict[str, object]]:
 
     up = f.way(0, 1, 0)
     for k, finger in enumerate(("index", "middle", "ring", "little")[: at.row]):
-        touch(f"right.{finger}.pad", f"valve_{k + 1}", f.at((at.valves[k], at.button, 0.0)), up, f"valve_{k + 1}")
+        touch(f"right.{finger}.pad", f"valve_{k + 1}", f.at(at.valve(k, at.button)), up, f"valve_{k + 1}")
     inward = unit(f.way(-1, 0, 0.25))
     touch("right.thumb.pad", "root", f.at(_ring_place(at)) - (RING_R - RING_THICK) * inward, inward)
     if at.side_valve:
@@ -342,9 +345,10 @@ def contacts(at: Layout) -> list[dict[str, object]]:
             )
     else:
         v, degrees = at.left_grip
-        way = f.way(-np.cos(np.radians(degrees)), 0, np.sin(np.radians(degrees)))
         radius = _branch_radius(at, v)
-        touch("left.palm", "root", f.at((0.0, v, 0.0)) + radius * way, way)
+        around = np.radians(min(degrees + np.degrees(0.085 / radius), 165.0))
+        way = f.way(-np.cos(around), 0, np.sin(around))
+        touch("left.middle.pad", "root", f.at((0.0, v, 0.0)) + radius * way, way)
     return found
 
 
@@ -361,5 +365,8 @@ def _branch_radius(at: Layout, v: float) -> float:
 
 LAYOUTS = {
     "euphonium_Bb_bassclef": EUPHONIUM,
+    "euphonium_baritone_Bb_treble": EUPHONIUM,
+    "baritone_Bb": BARITONE,
+    "tuba_BBb": TUBA_BB,
 }
 INSTRUMENTS = {name: (partial(build, at), partial(contacts, at)) for name, at in LAYOUTS.items()}
