@@ -614,6 +614,7 @@ CASES: dict[str, Case] = {
     "theme.light": becomes(lambda d: d.session.tokens.name, "light"),
     "language.en": becomes(lambda d: d.session.actions["file.save"].text(), "Save", set_language("ja")),
     "language.ja": becomes(lambda d: d.session.actions["file.save"].text(), "保存"),
+    "application.instruments": Case(lambda d: d.dialog("instruments")),
     "application.preferences": Case(lambda d: d.dialog("preferences")),
     "application.shortcuts": Case(lambda d: d.dialog("preferences")),
     "application.about": Case(lambda d: d.dialog("about")),
