@@ -520,15 +520,40 @@ def _half_gap_m(contact: Contact, instrument: InstrumentMap, traces: _Traces) ->
 def _hovering(
     instrument: InstrumentMap, traces: _Traces, judge: ControlJudge, working: Mapping[str, IntArray]
 ) -> dict[str, Spread]:
-    """How far fingers that work nothing are from the nearest of the places where they do."""
+    """How far fingers that work nothing are from the nearest of the places where they do, or from the way between two
+    of them."""
     found = {}
     for finger, places in stations(instrument).items():
         touches = sorted({index for place in places if place.controls for index in place.contacts})
         touches = [index for index in touches if only_at(instrument)[index] is not None]
-        if touches:
-            gaps_m = np.min([_gap_m(instrument.contacts[index], instrument, traces, None) for index in touches], axis=0)
-            found[finger] = _spread(gaps_m[judge.asked(working[finger] < 0)], HOVER_MM)
+        if not touches:
+            continue
+        frames = judge.asked(working[finger] < 0)
+        parts = {instrument.contacts[index].part for index in touches}
+        points = [_point_m(instrument.contacts[index], traces)[frames] for index in touches]
+        gaps_m = [
+            _to_way_m(traces.landmarks[part][frames], points[a], points[b])
+            for part in sorted(parts)
+            for a in range(len(points))
+            for b in range(a, len(points))
+        ]
+        found[finger] = _spread(np.min(gaps_m, axis=0), HOVER_MM)
     return found
+
+
+def _point_m(contact: Contact, traces: _Traces) -> FloatArray:
+    node = traces.nodes[contact.node]
+    point_m: FloatArray = node[:, :3, :3] @ np.asarray(contact.position_m) + node[:, :3, 3]
+    return point_m
+
+
+def _to_way_m(place_m: FloatArray, a_m: FloatArray, b_m: FloatArray) -> FloatArray:
+    """Distance (F,) of a place (F, 3) from the line between two others."""
+    way, off = b_m - a_m, place_m - a_m
+    length2 = np.maximum(np.einsum("fi,fi->f", way, way), 1e-12)
+    share = np.clip(np.einsum("fi,fi->f", off, way) / length2, 0.0, 1.0)
+    gap_m: FloatArray = np.linalg.norm(off - way * share[:, None], axis=1)
+    return gap_m
 
 
 def _rim_to(instrument: InstrumentMap, traces: _Traces, landmark: str) -> FloatArray:

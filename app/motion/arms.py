@@ -12,7 +12,7 @@ from app.motion.curve import FloatArray
 from app.motion.posture import Trunk
 from app.motion.reach import clavicle_of, forwards_axis
 from app.rig import quaternion
-from app.rig.hold import HandHold, Hold, hand_targets
+from app.rig.hold import HandHold, Hold, Placed, hand_targets
 from app.rig.ik import arm, solve_limb
 from app.rig.model import Skeleton
 
@@ -30,12 +30,13 @@ def solve_arms(
     motion: BodyMotion,
     carried: Carried,
     controls: Mapping[str, FloatArray],
+    placed: Mapping[str, Placed],
 ) -> dict[int, FloatArray]:
     """Rotations of clavicles, arms and hands, by joint."""
     rotations: dict[int, FloatArray] = {}
     with_chest = quaternion.multiply(body.chest, quaternion.conjugate(base.chest))
     for hand in hold.hands:
-        targets = hand_targets(hand, carried.position_m, carried.rotation, controls)
+        targets = hand_targets(hand, carried.position_m, carried.rotation, controls, placed)
         rotations |= _solve_arm(skeleton, hand, body, with_chest, motion, *targets)
     return rotations
 

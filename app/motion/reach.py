@@ -12,7 +12,7 @@ from app.motion.contact import Carried
 from app.motion.curve import FloatArray
 from app.motion.posture import Side, Trunk
 from app.rig import quaternion
-from app.rig.hold import Hold, hand_targets
+from app.rig.hold import Hold, Placed, hand_targets
 from app.rig.ik import arm
 from app.rig.model import Skeleton
 
@@ -57,7 +57,12 @@ class Help:
 
 
 def needed_help(
-    skeleton: Skeleton, hold: Hold, body: Trunk, carried: Carried, controls: Mapping[str, FloatArray]
+    skeleton: Skeleton,
+    hold: Hold,
+    body: Trunk,
+    carried: Carried,
+    controls: Mapping[str, FloatArray],
+    placed: Mapping[str, Placed],
 ) -> Help:
     """The help a body needs that has none yet; exactly 0 where the arms alone reach.
 
@@ -68,7 +73,7 @@ def needed_help(
     most_turn: dict[str, FloatArray] = {}
     most_protraction: dict[str, FloatArray] = {}
     for hand in hold.hands:
-        target_m, _ = hand_targets(hand, carried.position_m, carried.rotation, controls)
+        target_m, _ = hand_targets(hand, carried.position_m, carried.rotation, controls, placed)
         girdle = _girdle(skeleton, hand.side, body, target_m)
         arm_m = arm(skeleton, hand.side).length_m
         distance_m = girdle.distance_m(0.0)

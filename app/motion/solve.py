@@ -17,7 +17,8 @@ from app.motion.model import Motion
 from app.motion.posture import Stance, Trunk, hips_path, solve_legs, trunk
 from app.motion.reach import TURN_RAD, needed_help, shoulder_distance_m, softly_capped
 from app.rig import quaternion
-from app.rig.hold import Hold, Placed, finger_rotations, hand_targets
+from app.rig.finger_poses import finger_rotations
+from app.rig.hold import Hold, Placed, hand_targets
 from app.rig.model import Skeleton
 from instrument_maps.model import Carriage, Lowered
 
@@ -172,7 +173,7 @@ def _pose(player: Player, curves: Curves) -> tuple[FloatArray, dict[int, FloatAr
     skeleton, motion = player.skeleton, curves.body
     hips_m, hips, upper, carried = _upper(player, curves)
     local = {skeleton.index("hips"): hips} | upper.local
-    local |= solve_arms(skeleton, player.hold, upper, player.base, motion, carried, curves.controls)
+    local |= solve_arms(skeleton, player.hold, upper, player.base, motion, carried, curves.controls, curves.placed)
     local |= solve_legs(player.place, skeleton, hips_m, hips)
     looking = np.stack([motion.eyes_pitch_rad, motion.eyes_yaw_rad, np.zeros(len(curves))], axis=-1)
     for name in ("leftEye", "rightEye"):
@@ -188,7 +189,7 @@ def _helped(player: Player, curves: Curves, half: int) -> BodyMotion:
     for part in _parts(len(curves)):
         chunk = curves[part]
         _, _, upper, carried = _upper(player, chunk)
-        parts.append(needed_help(player.skeleton, player.hold, upper, carried, chunk.controls))
+        parts.append(needed_help(player.skeleton, player.hold, upper, carried, chunk.controls, chunk.placed))
     motion = curves.body
     quick = max(1, round(ROOM_EASE_S / HELP_EASE_S * half))
     swift = max(1, round(SHOULDER_EASE_S / HELP_EASE_S * half))

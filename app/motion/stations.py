@@ -28,7 +28,7 @@ HOME_S = 0.9
 LEAST_TRAVEL_S = 0.05
 """Where there is less time between two keys, the finger is on its way while the one comes up and the other goes down
 ..."""
-STAYS_SHARE = 0.2
+STAYS_SHARE = 0.12
 """... but for this share of each of these moves, in which the keys hardly move."""
 SHORTEST_S = 0.002
 """No way is shorter, however the notes lie."""

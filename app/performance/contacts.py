@@ -18,9 +18,10 @@ import numpy.typing as npt
 from app.errors import Message
 from app.motion.model import Motion
 from app.motion.perform import Playing
+from app.motion.stations import sampled
 from app.plan.model import FingeringEvent, PlayerPlan, Problem
 from app.rig import quaternion
-from app.rig.hold import hand_targets
+from app.rig.hold import Placed, hand_targets
 from app.rig.instrument import node_transforms
 from app.rig.lips import meeting
 from app.rig.model import Character, InstrumentModel
@@ -159,9 +160,10 @@ class ContactJudge:
         rim_m = place_m + quaternion.rotate(turn, np.asarray(instrument.mouthpiece.position_m))
         gaps_m = np.linalg.norm(marks_m[:, self._marks.index(LIPS)] - rim_m, axis=1)
         yield from _runs(("lips", "", ""), times_s, gaps_m, (gaps_m * 1000.0 > LIPS_MM) & ~self._breathing(times_s))
+        placed = {finger: sampled(curve, times_s) for finger, curve in self._playing.stations.items()}
         off: dict[str, BoolArray] = {}
         for hand in self._playing.player.hold.hands:
-            wanted_m, _ = hand_targets(hand, place_m, turn, controls)
+            wanted_m, _ = hand_targets(hand, place_m, turn, controls, placed)
             gaps_m = np.linalg.norm(joints.of(self._wrists[hand.side])[0] - wanted_m, axis=1)
             bounds_mm = [bound_mm(contact) for contact in instrument.contacts if contact.part.startswith(hand.side)]
             off[hand.side] = gaps_m * 1000.0 > MOVED_MM
@@ -179,7 +181,7 @@ class ContactJudge:
             # Where the whole hand has moved, its fingers have with it.
             broken = (gaps_m * 1000.0 > bound_mm(contact)) & ~off[contact.part.split(".")[0]]
             if broken.any():
-                broken &= self._judged(index, controls, notes, times_s)
+                broken &= self._judged(index, controls, notes, placed)
                 yield from _runs(("touch", contact.part, contact.control or ""), times_s, gaps_m, broken)
 
     def _breathing(self, times_s: FloatArray) -> BoolArray:
@@ -190,7 +192,7 @@ class ContactJudge:
         return inside
 
     def _judged(
-        self, index: int, controls: dict[str, FloatArray], notes: npt.NDArray[np.intp], times_s: FloatArray
+        self, index: int, controls: dict[str, FloatArray], notes: npt.NDArray[np.intp], placed: dict[str, Placed]
     ) -> BoolArray | Literal[True]:
         """Whether a contact that is not always there should be."""
         instrument = self._playing.instrument_map
@@ -199,9 +201,8 @@ class ContactJudge:
             wanted: BoolArray = self._working[place[0]][notes] == place[1]
             for name in worked_by(contact, instrument):
                 wanted = wanted & in_place(instrument.control(name), controls[name], self._targets[name][notes])
-            way = self._playing.stations.get(place[0])
-            if way is not None:
-                share = way.between(times_s)[2]
+            if place[0] in placed:
+                share = placed[place[0]].share
                 wanted = wanted & ((share <= 0.0) | (share >= 1.0))
             return wanted
         if contact.control is None or contact.when == "always":

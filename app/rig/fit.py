@@ -14,6 +14,8 @@ character.landmarks_missing : id, missing
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import numpy.typing as npt
 from threadpoolctl import threadpool_limits
@@ -21,10 +23,11 @@ from threadpoolctl import threadpool_limits
 from app.errors import UsageError
 from app.rig import quaternion
 from app.rig.carriage import Upright, upright
-from app.rig.grip_fingers import MOVED_VALUES, STILL_VALUES, Scene, finger_tables, judge, solve_tables
+from app.rig.grip_fingers import MOVED_VALUES, STILL_VALUES, Scene, finger_tables, judge, lifted_ways, solve_tables
+from app.rig.grip_lean import Leaning, lean_of, leanings
 from app.rig.grip_problem import Problem, grip_problem, joint_angles, travel, wrist_transform
 from app.rig.grip_search import search, search_knots
-from app.rig.hold import HandHold, Hold, NodeMotion, Reach
+from app.rig.hold import HandHold, Hold, NodeMotion, Reach, StationTable
 from app.rig.lips import fit_lips, needed_landmarks
 from app.rig.model import Character, InstrumentModel
 from instrument_maps.model import Control, HandSeed, InstrumentMap
@@ -32,8 +35,10 @@ from metadata.model import Body
 
 FloatArray = npt.NDArray[np.float64]
 
-FIT_VERSION = 11
-"""Part of the digest of stored holds (`app.rig.hold_file`): raise it when a fit comes out differently."""
+FIT_VERSION = 14
+"""Part of the digest of stored holds (`app.rig.hold_file`): raise it when a fit comes out differently ..."""
+PLACES_VERSION = 2
+"""... and this one when it does so only where fingers wait over what they work, or work it at several places."""
 
 
 def fit_hold(character: Character, model: InstrumentModel, instrument_map: InstrumentMap, body: Body) -> Hold:
@@ -101,8 +106,13 @@ def _fit_hand(
     position, turn = wrist_transform(problem, path)
     scene = Scene(model, instrument_map, carrier, position, quaternion.to_matrix(turn))
     solved = solve_tables(problem, scene, joint_angles(problem, path), best)
-    fingers = finger_tables(problem, scene, solved)
-    contacts, depth = judge(problem, scene, fingers, values)
+    leant = leanings(problem, scene, best, solved)
+    leans = tuple(lean_of(problem, scene, one) for one in leant)
+    at_leans = {(one.solved.number, one.solved.station): one.solved for one in leant}
+    solved = tuple(at_leans.get((one.number, one.station), one) for one in solved)
+    wrists = {(one.solved.number, one.index): one.scene for one in leant}
+    fingers = lifted_ways(problem, scene, finger_tables(problem, scene, solved), wrists)
+    contacts, depth = judge(problem, scene, fingers, values, _leant_tables(problem, leant))
     motion = None if carrier is None else _node_motion(carrier)
     pole = quaternion.rotate(
         stand.instrument_rotation, np.cos(best[6]) * problem.swivel_frame[0] + np.sin(best[6]) * problem.swivel_frame[1]
@@ -118,8 +128,24 @@ def _fit_hand(
         elbow_direction=pole,
         contacts=contacts,
         penetration_m=depth,
+        leans=leans,
     )
     return hold, _reach(problem, values, position, carrier, stand.instrument_rotation)
+
+
+def _leant_tables(
+    problem: Problem, leant: Sequence[Leaning]
+) -> dict[tuple[int, int], tuple[Scene, dict[int, StationTable]]]:
+    """The wrist and the other fingers wherever the hand gives way."""
+    result = {}
+    for one in leant:
+        tables = {
+            number: table.stations[0]
+            for number, table in enumerate(finger_tables(problem, one.scene, one.others))
+            if table.stations
+        }
+        result[one.solved.number, one.index] = (one.scene, tables)
+    return result
 
 
 def _node_motion(control: Control) -> NodeMotion | None:

@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from app.rig import quaternion
+from app.rig.finger_poses import raised_way
 from app.rig.grip_problem import (
     COUPLING_RAD,
     Problem,
@@ -31,7 +32,7 @@ from app.rig.hand import (
     wrist_from_joint,
     wrist_from_mesh,
 )
-from app.rig.hold import ContactFit, FingerTable, StationTable, interpolated
+from app.rig.hold import Chain, ContactFit, FingerTable, StationTable, interpolated, mixed
 from app.rig.model import InstrumentModel
 from app.rig.stations import Station, hover_m
 from instrument_maps.model import Control, InstrumentMap
@@ -41,6 +42,8 @@ IntArray = npt.NDArray[np.intp]
 
 EXACTER = 0.3
 """With the wrist held, touches are met this much more exactly than in the search."""
+LESS_EXACT = 1.5
+"""Fingers that stay while the hand gives way for another one keep their places less exactly, rather than break."""
 ROUNDS = 12
 
 CARRIED_SHARE = 0.1
@@ -50,6 +53,13 @@ FOLLOW_RAD = 0.15
 SMOOTH_DEGREE = 3
 SMOOTH_RAD = 0.04
 """How far a sample's angles wander from the smooth path over the control."""
+OPEN_M, OPEN_SPREAD_M = 0.007, 0.0005
+"""A finger at another place keeps so far from a hole that it is to leave open."""
+WAYS = np.array([0.25, 0.5, 0.75])
+LIFTS_M = (0.0, 0.006, 0.012, 0.018, 0.024)
+WAY_CLEAR_M = 0.0025
+"""On its way from home to another place a finger is lifted by the first of these heights that brings it over what lies
+between."""
 MOVED_VALUES = np.linspace(0.0, 1.0, 17)
 """Values of a control that a finger stays on, or that carries its hand, at which it is solved ..."""
 HOVER_VALUES = np.linspace(0.0, 1.0, 9)
@@ -141,6 +151,45 @@ def solve_tables(problem: Problem, scene: Scene, angles: FloatArray, elsewhere: 
     return tuple(result)
 
 
+def followed_table(problem: Problem, scene: Scene, number: int, station: Station, angles: FloatArray) -> Solved:
+    """Solve one finger at a station, from the angles (16, 3) of a hand whose controls there are fully worked."""
+    values = values_of(scene, station)
+    pose = np.repeat(angles[None], len(values), axis=0)
+    finger = _Finger(problem, scene.over(values), number, station, values, pose)
+    found, _ = _followed(finger, finger.taken(angles), range(len(values))[::-1])
+    pose[:, finger.joints, finger.kinds] = found
+    return Solved(number, station, values, pose)
+
+
+def solved_about(problem: Problem, scene: Scene, home: Solved, values: FloatArray, angles: FloatArray) -> Solved:
+    """Solve a finger at home again for another wrist, about the angles (16, 3) of a hand that works its controls there
+    fully."""
+    pose = home.angles[np.searchsorted(home.values, values)].copy()
+    pose += angles - pose[-1]
+    exacter = LESS_EXACT if home.station.controls else EXACTER
+    finger = _Finger(problem, scene.over(values), home.number, home.station, values, pose, exacter)
+    usual = np.clip(finger.taken(pose), finger.low, finger.high)
+    found, _ = finger.solve(usual, usual, FOLLOW_RAD, np.arange(len(values)))
+    pose[:, finger.joints, finger.kinds] = found
+    return Solved(home.number, home.station, values, pose)
+
+
+def missed_m(problem: Problem, scene: Scene, one: Solved) -> float:
+    """How far a finger stays from its touch points while what it works is fully worked."""
+    if not one.station.contacts:
+        return 0.0
+    values = one.values[-1:]
+    matrices = wrist_from_mesh(
+        problem.hand, wrist_from_joint(problem.hand, joint_rotations(problem.hand, one.angles[-1:]))
+    )
+    far = 0.0
+    for touch in touches_at(scene, one.station, values):
+        at = scene.over(values).placed(skinned(matrices, problem.hand.landmarks[touch.contact.part][:, :, None]))
+        if touch.active[-1]:
+            far = max(far, float(np.linalg.norm(at[0, 0] - touch.positions[-1])))
+    return far
+
+
 def _followed(finger: _Finger, start: FloatArray, order: Sequence[int]) -> tuple[FloatArray, float]:
     """Angles (S, n) of a finger followed from one sample to the next, then smoothed, and what they cost."""
     found = np.zeros((len(order), len(start)))
@@ -161,9 +210,17 @@ class _Finger:
     """One finger on its touches at some values of the controls, the rest of the hand held."""
 
     def __init__(
-        self, problem: Problem, scene: Scene, number: int, station: Station, values: FloatArray, pose: FloatArray
+        self,
+        problem: Problem,
+        scene: Scene,
+        number: int,
+        station: Station,
+        values: FloatArray,
+        pose: FloatArray,
+        exacter: float = EXACTER,
     ) -> None:
         hand = problem.hand
+        self.exacter = exacter
         dofs = [problem.dofs[i] for i in finger_dofs(problem, number)]
         self.problem, self.scene, self.number, self.values, self.pose = problem, scene, number, values, pose
         self.joints, self.kinds = np.array([dof.joint for dof in dofs]), np.array([dof.kind for dof in dofs])
@@ -171,6 +228,7 @@ class _Finger:
         self.touches = touches_at(scene, station, values)
         self.points = np.stack([hand.landmarks[t.contact.part] for t in self.touches], axis=2)
         self.normals = np.stack([hand.landmark_normals[t.contact.part] for t in self.touches], axis=2)
+        self.kept_open = _kept_open(problem, scene, number, station)
         carried = hand.all_points[1 + 3 * number : 4 + 3 * number, 3].sum(axis=0) > CARRIED_SHARE
         self.skin = np.ascontiguousarray(hand.all_points[:, :, carried])
         self.balls = np.flatnonzero(hand.ball_finger == number)
@@ -267,10 +325,26 @@ class _Finger:
         for k, touch in enumerate(self.touches):
             active = touch.active[which, None].astype(np.float64)
             off = (at[:, :, k] - touch.positions[which]) / touch.spread_m[which, None]
-            parts.append(off / EXACTER * active)
+            parts.append(off / self.exacter * active)
             turn = (facing[:, :, k] + touch.normals[which]) / touch.spread_normal[which, None]
             parts.append(turn * active)
+        for part, hole in self.kept_open:
+            near = scene.placed(skinned(matrices, hand.landmarks[part][:, :, None]).reshape(shape))[:, :, 0] - hole
+            gap = np.sqrt(np.einsum("nsi,nsi->ns", near, near))
+            parts.append((np.maximum(OPEN_M - gap, 0.0) / OPEN_SPREAD_M)[..., None])
         return np.concatenate(parts, axis=2), scene.placed(flesh.reshape(shape))
+
+
+def _kept_open(problem: Problem, scene: Scene, number: int, station: Station) -> list[tuple[str, FloatArray]]:
+    """Holes that a finger closes elsewhere and must leave open here: the part that would, and where they are."""
+    instrument, found = scene.instrument_map, []
+    for place in problem.stations[number]:
+        for contact in (instrument.contacts[index] for index in place.contacts):
+            hole = None if contact.control in (None, *station.controls) else instrument.control(contact.control or "")
+            if hole is not None and hole.kind == "hole":
+                at, _ = contact_at(scene.model, instrument, contact, frozenset(), None, np.zeros(1))
+                found.append((contact.part, at[0]))
+    return found
 
 
 def touches_at(scene: Scene, station: Station, values: FloatArray) -> list[Touch]:
@@ -294,16 +368,109 @@ def finger_tables(problem: Problem, scene: Scene, solved: Sequence[Solved]) -> t
                 moves = one.station.controls or (() if scene.carrier is None else (scene.carrier.name,))
                 hovers = hover_m(one.station, scene.instrument_map) > 0.0
                 rotations = joint_rotations(hand, one.angles)[:, places]
-                found.append(StationTable(moves, hovers, one.values, rotations))
-        tables.append(FingerTable(f"{hand.side}.{name}", hand.joints[places], tuple(found)))
+                found.append(StationTable(moves, hovers, one.values, rotations, *_tip(problem, scene, one)))
+        chain = None if scene.carrier is not None else _chain(problem, number)
+        tables.append(FingerTable(f"{hand.side}.{name}", hand.joints[places], tuple(found), chain))
     return tuple(tables)
 
 
+def _tip(problem: Problem, scene: Scene, one: Solved) -> tuple[int, FloatArray]:
+    """The joint of a finger that carries what touches at a station, and where that is in its frame."""
+    if not one.station.contacts:
+        return -1, np.zeros(3)
+    hand = problem.hand
+    part = scene.instrument_map.contacts[one.station.contacts[0]].part
+    transforms = wrist_from_joint(hand, joint_rotations(hand, one.angles[-1:]))
+    point = skinned(wrist_from_mesh(hand, transforms), hand.landmarks[part][:, :, None])[0, 0]
+    joint = 1 if part.endswith("_middle") else 2
+    carrier = transforms[0, 1 + 3 * one.number + joint]
+    return joint, (point - carrier[:, 3]) @ carrier[:, :3]
+
+
+def lifted_ways(
+    problem: Problem, scene: Scene, tables: tuple[FingerTable, ...], wrists: Mapping[tuple[int, int], Scene]
+) -> tuple[FingerTable, ...]:
+    """Find how high fingers are lifted on their ways between home and their other stations."""
+    result = []
+    for number, table in enumerate(tables):
+        found = [table.stations[0]] if table.stations else []
+        for index, station in enumerate(table.stations[1:], 1):
+            place = problem.stations[number][index]
+            found.append(_lifted(problem, scene, table, number, index, place, wrists.get((number, index), scene)))
+            assert station.controls == found[-1].controls
+        result.append(replace(table, stations=tuple(found)))
+    return tuple(result)
+
+
+def _lifted(
+    problem: Problem, scene: Scene, table: FingerTable, number: int, index: int, place: Station, wrist: Scene
+) -> StationTable:
+    home, there = table.stations[0], table.stations[index]
+    chain = table.chain
+    if chain is None or home.tip_joint < 0 or there.tip_joint < 0 or set(home.controls) & set(there.controls):
+        return there
+    hand, instrument = problem.hand, scene.instrument_map
+    normals = [instrument.contacts[at].normal for at in (problem.stations[number][0].contacts[0], place.contacts[0])]
+    outwards = np.sum(normals, axis=0)
+    outwards = outwards / max(float(np.linalg.norm(outwards)), 1e-6)
+    away = outwards @ scene.basis[0]
+    way = np.repeat(np.clip(WAYS, 0.0, 1.0)[:, None], 1, axis=1)
+    pose = mixed(
+        np.repeat(home.rotations[:1], len(WAYS), axis=0),
+        np.repeat(there.rotations[:1], len(WAYS), axis=0),
+        way[..., None],
+    )
+    share = WAYS[:, None]
+    middle = scene.position_m + share * (wrist.position_m - scene.position_m)
+    turn = quaternion.slerp(
+        np.repeat(quaternion.from_matrix(scene.basis), len(WAYS), axis=0),
+        np.repeat(quaternion.from_matrix(wrist.basis), len(WAYS), axis=0),
+        WAYS,
+    )
+    on_way = replace(scene, position_m=middle, basis=quaternion.to_matrix(turn))
+    carried = hand.all_points[1 + 3 * number : 4 + 3 * number, 3].sum(axis=0) > 0.5
+    skin = np.ascontiguousarray(hand.all_points[:, :, carried])
+    place_m, bases = nodes_at(scene.model, instrument, frozenset(), None, np.zeros(1))
+    best, least = 0.0, np.inf
+    for lift in LIFTS_M:
+        rotations = np.tile(quaternion.IDENTITY, (len(WAYS), 16, 1))
+        rotations[:, 1 + 3 * number : 4 + 3 * number] = raised_way(table, 0, index, pose, WAYS, lift * away)
+        flesh = on_way.placed(skinned(wrist_from_mesh(hand, wrist_from_joint(hand, rotations)), skin))
+        deep = max(
+            float(inside_proxy(problem.proxies, place_m[0], bases[0], flesh[s], np.zeros(flesh.shape[1]))[0].max())
+            for s in range(len(WAYS))
+        )
+        if deep < least - 0.0005:
+            best, least = lift, deep
+        if deep <= WAY_CLEAR_M:
+            break
+    return replace(there, away_m=best * away)
+
+
+def _chain(problem: Problem, number: int) -> Chain:
+    hand, places = problem.hand, slice(1 + 3 * number, 4 + 3 * number)
+    dofs = [problem.dofs[i] for i in finger_dofs(problem, number)]
+    return Chain(
+        offsets_m=hand.offsets_m[places],
+        axes=hand.axes[places],
+        dofs=np.array([(dof.joint - places.start, dof.kind) for dof in dofs], dtype=np.float64),
+        low=np.array([dof.low for dof in dofs]),
+        high=np.array([dof.high for dof in dofs]),
+    )
+
+
 def judge(
-    problem: Problem, scene: Scene, fingers: tuple[FingerTable, ...], values: FloatArray
+    problem: Problem,
+    scene: Scene,
+    fingers: tuple[FingerTable, ...],
+    values: FloatArray,
+    leant: Mapping[tuple[int, int], tuple[Scene, Mapping[int, StationTable]]],
 ) -> tuple[tuple[ContactFit, ...], float]:
     """Measure the hold over all its samples and half way between them, on the whole skin of the hand: all fingers at
-    home together, then every finger at its other stations alone."""
+    home together, then every finger at its other stations alone.
+
+    ``leant`` has the wrist and the other fingers for stations, by finger and number, that the hand gives way for.
+    """
     instrument = scene.instrument_map
     fine = np.linspace(0.0, 1.0, 2 * len(values) - 1) if len(values) > 1 else values
     home = {number: table.stations[0] for number, table in enumerate(fingers)}
@@ -314,10 +481,11 @@ def judge(
     few = np.linspace(0.0, 1.0, 5)
     for number, places in enumerate(problem.stations):
         for index, station in enumerate(places[1:], 1):
-            tables = home | {number: fingers[number].stations[index]}
+            there, others = leant.get((number, index), (scene, home))
+            tables = {**home, **others, number: fingers[number].stations[index]}
             posed = _posed(tables, {number: few}, len(few))
             own = [i for i in station.contacts if i not in places[0].contacts]
-            more, deep = _judged(problem, scene.over(few), posed, frozenset(station.controls), own, few)
+            more, deep = _judged(problem, there.over(few), posed, frozenset(station.controls), own, few)
             contacts, depth = contacts + more, max(depth, deep)
     return tuple(contacts), depth
 

@@ -44,6 +44,8 @@ HOVER_SPREAD = 0.5
 """How far a waiting finger is from its height, as a share of it: it may be lower or higher as the hand lies."""
 HOVER_TURNS = 2.0
 """How much more freely than at its touch its pad faces elsewhere."""
+ANCHOR = (0.25, 0.7, 0.5)
+"""How far the wrist's place (in 0.1 m), its turn and the fingers (rad) wander from one knot of a slide to the next."""
 METRES = 0.1
 """The wrist's place is solved in units of this many metres, to weigh like radians."""
 HELP_RAD = 0.44
@@ -123,6 +125,7 @@ class Problem:
     wrist_limits: FloatArray
     elsewhere: tuple[Elsewhere, ...] = ()
     anchor: FloatArray | None = None
+    anchor_spread: tuple[float, float, float] = ANCHOR
     low: FloatArray = field(default_factory=lambda: np.zeros(0))
     high: FloatArray = field(default_factory=lambda: np.zeros(0))
 

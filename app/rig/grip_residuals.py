@@ -45,11 +45,10 @@ SEED_M, SEED_RAD = 0.03, 0.4
 PRONATION_MOST_RAD = 1.3
 REACH_M = 0.03
 """Of an arm that is too short: the shoulder's help is dear, but a finger tip's grip does not bridge half a metre."""
-ANCHOR = (0.25, 0.7, 0.5)
-"""How far the wrist's place (in 0.1 m), its turn and the fingers (rad) wander from one knot of a slide to the next."""
 STEP = 1e-6
-ELSEWHERE_M, ELSEWHERE_NORMAL, ELSEWHERE_RELAXED = 0.0012, 0.7, 1.5
-"""The wrist lies where the fingers also reach their other stations, less exactly than at home, and less relaxed."""
+ELSEWHERE_M, ELSEWHERE_NORMAL, ELSEWHERE_RELAXED = 0.006, 0.7, 1.5
+"""The wrist lies near where the fingers also reach their other stations: it gives way for those that they miss
+(`app.rig.grip_lean`)."""
 
 
 class Residuals:
@@ -250,7 +249,7 @@ class Residuals:
         if self.problem.anchor is None:
             off: FloatArray = x[:, :6] / np.repeat([SEED_M / METRES, SEED_RAD], 3)
         else:
-            place, turn, finger = ANCHOR
+            place, turn, finger = self.problem.anchor_spread
             off = (x - self.problem.anchor) / ([place] * 3 + [turn] * 3 + [0.01] + [finger] * (x.shape[1] - 7))
         return off
 

@@ -38,12 +38,12 @@ TILTS = (
 
 def search(problem: Problem) -> FloatArray:
     """Start from the seed and from tilts of it with soft contacts; the best few go on with harder ones."""
-    loose = [_solve(Residuals(problem, 6.0), start_at(problem, np.array(tilt)), 8) for tilt in TILTS]
+    loose = [solve(Residuals(problem, 6.0), start_at(problem, np.array(tilt)), 8) for tilt in TILTS]
     loose.sort(key=lambda found: float(found.cost))
-    middle = [_solve(Residuals(problem, 2.0), found.x, 10) for found in loose[:3]]
+    middle = [solve(Residuals(problem, 2.0), found.x, 10) for found in loose[:3]]
     best = min(middle, key=lambda found: float(found.cost))
-    hard = _solve(Residuals(problem, 1.0), best.x, 25)
-    return np.asarray(_solve(Residuals(problem, 1.0, stiff=True), hard.x, 12).x)
+    hard = solve(Residuals(problem, 1.0), best.x, 25)
+    return np.asarray(solve(Residuals(problem, 1.0, stiff=True), hard.x, 12).x)
 
 
 def search_knots(
@@ -64,12 +64,13 @@ def search_knots(
         if here.anchor is None:
             found[value] = search(here)
         else:
-            found[value] = np.asarray(_solve(Residuals(here, 1.0, stiff=True), here.anchor, 20).x)
+            found[value] = np.asarray(solve(Residuals(here, 1.0, stiff=True), here.anchor, 20).x)
     knots = np.array(sorted(found))
     return knots, np.stack([found[value] for value in knots])
 
 
-def _solve(residuals: Residuals, start: FloatArray, rounds: int) -> Any:
+def solve(residuals: Residuals, start: FloatArray, rounds: int) -> Any:
+    """Least squares within the problem's bounds."""
     problem = residuals.problem
     from scipy.optimize import least_squares  # heavy; holds are fitted seldom
 

@@ -8,13 +8,13 @@ over frames:
 2. `hand_targets` gives ``world_from_hand`` of both wrists (a hand that lies on a moving node moves with it).
 3. `app.rig.ik.solve_limb` turns a shoulder and a target into rotations of upper arm, lower arm and hand;
    ``HandHold.elbow_direction`` is the comfortable pole.
-4. `finger_rotations` gives the fingers by interpolation of tables over the values of the controls, one for every place
-   (`app.rig.stations`) a finger goes to.
+4. `app.rig.finger_poses.finger_rotations` gives the fingers by interpolation of tables over the values of the controls,
+   one for every place (`app.rig.stations`) a finger goes to.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Literal, NamedTuple
 
@@ -25,10 +25,6 @@ from app.rig import quaternion
 
 FloatArray = npt.NDArray[np.float64]
 Side = Literal["left", "right"]
-
-LOW_HOVER = 0.123
-"""In slow passages a finger waits as low as if its control had come so far: at the map's height, which is 1 / 1.3 of
-the highest (`app.rig.grip_problem.HOVER_MORE`)."""
 
 
 @dataclass(frozen=True)
@@ -47,6 +43,29 @@ class NodeMotion:
 
 
 @dataclass(frozen=True)
+class Chain:
+    """The joints of a finger, to bring it somewhere.
+
+    Attributes
+    ----------
+    offsets_m : (joints, 3) float64
+        Each from the one above, the first from the wrist.
+    axes : (joints, 3, 3) float64
+        Flexion, sideways and twist axis of each (rows).
+    dofs : (D, 2) float64
+        The angles that move: joint and which of its axes.
+    low, high : (D,) float64
+        Their ranges, radians.
+    """
+
+    offsets_m: FloatArray
+    axes: FloatArray
+    dofs: FloatArray
+    low: FloatArray
+    high: FloatArray
+
+
+@dataclass(frozen=True)
 class StationTable:
     """Poses of one finger at one of its stations over the value of what it works there.
 
@@ -60,12 +79,21 @@ class StationTable:
         Ascending, from 0 to 1.
     rotations : (S, joints, 4) float64
         ``parent_from_joint``, xyzw, each sample in the hemisphere of the one before.
+    tip_joint : int
+        The joint, of the finger's, that carries what touches; -1 where it touches nothing.
+    tip_m : (3,) float64
+        What touches, in that joint's frame.
+    away_m : (3,) float64
+        By how much a finger is lifted half way between home and here, in the wrist's frame.
     """
 
     controls: tuple[str, ...]
     hovers: bool
     values: FloatArray
     rotations: FloatArray
+    tip_joint: int = -1
+    tip_m: FloatArray = field(default_factory=lambda: np.zeros(3))
+    away_m: FloatArray = field(default_factory=lambda: np.zeros(3))
 
 
 @dataclass(frozen=True)
@@ -80,11 +108,14 @@ class FingerTable:
         Joints of the skeleton, from the palm outwards.
     stations : tuple of StationTable
         Home first; in the order of `app.rig.stations.stations`.
+    chain : Chain or None
+        Of a hand that gives way for its fingers.
     """
 
     finger: str
     joints: tuple[int, ...]
     stations: tuple[StationTable, ...]
+    chain: Chain | None = None
 
 
 class Placed(NamedTuple):
@@ -119,6 +150,26 @@ class ContactFit:
 
 
 @dataclass(frozen=True)
+class Lean:
+    """How a hand gives way so that one finger reaches one of its stations.
+
+    Attributes
+    ----------
+    finger : str
+    station : int
+        Its place in ``FingerTable.stations``; that table is for the wrist that has given way.
+    moved_m, turned : (3,) float64
+        What is added to the wrist's place in the instrument's frame, and the rotation vector it is turned by there. The
+        other fingers stay where they are (`app.rig.finger_poses`).
+    """
+
+    finger: str
+    station: int
+    moved_m: FloatArray
+    turned: FloatArray
+
+
+@dataclass(frozen=True)
 class HandHold:
     """How one hand lies on the instrument.
 
@@ -142,6 +193,7 @@ class HandHold:
         Deepest vertex of hand and fingers inside the instrument's proxy, over all samples.
     values : (S,) float64
         Values of the control in ``motion`` at which the wrist is given; ascending, from 0.
+    leans : tuple of Lean
     """
 
     side: Side
@@ -154,6 +206,7 @@ class HandHold:
     contacts: tuple[ContactFit, ...]
     penetration_m: float
     values: FloatArray = field(default_factory=lambda: np.zeros(1))
+    leans: tuple[Lean, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -273,7 +326,7 @@ class Hold:
 
     @property
     def finger_joints(self) -> tuple[int, ...]:
-        """The joints `finger_rotations` poses, in its order."""
+        """The joints `app.rig.finger_poses` poses, in its order."""
         return tuple(joint for hand in self.hands for finger in hand.fingers for joint in finger.joints)
 
 
@@ -282,6 +335,7 @@ def hand_targets(
     world_from_instrument_m: FloatArray,
     world_from_instrument_rotation: FloatArray,
     controls: Mapping[str, npt.NDArray[np.floating]],
+    placed: Mapping[str, Placed] | None = None,
 ) -> tuple[FloatArray, FloatArray]:
     """Place a hand on a moving instrument.
 
@@ -291,6 +345,8 @@ def hand_targets(
     world_from_instrument_m, world_from_instrument_rotation : (F, 3) and (F, 4) float64
     controls : dict of str to (F,)
         Values 0..1; a control that is absent is at 0.
+    placed : mapping of str to Placed, optional
+        Where the fingers are that are not at home: the hand may give way for them.
 
     Returns
     -------
@@ -312,100 +368,31 @@ def hand_targets(
             turn = quaternion.multiply(moved, turn)
         else:
             local = local + np.multiply.outer(value, motion.travel_m)
+    given = [(lean, weight) for lean in hand.leans for weight in [given_way(lean, placed)] if weight is not None]
+    if given:
+        local, turn = wrist_given(hand, given)
     positions = world_from_instrument_m + quaternion.rotate(world_from_instrument_rotation, local)
     return positions, quaternion.multiply(world_from_instrument_rotation, turn)
 
 
-def finger_rotations(
-    hold: Hold,
-    controls: Mapping[str, npt.NDArray[np.floating]],
-    frames: int,
-    placed: Mapping[str, Placed] | None = None,
-    raised: FloatArray | float = 0.0,
-) -> FloatArray:
-    """Interpolate the finger tables.
-
-    Parameters
-    ----------
-    hold : Hold
-    controls : dict of str to (F,)
-        Values 0..1; a control that is absent is at 0.
-    frames : int
-        F.
-    placed : mapping of str to Placed, optional
-        Where the fingers are that are not at home.
-    raised : (F,) float64 or float
-        0..1: how high fingers wait over their keys, from a slow passage to the fastest.
-
-    Returns
-    -------
-    (F, len(hold.finger_joints), 4) float64
-        ``parent_from_joint`` rotations in the order of ``hold.finger_joints``.
-    """
-    result = np.empty((frames, len(hold.finger_joints), 4))
-    start = 0
-    for hand in hold.hands:
-        for table in hand.fingers:
-            stop = start + len(table.joints)
-            where = None if placed is None else placed.get(table.finger)
-            if where is None:
-                result[:, start:stop] = _at_station(table.stations[0], controls, frames, raised)
-            else:
-                result[:, start:stop] = _between(table, where, controls, frames, raised)
-            start = stop
-    return result
+def given_way(lean: Lean, placed: Mapping[str, Placed] | None) -> FloatArray | None:
+    """How far (F,) a hand gives way, 0..1; None where it never does."""
+    where = None if placed is None else placed.get(lean.finger)
+    if where is None:
+        return None
+    going = (where.after == lean.station) * where.share
+    weight: FloatArray = going + (where.before == lean.station) * (1.0 - where.share)
+    return weight if np.any(weight) else None
 
 
-def _at_station(
-    station: StationTable,
-    controls: Mapping[str, npt.NDArray[np.floating]],
-    frames: int,
-    raised: FloatArray | float,
-    pressed: FloatArray | float = 1.0,
-) -> FloatArray:
-    """Rotations (F, n, 4) at one station; ``pressed`` lifts a finger that is on its way off what it works."""
-    known = [np.asarray(controls[name], dtype=np.float64) for name in station.controls if name in controls]
-    if not known or len(station.values) == 1:
-        return np.broadcast_to(station.rotations[0], (frames, *station.rotations.shape[1:]))
-    value = np.clip(np.maximum.reduce(known), 0.0, 1.0) * pressed
-    if station.hovers:
-        low = LOW_HOVER * (1.0 - np.asarray(raised, dtype=np.float64))
-        value = low + (1.0 - low) * value
-    return interpolated(station.values, station.rotations, value)
-
-
-def _between(
-    table: FingerTable,
-    where: Placed,
-    controls: Mapping[str, npt.NDArray[np.floating]],
-    frames: int,
-    raised: FloatArray | float,
-) -> FloatArray:
-    """Rotations (F, n, 4) of a finger that goes from station to station.
-
-    It lifts on its way, but where it keeps on something that it works at both ends of the way.
-    """
-    result = np.empty((frames, len(table.joints), 4))
-    height = np.broadcast_to(np.asarray(raised, dtype=np.float64), (frames,))
-    pairs = np.stack([where.before, where.after], axis=1).astype(np.intp)
-    for first, second in np.unique(pairs, axis=0).tolist():
-        here = np.flatnonzero((pairs[:, 0] == first) & (pairs[:, 1] == second))
-        values = {
-            name: np.asarray(controls[name])[here]
-            for station in (table.stations[first], table.stations[second])
-            for name in station.controls
-            if name in controls
-        }
-        if first == second:
-            result[here] = _at_station(table.stations[first], values, len(here), height[here])
-            continue
-        share = where.share[here]
-        keeps = bool(set(table.stations[first].controls) & set(table.stations[second].controls))
-        off, on = (1.0, 1.0) if keeps else (1.0 - share, share)
-        near = _at_station(table.stations[first], values, len(here), height[here], off)
-        far = _at_station(table.stations[second], values, len(here), height[here], on)
-        result[here] = _mixed(near, far, share[:, None, None])
-    return result
+def wrist_given(hand: HandHold, given: Sequence[tuple[Lean, FloatArray]]) -> tuple[FloatArray, FloatArray]:
+    """Wrist (F, 3) and (F, 4) of a hand on the root, in the instrument's frame, as far (F,) as it gives way."""
+    place, turn = np.atleast_2d(hand.instrument_from_hand_m), np.atleast_2d(hand.instrument_from_hand_rotation)
+    if not given:
+        return place, turn
+    moved = np.sum([np.multiply.outer(weight, lean.moved_m) for lean, weight in given], axis=0)
+    turned = np.sum([np.multiply.outer(weight, lean.turned) for lean, weight in given], axis=0)
+    return place + moved, quaternion.multiply(quaternion.from_rotation_vector(turned), turn)
 
 
 def interpolated(values: FloatArray, rotations: FloatArray, value: FloatArray) -> FloatArray:
@@ -415,10 +402,10 @@ def interpolated(values: FloatArray, rotations: FloatArray, value: FloatArray) -
     place = np.interp(value, values, np.arange(len(values), dtype=np.float64))
     low = np.minimum(place.astype(np.intp), len(values) - 2)
     share = (place - low)[:, None, None]
-    return _mixed(rotations[low], rotations[low + 1], share)
+    return mixed(rotations[low], rotations[low + 1], share)
 
 
-def _mixed(near: FloatArray, far: FloatArray, share: FloatArray) -> FloatArray:
+def mixed(near: FloatArray, far: FloatArray, share: FloatArray) -> FloatArray:
     """Rotations between near (share 0) and far ones (share 1), the shorter way."""
     sign = np.where(np.einsum("fnc,fnc->fn", near, far) < 0.0, -1.0, 1.0)[..., None]
     mixed: FloatArray = near * (1.0 - share) + far * (sign * share)

@@ -20,10 +20,11 @@ import platformdirs
 
 from app.errors import FileError
 from app.formats.atomic import atomic_write
-from app.rig.fit import FIT_VERSION, fit_hold, require_landmarks
+from app.rig.fit import FIT_VERSION, PLACES_VERSION, fit_hold, require_landmarks
 from app.rig.hold import HandHold, Hold, Lips, Reach
 from app.rig.lips import fit_lips
 from app.rig.model import Character, InstrumentModel
+from app.rig.stations import only_at
 from instrument_maps.model import InstrumentMap
 from metadata.model import Body
 
@@ -56,6 +57,8 @@ def digest_of(character: Character, model: InstrumentModel, instrument: Instrume
     for name, landmark in sorted(character.landmarks.items()):
         digest.update(f"{name} {landmark.mesh}\n".encode())
         arrays.append(landmark.vertices)
+    if any(place is not None for place in only_at(instrument)):
+        digest.update(f"{PLACES_VERSION}\n".encode())
     for array in arrays:
         digest.update(str((array.dtype.str, array.shape)).encode())
         digest.update(np.ascontiguousarray(array).tobytes())

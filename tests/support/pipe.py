@@ -18,10 +18,10 @@ from resources.build.instrument_mesh import Model, Shape, plate, torus, tube
 ID = "pipe"
 RADIUS_M, LENGTH_M = 0.0115, 0.56
 HOLES_M = {"L1": 0.170, "L2": 0.203, "L3": 0.233, "R1": 0.300, "R2": 0.330, "R3": 0.362}
-THUMB_M, REGISTER_M, REST_M = 0.178, 0.158, 0.318
-KEYS_M = {"E": (-0.019, 0.388), "F": (-0.019, 0.405), "G": (-0.004, 0.391), "C": (0.010, 0.262), "D": (0.010, 0.279)}
+THUMB_M, REGISTER_M, REST_M = 0.182, 0.165, 0.318
+KEYS_M = {"E": (-0.017, 0.386), "F": (-0.017, 0.402), "G": (-0.009, 0.386), "C": (0.010, 0.258), "D": (0.010, 0.271)}
 """Keys for the little fingers: to the left of the middle, and along the tube."""
-KEY_HALF_M, KEY_HEIGHT_M = (0.007, 0.0015, 0.007), 0.0165
+KEY_HALF_M, KEY_HEIGHT_M = (0.004, 0.0015, 0.006), 0.0165
 FINGERS = {
     "L1": "left.index", "L2": "left.middle", "L3": "left.ring", "R1": "right.index", "R2": "right.middle",
     "R3": "right.ring", "E": "right.little", "F": "right.little", "G": "right.little", "C": "left.little",
@@ -86,7 +86,7 @@ support_hand = "right"
 @carriages@
 """
 
-LINE = ["E R1 R2 R3", "R1 R2 R3", "F R1 R2 R3", "R1 R2", "G R1 R2", "R1", "", "C", "D"]
+LINE = ["E R1 R2 R3", "R1 R2 R3", "F R1 R2 R3", "R1 R2", "G R1 R2", "R1", "", "D", "C"]
 """What the lower joint adds to the three holes of the upper one, from the lowest note upwards."""
 
 
@@ -97,7 +97,7 @@ def fingerings() -> list[tuple[int, str]]:
     first = list(zip(upper, lower, strict=True))
     found = [(60 + step, f"{a} {b}") for step, (a, b) in enumerate(first)]
     found += [(72 + step, f"{a} {b} Reg") for step, (a, b) in enumerate(first[:9])]
-    found.append((81, "L1h L2 L3 Reg"))
+    found.append((81, "L2 L3 Reg"))
     return [(pitch, " ".join(sorted(label.split())) or "(open)") for pitch, label in found]
 
 
@@ -187,7 +187,7 @@ def _model() -> tuple[Model, list[dict[str, object]]]:
         node="key_Reg",
     )
     touch("left.thumb.pad", "root", [0.0, -RADIUS_M, THUMB_M], -up, _name("T"))
-    touch("left.thumb.side", "key_Reg", [0.0, -RADIUS_M - 0.004, REGISTER_M], -up, _name("Reg"))
+    touch("left.thumb.pad", "key_Reg", [0.0, -RADIUS_M - 0.004, REGISTER_M], -up, _name("Reg"))
     touch("left.thumb.pad", "root", [0.0, -RADIUS_M, THUMB_M - 0.003], -up, _name("T"), _name("Reg"))
     touch("right.thumb.side", "root", [0.0, -RADIUS_M, REST_M], -up)
     return model, contacts

@@ -8,8 +8,9 @@ import pytest
 from app.errors import UsageError
 from app.rig import proxy, quaternion, skinning
 from app.rig.character import bundled_character, characters
+from app.rig.finger_poses import finger_rotations
 from app.rig.fit import fit_hold
-from app.rig.hold import HandHold, Hold, Placed, finger_rotations, hand_targets
+from app.rig.hold import HandHold, Hold, Placed, hand_targets
 from app.rig.hold_file import hold_for
 from app.rig.instrument import bundled_instrument, node_transforms, part_transform
 from app.rig.lips import fit_lips, lip_places
