@@ -21,6 +21,7 @@ import numpy as np
 
 from resources.build import (
     instrument_bassoon,
+    instrument_clarinet,
     instrument_horn,
     instrument_oboe,
     instrument_recorder,
@@ -35,6 +36,7 @@ ROOT = Path(__file__).parents[2]
 MARK = "# --- from the model"
 FAMILIES = (
     instrument_bassoon,
+    instrument_clarinet,
     instrument_horn,
     instrument_oboe,
     instrument_recorder,

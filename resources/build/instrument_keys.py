@@ -167,7 +167,7 @@ def post(wall: Wall, top: ArrayLike, material: str = METAL) -> Pieces:
     r = 0.0021
     profile = [(0, 0.0028), (0.0012, 0.0026), (0.0020, 0.0014), (max(tall - r, 0.0022), 0.0013)]
     profile += [(tall + r * np.sin(t), r * np.cos(t)) for t in np.radians([-35, 0, 35, 65])] + [(tall + r, 0.0)]
-    shape = turned(foot, out, profile, sides=10, proxy=False)
+    shape = turned(foot, out, profile, sides=8, proxy=False)
     tall_proxy = [cylinder(foot, foot + tall * out, 0.0017)] if height > 0.0055 else []
     return [(material, bodied(shape, *tall_proxy))]
 
@@ -187,14 +187,14 @@ class Touch:
         return replace(self, point=self.point + along_normal_m * self.normal)
 
 
-def oval(length: float, width: float, count: int = 22) -> Array:
+def oval(length: float, width: float, count: int = 18) -> Array:
     """Outline of a rounded plate, (ahead, across)."""
     t = np.linspace(0, 2 * np.pi, count, endpoint=False)
     x, y = np.cos(t), np.sin(t)
     return np.column_stack([length / 2 * np.sign(x) * np.abs(x) ** 0.75, width / 2 * np.sign(y) * np.abs(y) ** 0.75])
 
 
-def teardrop(length: float, wide: float, narrow: float, count: int = 22) -> Array:
+def teardrop(length: float, wide: float, narrow: float, count: int = 18) -> Array:
     """Outline that is wide ahead and narrow behind."""
     shape = oval(length, 2.0, count)
     share = shape[:, 0] / length + 0.5
@@ -212,6 +212,7 @@ def slab(
     material: str = METAL,
     hollow_m: float = 0.0004,
     foot: float = -0.4,
+    core: Array | None = None,
 ) -> Touch:
     """A spatula: a plate with round edges, a little hollow on top.
 
@@ -222,6 +223,7 @@ def slab(
     ahead : direction of the outline's first coordinate
     outline : (n, 2) around the middle: `oval`, `teardrop`
     foot : where its arm begins, as a share of its length from the middle
+    core : a smaller outline that its collision body and its arm go by, where it is touched near its edge
     """
     up = unit(normal)
     lead = np.asarray(ahead, float)
@@ -250,7 +252,7 @@ def slab(
                 faces.append((a, b + count, b))
             if layer < len(layers) - 2:
                 faces.append((a, a + count, b + count))
-    length, width = np.ptp(outline, axis=0)
+    length, width = np.ptp(outline if core is None else core, axis=0)
     box: dict[str, object] = {
         "shape": "box",
         "centre_m": middle + (rise - thick / 2) * up,
@@ -258,7 +260,7 @@ def slab(
         "x_axis": lead,
         "y_axis": up,
     }
-    uvs = np.tile(outline / max(length, width) + 0.5, (len(layers), 1))
+    uvs = np.tile(outline / np.ptp(outline, axis=0).max() + 0.5, (len(layers), 1))
     flat = np.vstack(normals)
     flat /= np.linalg.norm(flat, axis=1)[:, None]
     shape = Shape(np.vstack(points), flat, uvs, np.array(faces, np.int64), (box,))
@@ -338,7 +340,7 @@ class Cup:
         base, up, r, t = self.seat + lift_m * self.normal, self.normal, self.radius, self.thick_m
         pad_low = 0.0
         found: Pieces = [
-            ("pad", turned(base, up, [(pad_low, 0), (pad_low, 0.93 * r), (0.4 * t, 0.93 * r), (0.4 * t, 0)], sides=20,
+            ("pad", turned(base, up, [(pad_low, 0), (pad_low, 0.93 * r), (0.4 * t, 0.93 * r), (0.4 * t, 0)], sides=16,
                            proxy=False)),
         ]  # fmt: skip
         inner = self.open_hole
@@ -347,9 +349,9 @@ class Cup:
         dome += [(0.93 * t, 0.88 * r), (t, 0.66 * r)]
         dome += [(t, inner), (0.35 * t, inner)] if inner else [(top, 0.30 * r), (top, 0.0)]
         whole = cylinder(base, base + t * up, r)
-        found.append((self.material, bodied(turned(base, up, dome, sides=24), whole)))
+        found.append((self.material, bodied(turned(base, up, dome, sides=20), whole)))
         if inner:
-            disc = [(0.45 * t, inner + 0.0002), (0.45 * t, 0.0)]
+            disc = [(t - 0.0004, inner + 0.0002), (t - 0.0004, 0.0)]
             found.append((self.hole_material, turned(base, up, disc, sides=18, proxy=False)))
         if self.inlay:
             s = self.inlay
@@ -627,7 +629,7 @@ class Keywork:
         proxy_rod: bool,
     ) -> None:
         """The rod with its arms, cups and rings; posts and rims of the holes go to the root."""
-        self.add([(self.metal, tube([rod.a, rod.b], rod.radius, sides=10, proxy=proxy_rod))], node)
+        self.add([(self.metal, tube([rod.a, rod.b], rod.radius, sides=8, proxy=proxy_rod))], node)
         self.add([(self.metal, shape) for _, shape in rod.standing()])
         for cup in cups:
             lift = max(0.0, sink_of(rod, axis, angle, cup.seat, cup.normal))
@@ -635,6 +637,9 @@ class Keywork:
             self.add(cup.pieces(lift), node)
             if cup.arm:
                 end = cup.seat + (lift + cup.thick_m * 0.8) * cup.normal
+                if cup.open_hole:
+                    off = rod.nearest(end) - end
+                    end = end + 0.85 * cup.radius * unit(off - cup.normal * (off @ cup.normal))
                 self.add([(self.metal, arm(rod.wall, rod.nearest(end), end, clear_m=clear_m))], node)
         for ring in rings:
             lift = max(0.0, sink_of(rod, axis, angle, ring.seat, ring.normal))

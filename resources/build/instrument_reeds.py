@@ -131,7 +131,7 @@ class SingleReed:
     @property
     def half_width_m(self) -> float:
         """Half its width where the lips close."""
-        return self._half_width(self.tip_m) * float(np.sqrt(1 - (self.table - self.bite / 2) ** 2 / self.radius**2))
+        return self._half_width(self.tip_m)
 
     def _reed_at(self, from_tip: ArrayLike) -> Array:
         vamp = 0.52 * self.reed_length
@@ -139,9 +139,8 @@ class SingleReed:
         return np.asarray(0.00012 + (self.reed_thick - 0.00012) * share**1.25)
 
     def _half_width(self, from_tip: float) -> float:
-        low = self.tip_width / 2 / float(np.sqrt(1 - (self.table / self.radius) ** 2))
-        share = np.clip(from_tip / self.beak_length, 0, 1)
-        return float(low + (self.radius - low) * (1 - (1 - share) ** 1.6))
+        share = float(np.clip(from_tip / self.beak_length, 0, 1))
+        return self.tip_width / 2 + (self.radius - self.tip_width / 2) * share**1.25
 
     def pieces(self) -> Pieces:
         """Beak, reed and ligature."""
@@ -151,6 +150,9 @@ class SingleReed:
         return [(self.body, beak), ("cane", reed), *self._ligature()]
 
     def _outline(self, from_tip: float, radius: float, half: float, low: float, high: float) -> Array:
+        """A round section cut off by the table below and the beak's slope above; ``half`` wide where it is widest."""
+        widest = np.clip(0.0, low, high) / radius
+        half = half / float(np.sqrt(1 - widest**2))
         t = np.linspace(0, 2 * np.pi, 40, endpoint=False)
         x, y = half * np.cos(t), np.clip(radius * np.sin(t), low, high)
         z = np.full_like(x, from_tip - self.tip_m)

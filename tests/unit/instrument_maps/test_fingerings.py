@@ -169,7 +169,10 @@ def test_labels_say_what_the_controls_do(instrument: InstrumentMap) -> None:
             position = fingering.label.lstrip("TG")
             assert fingering.label == pressed + position
             assert 1 <= int(position) <= 7
-        elif not any(control.kind in ("key", "hole") for control in instrument.controls):
+        elif any(control.kind in ("key", "hole") for control in instrument.controls):
+            whole = {name: f"{labels[name]}{'h' if value < 1 else ''}" for name, value in fingering.controls.items()}
+            assert fingering.label.split() == (sorted(whole.values()) or ["(open)"])
+        else:
             assert sorted(fingering.label.replace("0", "")) == sorted(pressed)
 
 
