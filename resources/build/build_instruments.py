@@ -28,6 +28,7 @@ from resources.build import (
     instrument_trombone,
     instrument_trumpet,
     instrument_tuba,
+    instrument_tuba_rotary,
 )
 from resources.build.instrument_glb import write
 from resources.build.instrument_mesh import Model
@@ -43,6 +44,7 @@ FAMILIES = (
     instrument_trombone,
     instrument_trumpet,
     instrument_tuba,
+    instrument_tuba_rotary,
 )
 INSTRUMENTS: dict[str, tuple[Callable[[], Any], ...]] = {
     name: makers for family in FAMILIES for name, makers in family.INSTRUMENTS.items()

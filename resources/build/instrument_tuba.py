@@ -74,6 +74,7 @@ class Layout:
     shank: float
     top_bow: float
     bore: float = 0.0090
+    rings: int = 30
     fourth_back: float = 0.0
     thumb: tuple[float, float] = (0.004, -0.016)
     side_valve: tuple[float, float, float] | None = None
@@ -205,7 +206,7 @@ def airway(model: Model, at: Layout, f: Frame) -> None:
     rise = f.at((0.0, at.top_bow - 0.46 * across - 0.015, 0.0))
     outer = joined(rise[None], bow)
     out = f.way(0, 1, 0)
-    bell(model, at.bell, f.at((at.width, at.rim, 0.0)), out, outer, 0.62 * at.branch_r, rings=30)
+    bell(model, at.bell, f.at((at.width, at.rim, 0.0)), out, outer, 0.62 * at.branch_r, rings=at.rings)
     # the branch before it: over the top, down in front of the valves, round at the floor, up to the last valve
     deep = at.branch_r + front + 0.014
     low = floor - 0.25 * half
