@@ -1,7 +1,7 @@
 """The short form of a fingering: what it says of the controls, and the other way round.
 
-Of valves and levers it is their signs put together (``"13"``, ``"T12"``, ``"0"`` for no valve, ``"T0"``); of keys and holes their
-signs sorted, one space between (``"L1 L2 R1"``, ``"(open)"`` for none). A slide's place is not in its label.
+Of valves and levers it is their signs put together (``"13"``, ``"T12"``, ``"0"`` for no valve, ``"T0"``); of keys and
+holes their signs sorted, one space between (``"L1 L2 R1"``, ``"(open)"`` for none). A slide's place is not in it.
 """
 
 from __future__ import annotations

@@ -15,10 +15,10 @@ from app.score.model import Note
 from instrument_maps.library import find_map
 from tests.gui.inspector.hands import child, click, drag, number, type_into
 from widgets.common.chip import Chip
+from widgets.common.fingering_diagram import FingeringDiagram, slide_slots
 from widgets.common.selection import EventKey, Selection
 from widgets.common.session import Session
 from widgets.inspector.by_hand import ByHandLine
-from widgets.common.fingering_diagram import FingeringDiagram, slide_slots
 from widgets.inspector.panel import InspectorPanel
 from widgets.inspector.pitch_reading import pitch_from
 
