@@ -40,14 +40,44 @@ def held(request: pytest.FixtureRequest) -> Held:
     return Held(character, instrument, model, hold_for(character, model, instrument, load_body()))
 
 
+def _away(held: Held, side: str) -> list[tuple[str, int]]:
+    """The places of a hand's fingers that are not at home: a hand gives way for one at a time."""
+    return [
+        (finger, number)
+        for finger, places in stations(held.instrument).items()
+        if finger.startswith(f"{side}.")
+        for number in range(1, len(places))
+    ]
+
+
 def _rounds(held: Held) -> range:
-    """Each finger goes to its first place, then to its second ..."""
-    return range(max(len(places) for places in stations(held.instrument).values()))
+    """All at home; then one finger of each hand after the other at each of its other places."""
+    return range(1 + max(len(_away(held, side)) for side in ("left", "right")))
+
+
+def _numbers(held: Held, place: int) -> dict[str, int]:
+    """At which of its places each finger is in a round."""
+    numbers = dict.fromkeys(stations(held.instrument), 0)
+    for side in ("left", "right"):
+        away = _away(held, side)
+        if 0 < place <= len(away):
+            finger, number = away[place - 1]
+            numbers[finger] = number
+    return numbers
 
 
 def _at(held: Held, place: int) -> dict[str, Station]:
-    """Where the fingers are in a round: those with fewer places at home."""
-    return {finger: places[place if place < len(places) else 0] for finger, places in stations(held.instrument).items()}
+    """Where the fingers are in a round."""
+    return {finger: stations(held.instrument)[finger][number] for finger, number in _numbers(held, place).items()}
+
+
+def _placed(held: Held, place: int) -> dict[str, Placed]:
+    """The same, as the hold takes it."""
+    found = {}
+    for finger, number in _numbers(held, place).items():
+        index = np.full(len(GRID), number)
+        found[finger] = Placed(index, index, np.zeros(len(GRID)))
+    return found
 
 
 def _controls(held: Held, place: int = 0) -> dict[str, np.ndarray]:
@@ -59,12 +89,8 @@ def _controls(held: Held, place: int = 0) -> dict[str, np.ndarray]:
 
 def _fingers(held: Held, place: int = 0) -> JointTransforms:
     """The whole character, only its fingers posed."""
-    placed = {}
-    for finger, places in stations(held.instrument).items():
-        index = np.full(len(GRID), place if place < len(places) else 0)
-        placed[finger] = Placed(index, index, np.zeros(len(GRID)))
     rotations = np.tile(quaternion.IDENTITY, (len(GRID), len(held.character.skeleton.names), 1))
-    turned = finger_rotations(held.hold, _controls(held, place), len(GRID), placed)
+    turned = finger_rotations(held.hold, _controls(held, place), len(GRID), _placed(held, place))
     rotations[:, list(held.hold.finger_joints)] = turned
     return forward(held.character.skeleton, rotations)
 
@@ -75,7 +101,7 @@ def _on_instrument(
     """Take points (F, V, 3) of the posed character to where the hand carries them, in the instrument's frame."""
     wrist, _ = transforms.of(held.character.skeleton.index(f"{hand.side}Hand"))
     still, unturned = np.zeros((len(GRID), 3)), np.tile(quaternion.IDENTITY, (len(GRID), 1))
-    spot, turn = hand_targets(hand, still, unturned, _controls(held, place))
+    spot, turn = hand_targets(hand, still, unturned, _controls(held, place), _placed(held, place))
     return spot[:, None] + quaternion.rotate(turn[:, None], points - wrist[:, None])
 
 
