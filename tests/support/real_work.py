@@ -274,7 +274,7 @@ def work_until_killed(folder: Path) -> None:
     work = Work(folder)
     work.answers.path = LUTKIN
     work.do("file.import_midi")
-    work.until(lambda: len(work.session.project.players) == 3, "the import")
+    work.until(lambda: len(work.session.project.players) == 4, "the import")
     work.picture("imported")
     pin_three(work)
     work.picture("three_fingerings")
@@ -315,7 +315,7 @@ def recover_and_export(folder: Path) -> None:
     assert len(offered) == 1, offered
     work.window.grab().save(str(folder / "20_offered.png"))
     work.program.editor.files.recover(offered[0])
-    work.until(lambda: len(work.session.project.players) == 3, "the recovery")
+    work.until(lambda: len(work.session.project.players) == 4, "the recovery")
     work.pictures = 20
     work.picture("recovered")
     work.do("export.files")

@@ -20,6 +20,7 @@ ROOT = Path(__file__).parents[3]
 MIDI = ROOT / "tests" / "data" / "midi"
 QUARTET = ROOT / "resources" / "examples" / "quartet.mid"
 LUTKIN = MIDI / "ensemble" / "brass_quartet_lutkin_2tpt_tbn_tuba.mid"
+WITH_VIOLA = MIDI / "ensemble" / "flute_oboe_viola_holst_terzetto_mv2_CCBY4.mid"
 
 Run = Callable[..., tuple[int, str, str]]
 
@@ -196,6 +197,8 @@ def test_the_table_for_people(run: Run) -> None:
     status, out, _ = run("inspect", LUTKIN)
     assert status == 0
     assert "trumpet" in out.lower()
+    status, out, _ = run("inspect", WITH_VIOLA)
+    assert status == 0
     assert "not played" in out
 
 

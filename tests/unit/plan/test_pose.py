@@ -66,8 +66,10 @@ def test_limits_lie_around_nothing(target, posture) -> None:  # type: ignore[no-
     for instrument in bundled_maps().values():
         limits = pose_limits(target, instrument, PlayerParameters(posture=posture), load_body())
         for low, high in limits.values():
-            assert low <= -5.0
-            assert high >= 5.0
+            # An instrument that rests on the lap leaves its bell little room.
+            least = 1.0 if target == "bell" else 5.0
+            assert low <= -least
+            assert high >= least
 
 
 def test_shares_make_the_whole_angle() -> None:
