@@ -15,7 +15,6 @@ At rest the frames of all nodes of a model differ from the root's by a translati
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import Literal, NamedTuple, TypeAlias, TypeVar
 
 import msgspec
@@ -424,12 +423,6 @@ class Acoustics(_Table, frozen=True):
     semitones: dict[str, int]
     slide_control: str | None = None
     compensator: str | None = None
-
-    def lengthened(self, controls: Mapping[str, float]) -> float:
-        """How many times as long as the plain tube it is with these controls, the slide closed."""
-        shares = {name: controls.get(name, 0.0) * (2 ** (steps / 12) - 1) for name, steps in self.semitones.items()}
-        again = shares.pop(self.compensator, 0.0) if self.compensator is not None else 0.0
-        return (1 + again) * (1 + sum(shares.values()))
 
 
 class Fingering(_Table, frozen=True):
