@@ -16,12 +16,12 @@ from app.performance.bodies import body_of, character_of, model_of
 from app.project.casting import StagePosition
 from app.project.model import Player
 from app.rig import quaternion
-from app.rig.instrument import node_transforms
 from app.rig.model import Character, InstrumentModel, Skeleton
 from app.rig.skeleton import rest_positions
 from instrument_maps.library import find_map
 from instrument_maps.model import InstrumentMap
 from metadata.model import Posture
+from widgets.viewport.held import Instruments
 from widgets.viewport.poses import Posed
 
 Floats = npt.NDArray[np.float64]
@@ -91,7 +91,7 @@ SITTING_FLESH_M = 0.095
 
 
 class Troupe:
-    """Members of one character and instrument posed together.
+    """Members of one character posed together.
 
     Parameters
     ----------
@@ -111,12 +111,12 @@ class Troupe:
         self._stages = np.array([members[row].world_from_player for row in rows])
         self._bind = self.character.joint_from_mesh
 
-    def joints(self, poses: Sequence[Posed]) -> Floats:
-        """``world_from_joint`` (P, J, 3, 4) of these poses, one for every row."""
-        local = quaternion.to_matrix(np.array([pose.rotations for pose in poses]))
+    def joints(self, rotations: Floats, hips_m: Floats) -> Floats:
+        """``world_from_joint`` (P, J, 3, 4) of joints' rotations (P, J, 4) and places of the hips (P, 3)."""
+        local = quaternion.to_matrix(rotations)
         world = np.empty((*local.shape[:2], 3, 4))
         offsets = np.broadcast_to(self._offsets, (*local.shape[:2], 3)).copy()
-        offsets[:, self._hips] = [pose.hips_m for pose in poses]
+        offsets[:, self._hips] = hips_m
         stage = self._stages
         for joints, parents in self._levels:
             above = stage[:, None] if parents is None else world[:, parents]
@@ -141,7 +141,8 @@ class Stage:
     Attributes
     ----------
     bones : (N, B, 3, 4) float32
-        ``world_from_rest`` of joints, then of the instrument's nodes (from `first_node`), then of the seat.
+        ``world_from_rest`` of joints, then of the instrument's nodes (from `first_node`), then of the seat; of who
+        has no pose all 0.
     joints : (N, J, 3, 4) float64
         ``world_from_joint``.
     shown : (N,) bool
@@ -150,15 +151,20 @@ class Stage:
 
     def __init__(self, members: Sequence[Member]) -> None:
         self.members = tuple(members)
+        count = len(self.members)
         self.first_node = max((len(member.kit.character.skeleton.names) for member in members), default=0)
-        nodes = max((len(member.kit.instrument.node_names) for member in members), default=0)
-        self.seat_bone = self.first_node + nodes
-        self.bones = np.zeros((len(members), self.seat_bone + 1, 3, 4), np.float32)
-        self.joints = np.zeros((len(members), self.first_node, 3, 4))
-        self.poses: list[Posed | None] = [None] * len(members)
-        self.shown = np.zeros(len(members), dtype=bool)
+        self._instruments = Instruments([(member.kit.instrument, member.kit.map) for member in members])
+        self.seat_bone = self.first_node + self._instruments.nodes
+        self.bones = np.zeros((count, self.seat_bone + 1, 3, 4), np.float32)
+        self.joints = np.zeros((count, self.first_node, 3, 4))
+        self.poses: list[Posed | None] = [None] * count
+        self.shown = np.zeros(count, dtype=bool)
         self._troupes = [Troupe(members, rows) for rows in _grouped([id(member.kit.character) for member in members])]
-        self._bands = _grouped([id(member.kit.map) for member in members])
+        self._stages = np.array([member.world_from_player for member in members]).reshape(-1, 3, 4)
+        self._rotations = np.tile(quaternion.IDENTITY, (count, self.first_node, 1))
+        self._hips_m = np.zeros((count, 3))
+        self._held_m = np.zeros((count, 3))
+        self._held_turns = np.tile(quaternion.IDENTITY, (count, 1))
         for row, member in enumerate(members):
             if member.seat_m is not None:
                 self.bones[row, self.seat_bone, :, :3] = member.world_from_player[:, :3]
@@ -166,51 +172,36 @@ class Stage:
 
     def pose(self, poses: Mapping[str, Posed | None]) -> bool:
         """Put everyone into their poses; whether anything is other than before."""
-        fresh = []
+        fresh = False
         for row, member in enumerate(self.members):
             pose = poses.get(member.player_id)
             if pose is not None and pose is not self.poses[row]:
-                self.poses[row] = pose
-                fresh.append(row)
+                self._take(row, pose)
+                fresh = True
         if not fresh:
             return False
-        self.shown[fresh] = True
         for troupe in self._troupes:
-            rows, posed = self._posed(troupe.rows)
-            if rows:
-                chosen = troupe if len(rows) == len(troupe.rows) else Troupe(self.members, rows)
-                joints = chosen.joints(posed)
-                self.bones[rows, : joints.shape[1]] = chosen.skinning(joints)
-                self.joints[rows, : joints.shape[1]] = joints
-        for band in self._bands:
-            rows, posed = self._posed(band)
-            if rows:
-                self._hold(rows, posed)
+            seen = self.shown[troupe.rows]
+            rows, count = troupe.rows[seen], len(troupe.character.skeleton.names)
+            joints = troupe.joints(self._rotations[troupe.rows, :count], self._hips_m[troupe.rows])[seen]
+            self.bones[rows, :count] = troupe.skinning(joints)
+            self.joints[rows, :count] = joints
+        held = np.empty((len(self.members), 3, 4))
+        rotation = self._stages[..., :3]
+        held[..., :3] = rotation @ quaternion.to_matrix(self._held_turns)
+        held[..., 3] = (rotation @ self._held_m[..., None])[..., 0] + self._stages[..., 3]
+        held[~self.shown] = 0.0
+        self.bones[:, self.first_node : self.seat_bone] = self._instruments.matrices(held)
         return True
 
-    def _posed(self, rows: Sequence[int] | Ints) -> tuple[list[int], list[Posed]]:
-        own = [(int(row), pose) for row in rows if (pose := self.poses[int(row)]) is not None]
-        return [row for row, _ in own], [pose for _, pose in own]
-
-    def _hold(self, rows: list[int], poses: list[Posed]) -> None:
-        """Matrices of the nodes of instruments of one map."""
-        kit = self.members[rows[0]].kit
-        controls = {
-            control.name: np.array([pose.controls.get(control.name, 0.0) for pose in poses])
-            for control in kit.map.controls
-        }
-        places, turns = node_transforms(kit.instrument, kit.map, controls, len(rows))
-        stages = np.array([self.members[row].world_from_player for row in rows])
-        held = stages[:, :, :3] @ quaternion.to_matrix(np.array([pose.instrument_rotation for pose in poses]))
-        held_m = (stages[:, :, :3] @ np.array([pose.instrument_position_m for pose in poses])[..., None])[..., 0]
-        held_m += stages[:, :, 3]
-        rotation = held[:, None] @ quaternion.to_matrix(turns)
-        at = held_m[:, None] + (held[:, None] @ places[..., None])[..., 0]
-        # From where the vertices are at rest: the node's rest place goes to its place now.
-        at -= (rotation @ kit.instrument.node_positions_m[None, :, :, None])[..., 0]
-        nodes = slice(self.first_node, self.first_node + rotation.shape[1])
-        self.bones[rows, nodes, :, :3] = rotation
-        self.bones[rows, nodes, :, 3] = at
+    def _take(self, row: int, pose: Posed) -> None:
+        self.poses[row] = pose
+        self.shown[row] = True
+        self._rotations[row, : len(pose.rotations)] = pose.rotations
+        self._hips_m[row] = pose.hips_m
+        self._held_m[row] = pose.instrument_position_m
+        self._held_turns[row] = pose.instrument_rotation
+        self._instruments.work(row, pose.controls)
 
     def index(self, player_id: str) -> int | None:
         """The row of a player; None where there is none."""
