@@ -146,7 +146,7 @@ class Work:
         part = self.session.project.part(self.session.player)
         note = next(note for note in part.notes if note.id == note_id)
         seconds = self.session.project.score.tempo_map.seconds(note.onset_tick + note.duration_tick / 2)
-        Hand(roll.plot.viewport()).click((roll.axis.x_px(seconds), roll.y_px(note.pitch + 0.5)))
+        Hand(roll.plot).click((roll.axis.x_px(seconds), roll.y_px(note.pitch + 0.5)))
 
 
 def pin_three(work: Work) -> None:
@@ -222,7 +222,7 @@ def strain(work: Work) -> None:
     inside = [note for note in part.notes if score.tick_of_bar(17) <= note.onset_tick < score.tick_of_bar(19)]
     high = max(inside, key=lambda note: note.pitch)
     left, right = (roll.axis.x_px(score.tempo_map.seconds(float(score.tick_of_bar(bar)))) for bar in (17, 19))
-    hand = Hand(roll.plot.viewport())
+    hand = Hand(roll.plot)
     hand.drag((left + 2, roll.y_px(high.pitch + 4)), (right - 2, roll.y_px(min(n.pitch for n in inside) - 1)))
     assert set(work.session.selection.notes) >= {note.id for note in inside[1:-1]}
     work.key(roll.plot, Qt.Key.Key_X)

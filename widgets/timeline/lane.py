@@ -1,7 +1,7 @@
 """What every lane of the timeline is: a header, and a plot whose time axis is that of all lanes.
 
-A lane draws with `LaneItem`s (in pixels of the plot, with times from ``axis.x_px``) or with pyqtgraph's items (in
-seconds and the lane's own values, through ``view_box.addItem``), and answers the mouse by overriding the hooks.
+A lane draws with `LaneItem`s, in pixels of the plot with times from ``axis.x_px``, and answers the mouse by overriding
+the hooks.
 """
 
 from __future__ import annotations
@@ -123,7 +123,6 @@ class Lane(QWidget):
         column.addStretch(1)
 
         self.plot = Plot(self)
-        self.view_box = self.plot.view_box
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
         row.setSpacing(0)
@@ -219,8 +218,6 @@ class Lane(QWidget):
         """Change the vertical scale."""
         if (bottom, top) != self._y_range:
             self._y_range = (bottom, top)
-            self.view_box.setYRange(bottom, top, padding=0)
-            self.view_box.updateMatrix()
             self.update_items()
 
     def y_px(self, value: float) -> float:
@@ -244,9 +241,7 @@ class Lane(QWidget):
 
     def update_items(self) -> None:
         """Draw everything anew."""
-        # Through the scene, which collects: told directly, a view is painted before other scenes have told theirs, and
-        # again afterwards.
-        self.background.update()
+        self.plot.update()
 
     @property
     def folded(self) -> bool:
@@ -416,17 +411,10 @@ class Lane(QWidget):
         self.drag(self._mouse(self._last))
 
     def _axis_changed(self) -> None:
-        self.view_box.setXRange(self.axis.start_s, self.axis.end_s, padding=0)
-        # Now: found out while painting it would have everything painted twice.
-        self.view_box.updateMatrix()
         self.axis_changed()
         self.update_items()
 
     def plot_resized(self) -> None:
-        self.background.prepareGeometryChange()
-        for item in self.view_box.childItems():
-            if isinstance(item, LaneItem):
-                item.prepareGeometryChange()
         if self.isVisible() and not self._folded:
             self.axis.set_width(self.plot.width())
 
@@ -449,7 +437,7 @@ class Lane(QWidget):
 
     def _paint_surfaces(self) -> None:
         tokens = self.session.tokens
-        self.plot.setBackground(QColor(tokens.sunken))
+        self.plot.update()
         palette = self.header.palette()
         palette.setColor(QPalette.ColorRole.Window, QColor(tokens.surface))
         palette.setColor(QPalette.ColorRole.WindowText, QColor(tokens.text))

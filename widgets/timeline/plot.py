@@ -6,11 +6,20 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-import pyqtgraph as pg
 from pyqtgraph.Qt.internals import PrimitiveArray
 from PySide6.QtCore import QEvent, QLineF, QPoint, QRectF, Qt
-from PySide6.QtGui import QColor, QContextMenuEvent, QKeyEvent, QMouseEvent, QPainter, QPen, QResizeEvent, QWheelEvent
-from PySide6.QtWidgets import QStyleOptionGraphicsItem, QWidget
+from PySide6.QtGui import (
+    QColor,
+    QContextMenuEvent,
+    QKeyEvent,
+    QMouseEvent,
+    QPainter,
+    QPaintEvent,
+    QPen,
+    QResizeEvent,
+    QWheelEvent,
+)
+from PySide6.QtWidgets import QSizePolicy, QWidget
 
 if TYPE_CHECKING:
     from widgets.timeline.lane import Lane
@@ -61,27 +70,28 @@ class LaneMouse:
         return bool(self.modifiers & Qt.KeyboardModifier.AltModifier)
 
 
-class LaneItem(pg.GraphicsObject):  # type: ignore[misc]
-    """Something drawn over the whole plot in pixels. Override `paint_px`, and draw only what meets ``exposed``."""
+class LaneItem:
+    """Something drawn over the whole plot in pixels. Override `paint_px`, and draw only what meets ``exposed``.
+
+    Parameters
+    ----------
+    lane : Lane
+    z : float
+        What has more lies above.
+    """
 
     def __init__(self, lane: Lane, z: float = 0.0) -> None:
-        super().__init__()
         self.lane = lane
-        self.setFlag(self.GraphicsItemFlag.ItemUsesExtendedStyleOption)
-        self.setParentItem(lane.view_box)
-        self.setZValue(z)
+        self.z = z
+        lane.plot.add(self)
+
+    def update(self) -> None:
+        """Draw anew, soon."""
+        self.lane.plot.update()
 
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
         """Draw; x and y in pixels of the plot, see ``lane.axis.x_px`` and ``lane.y_px``."""
         raise NotImplementedError
-
-    # Qt overrides
-
-    def boundingRect(self) -> QRectF:
-        return self.lane.plot_rect
-
-    def paint(self, painter: QPainter, option: QStyleOptionGraphicsItem, widget: QWidget | None = None) -> None:
-        self.paint_px(painter, option.exposedRect)
 
 
 class Background(LaneItem):
@@ -127,30 +137,43 @@ class Background(LaneItem):
         painter.fillRect(QRectF(left, exposed.top(), right - left, exposed.height()) & exposed, shade)
 
 
-class Plot(pg.GraphicsView):  # type: ignore[misc]
-    """The drawing area of a lane: pyqtgraph draws, the lane has the mouse."""
+class Plot(QWidget):
+    """The drawing area of a lane, and its mouse and keys.
+
+    A plain widget: views of graphics scenes hear of changes one after another, and each round of theirs painted all
+    lanes again.
+    """
 
     def __init__(self, lane: Lane) -> None:
-        super().__init__(lane, background=None)
+        super().__init__(lane)
         self._lane = lane
-        self.setCacheMode(self.CacheModeFlag.CacheNone)
+        self._items: list[LaneItem] = []
         self.setMinimumSize(40, 0)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         self.setMouseTracking(True)
         self.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
-        # What is dropped here is for the window: a view of graphics would take it for its items.
-        self.setAcceptDrops(False)
-        self.viewport().setAcceptDrops(False)
-        self.setRenderHint(QPainter.RenderHint.Antialiasing, False)
-        self.view_box = pg.ViewBox(enableMouse=False, enableMenu=False, defaultPadding=0.0)
-        self.view_box.disableAutoRange()
-        self.setCentralItem(self.view_box)
+        self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
 
-    # Qt overrides: nothing reaches pyqtgraph's scene, whose own hovering would cost more than the drawing.
+    def add(self, item: LaneItem) -> None:
+        """Draw this too."""
+        self._items.append(item)
+        self._items.sort(key=lambda each: each.z)
+        self.update()
 
-    def resizeEvent(self, event: QResizeEvent | None) -> None:
+    # Qt overrides
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        painter = QPainter(self)
+        painter.fillRect(event.rect(), QColor(self._lane.session.tokens.sunken))
+        exposed = QRectF(event.rect())
+        for item in self._items:
+            painter.save()
+            item.paint_px(painter, exposed)
+            painter.restore()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
         super().resizeEvent(event)
-        if event is not None:
-            self._lane.plot_resized()
+        self._lane.plot_resized()
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         self._lane.pressed(event)

@@ -67,7 +67,7 @@ class Stage:
 
     @property
     def hand(self) -> Hand:
-        return Hand(self.roll.plot.viewport())
+        return Hand(self.roll.plot)
 
     def place(self, tick: float, pitch: float) -> Place:
         """Pixels of the roll; a pitch's row is hit in its middle."""

@@ -63,7 +63,7 @@ def middle(lane: RegionLane, event_id: str) -> QPoint:
 
 def viewport(lane: Lane) -> QWidget:
     """What gets the mouse."""
-    return lane.plot.viewport()
+    return lane.plot
 
 
 def click(lane: Lane, place: QPoint | QPointF, modifiers: Qt.KeyboardModifier = NONE) -> None:

@@ -96,7 +96,7 @@ def test_what_is_dropped_on_a_lane_reaches_the_window(
 ) -> None:
     assert program.window.acceptDrops()
     for lane in panel.lanes.values():
-        widget: QWidget | None = lane.plot.viewport()
+        widget: QWidget | None = lane.plot
         while widget is not None and not widget.acceptDrops():
             widget = widget.parentWidget()
         assert widget is program.window, lane.id

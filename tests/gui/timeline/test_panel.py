@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import replace
 
 import msgspec
 import pytest
-from PySide6.QtCore import QPoint, Qt
+from PySide6.QtCore import QPoint, QPointF, QRectF, Qt
+from PySide6.QtGui import QPainter
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QMenu, QWidget
 from pytestqt.qtbot import QtBot
@@ -22,6 +24,7 @@ from widgets.common.session import Session
 from widgets.common.timeline_view import Ghosts, Tool
 from widgets.common.tokens import LIGHT
 from widgets.timeline.panel import TimelinePanel
+from widgets.timeline.plot import Background
 
 
 def menu_of(panel: TimelinePanel) -> QMenu:
@@ -41,7 +44,27 @@ def test_all_lanes_share_one_axis_and_one_width(stage: Stage) -> None:
     assert widths == {stage.panel.axis.width_px}
     stage.panel.axis.show(1.0, 2.0)
     for lane in stage.panel.lanes.values():
-        assert lane.view_box.viewRange()[0] == pytest.approx([1.0, 2.0])
+        seen = [lane.mouse_at(QPointF(x, 5.0)).time_s for x in (0.0, float(stage.panel.axis.width_px))]
+        assert seen == pytest.approx([1.0, 2.0])
+
+
+def test_a_scroll_draws_every_lane_once(stage: Stage, monkeypatch: pytest.MonkeyPatch) -> None:
+    drawn: Counter[str] = Counter()
+    draw = Background.paint_px
+
+    def counted(background: Background, painter: QPainter, exposed: QRectF) -> None:
+        drawn[background.lane.id] += 1
+        draw(background, painter, exposed)
+
+    stage.panel.axis.show(0.5, 1.5)
+    QApplication.processEvents()
+    monkeypatch.setattr(Background, "paint_px", counted)
+    stage.panel.axis.pan(0.25)
+    for _ in range(3):
+        QApplication.processEvents()
+    shown = [lane.id for lane in stage.panel.lanes.values() if not lane.plot.visibleRegion().isEmpty()]
+    assert len(shown) > 3
+    assert drawn == dict.fromkeys(shown, 1)
 
 
 def test_a_lane_folds_and_unfolds_by_its_button(stage: Stage) -> None:
@@ -141,7 +164,7 @@ def test_a_piece_without_players_and_notes_says_what_to_do(qtbot: QtBot, qt_app:
     qtbot.waitExposed(panel)
     assert panel.roll.hint()
     panel.set_tool(Tool.DRAW)
-    hand = Hand(panel.roll.plot.viewport())
+    hand = Hand(panel.roll.plot)
     hand.drag((100.0, 40.0), (200.0, 60.0))
     hand.double_click((150.0, 40.0))
     panel.fit()

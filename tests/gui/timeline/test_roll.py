@@ -510,7 +510,7 @@ def test_a_contact_that_the_motion_breaks_is_said_at_its_note(stage: Stage) -> N
     stage.session.set_broken({"p1.1.1": (broken,)})
     stage.hand.move(stage.middle("1:3"))
     assert "9 mm" in stage.roll.plot.toolTip()
-    stage.roll.plot.viewport().repaint()
+    stage.roll.plot.repaint()
     assert stage.roll.labels._problems >= {3}
     stage.session.set_broken({})
     stage.hand.move(stage.middle("1:2"))
@@ -528,7 +528,7 @@ def test_the_notes_behind_are_drawn_once_until_they_or_what_is_shown_change(stag
     def colour(note_id: str) -> str:
         QApplication.processEvents()
         x, y = stage.middle(note_id)
-        picture = roll.plot.viewport().grab().toImage()
+        picture = roll.plot.grab().toImage()
         ratio = picture.devicePixelRatio()
         return picture.pixelColor(round(x * ratio), round(y * ratio)).name()
 

@@ -24,7 +24,7 @@ class NumberField(QLineEdit):
     """
 
     def __init__(self, lane: Lane) -> None:
-        super().__init__(lane.plot.viewport())
+        super().__init__(lane.plot)
         self.setObjectName("number_field")
         self._lane = lane
         self._decimals = 2
