@@ -31,14 +31,14 @@ Posture: TypeAlias = Literal["standing", "seated"]
 _Kind = TypeVar("_Kind")
 
 FINGERS = ("thumb", "index", "middle", "ring", "little")
-PLACES = ("pad", "side", "pad_middle", "side_middle")
+PLACES = ("pad", "side", "pad_middle", "side_middle", "pad_proximal", "side_proximal")
 PARTS = frozenset(
     f"{hand}.{part}"
     for hand in ("left", "right")
     for part in (*(f"{finger}.{place}" for finger in FINGERS for place in PLACES), "palm", "thumb_web")
-)
+) - {f"{hand}.thumb.{place}_proximal" for hand in ("left", "right") for place in ("pad", "side")}
 """Body landmarks a contact may name: ``right.index.pad`` (of the last phalanx), ``left.ring.pad_middle`` (of the
-one before it), ``left.palm``."""
+one before it), ``left.index.side_proximal`` (of the first; a thumb has but two outside the palm), ``left.palm``."""
 
 MOVERS = frozenset(f"{hand}.{mover}" for hand in ("left", "right") for mover in (*FINGERS, "hand"))
 """What may move a control: a finger, or a whole hand (a playing slide)."""

@@ -382,7 +382,7 @@ def _tip(problem: Problem, scene: Scene, one: Solved) -> tuple[int, FloatArray]:
     part = scene.instrument_map.contacts[one.station.contacts[0]].part
     transforms = wrist_from_joint(hand, joint_rotations(hand, one.angles[-1:]))
     point = skinned(wrist_from_mesh(hand, transforms), hand.landmarks[part][:, :, None])[0, 0]
-    joint = 1 if part.endswith("_middle") else 2
+    joint = {"proximal": 0, "middle": 1}.get(part.partition("_")[2], 2)
     carrier = transforms[0, 1 + 3 * one.number + joint]
     return joint, (point - carrier[:, 3]) @ carrier[:, :3]
 

@@ -102,7 +102,7 @@ def _hand(skeleton: Skeleton, skin: _Skin, side: str) -> dict[str, Landmark]:
     for finger in FINGERS:
         names = profile.fingers[side][finger].joints  # type: ignore[index]
         joints += [skeleton.index(name) for name in names]
-        for order, place in ((0, "pad_proximal"), (1, "pad_middle"), (2, "pad")):
+        for order, phalanx in ((0, "_proximal"), (1, "_middle"), (2, "")):
             if finger == "thumb" and order == 0:
                 continue
             joint = skeleton.index(names[order])
@@ -119,11 +119,9 @@ def _hand(skeleton: Skeleton, skin: _Skin, side: str) -> dict[str, Landmark]:
             along = (skin.positions[own] - rest[joint]) @ bone
             reach = float(along.max()) if order == 2 else float(np.linalg.norm(rest[following] - rest[joint]))
             middle = rest[joint] + bone * reach * (0.5 if order < 2 else 0.55)
-            places[f"{finger}.{place}"] = _patch(skin, own, middle, palmar / np.linalg.norm(palmar), PAD_VERTICES)
-            if order:
-                side_name = "side" if order == 2 else "side_middle"
-                direction = thumbward / np.linalg.norm(thumbward)
-                places[f"{finger}.{side_name}"] = _patch(skin, own, middle, direction, SIDE_VERTICES)
+            for place, direction, count in (("pad", palmar, PAD_VERTICES), ("side", thumbward, SIDE_VERTICES)):
+                towards = direction / np.linalg.norm(direction)
+                places[f"{finger}.{place}{phalanx}"] = _patch(skin, own, middle, towards, count)
     hand = np.flatnonzero(skin.weights[:, joints].sum(axis=1) > 0.5)
     wrist, knuckle = rest[joints[0]], rest[skeleton.index(f"{side}MiddleProximal")]
     down = np.array([0.0, -1.0, 0.0])

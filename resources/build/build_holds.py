@@ -3,7 +3,7 @@
 Run it whenever a character, an instrument's model or map, the body's limits or the fit itself has changed: a test
 says when.
 
-    python -m resources.build.build_holds [CHARACTER ...]
+    python -m resources.build.build_holds [CHARACTER | INSTRUMENT ...]
 """
 
 from __future__ import annotations
@@ -21,13 +21,14 @@ from metadata.load import load_body
 
 
 def main(wanted: list[str]) -> None:
-    """Fit what is not up to date."""
-    body = load_body()
-    for character_id in characters():
-        if wanted and character_id not in wanted:
-            continue
+    """Fit what is not up to date: of everybody and everything, or of those named."""
+    body, maps = load_body(), bundled_maps()
+    unknown = set(wanted) - set(characters()) - set(maps)
+    if unknown:
+        sys.exit(f"no character and no instrument has this name: {', '.join(sorted(unknown))}")
+    for character_id in [name for name in characters() if name in wanted] or characters():
         character = bundled_character(character_id)
-        for instrument in bundled_maps().values():
+        for instrument in [maps[name] for name in maps if name in wanted] or maps.values():
             model = load_instrument(model_path(instrument), instrument)
             path, digest = bundled_path(character_id, instrument.id), digest_of(character, model, instrument, body)
             if read_hold(path, digest, fit_lips(character, instrument, body)) is not None:

@@ -43,7 +43,7 @@ def _phalanx_length_m(
 def _finger(
     body: Surface, fit: SkeletonFit, tips: dict[str, np.ndarray], side: str, finger: str
 ) -> dict[str, np.ndarray]:
-    """Pads of all phalanges and the thumb's side of the outer two."""
+    """Pads of all phalanges and their thumb's side."""
     sign = 1.0 if side == "left" else -1.0
     joints = [side + finger + phalanx for phalanx in phalanges(finger)]
     nails = np.unique(body.triangles[NAIL_MATERIAL])
@@ -51,7 +51,7 @@ def _finger(
     nail = nails[distal_weight[nails] > 0.5]
     nail_direction = body.normals[nail].mean(axis=0)
     places = {}
-    names = {0: "pad_proximal", 1: "pad_middle", 2: "pad"}
+    names = {0: "_proximal", 1: "_middle", 2: ""}
     for order, joint in enumerate(joints):
         if finger == "Thumb" and order == 0:
             continue
@@ -64,9 +64,8 @@ def _finger(
         thumb_side = np.cross(dorsal, axis) * -sign
         middle = frame[:3, 3] + axis * length * (0.5 if order < 2 else 0.55)
         own = np.flatnonzero(body.weights[:, fit.index(joint)] > (0.9 if order == 2 else 0.6))
-        places[names[order]] = _patch(body, own, middle, -dorsal, PAD_VERTICES)
-        if order > 0:
-            places["side" if order == 2 else "side_middle"] = _patch(body, own, middle, thumb_side, 4)
+        places["pad" + names[order]] = _patch(body, own, middle, -dorsal, PAD_VERTICES)
+        places["side" + names[order]] = _patch(body, own, middle, thumb_side, 4)
     return places
 
 
