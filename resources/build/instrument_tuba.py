@@ -1,8 +1,9 @@
 """Euphonium, baritone, tubas: upright instruments held before the body.
 
 Sizes are those of common instruments. Euphonium: height 680 mm, bell 300 mm, valves 34 mm apart with a way of 18 mm,
-the fourth at the side for the left hand. Baritone: bell 240 mm, a narrower bore. Tuba: B flat height 920 mm, bell
-430 mm; valves 32 mm apart with a way of 17 mm, the fourth of a row nearer to the player for the little finger.
+the fourth at the side for the left hand. Baritone: bell 240 mm, a narrower bore. Tubas: B flat height 920 mm, bell
+430 mm; valves 32 mm apart with a way of 17 mm, the fourth of a row nearer to the player for the little finger; E flat
+860 mm, bell 410 mm, three valves 35 mm apart with a way of 18 mm and the fourth at the side.
 
 Instruments with valves on top carry their bell on the player's right: the row of valves goes to the right, off the
 player, and the fingers of the right hand lie on it from behind. An instrument is drawn in a frame with the axes "from
@@ -54,6 +55,7 @@ class Layout:
     fourth_back : how much nearer to the player the fourth valve of a row is, for the little finger
     thumb : the thumb's ring above the valves' level, and to the front
     side_valve : place of the fourth valve of a compensating instrument, its button's height second
+    side_grip : where on its casing the left middle finger and the thumb lie, above the knuckles' level
     """
 
     middle: tuple[float, float, float]
@@ -78,6 +80,7 @@ class Layout:
     fourth_back: float = 0.0
     thumb: tuple[float, float] = (0.004, -0.016)
     side_valve: tuple[float, float, float] | None = None
+    side_grip: tuple[float, float] = (-0.012, 0.0)
     left_grip: tuple[float, float] = (-0.30, 60.0)
 
     def frame(self) -> Frame:
@@ -161,6 +164,21 @@ TUBA_BB = Layout(
     bore=0.0105,
     fourth_back=0.027,
     thumb=(0.004, -0.018),
+)
+
+TUBA_EB = replace(
+    TUBA_BB,
+    middle=(0.080, 0.0, 0.120),
+    bottom=-0.558,
+    rim=0.305,
+    width=0.315,
+    branch_r=0.050,
+    bell=Bell(0.2050, 0.086, 0.62),
+    row=3,
+    apart=0.035,
+    side_valve=(-0.090, -0.228, 0.026),
+    side_grip=(0.005, 0.010),
+    top_bow=-0.020,
 )
 
 
@@ -334,8 +352,8 @@ def contacts(at: Layout) -> list[dict[str, object]]:
         touch("left.index.pad", "valve_4", f.at(at.side_valve), up, "valve_4")
         foot = top - at.piston.button
         for part, v, way in (
-            ("left.middle.pad", foot - 0.012, f.way(0.6, 0, 0.8)),
-            ("left.thumb.pad", foot + 0.000, f.way(-0.55, 0, -0.84)),
+            ("left.middle.pad", foot + at.side_grip[0], f.way(0.6, 0, 0.8)),
+            ("left.thumb.pad", foot + at.side_grip[1], f.way(-0.55, 0, -0.84)),
         ):
             touch(
                 part,
@@ -369,5 +387,6 @@ LAYOUTS = {
     "euphonium_baritone_Bb_treble": EUPHONIUM,
     "baritone_Bb": BARITONE,
     "tuba_BBb": TUBA_BB,
+    "tuba_Eb": TUBA_EB,
 }
 INSTRUMENTS = {name: (partial(build, at), partial(contacts, at)) for name, at in LAYOUTS.items()}
