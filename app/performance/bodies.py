@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from app.performance.cache import IdentityCache
+from app.identity_cache import IdentityCache
 from app.project.model import Player
 from app.rig.character import bundled_character
 from app.rig.hold import Hold
@@ -14,8 +14,9 @@ from instrument_maps.model import InstrumentMap
 from metadata.load import load_body
 from metadata.model import Body
 
-_MODELS: IdentityCache[InstrumentModel] = IdentityCache(16)
-_HOLDS: IdentityCache[Hold] = IdentityCache(64)
+_MODELS: IdentityCache[InstrumentModel] = IdentityCache(128)
+"""More than there are instruments: in an orchestra with one more than these, each would be read again at every edit."""
+_HOLDS: IdentityCache[Hold] = IdentityCache(256)
 
 
 def character_of(player: Player) -> Character:

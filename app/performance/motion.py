@@ -10,10 +10,10 @@ from collections.abc import Callable
 import numpy as np
 
 from app.errors import Cancelled
+from app.identity_cache import IdentityCache
 from app.motion.model import Motion
 from app.motion.perform import Playing, prepare
 from app.performance.bodies import body_of, character_of, hold_of
-from app.performance.cache import IdentityCache
 from app.performance.ensemble import Performance
 from app.performance.span import FrameSpan
 from app.project.model import Player

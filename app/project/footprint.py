@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 import numpy.typing as npt
 
+from app.identity_cache import IdentityCache
 from app.project.casting import Footprint
 from app.rig import quaternion
 from instrument_maps.model import ROOT, Box, Capsule, Carriage, Cone, Cylinder, InstrumentMap, Ring
@@ -15,11 +16,17 @@ from instrument_maps.vocabulary import vocabulary
 LIPS_AHEAD_M = 0.12
 """The lips are so far before the middle of the body."""
 
+_FOOTPRINTS: IdentityCache[Footprint] = IdentityCache(128)
+
 
 def footprint(instrument: InstrumentMap | None) -> Footprint:
     """The room that a player of an instrument takes; of nobody knows which, what a body takes."""
     if instrument is None:
         return Footprint(row=len(vocabulary().seating))
+    return _FOOTPRINTS.get((instrument,), lambda: _footprint(instrument))
+
+
+def _footprint(instrument: InstrumentMap) -> Footprint:
     family = vocabulary().family(instrument.plays)
     seats = [
         (row, place)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from app.performance.cache import IdentityCache
+from app.identity_cache import IdentityCache
 
 
 def test_the_same_object_gets_the_same_result() -> None:
