@@ -241,7 +241,7 @@ class Lane(QWidget):
 
     def update_items(self) -> None:
         """Draw everything anew."""
-        self.plot.update()
+        self.plot.redraw()
 
     @property
     def folded(self) -> bool:
@@ -437,7 +437,7 @@ class Lane(QWidget):
 
     def _paint_surfaces(self) -> None:
         tokens = self.session.tokens
-        self.plot.update()
+        self.plot.redraw()
         palette = self.header.palette()
         palette.setColor(QPalette.ColorRole.Window, QColor(tokens.surface))
         palette.setColor(QPalette.ColorRole.WindowText, QColor(tokens.text))

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from functools import cached_property
-from operator import attrgetter
+from operator import attrgetter, is_
 
 import numpy as np
 import numpy.typing as npt
@@ -17,7 +17,27 @@ Integers = npt.NDArray[np.int64]
 Flags = npt.NDArray[np.bool_]
 
 
-class NoteTable:
+class Sounding:
+    """Notes in time, ordered by onset.
+
+    Parameters
+    ----------
+    onset_s, end_s, pitch : array (N,)
+    """
+
+    def __init__(self, onset_s: Floats, end_s: Floats, pitch: Floats) -> None:
+        self.onset_s, self.end_s, self.pitch = onset_s, end_s, pitch
+        # The latest end so far never falls: the first note that reaches into a range is found by bisection.
+        self._latest_end_s: Floats = np.maximum.accumulate(end_s) if len(end_s) else end_s
+
+    def visible(self, start_s: float, end_s: float) -> slice:
+        """The notes from the first to the last that sounds between two times (some between may not)."""
+        first = int(self._latest_end_s.searchsorted(start_s, side="right"))
+        last = int(self.onset_s.searchsorted(end_s, side="left"))
+        return slice(first, max(first, last))
+
+
+class NoteTable(Sounding):
     """Arrays with an entry for every note of a part, ordered by onset.
 
     Parameters
@@ -34,21 +54,12 @@ class NoteTable:
         # A loop of Python's would take three times as long, and the first picture needs every player's notes.
         self.onset_tick: Floats = np.fromiter(map(attrgetter("onset_tick"), notes), np.float64, count)
         duration = np.fromiter(map(attrgetter("duration_tick"), notes), np.float64, count)
-        self.pitch: Floats = np.fromiter(map(attrgetter("pitch"), notes), np.float64, count)
+        pitch = np.fromiter(map(attrgetter("pitch"), notes), np.float64, count)
         self.velocity: Floats = np.fromiter(map(attrgetter("velocity"), notes), np.float64, count)
-        self.onset_s: Floats = tempo.seconds(self.onset_tick)
-        self.end_s: Floats = tempo.seconds(self.onset_tick + duration)
-        # The latest end so far never falls: the first note that reaches into a range is found by bisection.
-        self._latest_end_s: Floats = np.maximum.accumulate(self.end_s) if count else self.end_s
+        super().__init__(tempo.seconds(self.onset_tick), tempo.seconds(self.onset_tick + duration), pitch)
 
     def __len__(self) -> int:
         return len(self.part.notes)
-
-    def visible(self, start_s: float, end_s: float) -> slice:
-        """The notes from the first to the last that sounds between two times (some between may not)."""
-        first = int(np.searchsorted(self._latest_end_s, start_s, side="right"))
-        last = int(np.searchsorted(self.onset_s, end_s, side="left"))
-        return slice(first, max(first, last))
 
     @cached_property
     def index(self) -> dict[str, int]:
@@ -83,3 +94,50 @@ class NoteTable:
         near = self.visible(start_s, end_s)
         hit = (self.end_s[near] > start_s) & (self.pitch[near] >= low_pitch) & (self.pitch[near] <= high_pitch)
         return [self.part.notes[place].id for place in (np.flatnonzero(hit) + near.start).tolist()]
+
+
+class Together(Sounding):
+    """The notes of several tables as one: what is visible of fifty players is found at once.
+
+    Parameters
+    ----------
+    tables : sequence of NoteTable
+
+    Attributes
+    ----------
+    owner : array (N,)
+        Number of the table that every note is of.
+    """
+
+    def __init__(self, tables: Sequence[NoteTable]) -> None:
+        onset_s, end_s, pitch = (
+            np.concatenate([np.empty(0), *(getattr(table, name) for table in tables)])
+            for name in ("onset_s", "end_s", "pitch")
+        )
+        owner = np.repeat(np.arange(len(tables), dtype=np.int16), [len(table) for table in tables])
+        # Stable: it finds the runs that are in order already.
+        order = np.argsort(onset_s, kind="stable")
+        self.owner: npt.NDArray[np.int16] = owner[order]
+        super().__init__(onset_s[order], end_s[order], pitch[order])
+
+
+class Behind:
+    """The players behind the one in front.
+
+    Parameters
+    ----------
+    tables : sequence of NoteTable
+    colours : sequence of str
+        For each table.
+    before : Behind, optional
+        What was there before: of the same tables it has their notes together.
+    """
+
+    def __init__(self, tables: Sequence[NoteTable], colours: Sequence[str], before: Behind | None = None) -> None:
+        self.tables, self.colours = tuple(tables), tuple(colours)
+        same = before is not None and len(before.tables) == len(tables) and all(map(is_, before.tables, tables))
+        self.notes: Together = before.notes if before is not None and same else Together(self.tables)
+
+    def looks_like(self, other: Behind) -> bool:
+        """Whether it shows the same notes in the same colours."""
+        return self.notes is other.notes and self.colours == other.colours

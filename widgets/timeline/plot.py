@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from pyqtgraph.Qt.internals import PrimitiveArray
-from PySide6.QtCore import QEvent, QLineF, QPoint, QRectF, Qt
+from PySide6.QtCore import QEvent, QLineF, QPoint, QRectF, QSize, QSizeF, Qt
 from PySide6.QtGui import (
     QColor,
     QContextMenuEvent,
@@ -16,6 +16,7 @@ from PySide6.QtGui import (
     QPainter,
     QPaintEvent,
     QPen,
+    QPixmap,
     QResizeEvent,
     QWheelEvent,
 )
@@ -87,7 +88,7 @@ class LaneItem:
 
     def update(self) -> None:
         """Draw anew, soon."""
-        self.lane.plot.update()
+        self.lane.plot.redraw()
 
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
         """Draw; x and y in pixels of the plot, see ``lane.axis.x_px`` and ``lane.y_px``."""
@@ -141,13 +142,14 @@ class Plot(QWidget):
     """The drawing area of a lane, and its mouse and keys.
 
     A plain widget: views of graphics scenes hear of changes one after another, and each round of theirs painted all
-    lanes again.
+    lanes again. What is drawn is kept as a picture, so that the playhead passing by draws nothing anew.
     """
 
     def __init__(self, lane: Lane) -> None:
         super().__init__(lane)
         self._lane = lane
         self._items: list[LaneItem] = []
+        self._picture: QPixmap | None = None
         self.setMinimumSize(40, 0)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         self.setMouseTracking(True)
@@ -158,18 +160,42 @@ class Plot(QWidget):
         """Draw this too."""
         self._items.append(item)
         self._items.sort(key=lambda each: each.z)
+        self.redraw()
+
+    def redraw(self) -> None:
+        """Something that is drawn is other now."""
+        self._picture = None
         self.update()
+
+    def _drawn(self) -> QPixmap:
+        ratio = self.devicePixelRatioF()
+        size = (QSizeF(self.size()) * ratio).toSize()
+        if self._picture is None or self._picture.size() != size or self._picture.devicePixelRatio() != ratio:
+            self._picture = self._draw(size, ratio)
+        return self._picture
+
+    def _draw(self, size: QSize, ratio: float) -> QPixmap:
+        picture = QPixmap(size)
+        picture.setDevicePixelRatio(ratio)
+        picture.fill(QColor(self._lane.session.tokens.sunken))
+        painter = QPainter(picture)
+        room = self._lane.plot_rect
+        for item in self._items:
+            painter.save()
+            item.paint_px(painter, room)
+            painter.restore()
+        painter.end()
+        return picture
 
     # Qt overrides
 
     def paintEvent(self, event: QPaintEvent) -> None:
-        painter = QPainter(self)
-        painter.fillRect(event.rect(), QColor(self._lane.session.tokens.sunken))
-        exposed = QRectF(event.rect())
-        for item in self._items:
-            painter.save()
-            item.paint_px(painter, exposed)
-            painter.restore()
+        QPainter(self).drawPixmap(0, 0, self._drawn())
+
+    def changeEvent(self, event: QEvent) -> None:
+        super().changeEvent(event)
+        # Fonts and words are drawn too.
+        self.redraw()
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         super().resizeEvent(event)

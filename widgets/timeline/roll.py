@@ -27,7 +27,7 @@ from widgets.timeline.axis import TimeAxis
 from widgets.timeline.keyboard import KEYBOARD_PX, Keyboard
 from widgets.timeline.lane import GUTTER_PX, Lane, LaneItem, LaneMouse
 from widgets.timeline.lines import beat_of_tick
-from widgets.timeline.note_table import Flags, Floats, NoteTable
+from widgets.timeline.note_table import Behind, Flags, Floats, NoteTable, Sounding
 from widgets.timeline.roll_gestures import Copy, Draw, Erase, Gesture, LassoNotes, Move, Resize, Velocity
 from widgets.timeline.roll_items import Hint, Labels, Lasso, Notes, Rows
 
@@ -57,6 +57,8 @@ MENU = (
     "notes.select_bar",
 )
 
+NOBODY = Behind((), ())
+
 
 class PianoRoll(Lane):
     """The piano roll."""
@@ -71,7 +73,7 @@ class PianoRoll(Lane):
     def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
         self._tables: dict[str, NoteTable] = {}
         self._flags: dict[str, tuple[NoteTable, Selection, Flags]] = {}
-        self._ghosts_of: tuple[tuple[object, ...], list[tuple[NoteTable, str]]] = ((None, None, None, None), [])
+        self._ghosts_of: tuple[tuple[object, ...], Behind] = ((None, None, None, None), NOBODY)
         """The players behind, and what that was found from: it is asked with every repaint."""
         self._gesture: Gesture | None = None
         self._tool = Tool.SELECT
@@ -134,22 +136,29 @@ class PianoRoll(Lane):
         player = self.session.player
         return (self.table(player), self.session.colour(player)) if player is not None else None
 
-    def ghosts(self) -> list[tuple[NoteTable, str]]:
+    def ghosts(self) -> Behind:
         """The notes of the players behind."""
         if self._ghosts is Ghosts.ALONE:
-            return []
+            return NOBODY
         project, front = self.session.project, self.session.player
         sources = (project.players, project.score, front, self.session.tokens)
         if not all(map(is_, sources, self._ghosts_of[0])):
             self._ghosts_of = (sources, self._find_ghosts(project, front))
         return self._ghosts_of[1]
 
-    def _find_ghosts(self, project: Project, front: Player | None) -> list[tuple[NoteTable, str]]:
+    def _find_ghosts(self, project: Project, front: Player | None) -> Behind:
         # Players of one part are seen once, in the colour of the first.
         behind = {player.part_id: player for player in reversed(project.players)}
         if front is not None:
             behind.pop(front.part_id, None)
-        return [(self.table(player), self.session.colour(player)) for player in behind.values()]
+        tables = [self.table(player) for player in behind.values()]
+        return Behind(tables, [self.session.colour(player) for player in behind.values()], self._ghosts_of[1])
+
+    def _touchable(self) -> list[NoteTable]:
+        """The notes that answer the mouse: of the player in front; where all are seen, then of the others."""
+        front = self.front()
+        tables = [] if front is None else [front[0]]
+        return tables + list(self.ghosts().tables) if self._ghosts is Ghosts.ALL else tables
 
     def hint(self) -> str:
         """What to do where nothing is yet; empty where there are notes."""
@@ -182,22 +191,24 @@ class PianoRoll(Lane):
         bottom, top = self.y_range
         return self.plot_rect.height() / (top - bottom)
 
-    def visible(self, table: NoteTable, exposed: QRectF) -> Integers:
+    def visible(self, table: Sounding, exposed: QRectF) -> Integers:
         """Places of the notes that may show in a part of the plot."""
-        found = table.visible(self.axis.seconds(exposed.left()), self.axis.seconds(exposed.right()))
-        rows = np.arange(found.start, found.stop)
+        start_s, end_s = self.axis.seconds(exposed.left()), self.axis.seconds(exposed.right())
+        found = table.visible(start_s, end_s)
         bottom, top = self.y_range
         pitch = table.pitch[found]
-        inside = (pitch > bottom - 1) & (pitch < top)
-        return rows if inside.all() else rows[inside]
+        inside = (pitch > bottom - 1) & (pitch < top) & (table.end_s[found] > start_s)
+        rows: Integers = np.flatnonzero(inside) + found.start
+        return rows
 
-    def boxes(self, table: NoteTable, rows: Integers) -> tuple[Floats, Floats, Floats, Floats]:
+    def boxes(self, table: Sounding, rows: Integers) -> tuple[Floats, Floats, Floats, Floats]:
         """Left, top, width and height of notes, in whole pixels so that edges are sharp."""
         left = np.floor(self.axis.x_px(table.onset_s[rows]))
         right = np.floor(self.axis.x_px(table.end_s[rows]))
-        row = self.row_px
-        top = np.floor((self.y_range[1] - table.pitch[rows] - 1) * row)
-        below = np.floor((self.y_range[1] - table.pitch[rows]) * row)
+        row, bound = self.row_px, self.y_range[1]
+        pitch = table.pitch[rows]
+        top = np.floor((bound - pitch - 1) * row)
+        below = np.floor((bound - pitch) * row)
         gap = 1.0 if row >= 4 else 0.0
         return left, top, np.maximum(right - left - 1.0, 1.0), np.maximum(below - top - gap, 1.0)
 
@@ -211,6 +222,12 @@ class PianoRoll(Lane):
             known = (table, selection, table.flags(selection.notes))
             self._flags[table.part.id] = known
         return known[2] if known[2].any() else None
+
+    @property
+    def selects_behind(self) -> bool:
+        """Whether notes are selected that the player in front does not play."""
+        notes, front = self.session.selection.notes, self.front()
+        return bool(notes) and (front is None or not front[0].index.keys() >= notes)
 
     # Pitch
 
@@ -255,20 +272,15 @@ class PianoRoll(Lane):
     def note_at(self, mouse: LaneMouse) -> Note | None:
         """The note at a place: of the player in front; where all are seen, else of another."""
         slack_s = SLACK_PX / self.axis.px_per_s
-        tables = [self.front(), *(self.ghosts() if self._ghosts is Ghosts.ALL else [])]
-        for entry in tables:
-            if entry is not None:
-                place = entry[0].at(mouse.time_s, int(mouse.value // 1), slack_s)
-                if place is not None:
-                    return entry[0].part.notes[place]
+        for table in self._touchable():
+            place = table.at(mouse.time_s, int(mouse.value // 1), slack_s)
+            if place is not None:
+                return table.part.notes[place]
         return None
 
     def notes_within(self, start_s: float, end_s: float, low: int, high: int) -> frozenset[str]:
         """Ids of the notes that touch a rectangle."""
-        tables = [self.front(), *(self.ghosts() if self._ghosts is Ghosts.ALL else [])]
-        return frozenset(
-            id for entry in tables if entry is not None for id in entry[0].within(start_s, end_s, low, high)
-        )
+        return frozenset(id for table in self._touchable() for id in table.within(start_s, end_s, low, high))
 
     def cell(self, mouse: LaneMouse) -> tuple[int, int]:
         """Beginning and length in ticks of the grid's cell under the mouse; with Alt the very tick."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -14,7 +15,8 @@ from app.plan.model import PlayerPlan, Problem
 from widgets.common.fingering_text import short_label
 from widgets.common.pitch import BLACK
 from widgets.timeline.lane import LaneItem
-from widgets.timeline.note_table import NoteTable
+from widgets.timeline.lanes.drawing import draw_groups
+from widgets.timeline.note_table import Behind, NoteTable
 
 if TYPE_CHECKING:
     from widgets.timeline.roll import PianoRoll
@@ -77,7 +79,7 @@ class Notes(LaneItem):
     def __init__(self, lane: PianoRoll) -> None:
         super().__init__(lane, 0.0)
         self._array = PrimitiveArray(QRectF, 4)
-        self._behind: tuple[object, QImage] | None = None
+        self._behind: tuple[object, Behind, QImage] | None = None
         """The other players' notes as they were drawn last, and what that depends on: a selection, an edit in front or
         the playhead passing by leave them as they are."""
 
@@ -101,41 +103,17 @@ class Notes(LaneItem):
     def _show_behind(self, painter: QPainter, exposed: QRectF) -> None:
         lane: PianoRoll = self.lane  # type: ignore[assignment]
         behind = lane.ghosts()
-        if not behind:
+        if not behind.tables:
             return
         alpha = GHOST_ALPHA if lane.ghosted else 255
         ratio = lane.plot.devicePixelRatioF()
-        key = (lane.axis.start_s, lane.axis.end_s, lane.y_range, lane.plot_rect.size().toTuple(), ratio, alpha, behind)
-        if self._behind is None or self._behind[0] != key:
-            self._behind = (key, self._picture_behind(behind, alpha, ratio))
-        painter.drawImage(QPointF(0.0, 0.0), self._behind[1])
-        for table, colour in behind:
-            self._draw_selected(painter, table, exposed, colour)
-
-    def _picture_behind(self, behind: list[tuple[NoteTable, str]], alpha: int, ratio: float) -> QImage:
-        """The other players' notes: as rectangles, or where there are very many narrow ones, as points."""
-        lane: PianoRoll = self.lane  # type: ignore[assignment]
-        room = lane.plot_rect
-        image = QImage(
-            int(np.ceil(room.width() * ratio)),
-            int(np.ceil(room.height() * ratio)),
-            QImage.Format.Format_ARGB32_Premultiplied,
-        )
-        image.setDevicePixelRatio(ratio)
-        image.fill(Qt.GlobalColor.transparent)
-        painter = QPainter(image)
-        painter.setPen(Qt.PenStyle.NoPen)
-        spans = [table.visible(lane.axis.start_s, lane.axis.end_s) for table, _ in behind]
-        if sum(span.stop - span.start for span in spans) > MOST_RECTANGLES:
-            points = _Picture(lane, behind, alpha)
-            points.show(painter)
-            for (table, colour), rows in zip(behind, points.wide, strict=True):
-                self._draw(painter, table, rows, _shade(colour, alpha))
-        else:
-            for table, colour in behind:
-                self._draw(painter, table, lane.visible(table, room), _shade(colour, alpha))
-        painter.end()
-        return image
+        key = (lane.axis.start_s, lane.axis.end_s, lane.y_range, lane.plot_rect.size().toTuple(), ratio, alpha)
+        if self._behind is None or self._behind[0] != key or not self._behind[1].looks_like(behind):
+            self._behind = (key, behind, picture_behind(lane, behind, alpha, ratio))
+        painter.drawImage(QPointF(0.0, 0.0), self._behind[2])
+        if lane.selects_behind:
+            for table, colour in zip(behind.tables, behind.colours, strict=True):
+                self._draw_selected(painter, table, exposed, colour)
 
     def _draw_selected(self, painter: QPainter, table: NoteTable, exposed: QRectF, colour: str) -> None:
         lane: PianoRoll = self.lane  # type: ignore[assignment]
@@ -172,41 +150,74 @@ def _shade(colour: str, alpha: int) -> QColor:
     return shade
 
 
-class _Picture:
-    """Notes of a few pixels' width, drawn as pixels: a column for each of the plot's, a row for each pitch.
+def picture_behind(lane: PianoRoll, behind: Behind, alpha: int, ratio: float) -> QImage:
+    """The other players' notes: as rectangles, or where there are very many, the narrow ones as points.
 
-    ``wide`` has for each table the places of the notes that are too wide for it.
+    Parameters
+    ----------
+    lane : PianoRoll
+    behind : Behind
+        Later players lie over those before.
+    alpha : int
+        Opacity 0..255.
+    ratio : float
+        Pixels of the screen in one of the plot's.
     """
-
-    def __init__(self, lane: PianoRoll, tables: list[tuple[NoteTable, str]], alpha: int) -> None:
-        self._lane = lane
-        bottom, top = lane.y_range
-        low, self._high = int(np.floor(bottom)), int(np.ceil(top))
-        self._pixels = np.zeros((self._high - low, int(np.ceil(lane.plot_rect.width()))), np.uint32)
-        self.wide = [self._draw(table, _shade(colour, alpha)) for table, colour in tables]
-
-    def _draw(self, table: NoteTable, shade: QColor) -> Integers:
-        rows = self._lane.visible(table, self._lane.plot_rect)
-        left, _, width, _ = self._lane.boxes(table, rows)
+    room = lane.plot_rect
+    image = QImage(
+        int(np.ceil(room.width() * ratio)), int(np.ceil(room.height() * ratio)),
+        QImage.Format.Format_ARGB32_Premultiplied,
+    )  # fmt: skip
+    image.setDevicePixelRatio(ratio)
+    image.fill(Qt.GlobalColor.transparent)
+    notes = behind.notes
+    rows = lane.visible(notes, room)
+    rows = rows[np.argsort(notes.owner[rows], kind="stable")]
+    owner = notes.owner[rows]
+    left, top, width, height = boxes = lane.boxes(notes, rows)
+    shades = [_shade(colour, alpha) for colour in behind.colours]
+    painter = QPainter(image)
+    if len(rows) > MOST_RECTANGLES:
         narrow = width <= NARROW_PX
-        x = left[narrow].astype(np.int64)
-        y = (self._high - 1 - table.pitch[rows[narrow]]).astype(np.int64)
-        # Premultiplied, as Qt draws it without a conversion.
-        alpha = shade.alpha()
-        red, green, blue = (round(part * alpha / 255) for part in (shade.red(), shade.green(), shade.blue()))
-        value = (alpha << 24) | (red << 16) | (green << 8) | blue
-        widths = width[narrow]
-        for column in range(int(widths.max(initial=0.0))):
-            inside = (x + column >= 0) & (x + column < self._pixels.shape[1]) & (widths > column)
-            self._pixels[y[inside], x[inside] + column] = value
-        return rows[~narrow]
+        _draw_points(painter, lane, left[narrow], notes.pitch[rows[narrow]], width[narrow], owner[narrow], shades)
+        owner, boxes = owner[~narrow], (left[~narrow], top[~narrow], width[~narrow], height[~narrow])
+    draw_groups(painter, boxes, owner, shades)
+    painter.end()
+    return image
 
-    def show(self, painter: QPainter) -> None:
-        """Put the picture onto the plot."""
-        lane = self._lane
-        height, width = self._pixels.shape
-        image = QImage(self._pixels.data, width, height, 4 * width, QImage.Format.Format_ARGB32_Premultiplied)
-        painter.drawImage(QRectF(0.0, lane.y_px(self._high), width, height * lane.row_px), image)
+
+def _draw_points(
+    painter: QPainter,
+    lane: PianoRoll,
+    left: Floats,
+    pitch: Floats,
+    width: Floats,
+    owner: npt.NDArray[np.integer],
+    shades: Sequence[QColor],
+) -> None:
+    """Notes of a few pixels' width, drawn as pixels: a column for each of the plot's, a row for each pitch."""
+    bottom, top = lane.y_range
+    low, high = int(np.floor(bottom)), int(np.ceil(top))
+    pixels = np.zeros((high - low, int(np.ceil(lane.plot_rect.width()))), np.uint32)
+    # Every note as often as it is wide: its columns, one after another.
+    counts = width.astype(np.int64)
+    note = np.repeat(np.arange(len(counts)), counts)
+    x = left.astype(np.int64)[note] + np.arange(len(note)) - np.repeat(np.cumsum(counts) - counts, counts)
+    inside = (x >= 0) & (x < pixels.shape[1])
+    note, x = note[inside], x[inside]
+    y = (high - 1 - pitch).astype(np.int64)
+    values = np.array([_premultiplied(shade) for shade in shades], np.uint32)
+    pixels[y[note], x] = values[owner[note]]
+    rows, columns = pixels.shape
+    image = QImage(pixels.data, columns, rows, 4 * columns, QImage.Format.Format_ARGB32_Premultiplied)
+    painter.drawImage(QRectF(0.0, lane.y_px(high), columns, rows * lane.row_px), image)
+
+
+def _premultiplied(shade: QColor) -> int:
+    """As Qt draws it without a conversion."""
+    alpha = shade.alpha()
+    red, green, blue = (round(part * alpha / 255) for part in (shade.red(), shade.green(), shade.blue()))
+    return (alpha << 24) | (red << 16) | (green << 8) | blue
 
 
 class Labels(LaneItem):

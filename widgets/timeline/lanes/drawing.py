@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -9,6 +11,7 @@ import numpy.typing as npt
 from pyqtgraph.Qt.internals import PrimitiveArray
 from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPen, QPolygonF
+from shiboken6 import wrapInstance
 
 from widgets.common.tokens import LEAST_TEXT_PT, Tokens
 
@@ -70,6 +73,39 @@ def draw_rects(painter: QPainter, left: Floats, top: Floats, width: Floats, heig
         painter.setPen(Qt.PenStyle.NoPen)
         painter.setBrush(colour)
         painter.drawRects(*array.drawargs())
+
+
+def draw_groups(
+    painter: QPainter,
+    boxes: tuple[Floats, Floats, Floats, Floats],
+    group: npt.NDArray[np.integer],
+    colours: Sequence[QColor],
+) -> None:
+    """Many rectangles in the colours of their groups.
+
+    Parameters
+    ----------
+    painter : QPainter
+    boxes : four arrays (N,)
+        Left, top, width and height, pixels.
+    group : array (N,)
+        Ascending; what colour each has.
+    colours : sequence of QColor
+    """
+    if not len(group):
+        return
+    array: Any = PrimitiveArray(QRectF, 4)
+    array.resize(len(group))
+    table = array.ndarray()
+    for column, values in enumerate(boxes):
+        table[:, column] = values
+    address, size = table.ctypes.data, table.strides[0]
+    starts = np.flatnonzero(np.diff(group, prepend=-1)).tolist()
+    painter.setPen(Qt.PenStyle.NoPen)
+    for start, end in pairwise([*starts, len(group)]):
+        painter.setBrush(colours[int(group[start])])
+        first: Any = wrapInstance(address + start * size, QRectF)
+        painter.drawRects(first, end - start)
 
 
 def draw_lines(painter: QPainter, x0: Floats, y0: Floats, x1: Floats, y1: Floats, pen: QPen) -> None:
