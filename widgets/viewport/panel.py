@@ -106,7 +106,7 @@ class ViewportPanel(QWidget):
         session.performance_changed.connect(self._performance_changed)
         session.instruments_changed.connect(self._instruments_changed)
         session.players_changed.connect(self._players_changed)
-        session.selection_changed.connect(self._update)
+        session.selection_changed.connect(self._selection_changed)
         session.playhead_changed.connect(self.refresh)
         session.playing_changed.connect(self._update)
         session.preview_changed.connect(self.refresh)
@@ -311,6 +311,11 @@ class ViewportPanel(QWidget):
             self._canvas.update()
         if self._layer is not None:
             self._layer.refresh(bool(self.scene.message()) or self._has_marks())
+
+    def _selection_changed(self) -> None:
+        # Only handles of poses tell of the selected span.
+        if self._session.viewport.posing:
+            self._update()
 
     def _has_marks(self) -> bool:
         state = self._session.viewport
