@@ -65,7 +65,11 @@ class Camera:
     @property
     def up(self) -> Floats:
         """Upwards in the picture, unit (3,)."""
-        return np.cross(self.backward, self.right)
+        steepness = math.sin(self.pitch_rad)
+        return np.array(
+            [-steepness * math.sin(self.yaw_rad), math.cos(self.pitch_rad), -steepness * math.cos(self.yaw_rad)],
+            np.float64,
+        )
 
     @property
     def near_m(self) -> float:
@@ -110,7 +114,8 @@ class Camera:
     def project(self, points_m: npt.ArrayLike, width_px: float, height_px: float) -> tuple[Floats, Floats]:
         """Pixels (N, 2) from the upper left corner, and depths (N,) in metres before the eye, negative behind it."""
         points = np.atleast_2d(np.asarray(points_m, np.float64))
-        eye = points @ self.view()[:3, :3].T + self.view()[:3, 3]
+        view = self.view()
+        eye = points @ view[:3, :3].T + view[:3, 3]
         depth = -eye[:, 2]
         scale = (
             0.5 * height_px / math.tan(math.radians(self.fov_deg) / 2.0) / np.where(np.abs(depth) < 1e-9, 1e-9, depth)

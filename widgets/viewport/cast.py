@@ -145,6 +145,8 @@ class Stage:
         has no pose all 0.
     joints : (N, J, 3, 4) float64
         ``world_from_joint``.
+    heads : (N,) int
+        The joint that is the head.
     shown : (N,) bool
         Who has a pose.
     """
@@ -157,6 +159,7 @@ class Stage:
         self.seat_bone = self.first_node + self._instruments.nodes
         self.bones = np.zeros((count, self.seat_bone + 1, 3, 4), np.float32)
         self.joints = np.zeros((count, self.first_node, 3, 4))
+        self.heads = np.array([member.kit.character.skeleton.index("head") for member in members], np.intp)
         self.poses: list[Posed | None] = [None] * count
         self.shown = np.zeros(count, dtype=bool)
         self._troupes = [Troupe(members, rows) for rows in _grouped([id(member.kit.character) for member in members])]

@@ -20,6 +20,9 @@ from widgets.viewport.handles import Handle
 Floats = npt.NDArray[np.float64]
 
 HANDLE_RADIUS_PX = 9.0
+CROWN_M = np.array([0.0, 0.12, 0.0])
+"""Top of the head in its joint's frame."""
+NAME_UP_M = 0.19
 CLOSE_MM, NEAR_MM = 2.0, 4.0
 """A touch within the first is right, within the second all but right."""
 
@@ -30,6 +33,7 @@ class Name:
 
     text: str
     color: str
+    """Of a player in front; of others it is not seen."""
     at_m: Floats
     in_front: bool
 
@@ -67,11 +71,11 @@ def paint(
         _paint_names(painter, marks.names, camera, size, tokens)
 
 
-def over_head_m(stage: Stage, row: int, upwards: Floats) -> Floats:
-    """A little over a player's head, over meaning upwards in the picture."""
-    head = stage.joints[row, stage.members[row].kit.character.skeleton.index("head")]
-    top: Floats = head[:, :3] @ np.array([0.0, 0.12, 0.0]) + head[:, 3] + 0.19 * upwards
-    return top
+def over_heads_m(stage: Stage, rows: Sequence[int], upwards: Floats) -> Floats:
+    """A little over players' heads (R, 3), over meaning upwards in the picture."""
+    heads = stage.joints[rows, stage.heads[rows]]
+    places_m: Floats = heads[..., :3] @ CROWN_M + heads[..., 3] + NAME_UP_M * upwards
+    return places_m
 
 
 def handle_at(
@@ -165,7 +169,8 @@ def _paint_handles(painter: QPainter, marks: Marks, camera: Camera, size: tuple[
         painter.setPen(Qt.PenStyle.NoPen)
         painter.drawEllipse(at, 3.0, 3.0)
         if grasped and marks.reading:
-            box = _pill_box(painter, marks.reading, at + QPointF(0.0, -HANDLE_RADIUS_PX - 14.0), True, size)
+            metrics = QFontMetricsF(_font(painter, 9.0, bold=True))
+            box = _pill_box(metrics, marks.reading, at + QPointF(0.0, -HANDLE_RADIUS_PX - 14.0), size)
             _paint_pill(painter, marks.reading, box, tokens, tokens.accent)
 
 
@@ -173,22 +178,22 @@ def _paint_names(
     painter: QPainter, names: Sequence[Name], camera: Camera, size: tuple[float, float], tokens: Tokens
 ) -> None:
     places, depths = camera.project(np.array([name.at_m for name in names]), *size)
+    metrics = {bold: QFontMetricsF(_font(painter, 9.0, bold)) for bold in (False, True)}
     taken: list[QRectF] = []
     # The selected players first, then who is near; a name that would cover another is left out.
     for index in sorted(range(len(names)), key=lambda index: (not names[index].in_front, depths[index])):
         name, place = names[index], places[index]
         if depths[index] <= 0.0 or not (-50.0 < place[0] < size[0] + 50.0 and 0.0 < place[1] < size[1]):
             continue
-        box = _pill_box(painter, name.text, QPointF(*place), name.in_front, size)
+        box = _pill_box(metrics[name.in_front], name.text, QPointF(*place), size)
         if not name.in_front and any(box.intersects(other) for other in taken):
             continue
         taken.append(box)
         _paint_pill(painter, name.text, box, tokens, name.color if name.in_front else "")
 
 
-def _pill_box(painter: QPainter, text: str, at: QPointF, bold: bool, size: tuple[float, float]) -> QRectF:
+def _pill_box(metrics: QFontMetricsF, text: str, at: QPointF, size: tuple[float, float]) -> QRectF:
     """Where a short text goes, kept within the picture."""
-    metrics = QFontMetricsF(_font(painter, 9.0, bold))
     width, height = metrics.horizontalAdvance(text) + 14.0, metrics.height() + 4.0
     left = min(max(at.x() - width / 2.0, 4.0), max(size[0] - width - 4.0, 4.0))
     top = min(max(at.y() - height / 2.0, 4.0), max(size[1] - height - 4.0, 4.0))

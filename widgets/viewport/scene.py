@@ -19,7 +19,7 @@ from widgets.viewport.figures import Loaded, cast_key, load, moved, same_figures
 from widgets.viewport.handles import TARGETS, Handle, handles
 from widgets.viewport.limbs import Limbs, hit
 from widgets.viewport.look import Color, rgb
-from widgets.viewport.overlay import Marks, Name, over_head_m
+from widgets.viewport.overlay import Marks, Name, over_heads_m
 from widgets.viewport.pose_tool import PoseTool
 from widgets.viewport.poses import Posed, Poses, same
 from widgets.viewport.renderer import Shapes
@@ -200,9 +200,10 @@ class Scene(QObject):
         known = [(row, players[own]) for row in visible if (own := stage.members[row].player_id) in players]
         names, skeletons = [], []
         if state.shows("names"):
-            for row, player in known:
-                over_m = over_head_m(stage, row, camera.up)
-                names.append(Name(player.name, session.colour(player), over_m, row in rows))
+            places_m = over_heads_m(stage, [row for row, _ in known], camera.up)
+            for (row, player), over_m in zip(known, places_m, strict=True):
+                in_front = row in rows
+                names.append(Name(player.name, session.colour(player) if in_front else "", over_m, in_front))
         if state.shows("skeleton"):
             skeletons = [(row, session.colour(player)) for row, player in known]
         touched = state.shows("contacts") and bool(rows) and rows[0] in visible

@@ -139,3 +139,10 @@ def test_following_is_the_same_in_one_step_and_in_many_and_never_overshoots() ->
     assert many.target_m == pytest.approx(once.target_m)
     assert followed(camera, goal, 100.0).target_m == pytest.approx(goal)
     assert 0.0 < once.target_m[0] < 1.0
+
+
+@pytest.mark.parametrize("yaw_rad", [-2.4, 0.0, 0.7, 3.0])
+@pytest.mark.parametrize("pitch_rad", [-0.3, 0.0, 0.4, 1.5])
+def test_up_stands_upright_on_backward_and_right(yaw_rad: float, pitch_rad: float) -> None:
+    camera = Camera(yaw_rad=yaw_rad, pitch_rad=pitch_rad)
+    assert camera.up == pytest.approx(np.cross(camera.backward, camera.right), abs=1e-12)
