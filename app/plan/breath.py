@@ -122,6 +122,11 @@ def plan_breaths(
     )
 
 
+def breath_inputs(notes: tuple[Note, ...], times: LineTimes) -> tuple[object, ...]:
+    """What `plan_breaths` looks at in a line: equal inputs give equal breaths."""
+    return tuple(note.id for note in notes), times.phrasing
+
+
 def rest_breaths(
     notes: tuple[Note, ...], times: LineTimes, piece: Piece, parameters: PlayerParameters, frame: TimeFrame
 ) -> tuple[BreathEvent, ...]:

@@ -18,7 +18,7 @@ import numpy as np
 
 from app.errors import Argument, Message
 from app.plan.corrections import BY_HAND, RemoveEvent, SetBreath, SetCue, removed_ids
-from app.plan.line import Line, LineTimes, Piece
+from app.plan.line import IntArray, Line, LineTimes, Piece
 from app.plan.model import CueEvent, TimeFrame
 
 COMMON_REST_BARS = 2
@@ -42,12 +42,12 @@ class Entry(msgspec.Struct, frozen=True):
 
 
 def common_entries(all_times: tuple[LineTimes, ...], piece: Piece) -> tuple[Entry, ...]:
-    """The first entry, and those after long common rests."""
+    """The first entry, and those after long common rests: by the rhythm of the lines alone."""
     sounding = [(line, times) for line, times in enumerate(all_times) if len(times.onset_tick)]
     if not sounding:
         return ()
-    onsets = np.concatenate([times.onset_tick for _, times in sounding])
-    ends = np.concatenate([times.played_end_tick for _, times in sounding])
+    stretches = [_stretches(times) for _, times in sounding]
+    onsets, ends = (np.concatenate(edges) for edges in zip(*stretches, strict=True))
     order = np.argsort(onsets, kind="stable")
     onsets, ends = onsets[order], np.maximum.accumulate(ends[order])
     silences = np.flatnonzero(onsets[1:] > ends[:-1])
@@ -68,6 +68,12 @@ def common_entries(all_times: tuple[LineTimes, ...], piece: Piece) -> tuple[Entr
                 players.append((line, index))
         result.append(Entry(tick, rest_s, tuple(players)))
     return tuple(result)
+
+
+def _stretches(times: LineTimes) -> tuple[IntArray, IntArray]:
+    """Where a line begins to sound and where it stops: a tenth of as many as there are notes."""
+    stops = times.onset_tick[1:] > times.played_end_tick[:-1]
+    return times.onset_tick[np.insert(stops, 0, True)], times.played_end_tick[np.append(stops, True)]
 
 
 def leader_of(entry: Entry, lines: tuple[Line, ...], all_times: tuple[LineTimes, ...]) -> tuple[int | None, str]:
@@ -102,14 +108,19 @@ def cue_inputs(lines: tuple[Line, ...]) -> tuple[object, ...]:
 
 
 def plan_cues(
-    lines: tuple[Line, ...], all_times: tuple[LineTimes, ...], piece: Piece, frame: TimeFrame
+    entries: tuple[Entry, ...],
+    lines: tuple[Line, ...],
+    all_times: tuple[LineTimes, ...],
+    piece: Piece,
+    frame: TimeFrame,
 ) -> tuple[tuple[CueEvent, ...], frozenset[str]]:
-    """Every cue of the ensemble, corrections applied, and the ids of all that the rules made.
+    """Every cue of the ensemble, corrections applied, and the ids of all that the rules made; ``entries`` are
+    `common_entries`.
 
     A cue's id is ``cue:`` and the note it brings in, or ``cue:@`` and the tick for a leader who does not play there.
     """
     generated = []
-    for entry in common_entries(all_times, piece):
+    for entry in entries:
         leader, why = leader_of(entry, lines, all_times)
         if leader is None:
             continue

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import msgspec
 
 from app.errors import Cancelled
-from app.plan.breath import plan_breaths
+from app.plan.breath import breath_inputs, plan_breaths
 from app.plan.corrections import (
     AddExpression,
     AddGesture,
@@ -29,7 +29,7 @@ from app.plan.corrections import (
     orphans,
     sound_corrections,
 )
-from app.plan.cue import cue_inputs, plan_cues
+from app.plan.cue import common_entries, cue_inputs, plan_cues
 from app.plan.embouchure import plan_embouchures, plan_tongues
 from app.plan.expression import plan_expressions
 from app.plan.fingering import plan_fingerings
@@ -150,8 +150,16 @@ def plan_ensemble(
         _go_on(stop_wanted)
         playable.append(_playable(line, piece.clock, tuple(faces), frame.first_frame_s, own[line.player_id]))
     lines, all_times = tuple(line for line, _, _ in playable), tuple(times for _, times, _ in playable)
+    rhythms = tuple(times.rhythm for times in all_times)
+    entries = shared.step("entries", lambda: common_entries(all_times, piece), rhythms, piece)
     cues, cue_ids = shared.step(
-        "cues", lambda: plan_cues(lines, all_times, piece, frame), cue_inputs(lines), all_times, piece, frame
+        "cues",
+        lambda: plan_cues(entries, lines, all_times, piece, frame),
+        entries,
+        cue_inputs(lines),
+        all_times,
+        piece,
+        frame,
     )
     first_s = min((float(times.onset_s[0]) for times in all_times if len(times.onset_s)), default=0.0)
     taken: dict[bytes, frozenset[tuple[int, int]]] = {}
@@ -239,7 +247,7 @@ def _plan_line(given: _Given, memo: Memo) -> tuple[PlayerPlan, frozenset[tuple[i
     breaths = memo.step(
         "breaths",
         lambda: plan_breaths(notes, times, piece, parameters, frame, corrections, taken, seeds, instrument.air),
-        *sound,
+        *breath_inputs(notes, times),
         piece,
         instrument.air,
         tuple(getattr(parameters, name) for name in BREATH_PARAMETERS),
@@ -258,17 +266,7 @@ def _plan_line(given: _Given, memo: Memo) -> tuple[PlayerPlan, frozenset[tuple[i
         early_end_s,
         of(SetEmbouchure),
     )
-    made_gestures = memo.step(
-        "gestures",
-        lambda: plan_gestures(notes, times, piece, frame, events, given.cues, seeds, given.swing_at_s),
-        *sound,
-        piece,
-        frame,
-        events,
-        given.cues,
-        seeds,
-        given.swing_at_s,
-    )
+    made_gestures = plan_gestures(notes, times, piece, frame, events, given.cues, seeds, given.swing_at_s, memo)
     moved = of(ChangeGesture, AddGesture, RemoveEvent, SetBreath, SetCue)
     gestures = memo.step(
         "corrected gestures",

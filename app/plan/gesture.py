@@ -20,12 +20,14 @@ gesture.lower_at_start(rest_s): "The entry is {rest_s} s away: the instrument is
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping
 
 import numpy as np
 
 from app.errors import Message
 from app.plan.line import LineTimes, Piece, Seeds
+from app.plan.memo import Memo
 from app.plan.model import BreathEvent, CueEvent, FloatArray, GestureEvent, Note, TimeFrame
 
 SWING_S = 1.1
@@ -57,6 +59,7 @@ def plan_gestures(
     cues: tuple[CueEvent, ...],
     seeds: Seeds,
     swing_at_s: float,
+    memo: Memo,
 ) -> tuple[GestureEvent, ...]:
     """All gestures of one player, ordered by start.
 
@@ -66,15 +69,37 @@ def plan_gestures(
         The player's.
     swing_at_s : float
         Where the piece's tempo is taken to choose how many beats a swing has: the same for all players.
+    memo : Memo
+        Each kind is a step of its own: a pitch that changes moves the bell, and no swing.
     """
-    lowered = lowered_spans(notes, times, piece, frame, breaths, cues)
-    events = [
-        *sways(times, piece, frame, seeds, swing_at_s),
-        *weight_shifts(piece, frame, seeds),
-        *bell_heights(notes, times, piece),
-        *lowered,
-    ]
-    return tuple(sorted(events, key=lambda event: (event.start_s, event.id)))
+    kinds = (
+        memo.step(
+            "sways",
+            lambda: tuple(sways(times, piece, frame, seeds, swing_at_s)),
+            times.rhythm,
+            piece,
+            frame,
+            seeds,
+            swing_at_s,
+        ),
+        memo.step("weight shifts", lambda: tuple(weight_shifts(piece, frame, seeds)), piece, frame, seeds),
+        memo.step("bell heights", lambda: tuple(bell_heights(notes, times, piece)), notes, times, piece),
+        memo.step(
+            "lowered",
+            lambda: tuple(lowered_spans(notes, times, piece, frame, breaths, cues)),
+            notes,
+            times.rhythm,
+            piece,
+            frame,
+            breaths,
+            cues,
+        ),
+    )
+    return memo.step("gestures", lambda: _in_order(*kinds), *kinds)
+
+
+def _in_order(*kinds: tuple[GestureEvent, ...]) -> tuple[GestureEvent, ...]:
+    return tuple(sorted(itertools.chain(*kinds), key=lambda event: (event.start_s, event.id)))
 
 
 def sways(times: LineTimes, piece: Piece, frame: TimeFrame, seeds: Seeds, swing_at_s: float) -> list[GestureEvent]:

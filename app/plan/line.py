@@ -131,14 +131,36 @@ class LineTimes:
     @cached_property
     def part(self) -> bytes:
         """What is played and when: equal for players of one part."""
-        digest = hashlib.blake2b(digest_size=16)
-        for column in (self.onset_tick, self.played_end_tick, self.pitch):
-            digest.update(column.tobytes())
-        return digest.digest()
+        return _digest(self.onset_tick, self.played_end_tick, self.pitch)
+
+    @cached_property
+    def rhythm(self) -> bytes:
+        """When something is played, whatever it is: equal for players in unison of rhythm."""
+        return _digest(self.onset_tick, self.played_end_tick)
+
+    @cached_property
+    def leaps(self) -> npt.NDArray[np.bool_]:
+        """(N-1,): whether the next note is a leap away."""
+        return np.asarray(np.abs(np.diff(self.pitch)) >= LEAP_SEMITONES)
+
+    @cached_property
+    def phrasing(self) -> bytes:
+        """How it divides into phrases, as far as rhythm, loudness and leaps say."""
+        silences = (self.silence_tick, self.overlaps_next)
+        return _digest(self.onset_tick, self.played_end_tick, *silences, self.loudness, self.leaps)
+
+
+def _digest(*columns: npt.NDArray[np.generic]) -> bytes:
+    digest = hashlib.blake2b(digest_size=16)
+    for column in columns:
+        digest.update(column.tobytes())
+    return digest.digest()
 
 
 BEFORE_FIRST_TICK = 1 << 40
 """Silence before the first note of a line, in ticks: longer than any threshold."""
+LEAP_SEMITONES = 5
+"""A leap may divide phrases."""
 
 
 def line_times(line: Line, clock: Clock) -> LineTimes:

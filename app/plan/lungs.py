@@ -210,7 +210,7 @@ def _place_costs(
     good += BAR_LINE * np.isin(onset, bars)
     bar = bars[np.maximum(np.searchsorted(bars, onset, side="right") - 1, 0)]
     good += ON_BEAT * ((onset - bar) % piece.beat_ticks == 0)
-    good += LEAP * (np.abs(times.pitch[at] - times.pitch[at - 1]) >= 5)
+    good += LEAP * times.leaps[at - 1]
     good += SILENCE * (times.silence_tick[at] > 0)
     good += SLURRED * times.overlaps_next[at - 1]
     good += CLIPPED * (_gap_s(times)[at] + CATCH_NOTE_SHARE * duration[at - 1] < CATCH_MIN_S)

@@ -21,11 +21,11 @@ def performance() -> Performance:
     return made
 
 
-def raised(project: Project) -> Project:
-    """One note of the first player a semitone higher."""
+def raised(project: Project, semitones: int = 1) -> Project:
+    """One note of the first player a semitone higher, or more."""
     part = project.part(project.players[0])
     notes = tuple(
-        msgspec.structs.replace(note, pitch=note.pitch + 1) if index == 200 else note
+        msgspec.structs.replace(note, pitch=note.pitch + semitones) if index == 200 else note
         for index, note in enumerate(part.notes)
     )
     parts = tuple(
@@ -37,12 +37,19 @@ def raised(project: Project) -> Project:
 def test_stretches_that_an_edit_left_alone_are_not_searched_again(performance: Performance) -> None:
     before = lungs._cheapest_chain.cache_info()
     assert before.currsize > 4, "the piece asks for catch breaths"
-    edited = Performance(raised(performance.project), performance)
+    edited = Performance(raised(performance.project, 12), performance)
     edited.prepare()
     after = lungs._cheapest_chain.cache_info()
     assert after.hits > before.hits
     # The note's own stretch, and the next one where it begins with the leap from it.
     assert after.misses - before.misses <= 2
+
+
+def test_a_semitone_changes_no_breath_and_no_cue(performance: Performance) -> None:
+    player = performance.project.players[0]
+    edited = Performance(raised(performance.project), performance)
+    assert edited.plan(player).breaths is performance.plan(player).breaths
+    assert edited.plan(player).cues is performance.plan(player).cues
 
 
 def test_a_semitone_changes_neither_gaze_nor_swings(performance: Performance) -> None:
