@@ -22,6 +22,7 @@ import numpy as np
 from resources.build import (
     instrument_bassoon,
     instrument_clarinet,
+    instrument_ewi,
     instrument_horn,
     instrument_oboe,
     instrument_recorder,
@@ -38,6 +39,7 @@ MARK = "# --- from the model"
 FAMILIES = (
     instrument_bassoon,
     instrument_clarinet,
+    instrument_ewi,
     instrument_horn,
     instrument_oboe,
     instrument_recorder,
