@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import importlib
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 from typing import Final
 
 from PySide6.QtCore import QCoreApplication, QEvent, QObject, Qt, QTimer, Signal
 from PySide6.QtGui import QAction, QFocusEvent, QKeyEvent, QKeySequence
 from PySide6.QtWidgets import QApplication, QMenu, QMenuBar, QWidget
+from shiboken6 import isValid
 
 from app.shell.action import QT_TRANSLATE_NOOP, Action
 from app.shell.settings import Settings
@@ -263,10 +264,14 @@ class ActionTable(QObject):
 
     def refresh(self) -> None:
         """Ask every row whether it makes sense now, and whether it is on."""
+        answers: dict[Callable[[Session], bool], bool] = {}
         for row in self.rows.values():
             action = self.actions[row.id]
             if row.enabled is not None:
-                action.setEnabled(row.enabled(self.session))
+                if row.enabled not in answers:
+                    # Many rows ask the same question.
+                    answers[row.enabled] = row.enabled(self.session)
+                action.setEnabled(answers[row.enabled])
             if row.checked is not None:
                 action.setChecked(row.checked(self.session))
         self._name_steps()
@@ -382,28 +387,53 @@ def unnamed_menus(table: Iterable[Action]) -> set[str]:
 class KeyboardButtons(QObject):
     """Space plays; but who came to a button with the keyboard presses it with Space.
 
-    Installed on the application. A button that was clicked keeps the keyboard too, and there Space goes on to play.
+    A button that was clicked keeps the keyboard too, and there Space goes on to play. Watched is only what has the
+    keyboard: a filter of the whole application would have Python asked a hundred times in every frame.
+
+    Parameters
+    ----------
+    application : QApplication
+    parent : QObject
     """
 
-    def __init__(self, parent: QObject) -> None:
+    def __init__(self, application: QApplication, parent: QObject) -> None:
         super().__init__(parent)
-        self._reached: int | None = None
+        self._watched: QWidget | None = None
+        self._reason: Qt.FocusReason | None = None
+        """Why the keyboard leaves what is watched."""
+        self._reached = False
+        application.focusChanged.connect(self._focus_moved)
+
+    def _focus_moved(self, before: QWidget | None, now: QWidget | None) -> None:
+        self._reached = now is not None and self._reason in _BY_KEYS
+        self._reason = None
+        if self._watched is not None and isValid(self._watched):
+            self._watched.removeEventFilter(self)
+        # Where nothing has the keyboard, its keys go to the window.
+        self._watched = now if now is not None else QApplication.activeWindow()
+        if self._watched is not None:
+            self._watched.installEventFilter(self)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         """Watch how the keyboard moves."""
         kind = event.type()
-        if kind == QEvent.Type.FocusIn and isinstance(event, QFocusEvent):
-            by_keys = event.reason() in (Qt.FocusReason.TabFocusReason, Qt.FocusReason.BacktabFocusReason)
-            self._reached = id(watched) if by_keys else None
+        if kind == QEvent.Type.FocusOut and isinstance(event, QFocusEvent):
+            self._reason = event.reason()
+        elif kind == QEvent.Type.KeyPress and isinstance(event, QKeyEvent):
+            tab = event.key() in (Qt.Key.Key_Tab, Qt.Key.Key_Backtab)
+            self._reason = Qt.FocusReason.TabFocusReason if tab else None
         elif (
             kind == QEvent.Type.ShortcutOverride
-            and id(watched) == self._reached
+            and self._reached
             and isinstance(event, QKeyEvent)
             and event.key() == Qt.Key.Key_Space
             and _is_pressed_by_space(watched)
         ):
             event.accept()
         return False
+
+
+_BY_KEYS = (Qt.FocusReason.TabFocusReason, Qt.FocusReason.BacktabFocusReason)
 
 
 def _is_pressed_by_space(watched: QObject) -> bool:

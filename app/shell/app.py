@@ -122,15 +122,13 @@ class Program(QObject):
         self.editor.table = ActionTable(self.session, settings, rows())
         self.language.changed.connect(self.editor.table.retranslate)
         self.window = Window(self.editor, self.generator)
-        self._buttons = KeyboardButtons(self)
-        application.installEventFilter(self._buttons)
+        KeyboardButtons(application, self)
 
     def _dress(self) -> None:
         apply_theme(self._application, self.session.tokens)
 
     def end(self) -> None:
         """Stop everything that works beside the window."""
-        self._application.removeEventFilter(self._buttons)
         self.generator.close()
         if isinstance(self.tasks, ThreadTasks):
             self.tasks.cancel_all(STOP_S)

@@ -64,7 +64,7 @@ class Chip(QAbstractButton):
         if (by_hand, outlined) != (self._by_hand, self._outlined):
             self._by_hand, self._outlined = by_hand, outlined
             self.updateGeometry()
-        self.update()
+            self.update()
 
     def _note_font(self) -> QFont:
         font = QFont(self.font())

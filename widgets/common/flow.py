@@ -19,6 +19,8 @@ class FlowLayout(QLayout):
     def __init__(self, parent: QWidget | None = None, gap_px: int = 4) -> None:
         super().__init__(parent)
         self._items: list[QLayoutItem] = []
+        self._heights_px: dict[int, int] = {}
+        """By width, until something in it has another size: layouts around ask many times over."""
         self.setSpacing(gap_px)
         self.setContentsMargins(0, 0, 0, 0)
 
@@ -49,6 +51,7 @@ class FlowLayout(QLayout):
 
     def addItem(self, item: QLayoutItem) -> None:
         self._items.append(item)
+        self.invalidate()
 
     def count(self) -> int:
         return len(self._items)
@@ -69,8 +72,15 @@ class FlowLayout(QLayout):
     def hasHeightForWidth(self) -> bool:
         return True
 
+    def invalidate(self) -> None:
+        self._heights_px.clear()
+        super().invalidate()
+
     def heightForWidth(self, width: int) -> int:
-        return self._arrange(QRect(0, 0, width, 0), place=False)
+        height_px = self._heights_px.get(width)
+        if height_px is None:
+            height_px = self._heights_px[width] = self._arrange(QRect(0, 0, width, 0), place=False)
+        return height_px
 
     def setGeometry(self, room: QRect) -> None:
         super().setGeometry(room)

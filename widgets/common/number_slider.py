@@ -112,6 +112,8 @@ class NumberSlider(QWidget):
         self._value = default
         self._mixed = False
         self._by_hand: bool | None = None
+        self._painted: tuple[float, str, bool] | None = None
+        """What was drawn last."""
         self._label, self._unit = "", ""
         self._words: Callable[[float], str] | None = None
         self._reads: Callable[[str], float | None] | None = None
@@ -179,7 +181,13 @@ class NumberSlider(QWidget):
             self._after_drag = (value, mixed)
         else:
             self._value, self._mixed = value, mixed
-        self.update()
+        if self._look != self._painted:
+            self.update()
+
+    @property
+    def _look(self) -> tuple[float, str, bool]:
+        # Words of the same value can be others: a pitch's, for another instrument.
+        return self._value, self.value_text(), self.by_hand
 
     def set_range(self, minimum: float, maximum: float) -> None:
         """Allow values from ``minimum`` to ``maximum``."""
@@ -340,6 +348,7 @@ class NumberSlider(QWidget):
         return QSize(60, self.sizeHint().height())
 
     def paintEvent(self, event: QPaintEvent) -> None:
+        self._painted = self._look
         tokens, painter = self._session.tokens, QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         box = QRectF(self.rect()).adjusted(0.75, 0.75, -0.75, -0.75)

@@ -155,8 +155,8 @@ class NoteSection(QWidget):
         there = plan is not None and player is not None and instrument is not None
         self._fingering.setVisible(there)
         self._lips_box.setVisible(there)
-        self._problems.setVisible(False)
         if plan is None or player is None or instrument is None:
+            self._problems.setVisible(False)
             return
         bare = self._generated.plan(player.id)
         self._show_fingering(shown, plan, bare, instrument)
@@ -249,10 +249,10 @@ class NoteSection(QWidget):
         made = _lips_of(bare, first.note_id)
         item = self._lips_correction(shown)
         for name, slider in self._lips.items():
-            values = {round(getattr(event, name), 4) for event in events}
+            shown_as = round(getattr(first, name), 4)
             slider.show_value(
                 getattr(first, name),
-                mixed=len(values) > 1,
+                mixed=any(round(getattr(event, name), 4) != shown_as for event in events),
                 default=getattr(made or first, name),
                 by_hand=item is not None and getattr(item, name) is not None,
             )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 from app.plan.model import FingeringEvent, PlayerPlan
 from app.project.edit.events import Placed, placed_events
@@ -38,7 +39,7 @@ class SelectedNotes:
     notes: tuple[Note, ...]
     note_ids: frozenset[str]
 
-    @property
+    @cached_property
     def own_ids(self) -> tuple[str, ...]:
         """Ids of the notes that this player plays."""
         return tuple(note.id for note in self.notes)

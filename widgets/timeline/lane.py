@@ -27,6 +27,7 @@ from PySide6.QtWidgets import (
 from app.plan.model import PlayerPlan
 from app.project.document import Change
 from app.project.model import Player
+from widgets.common.selection import Selection
 from widgets.common.session import Session
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.lines import Lines
@@ -91,7 +92,7 @@ class Lane(QWidget):
         self._button = Qt.MouseButton.NoButton
         self._panned_px: QPointF | None = None
         self._last: QMouseEvent | None = None
-        self._span = session.selection.span
+        self._selected = session.selection
 
         self.header = QWidget(self)
         self.header.setFixedWidth(GUTTER_PX)
@@ -157,8 +158,8 @@ class Lane(QWidget):
     def performance_changed(self) -> None:
         """New plans are there."""
 
-    def selection_changed(self) -> None:
-        """Another selection."""
+    def selection_changed(self, before: Selection) -> None:
+        """Another selection; what shows only a part of it is drawn anew only where that is another."""
 
     def players_changed(self) -> None:
         """Another player is in front."""
@@ -425,10 +426,10 @@ class Lane(QWidget):
         self.project_changed(change)
 
     def _selection_set(self) -> None:
-        if self.session.selection.span != self._span:
-            self._span = self.session.selection.span
+        before, self._selected = self._selected, self.session.selection
+        if before.span != self._selected.span:
             self.background.update()
-        self.selection_changed()
+        self.selection_changed(before)
 
     def _theme_set(self) -> None:
         self._paint_surfaces()

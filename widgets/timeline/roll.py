@@ -500,8 +500,9 @@ class PianoRoll(Lane):
     def performance_changed(self) -> None:
         self._redraw(self.labels)
 
-    def selection_changed(self) -> None:
-        self._redraw(self.notes)
+    def selection_changed(self, before: Selection) -> None:
+        if before.notes != self.session.selection.notes:
+            self._redraw(self.notes)
 
     def players_changed(self) -> None:
         front = self.front()

@@ -68,6 +68,7 @@ class Ruler(QWidget):
         self._base: Project = session.project
         self._token: object = object()
         self._panned_px: float | None = None
+        self._span = session.selection.span
         self._before: tuple[Selection, tuple[float, float] | None] = (session.selection, session.loop_s)
         self._editing: tuple[str, int] | None = None
         self.setMouseTracking(True)
@@ -102,7 +103,7 @@ class Ruler(QWidget):
         session.performance_changed.connect(self.update)
         session.players_changed.connect(self.update)
         session.theme_changed.connect(self._theme_set)
-        session.selection_changed.connect(self.update)
+        session.selection_changed.connect(self._selection_set)
         session.loop_changed.connect(self.update)
         session.time_display_changed.connect(self._unit_set)
         session.playhead_changed.connect(self._playhead_set)
@@ -212,6 +213,11 @@ class Ruler(QWidget):
         self._leave_editor(False)
         self._head_x = self._x(self.session.playhead_s)
         self.update()
+
+    def _selection_set(self) -> None:
+        if self.session.selection.span != self._span:
+            self._span = self.session.selection.span
+            self.update()
 
     def _playhead_set(self, playhead_s: float) -> None:
         before, self._head_x = self._head_x, self._x(playhead_s)

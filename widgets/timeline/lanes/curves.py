@@ -260,8 +260,10 @@ class CurvesLane(Lane):
         if change.before.score is not change.after.score:
             self.refresh()
 
-    def selection_changed(self) -> None:
-        self.update_items()
+    def selection_changed(self, before: Selection) -> None:
+        now = self.session.selection
+        if (before.notes, before.events) != (now.notes, now.events):
+            self.update_items()
 
     # The mouse
 

@@ -287,8 +287,9 @@ class FingeringLane(Lane):
         if change.opened:
             self.alternates.hide()
 
-    def selection_changed(self) -> None:
-        self.update_items()
+    def selection_changed(self, before: Selection) -> None:
+        if before.notes != self.session.selection.notes:
+            self.update_items()
 
     def axis_changed(self) -> None:
         if hasattr(self, "alternates"):

@@ -109,6 +109,7 @@ class ProblemsLane(Lane):
         super().__init__(session, axis, parent)
         self.problems: tuple[Problem, ...] = ()
         self.spans = spans_of(())
+        self._note_ids: frozenset[str] = frozenset()
         self._player_id: str | None = None
         session.problems_changed.connect(self.refresh)
         self.count = QLabel(self.header)
@@ -136,6 +137,7 @@ class ProblemsLane(Lane):
             return
         self.problems = problems
         self.spans = spans_of(self.problems)
+        self._note_ids = frozenset(problem.note_id for problem in problems if problem.note_id is not None)
         self.count.setText(str(len(self.problems)) if self.problems else "")
         self.plot.setToolTip("")
         self.update_items()
@@ -157,8 +159,9 @@ class ProblemsLane(Lane):
     def players_changed(self) -> None:
         self.refresh()
 
-    def selection_changed(self) -> None:
-        self.update_items()
+    def selection_changed(self, before: Selection) -> None:
+        if not self._note_ids.isdisjoint(before.notes ^ self.session.selection.notes):
+            self.update_items()
 
     def press(self, mouse: LaneMouse) -> None:
         problem = self.problem_at(mouse)

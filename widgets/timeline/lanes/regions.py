@@ -311,8 +311,9 @@ class RegionLane(Lane):
             self._end_preview()
         self.refresh()
 
-    def selection_changed(self) -> None:
-        self.update_items()
+    def selection_changed(self, before: Selection) -> None:
+        if before.events != self.session.selection.events:
+            self.update_items()
 
     # The mouse
 
