@@ -10,13 +10,15 @@ from itertools import pairwise
 
 import msgspec
 
+from instrument_maps.model import Posture
+
 SPACING_M = 1.3
 """Between neighbours: room for a long instrument's bell and an elbow."""
 ARC_RAD = math.radians(150.0)
 """How much of a circle the players stand on at most; the open side is the audience's."""
 LEAST_RADIUS_M = 1.1
 MOST_IN_ARC = 12
-"""More stand in rows, as a band does."""
+"""More sit in rows, as a band does."""
 FRONT_RADIUS_M, ROW_DEPTH_M = 2.6, 1.5
 """Radius of the first of several rows, and room behind it for a slide and a stand."""
 ELBOW_M = 0.36
@@ -87,6 +89,11 @@ def stage_seats(footprints: Sequence[Footprint]) -> tuple[StagePosition, ...]:
         step = 2.0 * math.asin(min(1.0, spacing / 2.0 / radius))
         places.update(zip(row, _row(len(row), step, radius), strict=True))
     return tuple(places[index] for index in range(len(footprints)))
+
+
+def usual_posture(count: int) -> Posture:
+    """How an ensemble of so many plays: a few stand, a band sits."""
+    return "standing" if count <= MOST_IN_ARC else "seated"
 
 
 def _spacing(row: Sequence[Footprint]) -> float:

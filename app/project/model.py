@@ -14,7 +14,7 @@ from app.errors import UsageError
 from app.plan.corrections import Correction
 from app.plan.generate import PREROLL_BEATS
 from app.plan.model import PlayerParameters
-from app.project.casting import StagePosition, amplitude, choose_characters, player_seed, stage_seats
+from app.project.casting import StagePosition, amplitude, choose_characters, player_seed, stage_seats, usual_posture
 from app.project.footprint import footprint
 from app.project.names import unique_names
 from app.project.parameters import Setting
@@ -172,7 +172,7 @@ def project_from_score(
             parameters=PlayerParameters(
                 amplitude=amplitude(seed, part.id),
                 seed=player_seed(seed, part.id),
-                posture=instrument.hold.possible("standing"),
+                posture=instrument.hold.possible(usual_posture(len(parts))),
             ),
             stage=place,
         )

@@ -20,6 +20,7 @@ import platformdirs
 
 from app.errors import FileError
 from app.formats.atomic import atomic_write
+from app.rig.carriage import usual_posture
 from app.rig.fit import FIT_VERSION, PLACES_VERSION, fit_hold, require_landmarks
 from app.rig.hold import HandHold, Hold, Lips, Reach
 from app.rig.lips import fit_lips
@@ -62,7 +63,9 @@ def digest_of(character: Character, model: InstrumentModel, instrument: Instrume
     for array in arrays:
         digest.update(str((array.dtype.str, array.shape)).encode())
         digest.update(np.ascontiguousarray(array).tobytes())
-    # Fingerings and names do not touch the hands.
+    # Fingerings and names do not touch the hands; nor does how it is carried in a posture that is not the usual one, or
+    # in a rest.
+    usual = usual_posture(instrument)
     hands = (
         instrument.mouthpiece,
         instrument.controls,
@@ -70,7 +73,7 @@ def digest_of(character: Character, model: InstrumentModel, instrument: Instrume
         instrument.contacts,
         instrument.hands,
         instrument.proxy,
-        instrument.hold,
+        (usual, instrument.hold.carriage(usual)),
         (instrument.embouchure.kind, instrument.embouchure.lips_apart_m),
     )
     ranges = {name: (limit.flexion_deg, limit.sideways_deg, limit.twist_deg) for name, limit in body.limits.items()}

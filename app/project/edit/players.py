@@ -19,7 +19,7 @@ from app.errors import AppError, MapError
 from app.plan.model import PlayerParameters
 from app.project import limits
 from app.project.anchors import moved
-from app.project.casting import SPACING_M, StagePosition, amplitude, chance, player_seed, stage_seats
+from app.project.casting import SPACING_M, StagePosition, amplitude, chance, player_seed, stage_seats, usual_posture
 from app.project.footprint import footprint
 from app.project.ids import MADE_PART, fresh_note_ids, fresh_part_ids, fresh_player_ids
 from app.project.model import Player, Project, characters_for
@@ -42,10 +42,11 @@ SPREADS: Final[Mapping[str, float]] = {
 
 def cast_parameters(project: Project, player_id: str, instrument: InstrumentMap | None = None) -> PlayerParameters:
     """The parameters a player has before anybody changes them; with an instrument, in a posture it is played in."""
+    usual = usual_posture(len(project.players))
     return PlayerParameters(
         amplitude=amplitude(project.seed, player_id),
         seed=player_seed(project.seed, player_id),
-        posture="standing" if instrument is None else instrument.hold.possible("standing"),
+        posture=usual if instrument is None else instrument.hold.possible(usual),
     )
 
 

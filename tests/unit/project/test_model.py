@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import msgspec
 import pytest
 
 from app.errors import UsageError
+from app.project.edit.players import cast_parameters
 from app.project.model import Project, map_choices, project_from_score, with_settings
 from app.project.parameters import parse_settings
 from app.rig.character import characters
@@ -90,3 +93,12 @@ def test_an_instrument_that_is_only_played_seated_is(quartet: Project) -> None:
     # On another instrument the same player may stand.
     settings = parse_settings(["Bass.posture=standing", f"Bass.instrument={TRUMPET}"], names, maps, characters())
     assert with_settings(cast, settings, maps).players[3].parameters.posture == "standing"
+
+
+@pytest.mark.parametrize(("count", "posture"), [(12, "standing"), (13, "seated")])
+def test_a_few_stand_and_a_band_sits(quartet: Project, count: int, posture: str) -> None:
+    part = quartet.score.parts[0]
+    parts = tuple(replace(part, id=str(number)) for number in range(count))
+    band = project_from_score(replace(quartet.score, parts=parts), MAPS)
+    assert {player.parameters.posture for player in band.players} == {posture}
+    assert {cast_parameters(band, player.id, MAPS[TRUMPET]).posture for player in band.players} == {posture}

@@ -91,6 +91,12 @@ def test_the_digest_knows_what_the_hands_touch() -> None:
     assert digest_of(character, model, instrument, msgspec.structs.replace(body, embouchure=faces)) == digest
     between = msgspec.structs.replace(instrument.embouchure, lips_apart_m=0.014)
     assert digest_of(character, model, msgspec.structs.replace(instrument, embouchure=between), body) != digest
+    lowered = msgspec.structs.replace(instrument.hold.lowered_seated, pitch_down_deg=80.0)
+    resting = msgspec.structs.replace(instrument.hold, lowered_seated=lowered)
+    assert digest_of(character, model, msgspec.structs.replace(instrument, hold=resting), body) == digest
+    carriage = msgspec.structs.replace(instrument.hold.standing, pitch_down_deg=(0.0, 20.0, 25.0))
+    carried = msgspec.structs.replace(instrument.hold, standing=carriage)
+    assert digest_of(character, model, msgspec.structs.replace(instrument, hold=carried), body) != digest
 
 
 def test_a_new_pair_is_fitted_once(tmp_path: Path, shipped: tuple[str, Hold], monkeypatch: pytest.MonkeyPatch) -> None:
