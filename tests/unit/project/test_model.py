@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import msgspec
 import pytest
 
@@ -98,7 +96,7 @@ def test_an_instrument_that_is_only_played_seated_is(quartet: Project) -> None:
 @pytest.mark.parametrize(("count", "posture"), [(12, "standing"), (13, "seated")])
 def test_a_few_stand_and_a_band_sits(quartet: Project, count: int, posture: str) -> None:
     part = quartet.score.parts[0]
-    parts = tuple(replace(part, id=str(number)) for number in range(count))
-    band = project_from_score(replace(quartet.score, parts=parts), MAPS)
+    parts = tuple(msgspec.structs.replace(part, id=str(number)) for number in range(count))
+    band = project_from_score(msgspec.structs.replace(quartet.score, parts=parts), MAPS)
     assert {player.parameters.posture for player in band.players} == {posture}
     assert {cast_parameters(band, player.id, MAPS[TRUMPET]).posture for player in band.players} == {posture}
