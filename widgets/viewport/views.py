@@ -13,10 +13,11 @@ from widgets.common.viewport_state import View
 from widgets.viewport.camera import Camera, frame
 from widgets.viewport.cast import Stage
 from widgets.viewport.limbs import model_bounds
+from widgets.viewport.sight import clearest
 
 Floats = npt.NDArray[np.float64]
 
-# Turn from the player's front towards their left, height of the eye, both in degrees.
+# Turn from the player's front towards their left, height of the eye, both in degrees; of the hands: the usual ones.
 _DIRECTIONS_DEG: dict[View, tuple[float, float]] = {
     "ensemble": (0.0, 9.0),
     "front": (0.0, 4.0),
@@ -50,8 +51,11 @@ def view_camera(view: View, stage: Stage, rows: Sequence[int], camera: Camera, a
     chosen = everyone if view == "ensemble" else [row for row in rows if stage.shown[row]]
     if not chosen:
         return camera
+    turn = 0.0 if view == "ensemble" else turn_rad(stage, chosen[0])
     side_deg, pitch_deg = _DIRECTIONS_DEG[view]
-    yaw = math.radians(side_deg) + (0.0 if view == "ensemble" else turn_rad(stage, chosen[0]))
+    if view == "hands":
+        side_deg, pitch_deg = clearest(stage, chosen[0], (side_deg, pitch_deg), turn)
+    yaw = math.radians(side_deg) + turn
     camera = replace(camera, yaw_rad=math.remainder(yaw, 2.0 * math.pi), pitch_rad=math.radians(pitch_deg))
     middle = tracked(view, stage, chosen[0])
     if middle is None:

@@ -1,0 +1,85 @@
+"""From where a player's fingers are seen past the instrument."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from app.rig.proxy import Nodes, bodies, inside
+from widgets.viewport.cast import Stage
+
+Floats = npt.NDArray[np.float64]
+Direction = tuple[float, float]
+"""Turn from the player's front towards their left, height of the eye, both in degrees."""
+
+_SIDES_DEG = (0.0, -24.0, 24.0, -48.0, 48.0, -72.0, 72.0)
+_HEIGHTS_DEG = (14.0, 34.0)
+_EYE_M = 0.7
+"""From the middle of the hands to where the eye is taken to be."""
+_SKIN_M, _STEP_M = 0.02, 0.02
+"""A line of sight starts this far from a joint, so that what a finger touches does not hide it; and its steps."""
+_WIRE_M = 0.003
+"""What is thinner than twice this still hides."""
+_ENOUGH = 0.6
+"""Which share of the fingers must be seen from the usual direction to look from there."""
+_UNUSUAL = 0.3
+"""How many of the fingers must be gained for a turn by 90 degrees from the usual direction."""
+
+
+def clearest(stage: Stage, row: int, usual: Direction, turn_rad: float) -> Direction:
+    """The direction near the usual one from which most of the fingers are not hidden by the instrument.
+
+    Parameters
+    ----------
+    stage : Stage
+    row : int
+        The player.
+    usual : tuple of float
+        Where to look from unless too much is hidden, in degrees.
+    turn_rad : float
+        Which way the player faces, from +Z towards +X.
+    """
+    found = [usual, *((side, height) for side in _SIDES_DEG for height in _HEIGHTS_DEG)]
+    gained = seen(stage, row, found, turn_rad)
+    if gained[0] >= _ENOUGH:
+        return usual
+    turned = [math.hypot(side - usual[0], height - usual[1]) / 90.0 for side, height in found]
+    return found[int(np.argmax(gained - _UNUSUAL * np.array(turned)))]
+
+
+def seen(stage: Stage, row: int, directions: Sequence[Direction], turn_rad: float) -> Floats:
+    """Which share (D,) of the player's fingers is seen from each direction past the instrument."""
+    kit = stage.members[row].kit
+    held = stage.node_matrix(row)
+    places_m = _fingers(stage, row)
+    towards = np.array([_unit(math.radians(side) + turn_rad, math.radians(height)) for side, height in directions])
+    lines = places_m.mean(axis=0) + _EYE_M * towards[:, None] - places_m
+    lengths = np.linalg.norm(lines, axis=2)
+    steps = np.arange(_SKIN_M, _EYE_M, _STEP_M)
+    on_line = places_m[:, None] + lines[:, :, None] / lengths[:, :, None, None] * steps[:, None]
+    local = ((on_line - held[:, 3]) @ held[:, :3]).reshape(-1, 3)
+    names = kit.instrument.node_names
+    nodes = Nodes(kit.instrument.node_positions_m, np.tile(np.eye(3), (len(names), 1, 1)))
+    depth_m, _ = inside(bodies(kit.map.proxy, names), nodes, local, np.full(len(local), _WIRE_M))
+    hidden = (depth_m.reshape(on_line.shape[:3]) > 0.0).any(axis=2)
+    share: Floats = 1.0 - hidden.mean(axis=1)
+    return share
+
+
+def _fingers(stage: Stage, row: int) -> Floats:
+    names: Sequence[str] = [
+        f"{side}{finger}{joint}"
+        for side in ("left", "right")
+        for finger in ("Index", "Middle", "Ring", "Little")
+        for joint in ("Intermediate", "Distal")
+    ]
+    return np.array([stage.joint_m(row, name) for name in names])
+
+
+def _unit(yaw_rad: float, pitch_rad: float) -> Floats:
+    """The direction in which a camera's eye is."""
+    flat = math.cos(pitch_rad)
+    return np.array([flat * math.sin(yaw_rad), math.sin(pitch_rad), flat * math.cos(yaw_rad)])
