@@ -195,10 +195,10 @@ def build(at: Layout) -> Model:
     for k in range(at.row):
         at.piston.build(model, f"valve_{k + 1}", f.at(at.valve(k, at.foot)), up)
     airway(model, at, f)
-    _slides(model, at, f)
+    slides(model, at, f)
     if at.side_valve:
         _side_valve(model, at, f)
-    _thumb_ring(model, at, f)
+    thumb_ring(model, at, f)
     return model
 
 
@@ -261,7 +261,7 @@ def airway(model: Model, at: Layout, f: Frame) -> None:
     )
 
 
-def _slides(model: Model, at: Layout, f: Frame) -> None:
+def slides(model: Model, at: Layout, f: Frame) -> None:
     """Knuckles between the valves and their slides."""
     r, down = at.bore, f.way(0, -1, 0)
     front = at.piston.casing_r
@@ -319,7 +319,7 @@ def _ring_place(at: Layout) -> tuple[float, float, float]:
 RING_R, RING_THICK = 0.0135, 0.0017
 
 
-def _thumb_ring(model: Model, at: Layout, f: Frame) -> None:
+def thumb_ring(model: Model, at: Layout, f: Frame) -> None:
     place = f.at(_ring_place(at))
     model.add(NICKEL, torus(place, f.way(0.25, 0.15, 1), RING_R, RING_THICK, around=32, sides=12))
     edge = place + RING_R * f.way(1, 0, -0.25)
@@ -333,20 +333,35 @@ def _thumb_ring(model: Model, at: Layout, f: Frame) -> None:
     )
 
 
+def row_contacts(at: Layout, f: Frame) -> list[dict[str, object]]:
+    """Where the right hand touches: the fingers on the row of valves, the thumb in its ring."""
+    up, inward = f.way(0, 1, 0), unit(f.way(-1, 0, 0.25))
+    found: list[dict[str, object]] = [
+        {
+            "part": f"right.{finger}.pad",
+            "node": f"valve_{k + 1}",
+            "point": f.at(at.valve(k, at.button)),
+            "normal": up,
+            "control": f"valve_{k + 1}",
+            "grip": "firm",
+        }
+        for k, finger in enumerate(("index", "middle", "ring", "little")[: at.row])
+    ]
+    edge = f.at(_ring_place(at)) - (RING_R - RING_THICK) * inward
+    thumb = {"part": "right.thumb.pad", "node": "root", "point": edge, "normal": inward}
+    return [*found, {**thumb, "control": None, "grip": "firm"}]
+
+
 def contacts(at: Layout) -> list[dict[str, object]]:
     """Where a trained player's hands touch it, in the root frame."""
-    f, found = at.frame(), []
+    f = at.frame()
+    found, up = row_contacts(at, f), f.way(0, 1, 0)
 
     def touch(
         part: str, node: str, point: Array, normal: Array, control: str | None = None, grip: str = "firm"
     ) -> None:
         found.append({"part": part, "node": node, "point": point, "normal": normal, "control": control, "grip": grip})
 
-    up = f.way(0, 1, 0)
-    for k, finger in enumerate(("index", "middle", "ring", "little")[: at.row]):
-        touch(f"right.{finger}.pad", f"valve_{k + 1}", f.at(at.valve(k, at.button)), up, f"valve_{k + 1}")
-    inward = unit(f.way(-1, 0, 0.25))
-    touch("right.thumb.pad", "root", f.at(_ring_place(at)) - (RING_R - RING_THICK) * inward, inward)
     if at.side_valve:
         u, top, w = at.side_valve
         touch("left.index.pad", "valve_4", f.at(at.side_valve), up, "valve_4")
