@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import (
     QAction,
@@ -29,8 +30,9 @@ from widgets.common.icons import icon
 from widgets.common.selection import Selection
 from widgets.common.session import Session, Severity, TimeDisplay
 from widgets.common.tokens import LEAST_TEXT_PT
-from widgets.timeline.axis import TimeAxis
+from widgets.timeline.axis import Floats, TimeAxis
 from widgets.timeline.lane import GUTTER_PX, PAN_A_STEP, ZOOM_A_STEP
+from widgets.timeline.lanes.drawing import draw_lines
 from widgets.timeline.lines import Lines
 from widgets.timeline.ruler_labels import Labels, Mark, MarkEditor, bar_labels, clock_labels, frame_labels, lay_marks
 
@@ -170,18 +172,20 @@ class Ruler(QWidget):
         lines = self.axis.lines(self.session.project.score, self.session.grid)
         display = self.session.time_display
         labels = self._labels(display, lines)
-        painter.setPen(QPen(QColor(tokens.line_strong), 1.0))
+        pen = QPen(QColor(tokens.line_strong), 1.0)
         if display == "bars":
-            for seconds in lines.beat_s.tolist():
-                x = int(self._x(seconds)) + 0.5
-                painter.drawLine(QPointF(x, bottom - 6), QPointF(x, bottom))
+            self._upright(painter, lines.beat_s, bottom - 6, pen)
+        self._upright(painter, np.array([seconds for seconds, _ in labels], np.float64), MARKS_PX + 4.0, pen)
+        painter.setPen(QColor(tokens.text_dim))
         for seconds, text in labels:
             x = int(self._x(seconds)) + 0.5
             if exposed.left() - 120 <= x <= exposed.right() + 4:
-                painter.setPen(QPen(QColor(tokens.line_strong), 1.0))
-                painter.drawLine(QPointF(x, MARKS_PX + 4), QPointF(x, bottom))
-                painter.setPen(QColor(tokens.text_dim))
                 painter.drawText(QRectF(x + 4, MARKS_PX, 120.0, SCALE_PX - 3.0), _MIDDLE, text)
+
+    def _upright(self, painter: QPainter, seconds: Floats, top: float, pen: QPen) -> None:
+        """Lines down to the lower edge."""
+        x = np.trunc(GUTTER_PX + self.axis.x_px(seconds)) + 0.5
+        draw_lines(painter, x, np.full(len(x), top), x, np.full(len(x), float(self.height())), pen)
 
     def _labels(self, display: TimeDisplay, lines: Lines) -> Labels:
         project = self.session.project

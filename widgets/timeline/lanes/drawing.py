@@ -17,6 +17,8 @@ from widgets.common.tokens import LEAST_TEXT_PT, Tokens
 
 Floats = npt.NDArray[np.float64]
 
+# As numbers: joining flags of Qt takes Python as long as drawing a word.
+_ONE_LINE = int(Qt.TextFlag.TextDontClip) | int(Qt.TextFlag.TextSingleLine)
 MARK_PX = 6.0
 """Side of the square that marks what a person made."""
 
@@ -47,7 +49,7 @@ def draw_text(
         return
     shown = metrics.elidedText(text, Qt.TextElideMode.ElideRight, box.width())
     if len(shown) > 1 or shown == text:
-        painter.drawText(box, align | Qt.TextFlag.TextDontClip | Qt.TextFlag.TextSingleLine, shown)
+        painter.drawText(box, int(align) | _ONE_LINE, shown)
 
 
 def draw_mark(painter: QPainter, tokens: Tokens, x: float, y: float, removed: bool = False) -> None:

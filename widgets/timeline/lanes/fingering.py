@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 from PySide6.QtCore import QPoint, QPointF, QRectF, Qt
-from PySide6.QtGui import QColor, QKeyEvent, QPainter, QPen
+from PySide6.QtGui import QColor, QFontMetricsF, QKeyEvent, QPainter, QPen
 from PySide6.QtWidgets import QMenu, QWidget
 
 from app.errors import AppError
@@ -159,6 +159,7 @@ class _Bars(LaneItem):
         lane, tokens = self._lane, self._lane.session.tokens
         top = lane.plot_rect.height() - LABEL_PX
         text, strong = QColor(tokens.text_dim), QColor(tokens.text)
+        metrics = QFontMetricsF(painter.font())
         rows = zip(shown.tolist(), left.tolist(), width.tolist(), chosen.tolist(), strict=True)
         for index, x, wide, is_chosen in rows:
             event = data.events[index]
@@ -171,7 +172,7 @@ class _Bars(LaneItem):
             inset = 8.0 if event.corrected else 2.0
             box = QRectF(x + inset, top, max(wide - inset, 15.0), LABEL_PX)
             label = short_label(event.label)
-            if wide >= painter.fontMetrics().horizontalAdvance(label) + inset:
+            if wide >= metrics.horizontalAdvance(label) + inset:
                 draw_text(painter, box, label)
 
 
