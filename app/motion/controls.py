@@ -11,6 +11,7 @@ from collections.abc import Iterable, Sequence
 from functools import lru_cache
 
 import numpy as np
+import numpy.typing as npt
 
 from app.motion.curve import Curve, minimum_jerk, moves
 from app.plan.model import FingeringEvent
@@ -94,34 +95,46 @@ def control_curve(fingerings: Sequence[FingeringEvent], control: Control, beat_t
     beat_ticks : int
         A rest of this many ticks brings the control back to rest.
     """
-    rest = control.rest_value
-    segments: list[tuple[float, float, float]] = []
-    value = rest
-    last: FingeringEvent | None = None
-    for event in fingerings:
-        target = event.controls.get(control.name, rest)
-        if last is None:
-            segments.append((event.start_s - _free_window_s(control, target - rest), event.start_s, target))
-        elif event.start_tick - last.end_tick >= beat_ticks:
-            segments += _through_rest(control, last.end_s, event.start_s, value, target)
-        elif target != value:
-            end_s = min(last.end_s, event.start_s)
-            window = window_s(control, target - value, end_s - last.start_s, event.start_s - end_s)
-            start_s = event.start_s - window - unseen_s(control, target - value, window)
-            # However hurried, the note before has its first frame, and most of its first half.
-            earliest_s = last.start_s + max(SLOWEST_FRAME_S, LEAST_HELD_SHARE * (event.start_s - last.start_s))
-            segments.append((min(max(start_s, earliest_s), event.start_s - window), event.start_s, target))
-        value, last = target, event
-    if last is not None:
-        segments.append((last.end_s, last.end_s + _back_s(control, value), rest))
-    return moves(segments, rest)
+    return control_curves(fingerings, (control,), beat_ticks)[control.name]
 
 
 def control_curves(
     fingerings: Sequence[FingeringEvent], controls: Iterable[Control], beat_ticks: int
 ) -> dict[str, Curve]:
     """Curves of all controls of an instrument, by name."""
-    return {control.name: control_curve(fingerings, control, beat_ticks) for control in controls}
+    starts = np.array([event.start_tick for event in fingerings], np.int64)
+    ends = np.array([event.end_tick for event in fingerings], np.int64)
+    rests = np.zeros(len(starts), dtype=np.bool_)
+    rests[1:] = starts[1:] - ends[:-1] >= beat_ticks
+    return {control.name: _curve(fingerings, control, rests) for control in controls}
+
+
+def _curve(fingerings: Sequence[FingeringEvent], control: Control, rests: npt.NDArray[np.bool_]) -> Curve:
+    """One control's; ``rests`` (N,) says which notes a rest precedes that brings controls back to rest."""
+    if not fingerings:
+        return moves((), control.rest_value)
+    name, rest = control.name, control.rest_value
+    targets = np.array([event.controls.get(name, rest) for event in fingerings])
+    # Nothing happens where a control stays where it is: most keys do, in most notes.
+    stays = (targets[1:] == targets[:-1]) & (~rests[1:] | (targets[1:] == rest))
+    first = fingerings[0]
+    value = float(targets[0])
+    segments = [(first.start_s - _free_window_s(control, value - rest), first.start_s, value)]
+    for index in (np.flatnonzero(~stays) + 1).tolist():
+        last, event = fingerings[index - 1], fingerings[index]
+        value, target = float(targets[index - 1]), float(targets[index])
+        if rests[index]:
+            segments += _through_rest(control, last.end_s, event.start_s, value, target)
+        else:
+            end_s = min(last.end_s, event.start_s)
+            window = window_s(control, target - value, end_s - last.start_s, event.start_s - end_s)
+            start_s = event.start_s - window - unseen_s(control, target - value, window)
+            # However hurried, the note before has its first frame, and most of its first half.
+            earliest_s = last.start_s + max(SLOWEST_FRAME_S, LEAST_HELD_SHARE * (event.start_s - last.start_s))
+            segments.append((min(max(start_s, earliest_s), event.start_s - window), event.start_s, target))
+    last_s = fingerings[-1].end_s
+    segments.append((last_s, last_s + _back_s(control, float(targets[-1])), rest))
+    return moves(segments, rest)
 
 
 def _free_window_s(control: Control, distance: float) -> float:

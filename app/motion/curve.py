@@ -135,19 +135,24 @@ def moves(segments: Sequence[tuple[float, float, float]], initial: float = 0.0) 
 
     Moves that change nothing are left out. Raises ValueError where they overlap or take no time.
     """
-    rows: list[tuple[float, float, float, float]] = []
-    value, time_s = initial, -np.inf
-    for start_s, end_s, target in segments:
-        if target == value:
-            continue
-        if time_s - ROUNDING_S < start_s < time_s:
-            start_s = time_s
-        if start_s < time_s or end_s <= start_s:
-            raise ValueError(f"move [{start_s}, {end_s}) to {target} overlaps the one before, which ends at {time_s}")
-        rows.append((start_s, end_s, value, target))
-        value, time_s = target, end_s
-    table = np.array(rows, dtype=np.float64).reshape(-1, 4)
-    return Curve(table[:, 0], table[:, 1], table[:, 2], table[:, 3], initial)
+    table = np.array(segments, dtype=np.float64).reshape(-1, 3)
+    return moves_to(table[:, 0], table[:, 1], table[:, 2], initial)
+
+
+def moves_to(start_s: FloatArray, end_s: FloatArray, values: FloatArray, initial: float = 0.0) -> Curve:
+    """The same from arrays (S,)."""
+    before = np.concatenate(([initial], values[:-1]))[: len(values)]
+    kept = values != before
+    start_s, end_s, before, after = start_s[kept], end_s[kept], before[kept], values[kept]
+    free_s = np.concatenate(([-np.inf], end_s[:-1]))[: len(end_s)]
+    start_s = np.where((free_s - ROUNDING_S < start_s) & (start_s < free_s), free_s, start_s)
+    wrong = np.flatnonzero((start_s < free_s) | (end_s <= start_s))
+    if len(wrong):
+        row = int(wrong[0])
+        raise ValueError(
+            f"move [{start_s[row]}, {end_s[row]}) to {after[row]} overlaps the one before, which ends at {free_s[row]}"
+        )
+    return Curve(start_s, end_s, before, after, initial)
 
 
 def through(times_s: FloatArray, values: FloatArray) -> Curve:

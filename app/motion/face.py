@@ -7,13 +7,12 @@ character's own morphs move its lips.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from app.motion.curve import Curve, Envelopes, FloatArray, moves
+from app.motion.curve import Curve, Envelopes, FloatArray, moves, moves_to
 from app.motion.gaze import Gaze
 from app.plan.model import EmbouchureEvent, PlayerPlan, same_events
 from app.rig.hold import Lips
@@ -42,27 +41,30 @@ def _tracked(
     events: Sequence[EmbouchureEvent], values: Sequence[float], shift_s: float, rest_value: float | None
 ) -> Curve:
     """A value that is reached at each onset, held, and (``rest_value``) left in rests longer than `HOLD_S`."""
-    segments: list[tuple[float, float, float]] = []
-    value, free_s, last_s = rest_value or 0.0, -math.inf, -math.inf
-    following = [*(event.start_s for event in events[1:]), np.inf][: len(events)]
-    for event, target, next_s in zip(events, values, following, strict=True):
-        onset_s = event.start_s
-        gap_s = onset_s - last_s
-        if rest_value is not None and last_s > -math.inf and gap_s > HOLD_S:
-            free_s = last_s + min(2.0 * FORM_S, gap_s / 2.0)
-            if value != rest_value:
-                segments.append((last_s, free_s, rest_value))
-            value = rest_value
-        start_s = max(onset_s - shift_s, free_s)
-        if target != value:
-            segments.append((start_s, onset_s, target))
-            value = target
-        end_s = min(event.end_s, next_s)
-        free_s = max(onset_s, end_s - SHIFT_SHARE * (end_s - onset_s))
-        last_s = end_s
-    if rest_value is not None and value != rest_value:
-        segments.append((last_s, last_s + 2.0 * FORM_S, rest_value))
-    return moves(segments, rest_value or 0.0)
+    initial = rest_value or 0.0
+    if not events:
+        return moves((), initial)
+    onsets_s = np.array([event.start_s for event in events])
+    lasts_s = np.minimum(np.array([event.end_s for event in events]), np.append(onsets_s[1:], np.inf))
+    targets = np.array(values, dtype=np.float64)
+    before = np.append(initial, targets[:-1])
+    free_s = np.append(-np.inf, np.maximum(onsets_s, lasts_s - SHIFT_SHARE * (lasts_s - onsets_s))[:-1])
+    left_s = np.append(-np.inf, lasts_s[:-1])
+    # Two rows for every note: back to rest where there is one before it, and to its own value.
+    rows = np.empty((len(events), 2, 3))
+    if rest_value is not None:
+        gap_s = onsets_s - left_s
+        rests = np.isfinite(left_s) & (gap_s > HOLD_S)
+        back_s = left_s + np.minimum(2.0 * FORM_S, gap_s / 2.0)
+        free_s = np.where(rests, back_s, free_s)
+        rows[:, 0] = np.stack((left_s, back_s, np.where(rests, rest_value, before)), axis=1)
+    else:
+        rows[:, 0] = np.stack((onsets_s, onsets_s, before), axis=1)
+    rows[:, 1] = np.stack((np.maximum(onsets_s - shift_s, free_s), onsets_s, targets), axis=1)
+    table = rows.reshape(-1, 3)
+    if rest_value is not None:
+        table = np.append(table, [[lasts_s[-1], lasts_s[-1] + 2.0 * FORM_S, rest_value]], axis=0)
+    return moves_to(table[:, 0], table[:, 1], table[:, 2], initial)
 
 
 def breath_opening(plan: PlayerPlan) -> Envelopes:

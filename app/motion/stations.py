@@ -7,16 +7,18 @@ Dalla Bella 2004; Goebl & Palmer 2008).
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
 import numpy as np
+import numpy.typing as npt
 
-from app.motion.curve import Curve, FloatArray, moves
+from app.motion.curve import Curve, FloatArray, moves, moves_to
 from app.plan.model import FingeringEvent
 from app.rig.hold import Placed
-from app.rig.stations import Station, fingers_at_work, station_for, stations
+from app.rig.stations import Station, kinds_of_notes, station_for, stations
 from instrument_maps.model import InstrumentMap
 
 TRAVEL_S = 0.16
@@ -74,13 +76,25 @@ def station_curves(
     travelled = {finger: places for finger, places in stations(instrument).items() if len(places) > 1}
     if not travelled:
         return {}
-    at_work = [fingers_at_work(instrument, event.controls, event.fingers) for event in fingerings]
+    kinds, at_work = kinds_of_notes(instrument, ((event.controls, event.fingers) for event in fingerings))
+    follows = np.zeros(len(fingerings), dtype=np.bool_)
+    follows[1:] = _silences_s(fingerings) < HOME_S
     result = {}
     for finger, places in travelled.items():
         worked = [found.get(finger, frozenset()) for found in at_work]
-        visits = _visits(fingerings, worked, places, controls)
+        sets = list(dict.fromkeys(worked))
+        found = np.array([sets.index(one) for one in worked], np.intp)[kinds]
+        visits = _visits(fingerings, found, sets, follows, places, controls)
         result[finger] = moves(_ways(visits), 0.0)
     return result
+
+
+def _silences_s(fingerings: Sequence[FingeringEvent]) -> FloatArray:
+    """(N - 1,): from each note's end to the next one's onset."""
+    starts_s, ends_s = (
+        np.array([getattr(event, name) for event in fingerings], np.float64) for name in ("start_s", "end_s")
+    )
+    return np.asarray(starts_s[1:] - ends_s[:-1])
 
 
 def sampled(curve: Curve, times_s: FloatArray) -> Placed:
@@ -98,47 +112,39 @@ def raised_curve(fingerings: Sequence[FingeringEvent]) -> Curve:
     padded = np.pad(np.append(pace, pace[-1]), NEIGHBOURS, mode="edge")
     window = 2 * NEIGHBOURS + 1
     mean = np.round(np.convolve(padded, np.full(window, 1.0 / window), mode="valid"), 2)
-    segments = []
-    for index in range(1, len(onsets_s)):
-        start_s = max(onsets_s[index - 1], onsets_s[index] - HOME_S)
-        if onsets_s[index] > start_s:
-            segments.append((float(start_s), float(onsets_s[index]), float(mean[index])))
-    return moves(segments, float(mean[0]))
+    start_s = np.maximum(onsets_s[:-1], onsets_s[1:] - HOME_S)
+    goes = onsets_s[1:] > start_s
+    return moves_to(start_s[goes], onsets_s[1:][goes], mean[1:][goes], float(mean[0]))
 
 
 def _visits(
     fingerings: Sequence[FingeringEvent],
-    worked: Sequence[frozenset[str]],
+    worked: npt.NDArray[np.intp],
+    sets: Sequence[frozenset[str]],
+    follows: npt.NDArray[np.bool_],
     places: Sequence[Station],
     controls: Mapping[str, Curve],
 ) -> list[_Visit]:
-    """The finger's times at work; notes that follow one another at one station are one visit."""
+    """The finger's times at work; notes that follow one another at one station are one visit.
+
+    ``worked`` (N,) names one of ``sets`` of controls for each note; ``follows`` (N,) whether it follows the one before
+    without a rest that would take a finger off.
+    """
     found: list[_Visit] = []
     nothing: frozenset[str] = frozenset()
-    index = 0
-    while index < len(fingerings):
-        last = index
-        while last + 1 < len(fingerings) and _goes_on(fingerings, worked, last, index):
-            last += 1
-        if worked[index]:
-            before = worked[index - 1] if index and _follows(fingerings, index) else nothing
-            after = worked[last + 1] if last + 1 < len(fingerings) and _follows(fingerings, last + 1) else nothing
-            onset_s, last_onset_s, end_s = fingerings[index].start_s, fingerings[last].start_s, fingerings[last].end_s
-            down = [_down(controls[name], onset_s) for name in sorted(worked[index] - before)]
-            up = [_up(controls[name], last_onset_s, end_s) for name in sorted(worked[index] - after)]
-            station = station_for(places, worked[index])
-            found.append(_Visit(station, onset_s, end_s, _hull(down), _hull(up)))
-        index = last + 1
+    firsts = np.flatnonzero(~(follows[1:] & (worked[1:] == worked[:-1]))) + 1
+    edges = [0, *firsts.tolist(), len(fingerings)]
+    for first, end in itertools.pairwise(edges):
+        work = sets[worked[first]]
+        if not work:
+            continue
+        before = sets[worked[first - 1]] if first and follows[first] else nothing
+        after = sets[worked[end]] if end < len(fingerings) and follows[end] else nothing
+        onset_s, last_onset_s, end_s = fingerings[first].start_s, fingerings[end - 1].start_s, fingerings[end - 1].end_s
+        down = [_down(controls[name], onset_s) for name in sorted(work - before)]
+        up = [_up(controls[name], last_onset_s, end_s) for name in sorted(work - after)]
+        found.append(_Visit(station_for(places, work), onset_s, end_s, _hull(down), _hull(up)))
     return found
-
-
-def _goes_on(fingerings: Sequence[FingeringEvent], worked: Sequence[frozenset[str]], last: int, first: int) -> bool:
-    return worked[last + 1] == worked[first] and _follows(fingerings, last + 1)
-
-
-def _follows(fingerings: Sequence[FingeringEvent], index: int) -> bool:
-    """Whether a note follows the one before without a rest that would take a finger off."""
-    return fingerings[index].start_s - fingerings[index - 1].end_s < HOME_S
 
 
 def _hull(spans: Sequence[Span]) -> Span | None:

@@ -112,13 +112,12 @@ class ContactJudge:
         self._starts_s = np.array([event.start_s for event in plan.fingerings])
         self._ends_s = np.array([event.end_s for event in plan.fingerings])
         self._breaths_s = np.array([(event.start_s, event.end_s) for event in plan.breaths]).reshape(-1, 2)
-        self._targets = {
-            control.name: _targets(control, plan.fingerings)
+        self._touched = [
+            control
             for control in instrument.controls
             if any(control.name in (contact.control, *contact.together) for contact in instrument.contacts)
-        }
+        ]
         self._only_at = only_at(instrument)
-        self._working = stations_of_notes(instrument, ((event.controls, event.fingers) for event in plan.fingerings))
         self._marks = tuple(dict.fromkeys([*(contact.part for contact in instrument.contacts), LIPS]))
         skeleton = character.skeleton
         self._wrists = {hand.side: skeleton.index(f"{hand.side}Hand") for hand in playing.player.hold.hands}
@@ -161,6 +160,12 @@ class ContactJudge:
         gaps_m = np.linalg.norm(marks_m[:, self._marks.index(LIPS)] - rim_m, axis=1)
         yield from _runs(("lips", "", ""), times_s, gaps_m, (gaps_m * 1000.0 > LIPS_MM) & ~self._breathing(times_s))
         placed = {finger: sampled(curve, times_s) for finger, curve in self._playing.stations.items()}
+        # Of the notes that are looked at: a line has thousands.
+        first = int(notes.min())
+        played, notes = self._playing.plan.fingerings[first : int(notes.max()) + 1], notes - first
+        working = stations_of_notes(instrument, ((event.controls, event.fingers) for event in played))
+        targets = {control.name: _targets(control, played)[notes] for control in self._touched}
+        places = {finger: found[notes] for finger, found in working.items()}
         off: dict[str, BoolArray] = {}
         for hand in self._playing.player.hold.hands:
             wanted_m, _ = hand_targets(hand, place_m, turn, controls, placed)
@@ -181,7 +186,7 @@ class ContactJudge:
             # Where the whole hand has moved, its fingers have with it.
             broken = (gaps_m * 1000.0 > bound_mm(contact)) & ~off[contact.part.split(".")[0]]
             if broken.any():
-                broken &= self._judged(index, controls, notes, placed)
+                broken &= self._judged(index, controls, targets, places, placed)
                 yield from _runs(("touch", contact.part, contact.control or ""), times_s, gaps_m, broken)
 
     def _breathing(self, times_s: FloatArray) -> BoolArray:
@@ -192,25 +197,30 @@ class ContactJudge:
         return inside
 
     def _judged(
-        self, index: int, controls: dict[str, FloatArray], notes: npt.NDArray[np.intp], placed: dict[str, Placed]
+        self,
+        index: int,
+        controls: dict[str, FloatArray],
+        targets: dict[str, FloatArray],
+        places: dict[str, npt.NDArray[np.intp]],
+        placed: dict[str, Placed],
     ) -> BoolArray | Literal[True]:
-        """Whether a contact that is not always there should be."""
+        """Whether a contact that is not always there should be; ``targets`` of controls and ``places`` of fingers are
+        those of the frame's note."""
         instrument = self._playing.instrument_map
         contact, place = instrument.contacts[index], self._only_at[index]
         if place is not None:
-            wanted: BoolArray = self._working[place[0]][notes] == place[1]
+            wanted: BoolArray = places[place[0]] == place[1]
             for name in worked_by(contact, instrument):
-                wanted = wanted & in_place(instrument.control(name), controls[name], self._targets[name][notes])
+                wanted = wanted & in_place(instrument.control(name), controls[name], targets[name])
             if place[0] in placed:
                 share = placed[place[0]].share
                 wanted = wanted & ((share <= 0.0) | (share >= 1.0))
             return wanted
         if contact.control is None or contact.when == "always":
             return True
-        control = instrument.control(contact.control)
-        targets = self._targets[contact.control][notes]
-        wanted = (targets == control.rest_value) == (contact.when == "released")
-        return wanted & in_place(control, controls[contact.control], targets)
+        control, target = instrument.control(contact.control), targets[contact.control]
+        wanted = (target == control.rest_value) == (contact.when == "released")
+        return wanted & in_place(control, controls[contact.control], target)
 
 
 def _targets(control: Control, notes: Sequence[FingeringEvent]) -> FloatArray:

@@ -263,6 +263,8 @@ class LiveMotion:
         self._todo: Iterator[tuple[str, int]] | None = None
         self._unjudged: Iterator[tuple[_Track, int]] | None = None
         self._broken: dict[str, tuple[Problem, ...]] = {}
+        self._made: tuple[_Track, int, Motion] | None = None
+        """The chunk that was made last, until its contacts are judged."""
         self._chunk_bytes = 0
         self._seen = 0
         self._shown = _Shown(performance, _Grid.of(performance.time_frame, performance.project.fps), {})
@@ -352,6 +354,12 @@ class LiveMotion:
             if self._todo is None:
                 self._todo = self._missing(shown)
             todo = self._todo
+        if self._made is not None:
+            # Not with the frames, for which a picture waits.
+            track, index, motion = self._made
+            self._made = None
+            if shown.tracks.get(track.player.id) is track and index in track.chunks:
+                self._judge(track, index, motion)
         for player_id, index in todo:
             track = shown.tracks[player_id]
             if stop_wanted():
@@ -370,7 +378,7 @@ class LiveMotion:
                 self._chunk_bytes = chunk.bytes
                 self._seen += index == self._in_sight(shown.grid)[0]
             if index not in track.judged:
-                self._judge(track, index, motion)
+                self._made = (track, index, motion)
             return True
         return False
 

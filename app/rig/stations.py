@@ -117,12 +117,30 @@ def stations_of_notes(
     notes : iterable of (controls, fingers)
         Of the fingerings, as `fingers_at_work` takes them.
     """
-    places = stations(instrument)
-    at_work = [fingers_at_work(instrument, controls, fingers) for controls, fingers in notes]
+    kinds, at_work = kinds_of_notes(instrument, notes)
     return {
-        finger: np.array([station_for(found, work[finger]) if finger in work else -1 for work in at_work], np.intp)
-        for finger, found in places.items()
+        finger: np.array([station_for(found, work[finger]) if finger in work else -1 for work in at_work], np.intp)[
+            kinds
+        ]
+        for finger, found in stations(instrument).items()
     }
+
+
+def kinds_of_notes(
+    instrument: InstrumentMap, notes: Iterable[tuple[Mapping[str, float], Mapping[str, str]]]
+) -> tuple[npt.NDArray[np.intp], list[dict[str, frozenset[str]]]]:
+    """Notes (N,) by what they are fingered with, and the fingers at work of each kind: a line has few of them."""
+    known: dict[tuple[int, int], int] = {}
+    at_work: list[dict[str, frozenset[str]]] = []
+    kinds = []
+    held = list(notes)
+    for controls, fingers in held:
+        # By identity: notes of one fingering share its tables.
+        kind = known.setdefault((id(controls), id(fingers)), len(at_work))
+        if kind == len(at_work):
+            at_work.append(fingers_at_work(instrument, controls, fingers))
+        kinds.append(kind)
+    return np.array(kinds, np.intp), at_work
 
 
 def only_at(instrument: InstrumentMap) -> tuple[tuple[str, int] | None, ...]:
