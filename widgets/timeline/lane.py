@@ -450,6 +450,9 @@ class Lane(QWidget):
         if event.type() == QEvent.Type.LanguageChange:
             self.retranslate()
             self._name_fold()
+        elif event.type() == QEvent.Type.FontChange:
+            # The plot's own font may be another, and stay.
+            self.update_items()
         super().changeEvent(event)
 
     def sizeHint(self) -> QSize:

@@ -7,20 +7,20 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from pyqtgraph.Qt.internals import PrimitiveArray
-from PySide6.QtCore import QEvent, QLineF, QPoint, QRectF, QSize, QSizeF, Qt
+from PySide6.QtCore import QEvent, QLineF, QPoint, QRectF, Qt
 from PySide6.QtGui import (
     QColor,
     QContextMenuEvent,
     QKeyEvent,
     QMouseEvent,
     QPainter,
-    QPaintEvent,
     QPen,
-    QPixmap,
     QResizeEvent,
     QWheelEvent,
 )
-from PySide6.QtWidgets import QSizePolicy, QWidget
+from PySide6.QtWidgets import QSizePolicy
+
+from widgets.timeline.pictured import Pictured
 
 if TYPE_CHECKING:
     from widgets.timeline.lane import Lane
@@ -138,23 +138,21 @@ class Background(LaneItem):
         painter.fillRect(QRectF(left, exposed.top(), right - left, exposed.height()) & exposed, shade)
 
 
-class Plot(QWidget):
+class Plot(Pictured):
     """The drawing area of a lane, and its mouse and keys.
 
     A plain widget: views of graphics scenes hear of changes one after another, and each round of theirs painted all
-    lanes again. What is drawn is kept as a picture, so that the playhead passing by draws nothing anew.
+    lanes again.
     """
 
     def __init__(self, lane: Lane) -> None:
         super().__init__(lane)
         self._lane = lane
         self._items: list[LaneItem] = []
-        self._picture: QPixmap | None = None
         self.setMinimumSize(40, 0)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         self.setMouseTracking(True)
         self.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
-        self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
 
     def add(self, item: LaneItem) -> None:
         """Draw this too."""
@@ -162,40 +160,14 @@ class Plot(QWidget):
         self._items.sort(key=lambda each: each.z)
         self.redraw()
 
-    def redraw(self) -> None:
-        """Something that is drawn is other now."""
-        self._picture = None
-        self.update()
-
-    def _drawn(self) -> QPixmap:
-        ratio = self.devicePixelRatioF()
-        size = (QSizeF(self.size()) * ratio).toSize()
-        if self._picture is None or self._picture.size() != size or self._picture.devicePixelRatio() != ratio:
-            self._picture = self._draw(size, ratio)
-        return self._picture
-
-    def _draw(self, size: QSize, ratio: float) -> QPixmap:
-        picture = QPixmap(size)
-        picture.setDevicePixelRatio(ratio)
-        picture.fill(QColor(self._lane.session.tokens.sunken))
-        painter = QPainter(picture)
-        room = self._lane.plot_rect
+    def draw(self, painter: QPainter, room: QRectF) -> None:
+        painter.fillRect(room, QColor(self._lane.session.tokens.sunken))
         for item in self._items:
             painter.save()
             item.paint_px(painter, room)
             painter.restore()
-        painter.end()
-        return picture
 
     # Qt overrides
-
-    def paintEvent(self, event: QPaintEvent) -> None:
-        QPainter(self).drawPixmap(0, 0, self._drawn())
-
-    def changeEvent(self, event: QEvent) -> None:
-        super().changeEvent(event)
-        # Fonts and words are drawn too.
-        self.redraw()
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         super().resizeEvent(event)

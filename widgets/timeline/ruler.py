@@ -34,6 +34,7 @@ from widgets.timeline.axis import Floats, TimeAxis
 from widgets.timeline.lane import GUTTER_PX, PAN_A_STEP, ZOOM_A_STEP
 from widgets.timeline.lanes.drawing import draw_lines
 from widgets.timeline.lines import Lines
+from widgets.timeline.pictured import Pictured
 from widgets.timeline.ruler_labels import Labels, Mark, MarkEditor, bar_labels, clock_labels, frame_labels, lay_marks
 
 MARKS_PX = 22
@@ -44,7 +45,7 @@ GRIP_PX = 5.0
 """So near to an edge of the loop, or to the playhead, a press takes hold of it."""
 
 
-class Ruler(QWidget):
+class Ruler(Pictured):
     """The ruler over the lanes.
 
     Signals
@@ -101,12 +102,12 @@ class Ruler(QWidget):
         self._editor.editingFinished.connect(self._editing_finished)
 
         axis.changed.connect(self._axis_changed)
-        session.changed.connect(self.update)
-        session.performance_changed.connect(self.update)
-        session.players_changed.connect(self.update)
+        session.changed.connect(self.redraw)
+        session.performance_changed.connect(self.redraw)
+        session.players_changed.connect(self.redraw)
         session.theme_changed.connect(self._theme_set)
         session.selection_changed.connect(self._selection_set)
-        session.loop_changed.connect(self.update)
+        session.loop_changed.connect(self.redraw)
         session.time_display_changed.connect(self._unit_set)
         session.playhead_changed.connect(self._playhead_set)
         self._head_x = 0.0
@@ -128,7 +129,7 @@ class Ruler(QWidget):
             action.setText(texts[display])
         self.unit_button.setToolTip(self.tr("What the ruler counts"))
         self._unit_set()
-        self.update()
+        self.redraw()
 
     # Places
 
@@ -166,7 +167,7 @@ class Ruler(QWidget):
                 painter.setPen(QPen(QColor(tokens.text_dim), 1.0))
                 painter.drawLine(QPointF(int(x) + 0.5, MARKS_PX - 3), QPointF(int(x) + 0.5, MARKS_PX + 3))
 
-    def _paint_scale(self, painter: QPainter, exposed: QRectF) -> None:
+    def _paint_scale(self, painter: QPainter) -> None:
         tokens = self.session.tokens
         bottom = float(self.height())
         lines = self.axis.lines(self.session.project.score, self.session.grid)
@@ -179,7 +180,7 @@ class Ruler(QWidget):
         painter.setPen(QColor(tokens.text_dim))
         for seconds, text in labels:
             x = int(self._x(seconds)) + 0.5
-            if exposed.left() - 120 <= x <= exposed.right() + 4:
+            if -120 <= x <= self.width() + 4:
                 painter.drawText(QRectF(x + 4, MARKS_PX, 120.0, SCALE_PX - 3.0), _MIDDLE, text)
 
     def _upright(self, painter: QPainter, seconds: Floats, top: float, pen: QPen) -> None:
@@ -216,12 +217,12 @@ class Ruler(QWidget):
     def _axis_changed(self) -> None:
         self._leave_editor(False)
         self._head_x = self._x(self.session.playhead_s)
-        self.update()
+        self.redraw()
 
     def _selection_set(self) -> None:
         if self.session.selection.span != self._span:
             self._span = self.session.selection.span
-            self.update()
+            self.redraw()
 
     def _playhead_set(self, playhead_s: float) -> None:
         before, self._head_x = self._head_x, self._x(playhead_s)
@@ -232,14 +233,14 @@ class Ruler(QWidget):
         display = self.session.time_display
         self._units[display].setChecked(True)
         self.unit_button.setText(self._units[display].text())
-        self.update()
+        self.redraw()
 
     def _choose_unit(self, action: QAction) -> None:
         self.session.set_time_display(action.data())
 
     def _theme_set(self) -> None:
         self.unit_button.setIcon(icon("clock", self.session.tokens))
-        self.update()
+        self.redraw()
 
     # Editing tempo and metre
 
@@ -325,7 +326,7 @@ class Ruler(QWidget):
 
     def _remove(self, kind: str, tick: int) -> None:
         self._chosen = None
-        self.update()
+        self.redraw()
         if kind == "tempo":
             self.session.attempt(
                 Message("edit.remove_tempo"), lambda project: tempo_edit.remove_tempo(project, tick), origin=self
@@ -412,35 +413,33 @@ class Ruler(QWidget):
             self.session.select(self._before[0])
             self.session.set_loop(self._before[1])
         self._held, self._pressed, self._mark = "", None, None
-        self.update()
+        self.redraw()
 
     # Qt overrides
 
     def sizeHint(self) -> QSize:
         return QSize(800, MARKS_PX + SCALE_PX)
 
+    def draw(self, painter: QPainter, room: QRectF) -> None:
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.fillRect(room, QColor(self.session.tokens.surface))
+        painter.setFont(self.font())
+        painter.setClipRect(room.adjusted(GUTTER_PX, 0.0, 0.0, 0.0))
+        self._paint_bands(painter)
+        self._paint_scale(painter)
+        self._paint_marks(painter)
+
     def paintEvent(self, event: QPaintEvent) -> None:
-        tokens = self.session.tokens
+        super().paintEvent(event)
+        tokens, bottom, x = self.session.tokens, float(self.height()), self._x(self.session.playhead_s)
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        painter.fillRect(event.rect(), QColor(tokens.surface))
-        painter.setFont(self.font())
         painter.setClipRect(QRectF(GUTTER_PX, 0, self.width() - GUTTER_PX, self.height()))
-        self._paint_bands(painter)
-        self._paint_scale(painter, QRectF(event.rect()))
-        self._paint_marks(painter)
-        x = self._x(self.session.playhead_s)
         painter.setPen(Qt.PenStyle.NoPen)
         painter.setBrush(QColor(tokens.accent))
-        bottom = float(self.height())
+        shoulder = bottom - HEAD_HEIGHT_PX
         painter.drawPolygon(
-            QPolygonF(
-                [
-                    QPointF(x - HEAD_PX, bottom - HEAD_HEIGHT_PX),
-                    QPointF(x + HEAD_PX, bottom - HEAD_HEIGHT_PX),
-                    QPointF(x, bottom),
-                ]
-            )
+            QPolygonF([QPointF(x - HEAD_PX, shoulder), QPointF(x + HEAD_PX, shoulder), QPointF(x, bottom)])
         )
         painter.setClipping(False)
         painter.setPen(QPen(QColor(tokens.line_strong), 1.0))
@@ -466,7 +465,7 @@ class Ruler(QWidget):
             self._before = (self.session.selection, self.session.loop_s)
             if self._held == "seek":
                 self.sought.emit(self.axis.seconds(event.position().x() - GUTTER_PX))
-            self.update()
+            self.redraw()
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:
         if self._panned_px is not None:
@@ -494,7 +493,7 @@ class Ruler(QWidget):
             elif not self._dragged and self._held in ("seek", "playhead") and self.session.selection.span is not None:
                 self.session.select(Selection(self.session.selection.notes, self.session.selection.events))
             self._held, self._pressed, self._mark = "", None, None
-            self.update()
+            self.redraw()
 
     def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
         if event.button() != Qt.MouseButton.LeftButton or event.position().x() < GUTTER_PX:
@@ -524,7 +523,7 @@ class Ruler(QWidget):
             self._cancel()
         elif event.key() == Qt.Key.Key_Escape and self._chosen is not None:
             self._chosen = None
-            self.update()
+            self.redraw()
         elif event.key() in _REMOVING and self._chosen is not None:
             self._remove(*self._chosen)
         elif event.key() in _EDITING and self._chosen is not None:
@@ -544,7 +543,7 @@ class Ruler(QWidget):
     def focusOutEvent(self, event: QFocusEvent) -> None:
         if event.reason() != Qt.FocusReason.PopupFocusReason and not self._held:
             self._chosen = None
-            self.update()
+            self.redraw()
         super().focusOutEvent(event)
 
 

@@ -25,6 +25,7 @@ from widgets.common.timeline_view import Ghosts, Tool
 from widgets.common.tokens import LIGHT
 from widgets.timeline.panel import TimelinePanel
 from widgets.timeline.plot import Background
+from widgets.timeline.ruler import Ruler
 
 
 def menu_of(panel: TimelinePanel) -> QMenu:
@@ -48,23 +49,69 @@ def test_all_lanes_share_one_axis_and_one_width(stage: Stage) -> None:
         assert seen == pytest.approx([1.0, 2.0])
 
 
-def test_a_scroll_draws_every_lane_once(stage: Stage, monkeypatch: pytest.MonkeyPatch) -> None:
-    drawn: Counter[str] = Counter()
-    draw = Background.paint_px
+@pytest.fixture
+def drawn(stage: Stage, monkeypatch: pytest.MonkeyPatch) -> Counter[str]:
+    """Counts by lane how often it is drawn; the ruler counts as one."""
+    result: Counter[str] = Counter()
+    background, scale = Background.paint_px, Ruler._paint_scale
 
-    def counted(background: Background, painter: QPainter, exposed: QRectF) -> None:
-        drawn[background.lane.id] += 1
-        draw(background, painter, exposed)
+    def of_lane(item: Background, painter: QPainter, exposed: QRectF) -> None:
+        result[item.lane.id] += 1
+        background(item, painter, exposed)
+
+    def of_ruler(ruler: Ruler, painter: QPainter) -> None:
+        result["ruler"] += 1
+        scale(ruler, painter)
 
     stage.panel.axis.show(0.5, 1.5)
-    QApplication.processEvents()
-    monkeypatch.setattr(Background, "paint_px", counted)
-    stage.panel.axis.pan(0.25)
+    stage.session.set_playhead(1.0)
+    settle()
+    monkeypatch.setattr(Background, "paint_px", of_lane)
+    monkeypatch.setattr(Ruler, "_paint_scale", of_ruler)
+    return result
+
+
+def settle() -> None:
     for _ in range(3):
         QApplication.processEvents()
+
+
+def test_a_scroll_draws_every_lane_once(stage: Stage, drawn: Counter[str]) -> None:
+    stage.panel.axis.pan(0.25)
+    settle()
     shown = [lane.id for lane in stage.panel.lanes.values() if not lane.plot.visibleRegion().isEmpty()]
     assert len(shown) > 3
-    assert drawn == dict.fromkeys(shown, 1)
+    assert drawn == dict.fromkeys([*shown, "ruler"], 1)
+
+
+def test_the_playhead_passes_by_and_nothing_is_drawn_anew(stage: Stage, drawn: Counter[str]) -> None:
+    head = stage.panel.playhead
+    before = head.x()
+    stage.session.set_playhead(1.2)
+    settle()
+    assert head.x() > before
+    assert not drawn
+
+
+def test_a_selected_note_draws_only_lanes_that_show_notes(stage: Stage, drawn: Counter[str]) -> None:
+    stage.session.select(Selection(frozenset({"1:1"})))
+    settle()
+    assert drawn["roll"] == drawn["fingering"] == 1
+    assert not {"breath", "acting", "problems", "ruler"} & set(drawn)
+
+
+def test_another_font_or_theme_is_drawn(stage: Stage, drawn: Counter[str]) -> None:
+    for widget in (stage.roll, stage.panel.ruler):
+        font = widget.font()
+        font.setPointSizeF(font.pointSizeF() + 4.0)
+        widget.setFont(font)
+    settle()
+    assert drawn["roll"]
+    assert drawn["ruler"]
+    drawn.clear()
+    stage.session.set_tokens(LIGHT)
+    settle()
+    assert drawn["roll"] == drawn["ruler"] == 1
 
 
 def test_a_lane_folds_and_unfolds_by_its_button(stage: Stage) -> None:
