@@ -131,6 +131,8 @@ def _visits(
     without a rest that would take a finger off.
     """
     found: list[_Visit] = []
+    if not fingerings:
+        return found
     nothing: frozenset[str] = frozenset()
     firsts = np.flatnonzero(~(follows[1:] & (worked[1:] == worked[:-1]))) + 1
     edges = [0, *firsts.tolist(), len(fingerings)]

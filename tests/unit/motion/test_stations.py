@@ -55,6 +55,11 @@ def test_repeated_notes_keep_a_finger_where_it_is(made_up: InstrumentMap) -> Non
     assert set(where.share.tolist()) == {1.0}
 
 
+def test_a_player_who_plays_nothing_keeps_every_finger_at_home(made_up: InstrumentMap) -> None:
+    where, _ = little((), made_up, np.arange(0.0, 1.0, 0.1))
+    assert set(where.after.tolist()) == {0.0}
+
+
 @given(
     steps=st.lists(
         st.tuples(
