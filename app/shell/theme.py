@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-import pyqtgraph
 from PySide6.QtGui import QColor, QFont, QFontDatabase, QPalette
 from PySide6.QtWidgets import QApplication, QStyleFactory
 
@@ -40,8 +39,6 @@ def apply_theme(application: QApplication, tokens: Tokens) -> None:
         application.setStyle(QStyleFactory.create("Fusion"))
     application.setPalette(palette(tokens))
     application.setStyleSheet(style_sheet(tokens, marks(tokens)))
-    # What pyqtgraph draws from now on; panels that are there follow `theme_changed`.
-    pyqtgraph.setConfigOptions(background=tokens.sunken, foreground=tokens.text_dim, antialias=False)
 
 
 def apply_font(application: QApplication) -> None:
