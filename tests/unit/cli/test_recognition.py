@@ -183,7 +183,7 @@ def test_a_name_beats_a_number_and_a_number_nothing(
 @pytest.mark.parametrize(
     ("pitches", "family"),
     [
-        ((55, 67, 79), ("trumpet", "clarinet")),
+        ((55, 67, 79), ("trumpet", "clarinet", "sax")),
         ((38, 53, 70), ("trombone", "horn", "bassoon")),
         ((10, 11, 12), None),
         ((120, 121, 122), None),
