@@ -1,4 +1,4 @@
-"""Design tokens: the one table of colours and sizes that Qt, pyqtgraph and vispy are drawn from.
+"""Design tokens: the one table of colours and sizes that Qt and vispy are drawn from.
 
 Player colours are Okabe and Ito's (2008, "Color Universal Design"), told apart by colour-blind eyes, lightened for the
 dark surface and darkened for the light one.

@@ -421,7 +421,8 @@ class Lane(QWidget):
 
     def _session_changed(self, change: Change) -> None:
         before, after = change.before.score, change.after.score
-        if change.opened or before.tempo_map is not after.tempo_map or before.metres is not after.metres:
+        recoloured = change.before.players is not change.after.players
+        if change.opened or recoloured or before.tempo_map is not after.tempo_map or before.metres is not after.metres:
             self.update_items()
         self.project_changed(change)
 

@@ -13,6 +13,8 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QMenu, QWidget
 from pytestqt.qtbot import QtBot
 
+from app.errors import Message
+from app.plan.model import Problem
 from app.project.model import Project
 from app.score.model import Note, Score
 from app.score.tempo import TempoMap
@@ -98,6 +100,19 @@ def test_a_selected_note_draws_only_lanes_that_show_notes(stage: Stage, drawn: C
     settle()
     assert drawn["roll"] == drawn["fingering"] == 1
     assert not {"breath", "acting", "problems", "ruler"} & set(drawn)
+
+
+def test_another_colour_of_the_player_in_front_and_new_problems_are_drawn(stage: Stage, drawn: Counter[str]) -> None:
+    session = stage.session
+    front, behind = session.project.players
+    red = (msgspec.structs.replace(front, colour="#ff0000"), behind)
+    session.apply(Message("edit.player_colour", {"count": 1}), replace(session.project, players=red))
+    settle()
+    assert {"roll", "fingering", "breath", "acting", "curves"} <= set(drawn)
+    drawn.clear()
+    session.set_broken({front.id: (Problem(Message("contact.hand_off", {"side": "left", "gap_mm": 9}), "1:3", 1, 2),)})
+    settle()
+    assert {"roll", "fingering", "breath"} <= set(drawn)
 
 
 def test_another_font_or_theme_is_drawn(stage: Stage, drawn: Counter[str]) -> None:

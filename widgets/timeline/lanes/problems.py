@@ -33,6 +33,7 @@ class ProblemMarks(LaneItem):
     def __init__(self, lane: Lane, rooms: tuple[str, ...]) -> None:
         super().__init__(lane, 50.0)
         self._rooms = rooms
+        lane.session.problems_changed.connect(lane.update_items)
         self._problems: tuple[Problem, ...] = ()
         self._spans = Spans(np.empty(0), np.empty(0))
 
