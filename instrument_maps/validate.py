@@ -36,8 +36,8 @@ _UNIT_TOLERANCE = 1e-3
 _REACH_M = 3.0
 _CENTS = 200.0
 _HARMONICS = 20
-_HARMONIC_SEMITONES = 0.6
-"""The furthest that a harmonic in use is from its note: the eleventh, half a semitone."""
+_FLAT_CENTS, _SHARP_CENTS = 40, 60
+"""How far a harmonic may be below and above its note: valves together are too short, the eleventh is in between."""
 
 
 LIPS_MEET = frozenset({"cup", "air_jet"})
@@ -449,9 +449,17 @@ def _harmonic(path: str, fingering: Fingering, instrument: InstrumentMap) -> Ite
     acoustics = instrument.acoustics
     if acoustics is None or acoustics.slide_control is not None:
         return
-    lower = sum(acoustics.semitones.get(name, 0) * value for name, value in fingering.controls.items())
-    above = fingering.written_pitch - instrument.transposition_semitones + lower - acoustics.fundamental_pitch
-    if min(abs(above - 12 * math.log2(number)) for number in range(1, _HARMONICS + 1)) > _HARMONIC_SEMITONES:
+    plain = again = 1.0
+    for name, value in fingering.controls.items():
+        longer = (2 ** (acoustics.semitones.get(name, 0) / 12) - 1) * value
+        if name == acoustics.compensator:
+            again += longer
+        else:
+            plain += longer
+    tube = 12 * math.log2(plain * again)
+    above = fingering.written_pitch - instrument.transposition_semitones + tube - acoustics.fundamental_pitch
+    off = (100 * (12 * math.log2(number) - above) for number in range(1, _HARMONICS + 1))
+    if not any(-_FLAT_CENTS <= cents <= _SHARP_CENTS for cents in off):
         yield path, f"written pitch {fingering.written_pitch} is no harmonic of the tube that '{fingering.label}' makes"
 
 

@@ -304,6 +304,9 @@ BARITONE_FIRST = {
 SOUSAPHONE_FIRST = {**_shifted(BARITONE_FIRST, -12)}
 EUPHONIUM_FIRST = {written + 12: label for written, label in TUBA_FIRST.items()}
 FOUR = {"1": 2, "2": 1, "3": 3, "4": 5}
+FIVE = {**FOUR, "5": 4}
+TUBA_FIVE_FIRST = {**TUBA_FIRST, 23: "1345", 24: "345", 25: "245", 26: "45", 27: "235"}
+"""Without a compensator the fifth valve, of two whole tones, takes the place of sums that are too sharp."""
 HORN_PARTIALS = range(2, 17)
 VALVED = {
     "horn_F_single": (Valves(36, VALVE_SEMITONES, HORN_F_FIRST, partials=HORN_PARTIALS), 7),
@@ -316,9 +319,9 @@ VALVED = {
     "baritone_Bb": (Valves(48, VALVE_SEMITONES, _shifted(BARITONE_FIRST, 14)), 14),
     "tuba_BBb": (Valves(22, FOUR, TUBA_FIRST, compensator="4"), 0),
     "sousaphone_BBb": (Valves(22, VALVE_SEMITONES, SOUSAPHONE_FIRST), 0),
-    "tuba_CC": (Valves(24, FOUR, _shifted(TUBA_FIRST, 2)), 0),
+    "tuba_CC": (Valves(24, FIVE, _shifted(TUBA_FIVE_FIRST, 2)), 0),
     "tuba_Eb": (Valves(27, FOUR, _shifted(TUBA_FIRST, 5), compensator="4"), 0),
-    "tuba_F": (Valves(29, FOUR, _shifted(TUBA_FIRST, 7)), 0),
+    "tuba_F": (Valves(29, FIVE, _shifted(TUBA_FIVE_FIRST, 7)), 0),
 }
 
 

@@ -1,8 +1,9 @@
 """Tubas in F and C with rotary valves: levers in front, the bell on the player's left.
 
 Sizes are those of common instruments: F height 900 mm, bell 380 mm; C height 930 mm, bell 420 mm; four rotors 46 mm
-apart, levers 21 mm apart with a way of 9 mm. The outer branch stands on the player's right; the right hand comes round
-it to the levers, the left arm goes round the bell. The frame is that of `instrument_tuba`, mirrored.
+apart, levers 21 mm apart with a way of 9 mm; a fifth rotor in the leadpipe, two whole tones long, for the right thumb.
+The outer branch stands on the player's right; the right hand comes round it to the levers, the left arm goes round the
+bell. The frame is that of `instrument_tuba`, mirrored.
 """
 
 from __future__ import annotations
@@ -31,6 +32,11 @@ LEVER_APART, LEVER_WAY = 0.021, 0.009
 PAD_U, PIVOT_U = 0.050, 0.100
 FIRST_PAD_V, PAD_W, PIVOT_W = -0.175, 0.150, 0.140
 ROTOR_APART, ROTOR_R = 0.046, 0.020
+THUMB, THUMB_PIVOT_V, THUMB_PIVOT_W = (-0.018, -0.150, 0.118), -0.112, 0.110
+"""Middle of the thumb's plate, and the height and depth of the axle above it."""
+FIFTH = (0.183, -0.143, 0.046)
+"""Where the fifth rotor begins, along its axis to the front."""
+FIFTH_LONG = 0.056
 
 
 @dataclass(frozen=True)
@@ -84,12 +90,15 @@ def build(at: Rotary) -> Model:
     for k in range(4):
         model.node(f"valve_{k + 1}", f.at((PIVOT_U, _pad(k)[1], PIVOT_W)))
         model.node(f"rotor_{k + 1}", f.at((at.first_valve, _rotor_v(at, k), 0.034)))
+    model.node("valve_5", f.at((THUMB[0], THUMB_PIVOT_V, THUMB_PIVOT_W)))
+    model.node("rotor_5", f.at((FIFTH[0], FIFTH[1], FIFTH[2] + FIFTH_LONG)))
     mouthpiece(model, at.rim_r, at.outer_r, at.shank + 0.012, 0.030, 0.0066)
     receiver(model, (0, 0, at.shank), Z, 0.0088, 0.032)
     airway(model, at, f)
     for k in range(4):
         _valve(model, at, f, k)
         _lever(model, at, f, k)
+    _fifth(model, at, f)
     _axle(model, at, f)
     _band(model, at, f)
     return model
@@ -132,6 +141,31 @@ def _lever(model: Model, at: Rotary, f: Frame, k: int) -> None:
     model.add(NICKEL, tube([f.at((PIVOT_U + 0.016, v, PIVOT_W)), goal], 0.0013, sides=8), node=node)
 
 
+def _fifth(model: Model, at: Rotary, f: Frame) -> None:
+    """The rotor in the leadpipe with its slide, and the thumb's lever before the outer branch."""
+    u, v, w = FIFTH
+    rotor(model, "rotor_5", f.at(FIFTH), f.way(0, 0, 1), f.way(-0.6, 0.8, 0), ROTOR_R, FIFTH_LONG)
+    legs = [f.at((u + 0.014 + side, v + 0.012, w + 0.016)) for side in (0.0, 2.4 * at.bore)]
+    loop(model, legs[0], legs[1], f.way(0.06, 1, 0), 0.095, at.bore)
+    top = f.at((THUMB[0], THUMB_PIVOT_V, THUMB_PIVOT_W))
+    front, across = f.way(0, 0, 1), f.way(1, 0, 0)
+    paddle(model, "valve_5", f.at(THUMB), front, f.way(0, 1, 0), (0.0100, 0.0130))
+    under = THUMB[2] - 0.0028
+    arm = [f.at((THUMB[0], THUMB[1] + 0.006, under)), f.at((THUMB[0], THUMB_PIVOT_V - 0.010, under - 0.002)), top]
+    model.add(NICKEL, tube(bend(arm, 0.010), 0.0024, sides=12), node="valve_5")
+    hub = [(0, 0), (0, 0.0046), (0.016, 0.0046), (0.016, 0)]
+    model.add(NICKEL, turned(top - 0.008 * across, across, hub, sides=18), node="valve_5")
+    goal = f.at((u - 0.010, v + 0.014, w + FIFTH_LONG + 0.006))
+    start = top + 0.008 * f.way(0, 1, 0)
+    model.add(NICKEL, tube([top, start], 0.0018, sides=10), node="valve_5")
+    model.add(NICKEL, tube([start, goal], 0.0013, sides=8), node="valve_5")
+    axle = [top - 0.013 * across, top + 0.013 * across]
+    model.add(NICKEL, tube(axle, 0.0022, sides=12))
+    for side, end in zip((-1, 1), axle, strict=True):
+        foot = f.at((0.4 * side * at.branch_r, THUMB_PIVOT_V, 0.52 * at.branch_r))
+        model.add(BRASS, stay(end, foot, 0.0026))
+
+
 def _axle(model: Model, at: Rotary, f: Frame) -> None:
     top, low = FIRST_PAD_V + 0.016, FIRST_PAD_V - 3 * LEVER_APART - 0.016
     model.add(NICKEL, tube([f.at((PIVOT_U, top, PIVOT_W)), f.at((PIVOT_U, low, PIVOT_W))], 0.0022, sides=12))
@@ -152,6 +186,7 @@ def contacts(at: Rotary) -> list[dict[str, object]]:
 
     for k, finger in enumerate(("index", "middle", "ring", "little")):
         touch(f"right.{finger}.pad", f"valve_{k + 1}", f.at(_pad(k)), f.way(0, 0, 1), f"valve_{k + 1}")
+    touch("right.thumb.pad", "valve_5", f.at(THUMB), f.way(0, 0, 1), "valve_5")
     v, degrees = at.left_grip
     radius = float(at.bell.radius(at.rim - v))
     turn = np.radians(degrees) + 0.085 / radius
