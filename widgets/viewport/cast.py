@@ -1,13 +1,14 @@
 """Who is on the stage, prepared for drawing, and everyone's pose as arrays of bone matrices.
 
-All players of one character are posed at once: the arrays have one row for every player.
+All players whose skeletons have the same joints are posed at once: the arrays have one row for every player.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 import numpy.typing as npt
@@ -91,39 +92,41 @@ SITTING_FLESH_M = 0.095
 
 
 class Troupe:
-    """Members of one character posed together.
+    """Members whose skeletons have the same joints, posed together.
 
     Parameters
     ----------
     members : sequence of Member
         All of the stage.
     rows : sequence of int
-        Those that share the character.
+        Those of the troupe.
     """
 
     def __init__(self, members: Sequence[Member], rows: Sequence[int]) -> None:
         self.rows: Ints = np.array(rows, np.intp)
-        self.character = members[rows[0]].kit.character
-        skeleton = self.character.skeleton
-        self._hips = skeleton.index("hips")
-        self._levels = _levels(skeleton)
-        self._offsets = skeleton.offsets_m
+        characters = [members[row].kit.character for row in rows]
+        skeleton = characters[0].skeleton
+        self.joint_count = len(skeleton.names)
+        order, self._levels = _levels(skeleton)
+        self._order, self._back = order, np.argsort(order)
+        self._hips = int(self._back[skeleton.index("hips")])
+        self._offsets_m = np.array([character.skeleton.offsets_m[order] for character in characters])
         self._stages = np.array([members[row].world_from_player for row in rows])
-        self._bind = self.character.joint_from_mesh
+        self._bind = np.array([character.joint_from_mesh for character in characters])
 
     def joints(self, rotations: Floats, hips_m: Floats) -> Floats:
         """``world_from_joint`` (P, J, 3, 4) of joints' rotations (P, J, 4) and places of the hips (P, 3)."""
-        local = quaternion.to_matrix(rotations)
-        world = np.empty((*local.shape[:2], 3, 4))
-        offsets = np.broadcast_to(self._offsets, (*local.shape[:2], 3)).copy()
-        offsets[:, self._hips] = hips_m
-        stage = self._stages
+        local = np.empty((*rotations.shape[:2], 3, 4))
+        local[..., :3] = quaternion.to_matrix(rotations[:, self._order])
+        local[..., 3] = self._offsets_m
+        local[:, self._hips, :, 3] = hips_m
+        world = np.empty(local.shape)
         for joints, parents in self._levels:
-            above = stage[:, None] if parents is None else world[:, parents]
-            rotation = above[..., :3]
-            world[..., :3][:, joints] = rotation @ local[:, joints]
-            world[..., 3][:, joints] = (rotation @ offsets[:, joints, :, None])[..., 0] + above[..., 3]
-        return world
+            above = self._stages[:, None] if parents is None else world[:, parents]
+            own = world[:, joints]
+            np.matmul(above[..., :3], local[:, joints], out=own)
+            own[..., 3] += above[..., 3]
+        return world[:, self._back]
 
     def skinning(self, joints: Floats) -> Floats:
         """``world_from_mesh`` (P, J, 3, 4) of joints' transforms."""
@@ -162,7 +165,8 @@ class Stage:
         self.heads = np.array([member.kit.character.skeleton.index("head") for member in members], np.intp)
         self.poses: list[Posed | None] = [None] * count
         self.shown = np.zeros(count, dtype=bool)
-        self._troupes = [Troupe(members, rows) for rows in _grouped([id(member.kit.character) for member in members])]
+        skeletons = [member.kit.character.skeleton for member in members]
+        self._troupes = [Troupe(members, rows) for rows in _grouped([(own.names, own.parents) for own in skeletons])]
         self._stages = np.array([member.world_from_player for member in members]).reshape(-1, 3, 4)
         self._rotations = np.tile(quaternion.IDENTITY, (count, self.first_node, 1))
         self._hips_m = np.zeros((count, 3))
@@ -184,11 +188,11 @@ class Stage:
         if not fresh:
             return False
         for troupe in self._troupes:
-            seen = self.shown[troupe.rows]
-            rows, count = troupe.rows[seen], len(troupe.character.skeleton.names)
-            joints = troupe.joints(self._rotations[troupe.rows, :count], self._hips_m[troupe.rows])[seen]
-            self.bones[rows, :count] = troupe.skinning(joints)
-            self.joints[rows, :count] = joints
+            count = troupe.joint_count
+            joints = troupe.joints(self._rotations[troupe.rows, :count], self._hips_m[troupe.rows])
+            joints[~self.shown[troupe.rows]] = 0.0
+            self.bones[troupe.rows, :count] = troupe.skinning(joints)
+            self.joints[troupe.rows, :count] = joints
         held = np.empty((len(self.members), 3, 4))
         rotation = self._stages[..., :3]
         held[..., :3] = rotation @ quaternion.to_matrix(self._held_turns)
@@ -225,21 +229,23 @@ class Stage:
         return matrix
 
 
-def _levels(skeleton: Skeleton) -> list[tuple[Ints, Ints | None]]:
-    """Joints by their depth, with their parents; the root has none."""
+def _levels(skeleton: Skeleton) -> tuple[Ints, list[tuple[slice, Ints | None]]]:
+    """An order of the joints by their depth; each depth's place in it, with the parents' places: the root has none."""
     depth: list[int] = []
     for parent in skeleton.parents:
         depth.append(0 if parent < 0 else depth[parent] + 1)
-    result: list[tuple[Ints, Ints | None]] = []
-    for level in range(max(depth) + 1):
-        joints = np.array([joint for joint, own in enumerate(depth) if own == level], np.intp)
-        parents = np.array([skeleton.parents[joint] for joint in joints], np.intp) if level else None
-        result.append((joints, parents))
-    return result
+    order = np.argsort(depth, kind="stable")
+    place = np.argsort(order)
+    ends = np.searchsorted(np.array(depth)[order], np.arange(max(depth) + 2))
+    levels: list[tuple[slice, Ints | None]] = []
+    for start, end in pairwise(ends):
+        parents = place[[skeleton.parents[joint] for joint in order[start:end]]] if start else None
+        levels.append((slice(int(start), int(end)), parents))
+    return order, levels
 
 
-def _grouped(keys: Sequence[int]) -> list[list[int]]:
-    groups: dict[int, list[int]] = {}
+def _grouped(keys: Sequence[Hashable]) -> list[list[int]]:
+    groups: dict[Hashable, list[int]] = {}
     for row, key in enumerate(keys):
         groups.setdefault(key, []).append(row)
     return list(groups.values())

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -59,6 +60,7 @@ def is_dark(tokens: Tokens) -> bool:
     return sum(rgb(tokens.surface)) < 1.5
 
 
+@lru_cache(maxsize=4)
 def look_of(tokens: Tokens) -> Look:
     """The picture in a theme."""
     surface, sunken, raised = rgb(tokens.surface), rgb(tokens.sunken), rgb(tokens.raised)

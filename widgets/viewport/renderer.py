@@ -45,6 +45,8 @@ HASTY_FACTOR = 1.7
 SOFTWARE = ("llvmpipe", "softpipe", "swiftshader", "software", "basic render", "gdi generic")
 """Parts of the names of renderers that have no card."""
 GL_MULTISAMPLE = 0x809D
+MIDDLE_M = np.array([0.0, 1.0, 0.0])
+"""About where the chest of a player is."""
 SPREAD_M = 1.25
 """No part of a player or instrument is farther from the chest."""
 SHADOW_RADIUS_M = 1.9
@@ -167,6 +169,9 @@ class Renderer:
         self._stage: Stage | None = None
         self._shapes: Shapes | None = None
         self._limbs: Limbs | None = None
+        self._middles_m = np.zeros((0, 3))
+        self._sent: dict[object, object] = {}
+        """What the programs' uniforms were last made from: most pictures have the camera and look of the one before."""
         self._software: bool | None = None
 
     def set_stage(self, stage: Stage, shapes: Shapes, everyone: Crowd | None) -> None:
@@ -182,6 +187,9 @@ class Renderer:
         """
         same = self._stage is not None and shapes is self._shapes and _looks_same(stage, self._stage)
         self._stage, self._shapes = stage, shapes
+        floor_m = np.array([member.world_from_player[:, 3] for member in stage.members]).reshape(-1, 3)
+        self._middles_m = floor_m + MIDDLE_M
+        self._sent.clear()
         if same:
             # The same players at other places: what is on the card stays.
             self._limbs = Limbs(stage)
@@ -248,7 +256,9 @@ class Renderer:
         context = gloo.get_current_canvas().context
         context.glir.command("FUNC", "glDisable" if hasty else "glEnable", GL_MULTISAMPLE)
         matrix = camera.clip_from_world(aspect)
-        self._draw_backdrop(camera, aspect, look)
+        if self._is_other(self._backdrop, camera, aspect, look):
+            self._dress_backdrop(camera, aspect, look)
+        self._backdrop.draw("triangle_strip")
         stage, shapes, limbs = self._stage, self._shapes, self._limbs
         if stage is None or shapes is None or limbs is None or not stage.members or not stage.shown.any():
             return
@@ -256,14 +266,16 @@ class Renderer:
         self._upload(stage, limbs, level, emphasis)
         clip = matrix.T.astype(np.float32)
         gloo.set_state(blend=True, blend_func=OVER)
-        self._shadows["u_clip_from_world"] = clip
-        self._shadows["u_key"] = look.key
-        self._shadows["u_strength"] = look.shadow
+        if self._is_other(self._shadows, camera, aspect, look):
+            self._shadows["u_clip_from_world"] = clip
+            self._shadows["u_key"] = look.key
+            self._shadows["u_strength"] = look.shadow
         self._shadows.draw("triangles")
         self._draw_rings(stage, clip, emphasis)
         gloo.set_state(blend=False, depth_test=True)
         for program in (self._figures, self._batch):
-            self._light(program, camera, clip, look)
+            if self._is_other(program, camera, aspect, look):
+                self._light(program, camera, clip, look)
         if (level == LEVELS - 1).any():
             _draw_sides(self._batch, self._batch_triangles)
         self._draw_near(stage, shapes, level, "triangles")
@@ -272,7 +284,14 @@ class Renderer:
             opacity = 0.4 * float(np.clip(camera.pixels_per_metre(height) / 900.0, 0.25, 1.0))
             self._draw_wires(stage, shapes, level, 0.0006 * camera.distance_m, (*look.wire, opacity))
 
-    def _draw_backdrop(self, camera: Camera, aspect: float, look: Look) -> None:
+    def _is_other(self, program: Any, *source: object) -> bool:
+        """Whether a program's uniforms were last made from something else than this."""
+        if self._sent.get(program) == source:
+            return False
+        self._sent[program] = source
+        return True
+
+    def _dress_backdrop(self, camera: Camera, aspect: float, look: Look) -> None:
         program = self._backdrop
         tangent = float(np.tan(np.radians(camera.fov_deg) / 2.0))
         program["u_eye"] = camera.eye_m
@@ -282,17 +301,16 @@ class Renderer:
         program["u_top"], program["u_horizon"] = look.top, look.horizon
         program["u_floor"], program["u_lines"] = look.floor, look.lines
         middle, radius = (0.0, 0.0), 4.5
-        if self._stage is not None and self._stage.members:
-            places = np.array([member.world_from_player[[0, 2], 3] for member in self._stage.members])
+        if len(self._middles_m):
+            places = self._middles_m[:, [0, 2]]
             low, high = places.min(axis=0), places.max(axis=0)
             middle = tuple(((low + high) / 2.0).tolist())
             radius = 4.5 + 1.2 * float(np.linalg.norm(high - low)) / 2.0
         program["u_middle"], program["u_radius"] = middle, radius
-        program.draw("triangle_strip")
 
     def _levels(self, stage: Stage, camera: Camera, matrix: Floats, height_px: float) -> npt.NDArray[np.intp]:
         """The level of detail of everyone; -1: not in the picture."""
-        middles = np.array([member.world_from_player[:, 3] for member in stage.members]) + np.array([0.0, 1.0, 0.0])
+        middles = self._middles_m
         away = np.linalg.norm(middles - camera.eye_m, axis=1)
         scale = camera.pixels_per_metre(height_px, 1.0) / np.maximum(away - 0.35, 0.2)
         level = np.where(scale > FINE_PX_PER_M, 0, np.where(scale > COARSE_PX_PER_M, 1, LEVELS - 1))
@@ -347,6 +365,8 @@ class Renderer:
     def _draw_near(self, stage: Stage, shapes: Shapes, level: npt.NDArray[np.intp], mode: str) -> None:
         """Everyone who is drawn alone; things of one kind in a row, so that buffers are bound once."""
         near = [int(row) for row in np.flatnonzero((level >= 0) & (level < LEVELS - 1))]
+        if not near:
+            return
         program = self._figures
         program["u_shaded"] = 1.0
         for row in sorted(near, key=lambda row: (stage.members[row].kit.character.id, level[row])):
