@@ -247,7 +247,7 @@ class _Shown:
 class LiveMotion:
     """Poses of all players of the newest performance.
 
-    One thread works (`work`); any thread may ask (`pose`) and say what is wanted.
+    One thread works (`work`); any thread may ask (`pose`), say what is wanted, and have it made at once (`make_now`).
 
     Parameters
     ----------
@@ -263,8 +263,10 @@ class LiveMotion:
         self._todo: Iterator[tuple[str, int]] | None = None
         self._unjudged: Iterator[tuple[_Track, int]] | None = None
         self._broken: dict[str, tuple[Problem, ...]] = {}
-        self._made: tuple[_Track, int, Motion] | None = None
-        """The chunk that was made last, until its contacts are judged."""
+        self._working = Lock()
+        """Held while something is made that stays."""
+        self._made: list[tuple[_Track, int, Motion]] = []
+        """What was made last, until its contacts are judged."""
         self._chunk_bytes = 0
         self._seen = 0
         self._shown = _Shown(performance, _Grid.of(performance.time_frame, performance.project.fps), {})
@@ -349,44 +351,72 @@ class LiveMotion:
 
     def work(self, stop_wanted: StopWanted = lambda: False) -> bool:
         """Make the most wanted chunk that is missing; whether there was one."""
+        with self._working:
+            return self._work(stop_wanted)
+
+    def make_now(self, player_id: str, time_s: float) -> None:
+        """Make a player's frames around a time here and now, in any thread.
+
+        Not of who was never seen: figures take long to load. Nor where the thread that works is at it, for what is
+        looked at is what it makes next.
+        """
+        if not self._working.acquire(blocking=False):
+            return
+        try:
+            shown = self._shown
+            track = shown.tracks.get(player_id)
+            if track is not None and (track.playing or track.basis) is not None:
+                self._make(shown, track, shown.grid.place(time_s)[0] // shown.grid.length)
+        finally:
+            self._working.release()
+
+    def _work(self, stop_wanted: StopWanted) -> bool:
         with self._lock:
             shown = self._shown
             if self._todo is None:
                 self._todo = self._missing(shown)
             todo = self._todo
-        if self._made is not None:
-            # Not with the frames, for which a picture waits.
-            track, index, motion = self._made
-            self._made = None
+        # Not with the frames, for which a picture waits.
+        unjudged, self._made = self._made, []
+        for track, index, motion in unjudged:
             if shown.tracks.get(track.player.id) is track and index in track.chunks:
                 self._judge(track, index, motion)
         for player_id, index in todo:
-            track = shown.tracks[player_id]
             if stop_wanted():
                 return True
-            if track.playing is None or track.basis is not None:
-                self._prove(shown, track)
-            if track.playing is None or index in track.chunks:
-                continue
-            if not self._make_room(shown, track, index):
-                return False
-            motion = track.playing.motion(shown.grid.fps, *shown.grid.span(index))
-            chunk = _Chunk.of(motion)
-            with self._lock:
-                track.chunks[index] = chunk
-                track.outdated.pop(index, None)
-                self._chunk_bytes = chunk.bytes
-                self._seen += index == self._in_sight(shown.grid)[0]
-            if index not in track.judged:
-                self._made = (track, index, motion)
-            return True
+            made = self._make(shown, shown.tracks[player_id], index)
+            if made is not None:
+                return made
         return False
+
+    def _make(self, shown: _Shown, track: _Track, index: int) -> bool | None:
+        """Make a chunk: None where that is not needed or not possible, False where there is no room for it."""
+        if track.playing is None or track.basis is not None:
+            self._prove(shown, track)
+        if track.playing is None or index in track.chunks:
+            return None
+        if not self._make_room(shown, track, index):
+            return False
+        motion = track.playing.motion(shown.grid.fps, *shown.grid.span(index))
+        chunk = _Chunk.of(motion)
+        with self._lock:
+            track.chunks[index] = chunk
+            track.outdated.pop(index, None)
+            self._chunk_bytes = chunk.bytes
+            self._seen += index == self._in_sight(shown.grid)[0]
+        if index not in track.judged:
+            self._made.append((track, index, motion))
+        return True
 
     def judge(self, stop_wanted: StopWanted = lambda: False) -> bool:
         """Judge the contacts of some frames that there is no room to keep, once `work` is done; whether there were any.
 
         Of the same thread as `work`.
         """
+        with self._working:
+            return self._judge_some(stop_wanted)
+
+    def _judge_some(self, stop_wanted: StopWanted) -> bool:
         with self._lock:
             shown = self._shown
             if self._unjudged is None:

@@ -12,7 +12,7 @@ import time
 import weakref
 from collections.abc import Callable, Mapping
 
-from PySide6.QtCore import QObject, Signal
+from PySide6.QtCore import QObject, QTimer, Signal
 from shiboken6 import isValid
 
 from app.errors import AppError, Cancelled, Message
@@ -26,7 +26,7 @@ from instrument_maps.library import library
 from widgets.common.session import Session, Severity
 from widgets.common.tasks import Progress, StopWanted, Tasks
 
-AT_ONCE_NOTES = 400
+AT_ONCE_NOTES = 2500
 """So many notes are planned within the time of two pictures."""
 TOLD_NOTES = 6000
 """So many take long enough that the person sees how far it is, and may stop it."""
@@ -142,7 +142,18 @@ class Generator(QObject):
                 self._session.notice(error.message, Severity.ERROR)
                 return
             self._shown = self._asked
+            self._make_now(performance)
             self._session.set_performance(performance)
+
+    def _make_now(self, performance: Performance) -> None:
+        """What the player in front does at the playhead is there before anything is drawn: one picture, and it is
+        right. But in a drag, of which more will come, and where players are others, whose figures have to be loaded."""
+        before, done = self._session.performance, self._session.document.done
+        same_figures = performance.project.players is before.project.players and performance.library is before.library
+        if same_figures and not (done and done[-1].gesture is not None):
+            self.live.show(performance)
+            for player_id in self._session.players[:1]:
+                self.live.make_now(player_id, self._session.playhead_s)
 
     def _plan_told(self, performance: Performance) -> None:
         number = self._asked
@@ -179,7 +190,9 @@ class Generator(QObject):
 
     def _show(self) -> None:
         self.live.show(self._session.performance)
-        self._want()
+        self.live.want(self._session.playhead_s, player_ids=self._session.players)
+        # Once the panels have shown the plans: two threads of Python hold each other up.
+        QTimer.singleShot(0, self, self._worker.wake)
         self.motion_changed.emit()
 
     def _want(self, *_: object) -> None:

@@ -13,6 +13,7 @@ from pytestqt.qtbot import QtBot
 
 from app.errors import Message
 from app.performance.ensemble import Performance
+from app.performance.live import LiveMotion, Pose
 from app.plan.corrections import AddExpression, AddGesture, SetEmbouchure
 from app.project.edit.corrections import put
 from app.shell import generator as module
@@ -49,6 +50,26 @@ def test_a_small_edit_is_planned_before_it_returns(session: Session, generator: 
     assert plan.fingerings is before.plan(player).fingerings
     other = session.project.players[1]
     assert session.performance.plan(other) is before.plan(other)
+
+
+def test_the_picture_of_the_player_in_front_is_right_before_a_small_edit_returns(
+    session: Session, generator: Generator, qtbot: QtBot
+) -> None:
+    player = session.project.players[0]
+    qtbot.waitUntil(lambda: generator.ready_share == 1.0, timeout=60_000)
+    at_s = session.performance.plan(player).embouchures[20].start_s + 0.02
+    session.set_playhead(at_s)
+    before = generator.live.pose(player.id, at_s)
+    seen = list[Pose | None]()
+    session.performance_changed.connect(lambda: seen.append(generator.live.pose(player.id, at_s)))
+    _correct(session, 0.9)
+    fresh = LiveMotion(Performance(session.project)).pose_now(player.id, at_s)
+    assert before is not None
+    assert fresh is not None
+    [made] = seen
+    assert made is not None
+    assert made.morphs == {**dict.fromkeys(made.morphs, 0.0), **fresh.morphs}
+    assert before.morphs != fresh.morphs
 
 
 def test_motion_is_made_by_itself_and_again_where_an_edit_touched_it(

@@ -50,6 +50,9 @@ def test_the_motion_shown_after_edits_is_that_of_the_newest_performance(data: st
         project = data.draw(edits(project))
         performance = Performance(project, performance)
         live.show(performance)
+        if data.draw(st.booleans()):
+            for player in project.players:
+                live.make_now(player.id, data.draw(st.sampled_from([0.0, 5.0, 9.0])))
     while live.work():
         pass
     assert live.ready_share == 1.0

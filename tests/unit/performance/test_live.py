@@ -111,6 +111,28 @@ def test_a_pose_made_at_once_is_the_one_that_is_made_in_time(performance: Perfor
             assert pose.morphs == {name: float(values[index]) for name, values in whole.morphs.items()}
 
 
+def test_after_an_edit_a_player_who_was_seen_is_made_at_once(performance: Performance) -> None:
+    live = LiveMotion(performance)
+    player = performance.project.players[0]
+    live.make_now(player.id, 8.0)
+    assert live.pose(player.id, 8.0) is None, "figures are not loaded here"
+    live.want(8.0, 1.0, (player.id,))
+    live.work()
+    shown = AddExpression("x", "strained", 6 * 960, 40 * 960)
+    after = Performance(put(performance.project, player.id, [shown]), performance)
+    live.show(after)
+    live.make_now(player.id, 8.0)
+    fresh = LiveMotion(after)
+    made, anew = live.pose(player.id, 8.0), fresh.pose_now(player.id, 8.0)
+    assert made is not None
+    assert anew is not None
+    assert any(start_s <= 8.0 < end_s for start_s, end_s in live.ready_spans(player.id))
+    np.testing.assert_array_equal(made.rotations, anew.rotations)
+    assert made.morphs == {**dict.fromkeys(made.morphs, 0.0), **anew.morphs}
+    assert all_made(live) > 0
+    assert live.ready_share == 1.0
+
+
 def test_between_two_frames_a_pose_is_between_them(performance: Performance) -> None:
     live = LiveMotion(performance)
     all_made(live)
