@@ -22,7 +22,7 @@ from app.motion.solve import Curves, Player, padding, solve
 from app.motion.stations import raised_curve, sampled, station_curves
 from app.plan.model import PlayerParameters, PlayerPlan, TimeFrame, same_events
 from app.rig.carriage import carrying
-from app.rig.hold import Hold, Lips
+from app.rig.hold import Hold, Lips, Placed, giving_for
 from app.rig.model import Character
 from instrument_maps.model import Carriage, InstrumentMap
 from metadata.load import load_expressions
@@ -113,10 +113,18 @@ class Playing:
                 times_s,
             ),
             mouth_open=mouth_open,
-            placed={finger: sampled(curve, times_s) for finger, curve in self.stations.items()},
+            placed=self.placed(times_s),
             raised=self.raised.sample(times_s),
         )
         return solve(self.player, curves, fps, float(frame_times(self.start_s, fps, first_frame, 1)[0]))
+
+    def placed(self, times_s: FloatArray) -> dict[str, Placed]:
+        """Where the fingers are, and the hands that give way for some of them, at ascending times."""
+        leaning = {giving_for(lean.finger) for hand in self.player.hold.hands for lean in hand.leans}
+        fingers = {finger for hand in self.player.hold.hands for finger in (table.finger for table in hand.fingers)}
+        return {
+            name: sampled(curve, times_s) for name, curve in self.stations.items() if name in leaning or name in fingers
+        }
 
     def changed_s(self, other: Playing) -> FloatArray:
         """Spans (K, 2) of seconds, outside of which (and of `padding` frames around) both make the very same frames."""

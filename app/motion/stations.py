@@ -17,7 +17,7 @@ import numpy.typing as npt
 
 from app.motion.curve import Curve, FloatArray, moves, moves_to
 from app.plan.model import FingeringEvent
-from app.rig.hold import Placed
+from app.rig.hold import Placed, giving_for
 from app.rig.stations import Station, kinds_of_notes, station_for, stations
 from instrument_maps.model import InstrumentMap
 
@@ -63,7 +63,9 @@ def station_curves(
 ) -> dict[str, Curve]:
     """Which station each finger is at, by finger; only those that leave their home.
 
-    A curve's moves go from the number of one station to that of another, as `sampled` reads them.
+    A curve's moves go from the number of one station to that of another, as `sampled` reads them. Under the name
+    `giving_for` a finger: at which of its stations it works, for the hand that gives way for it. A finger waits over
+    its key while others are still at theirs, and the hand goes along only as the key goes down.
 
     Parameters
     ----------
@@ -86,6 +88,7 @@ def station_curves(
         found = np.array([sets.index(one) for one in worked], np.intp)[kinds]
         visits = _visits(fingerings, found, sets, follows, places, controls)
         result[finger] = moves(_ways(visits), 0.0)
+        result[giving_for(finger)] = moves(_givings(visits), 0.0)
     return result
 
 
@@ -196,6 +199,29 @@ def _ways(visits: Sequence[_Visit]) -> list[tuple[float, float, float]]:
     if last is not None:
         free_s = last.end_s if last.up is None else last.up[1]
         go(free_s, free_s + TRAVEL_S, 0)
+    return ways
+
+
+def _givings(visits: Sequence[_Visit]) -> list[tuple[float, float, float]]:
+    """Moves (start_s, end_s, station) of a hand that gives way: with the keys, and kept where the next is the same."""
+    ways: list[tuple[float, float, float]] = []
+
+    def go(start_s: float, end_s: float, station: int) -> None:
+        start_s = max(start_s, ways[-1][1]) if ways else start_s
+        ways.append((start_s, max(end_s, start_s + SHORTEST_S), float(station)))
+
+    here, up = 0, (-np.inf, -np.inf)
+    for visit in visits:
+        down = visit.down or (visit.start_s, visit.start_s)
+        back = here and (here != visit.station or down[0] - up[1] > HOME_S)
+        if back and up[1] <= down[0]:
+            go(*up, 0)
+            here = 0
+        if here != visit.station:
+            go(up[0] if here else down[0], down[1], visit.station)
+        here, up = visit.station, visit.up or (visit.end_s, visit.end_s)
+    if here:
+        go(*up, 0)
     return ways
 
 

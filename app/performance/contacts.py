@@ -18,7 +18,6 @@ import numpy.typing as npt
 from app.errors import Message
 from app.motion.model import Motion
 from app.motion.perform import Playing
-from app.motion.stations import sampled
 from app.plan.model import FingeringEvent, PlayerPlan, Problem
 from app.rig import quaternion
 from app.rig.hold import Placed, hand_targets
@@ -159,7 +158,7 @@ class ContactJudge:
         rim_m = place_m + quaternion.rotate(turn, np.asarray(instrument.mouthpiece.position_m))
         gaps_m = np.linalg.norm(marks_m[:, self._marks.index(LIPS)] - rim_m, axis=1)
         yield from _runs(("lips", "", ""), times_s, gaps_m, (gaps_m * 1000.0 > LIPS_MM) & ~self._breathing(times_s))
-        placed = {finger: sampled(curve, times_s) for finger, curve in self._playing.stations.items()}
+        placed = self._playing.placed(times_s)
         # Of the notes that are looked at: a line has thousands.
         first = int(notes.min())
         played, notes = self._playing.plan.fingerings[first : int(notes.max()) + 1], notes - first

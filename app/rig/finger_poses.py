@@ -16,6 +16,7 @@ from app.rig.hold import (
     Lean,
     Placed,
     StationTable,
+    come_to,
     given_way,
     interpolated,
     mixed,
@@ -65,11 +66,10 @@ def finger_rotations(
     height = np.broadcast_to(np.asarray(raised, dtype=np.float64), (frames,))
     start = 0
     for hand in hold.hands:
-        weights = [given_way(lean, placed) for lean in hand.leans]
         moved = np.zeros(frames, dtype=np.bool_)
-        for weight in weights:
-            if weight is not None:
-                moved |= weight > 0.0
+        for share in (share for lean in hand.leans for share in (given_way(lean, placed), come_to(lean, placed))):
+            if share is not None:
+                moved |= share > 0.0
         here = np.flatnonzero(moved)
         for table in hand.fingers:
             stop = start + len(table.joints)
@@ -169,7 +169,8 @@ def _kept(
     controls: Controls,
     raised: FloatArray,
 ) -> FloatArray:
-    """Rotations (K, n, 4) of a finger whose hand gives way at some frames: brought back to where its tables have it."""
+    """Rotations (K, n, 4) of a finger at frames where its hand gives way, or one of its fingers waits for that: brought
+    back to where its tables have it."""
     if table.chain is None:
         return rotations
     where = None if placed is None else placed.get(table.finger)

@@ -375,9 +375,27 @@ def hand_targets(
     return positions, quaternion.multiply(world_from_instrument_rotation, turn)
 
 
+def giving_for(finger: str) -> str:
+    """Under which name a `Placed` says where the hand is that gives way for a finger; without it, with the finger."""
+    return f"{finger}.hand"
+
+
 def given_way(lean: Lean, placed: Mapping[str, Placed] | None) -> FloatArray | None:
     """How far (F,) a hand gives way, 0..1; None where it never does."""
-    where = None if placed is None else placed.get(lean.finger)
+    return _share_at(lean, placed, giving_for(lean.finger)) if _has(placed, lean) else come_to(lean, placed)
+
+
+def come_to(lean: Lean, placed: Mapping[str, Placed] | None) -> FloatArray | None:
+    """How far (F,) a finger has come to where its hand gives way for it, 0..1; None where it never does."""
+    return _share_at(lean, placed, lean.finger)
+
+
+def _has(placed: Mapping[str, Placed] | None, lean: Lean) -> bool:
+    return placed is not None and giving_for(lean.finger) in placed
+
+
+def _share_at(lean: Lean, placed: Mapping[str, Placed] | None, name: str) -> FloatArray | None:
+    where = None if placed is None else placed.get(name)
     if where is None:
         return None
     going = (where.after == lean.station) * where.share

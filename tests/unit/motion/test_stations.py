@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from app.motion.controls import control_curves
 from app.motion.stations import HOME_S, raised_curve, sampled, station_curves
 from app.plan.model import FingeringEvent
+from app.rig.hold import Placed, giving_for
 from app.rig.stations import stations, stations_of_notes
 from instrument_maps.load import load_map
 from instrument_maps.model import InstrumentMap
@@ -27,10 +28,24 @@ def made_up(tmp_path_factory: pytest.TempPathFactory) -> InstrumentMap:
     return load_map(path)
 
 
-def little(events: tuple[FingeringEvent, ...], instrument: InstrumentMap, times_s: np.ndarray):
+def little(
+    events: tuple[FingeringEvent, ...], instrument: InstrumentMap, times_s: np.ndarray, name: str = "right.little"
+):
     curves = control_curves(events, instrument.controls, TICKS)
-    where = sampled(station_curves(events, instrument, curves)["right.little"], times_s)
+    where = sampled(station_curves(events, instrument, curves)[name], times_s)
     return where, {name: curves[name].sample(times_s) for name in LITTLE}
+
+
+def share_at(where: Placed, place: int) -> np.ndarray:
+    return (where.after == place) * where.share + (where.before == place) * (1.0 - where.share)
+
+
+def steps_of(steps) -> list[tuple[float, float, dict[str, float]]]:
+    rows, time_s = [], 0.2
+    for key, length_s, gap_s in steps:
+        rows.append((time_s, time_s + length_s, {} if key is None else {key: 1.0}))
+        time_s += length_s + gap_s
+    return rows
 
 
 def test_a_finger_goes_straight_to_a_key_it_needs_soon_and_home_where_it_has_time(made_up: InstrumentMap) -> None:
@@ -60,30 +75,50 @@ def test_a_player_who_plays_nothing_keeps_every_finger_at_home(made_up: Instrume
     assert set(where.after.tolist()) == {0.0}
 
 
-@given(
-    steps=st.lists(
-        st.tuples(
-            st.sampled_from([None, *LITTLE]), st.floats(0.09, 0.8), st.sampled_from([0.0, 0.0, 0.05, 0.3, HOME_S, 2.5])
-        ),
-        min_size=1,
-        max_size=14,
-    )
+STEPS = st.lists(
+    st.tuples(
+        st.sampled_from([None, *LITTLE]), st.floats(0.09, 0.8), st.sampled_from([0.0, 0.0, 0.05, 0.3, HOME_S, 2.5])
+    ),
+    min_size=1,
+    max_size=14,
 )
+
+
+@given(steps=STEPS)
 @settings(max_examples=80, deadline=None)
 def test_a_key_that_is_down_has_its_finger_on_it(made_up: InstrumentMap, steps) -> None:
-    rows, time_s = [], 0.2
-    for key, length_s, gap_s in steps:
-        rows.append((time_s, time_s + length_s, {} if key is None else {key: 1.0}))
-        time_s += length_s + gap_s
-    events = fingerings(rows)
-    times_s = np.arange(-1.0, time_s + 1.0, 1.0 / 240.0)
+    events = fingerings(steps_of(steps))
+    times_s = np.arange(-1.0, events[-1].end_s + 3.5, 1.0 / 240.0)
     where, values = little(events, made_up, times_s)
     for name, place in LITTLE.items():
-        down = values[name] > 0.97
-        near = (where.after == place) * where.share + (where.before == place) * (1.0 - where.share)
-        assert near[down].min(initial=1.0) > 0.99
+        assert share_at(where, place)[values[name] > 0.97].min(initial=1.0) > 0.99
     assert stations(made_up)["right.little"][0].controls == ("key_E",)
     assert len(stations_of_notes(made_up, ((e.controls, e.fingers) for e in events))["right.little"]) == len(events)
+
+
+@given(steps=STEPS)
+@settings(max_examples=80, deadline=None)
+def test_a_hand_gives_way_while_the_key_is_down_and_for_nothing_else(made_up: InstrumentMap, steps) -> None:
+    events = fingerings(steps_of(steps))
+    times_s = np.arange(-1.0, events[-1].end_s + 3.5, 1.0 / 240.0)
+    giving, values = little(events, made_up, times_s, giving_for("right.little"))
+    for name, place in LITTLE.items():
+        if not place:  # home asks nothing of the hand
+            continue
+        share = share_at(giving, place)
+        assert share[values[name] > 0.99].min(initial=1.0) > 0.95
+        # It does not go ahead of the key.
+        moving = np.flatnonzero(np.diff(share) > 1e-9)
+        assert (values[name][moving + 1] > 0.0).all()
+
+
+def test_a_hand_stays_where_the_next_note_needs_it_again(made_up: InstrumentMap) -> None:
+    rows = [(0.2 * step, 0.2 * step + 0.2, {"key_G": 1.0} if step % 2 else {}) for step in range(9)]
+    times_s = np.arange(0.2, 1.5, 0.01)
+    giving, values = little(fingerings(rows), made_up, times_s, giving_for("right.little"))
+    assert set(giving.after.tolist()) == {2.0}
+    assert set(giving.share.tolist()) == {1.0}
+    assert values["key_G"].min() == 0.0
 
 
 def test_a_part_of_the_curves_is_that_of_the_whole(made_up: InstrumentMap) -> None:
