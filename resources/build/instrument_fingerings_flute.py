@@ -36,7 +36,6 @@ def _octave(low: int) -> ROWS_OF:
 
 # Written pitch -> first choice, then alternates as (keys, tag). T is the thumb's B key, TBb its B flat key.
 FLUTE: ROWS_OF = {
-    59: (f"B {BOTH}", ()),
     60: (f"C {BOTH}", ()),
     61: (f"C# {BOTH}", ()),
     62: (BOTH, ()),
@@ -55,7 +54,7 @@ FLUTE: ROWS_OF = {
     93: ("Eb T L2 R1", ()),
     94: ("T R1 tr1", (("Eb T R1 tr1", "alternate"),)),
     95: ("T L1 L3 tr2", (("Eb T L1 L3 tr2", "alternate"),)),
-    96: (f"G# giz {LEFT} R1", ((f"B G# {LEFT} R1", "alternate"), (f"Eb G# {LEFT} R1", "alternate"))),
+    96: (f"G# {LEFT} R1", ((f"Eb G# {LEFT} R1", "alternate"), (f"C G# {LEFT} R1", "alternate"))),
     97: ("C G# L2 R1", (("G# L2 R1", "alternate"),)),
     98: ("C L3 R1 R2 T", (("Eb L3 R1 R2 T", "alternate"),)),
 }
