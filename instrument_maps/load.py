@@ -12,16 +12,21 @@ map.invalid : file, path, detail
 
 from __future__ import annotations
 
+import contextlib
+import hashlib
 import re
 import tomllib
 from collections.abc import Mapping
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path
 from typing import Any
 
 import msgspec
 
-from app.errors import MapError, Message
+from app.errors import FileError, MapError, Message
+from app.formats.atomic import atomic_write
+from app.formats.cache import cache_folder
+from app.version import program_version
 from instrument_maps.extend import BASE, extended
 from instrument_maps.fingering_label import controls_of
 from instrument_maps.model import InstrumentMap
@@ -94,8 +99,34 @@ def check_map(path: Path | str) -> tuple[Message, ...]:
 
 @cache
 def bundled_maps() -> Mapping[str, InstrumentMap]:
-    """Return the maps that come with the program, by id, in the order of their ids."""
-    return _folder_maps(FOLDER)
+    """Return the maps that come with the program, by id, in the order of their ids.
+
+    Parsing and validating them takes ten times as long as reading the result of that, which is kept in the person's
+    cache under the digest of the maps and of what reads them.
+    """
+    kept = cache_folder("maps") / f"maps-{_digest()}.msgpack"
+    try:
+        return {instrument.id: instrument for instrument in _KEPT.decode(kept.read_bytes())}
+    except (OSError, msgspec.MsgspecError):
+        maps = _folder_maps(FOLDER)
+    # A cache that cannot be written costs the next start some tenths of a second and nothing else.
+    with contextlib.suppress(OSError, FileError):
+        kept.parent.mkdir(parents=True, exist_ok=True)
+        for older in kept.parent.glob("maps-*.msgpack"):
+            older.unlink(missing_ok=True)
+        with atomic_write(kept) as file:
+            file.write(msgspec.msgpack.encode(tuple(maps.values())))
+    return maps
+
+
+def _digest() -> str:
+    """Of the bundled maps, and of the code that makes of them what they are."""
+    digest = hashlib.blake2b(program_version().encode(), digest_size=16)
+    for path in sorted((*FOLDER.glob("*.toml"), *FOLDER.glob("*.py"))):
+        content = path.read_bytes()
+        digest.update(f"{path.name} {len(content)}\n".encode())
+        digest.update(content)
+    return digest.hexdigest()
 
 
 def model_path(instrument: InstrumentMap) -> Path:
@@ -148,7 +179,9 @@ def _shaped(text: str, file: str) -> InstrumentMap:
     return msgspec.structs.replace(instrument, fingerings=tuple(told))
 
 
+@lru_cache(maxsize=4)
 def _parsed(text: str, file: str) -> dict[str, Any]:
+    """A map's table, which nobody changes: several maps extend the same one."""
     try:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
@@ -187,4 +220,4 @@ def _place(text: str, found: re.Match[str] | None) -> tuple[int, int]:
 
 
 # Worked out here, under the import's lock: two threads that use a type for the first time at once crash msgspec.
-msgspec.json.Decoder(InstrumentMap)
+_KEPT = msgspec.msgpack.Decoder(tuple[InstrumentMap, ...])

@@ -7,7 +7,6 @@ the person's cache. A file that is absent, damaged or of other inputs is as good
 from __future__ import annotations
 
 import hashlib
-import os
 from dataclasses import replace
 from importlib.resources import files
 from pathlib import Path
@@ -16,10 +15,10 @@ from typing import Any
 import msgspec
 import numpy as np
 import numpy.typing as npt
-import platformdirs
 
 from app.errors import FileError
 from app.formats.atomic import atomic_write
+from app.formats.cache import cache_folder
 from app.rig.carriage import usual_posture
 from app.rig.fit import FIT_VERSION, PLACES_VERSION, fit_hold, require_landmarks
 from app.rig.hold import HandHold, Hold, Lips, Reach
@@ -31,8 +30,6 @@ from metadata.model import Body
 
 DIGITS = 6
 """A millionth of a radian or of a metre is far below what anybody sees, and keeps the files small."""
-CACHE_VARIABLE = "SUISOU_CACHE"
-"""Environment variable that names another folder for the cache."""
 
 
 class _StoredHold(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -115,7 +112,7 @@ def hold_for(character: Character, model: InstrumentModel, instrument: Instrumen
     """Return how a body holds an instrument: the stored hold, or a new fit, which is then kept in the cache."""
     require_landmarks(character, instrument)
     digest = digest_of(character, model, instrument, body)
-    cached = _cache_folder() / f"{digest}.json"
+    cached = cache_folder("holds") / f"{digest}.json"
     lips = fit_lips(character, instrument, body)
     for path in (bundled_path(character.id, instrument.id), cached):
         hold = read_hold(path, digest, lips)
@@ -129,11 +126,6 @@ def hold_for(character: Character, model: InstrumentModel, instrument: Instrumen
         # A cache that cannot be written costs the next run some seconds and nothing else.
         return hold
     return hold
-
-
-def _cache_folder() -> Path:
-    named = os.environ.get(CACHE_VARIABLE)
-    return Path(named) if named else platformdirs.user_cache_path("suisou", appauthor=False) / "holds"
 
 
 def _plain(value: Any) -> Any:

@@ -11,7 +11,7 @@ import pytest
 
 import instrument_maps.library as library
 from app.cli import main
-from app.rig.hold_file import CACHE_VARIABLE
+from app.formats.cache import CACHE_VARIABLE
 from instrument_maps.load import bundled_maps
 
 EXAMPLE = Path(__file__).parents[3] / "docs" / "tin-whistle"

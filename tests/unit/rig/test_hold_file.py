@@ -10,6 +10,7 @@ import msgspec
 import numpy as np
 import pytest
 
+from app.formats.cache import CACHE_VARIABLE
 from app.rig import hold_file
 from app.rig.character import bundled_character, characters
 from app.rig.hold import Hold, Lips
@@ -106,7 +107,7 @@ def test_a_new_pair_is_fitted_once(tmp_path: Path, shipped: tuple[str, Hold], mo
         asked.append(given)
         return shipped[1]
 
-    monkeypatch.setenv(hold_file.CACHE_VARIABLE, str(tmp_path / "cache"))
+    monkeypatch.setenv(CACHE_VARIABLE, str(tmp_path / "cache"))
     monkeypatch.setattr(hold_file, "fit_hold", fit)
     monkeypatch.setattr(hold_file, "bundled_path", lambda *pair: tmp_path / "none.json")
     given = inputs(*PAIRS[0])
@@ -119,7 +120,7 @@ def test_a_cache_that_cannot_be_written_does_not_matter(
     tmp_path: Path, shipped: tuple[str, Hold], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     (tmp_path / "file").write_bytes(b"")
-    monkeypatch.setenv(hold_file.CACHE_VARIABLE, str(tmp_path / "file"))
+    monkeypatch.setenv(CACHE_VARIABLE, str(tmp_path / "file"))
     monkeypatch.setattr(hold_file, "fit_hold", lambda *given: shipped[1])
     monkeypatch.setattr(hold_file, "bundled_path", lambda *pair: tmp_path / "none.json")
     assert same(hold_for(*inputs(*PAIRS[0])), shipped[1])

@@ -1,0 +1,18 @@
+"""Where results are kept that cost more to work out than to read: a folder that anybody may empty at any time."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Final
+
+import platformdirs
+
+CACHE_VARIABLE: Final = "SUISOU_CACHE"
+"""Environment variable that names another folder."""
+
+
+def cache_folder(kind: str) -> Path:
+    """Return the person's folder for results of a kind; it may not be there yet."""
+    named = os.environ.get(CACHE_VARIABLE)
+    return Path(named) if named else platformdirs.user_cache_path("suisou", appauthor=False) / kind

@@ -1,0 +1,71 @@
+"""The bundled maps are parsed and validated once for each version of them; what is kept is what would be read."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from app.errors import MapError
+from app.formats.cache import CACHE_VARIABLE
+from instrument_maps import load
+from instrument_maps.load import bundled_maps, named_map
+
+
+@pytest.fixture
+def maps(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+    """A folder with two of the maps, as if they were all that come with the program."""
+    folder = tmp_path / "maps"
+    folder.mkdir()
+    for name in ("trumpet_Bb", "cornet_Bb"):
+        shutil.copy(load.FOLDER / f"{name}.toml", folder)
+    monkeypatch.setenv(CACHE_VARIABLE, str(tmp_path / "cache"))
+    monkeypatch.setattr(load, "FOLDER", folder)
+    bundled_maps.cache_clear()
+    yield folder
+    bundled_maps.cache_clear()
+
+
+def _again() -> dict[str, object]:
+    bundled_maps.cache_clear()
+    return dict(bundled_maps())
+
+
+def test_what_is_kept_is_what_is_read(maps: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    read = {path.stem: named_map(path) for path in sorted(maps.glob("*.toml"))}
+    first = _again()
+    monkeypatch.setattr(load, "named_map", lambda path: pytest.fail("it is kept"))
+    assert first == read == _again()
+    assert list(first) == sorted(read)
+
+
+def test_a_map_that_changed_is_read_anew_and_what_was_kept_goes(maps: Path, tmp_path: Path) -> None:
+    _again()
+    [kept] = (tmp_path / "cache").iterdir()
+    path = maps / "trumpet_Bb.toml"
+    path.write_text(path.read_text(encoding="utf-8").replace('en = "Trumpet', 'en = "Tin trumpet', 1), encoding="utf-8")
+    assert "Tin" in bundled_name(_again()["trumpet_Bb"])
+    [other] = (tmp_path / "cache").iterdir()
+    assert other != kept
+    path.write_text(path.read_text(encoding="utf-8") + "\nnonsense = 1\n", encoding="utf-8")
+    with pytest.raises(MapError):
+        _again()
+
+
+def bundled_name(instrument: object) -> str:
+    assert isinstance(instrument, load.InstrumentMap)
+    return instrument.name.en
+
+
+def test_a_damaged_or_forbidden_cache_costs_time_and_nothing_else(
+    maps: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    first = _again()
+    [kept] = (tmp_path / "cache").iterdir()
+    kept.write_bytes(kept.read_bytes()[:-9])
+    assert _again() == first
+    (tmp_path / "file").write_text("no folder")
+    monkeypatch.setenv(CACHE_VARIABLE, str(tmp_path / "file"))
+    assert _again() == first
