@@ -19,6 +19,7 @@ from app.motion.gaze import Gaze, looks_alike, plan_gaze
 from app.motion.model import Motion
 from app.motion.posture import hips_path, stance, trunk
 from app.motion.solve import Curves, Player, padding, solve
+from app.motion.splice import changed_stretch, spliced
 from app.motion.stations import raised_curve, sampled, station_curves
 from app.plan.model import PlayerParameters, PlayerPlan, TimeFrame, same_events
 from app.rig.carriage import carrying
@@ -203,7 +204,7 @@ def prepare(
         gaze = before.gaze if looks_same and seed == parameters.seed else plan_gaze(plan, parameters.seed)
         fingers = (before.controls, before.stations, before.raised)
         if not same_events(plan, old, "fingerings"):
-            fingers = _fingers(plan, instrument_map, beat_ticks)
+            fingers = _fingers(plan, instrument_map, beat_ticks, before)
     skeleton = character.skeleton
     place = stance(skeleton, posture)
     still = BodyMotion.still(posture)
@@ -235,13 +236,23 @@ def prepare(
 
 
 def _fingers(
-    plan: PlayerPlan, instrument_map: InstrumentMap, beat_ticks: int
+    plan: PlayerPlan, instrument_map: InstrumentMap, beat_ticks: int, before: Playing | None = None
 ) -> tuple[dict[str, Curve], dict[str, Curve], Curve]:
     """Curves of the controls, of the places of the fingers and of how high they wait."""
-    controls = control_curves(plan.fingerings, instrument_map.controls, beat_ticks)
+    notes = plan.fingerings
+    stretch = None if before is None else changed_stretch(before.plan.fingerings, notes, beat_ticks)
+    controls = stations = None
+    if before is not None and stretch is not None:
+        own = stretch.notes(notes)
+        controls = spliced(before.controls, control_curves(own, instrument_map.controls, beat_ticks), stretch)
+        if controls is not None:
+            stations = spliced(before.stations, station_curves(own, instrument_map, controls), stretch)
+    if controls is None:
+        controls = control_curves(notes, instrument_map.controls, beat_ticks)
+    if stations is None:
+        stations = station_curves(notes, instrument_map, controls)
     hovers = any(control.hover_m for control in instrument_map.controls)
-    raised = raised_curve(plan.fingerings) if hovers else moves(())
-    return controls, station_curves(plan.fingerings, instrument_map, controls), raised
+    return controls, stations, raised_curve(notes) if hovers else moves(())
 
 
 def _settled(parameters: PlayerParameters, carriage: Carriage) -> PlayerParameters:
