@@ -53,3 +53,48 @@ def test_cycles_die_in_the_window_s_thread_alone() -> None:
         [sys.executable, "-X", "faulthandler", "-c", SCRIPT], capture_output=True, text=True, timeout=60
     )
     assert done.returncode == 0, done.stderr
+
+
+LASTING = """
+import gc, weakref
+from PySide6.QtCore import QCoreApplication
+from app.shell import garbage as subject
+
+application = QCoreApplication([])
+garbage = subject.Garbage()
+gc.set_threshold(0, 0, 0)
+
+class Cycle:
+    def __init__(self):
+        self.me = self
+
+def full():
+    for generation in (0, 1, 1):
+        [[] for _ in range(3)]
+        gc.collect(generation)
+    garbage.collect()
+
+lasts = Cycle()
+known = weakref.ref(lasts)
+full()
+frozen = gc.get_freeze_count()
+assert frozen > 10_000
+fleeting = weakref.ref(Cycle())
+full()
+assert fleeting() is None
+del lasts
+full()
+assert known() is not None
+assert len(gc.get_objects()) < 2000
+grown = [[number] for number in range(int(frozen * subject.GROWN))]
+full()
+assert known() is None
+assert gc.get_freeze_count() > frozen * subject.GROWN
+garbage.stop()
+assert gc.get_freeze_count() == 0
+"""
+
+
+def test_what_lasts_is_set_aside_and_looked_through_again_once_it_has_grown() -> None:
+    done = subprocess.run([sys.executable, "-c", LASTING], capture_output=True, text=True, timeout=60)
+    assert done.returncode == 0, done.stderr
