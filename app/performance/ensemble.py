@@ -14,7 +14,7 @@ import msgspec
 
 from app.errors import AppError, MapError, Message
 from app.performance.loudness import note_loudness
-from app.performance.reach import reach_problems
+from app.performance.reach import Reached, reached
 from app.plan.corrections import RemoveEvent, SetBreath, SetCue, Vary
 from app.plan.generate import BREATH_PARAMETERS, EnsemblePlan, Line, Piece, frame_around, plan_ensemble
 from app.plan.memo import Memo
@@ -178,27 +178,28 @@ class Performance:
 
     def _reaching(self, player: Player, plan: PlayerPlan) -> PlayerPlan:
         """The plan with what the player's hands do not reach."""
-        instrument = self.instrument(player)
+        instrument, name = self.instrument(player), f"reach:{player.id}"
         unreached = self._memo.step(
-            f"reach:{player.id}",
-            lambda: self._unreached(player, instrument, plan),
+            name,
+            lambda: self._reached(player, instrument, plan, self._memo.before(name)),
             plan.fingerings,
             instrument,
             player.character_id,
             player.parameters.posture,
-        )
+        ).problems
         if not unreached:
             return plan
         return self._memo.step(
             f"told:{player.id}", lambda: _with_problems(player, plan, self.time_frame, unreached), plan, unreached
         )
 
-    def _unreached(self, player: Player, instrument: InstrumentMap, plan: PlayerPlan) -> tuple[Problem, ...]:
+    def _reached(self, player: Player, instrument: InstrumentMap, plan: PlayerPlan, before: Reached | None) -> Reached:
         try:
-            return reach_problems(player, instrument, plan)
+            return reached(player, instrument, plan, before)
         except AppError as error:
             # A model or character that cannot be read is this player's problem; the others play on.
-            return (Problem(error.message, None, self.time_frame.first_frame_s, self.time_frame.end_s),)
+            told = Problem(error.message, None, self.time_frame.first_frame_s, self.time_frame.end_s)
+            return Reached((), (), (told,))
 
     @cached_property
     def plans(self) -> dict[str, PlayerPlan]:

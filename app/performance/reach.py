@@ -5,6 +5,7 @@ Messages: ``contact.out_of_reach`` (label, gap_mm): "{label} is out of this play
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from fractions import Fraction
 
 import msgspec
@@ -27,26 +28,58 @@ Place = tuple[tuple[str, float], ...]
 """Where the controls are that whole hands move."""
 
 
-def reach_problems(player: Player, instrument: InstrumentMap, plan: PlayerPlan) -> tuple[Problem, ...]:
-    """A problem for every note whose fingering asks a hand to go where the player's arm ends before.
+@dataclass(frozen=True)
+class Reached:
+    """How far a player's hands come.
+
+    Attributes
+    ----------
+    asked : tuple
+        All that the gaps depend on: player, instrument, and for every place its controls and fingers.
+    gaps_m : tuple of float
+        Of the places, in the same order.
+    problems : tuple of Problem
+        A problem for every note whose fingering asks a hand to go where the player's arm ends before.
+    """
+
+    asked: tuple[object, ...]
+    gaps_m: tuple[float, ...]
+    problems: tuple[Problem, ...]
+
+
+def reached(player: Player, instrument: InstrumentMap, plan: PlayerPlan, before: Reached | None = None) -> Reached:
+    """How far the hands come, and what they do not reach.
 
     Looked at are only controls that a whole hand moves, in every place that the plan uses, as the player would hold
-    them standing or sitting still.
+    them standing or sitting still. Where the places are those of ``before``, an edit ago, nobody is posed again.
     """
     carried = frozenset(control.name for control in instrument.controls if control.finger.endswith(".hand"))
     if not carried:
-        return ()
+        return Reached((), (), ())
+    known: dict[int, Place] = {}
+    places: list[Place] = []
+    for event in plan.fingerings:
+        # By identity: notes of one fingering share its table.
+        place = known.get(id(event.controls))
+        if place is None:
+            place = known[id(event.controls)] = _place(event, carried)
+        places.append(place)
     examples: dict[Place, FingeringEvent] = {}
-    for event in plan.fingerings:
-        examples.setdefault(_place(event, carried), event)
-    gaps_m = dict(zip(examples, _gaps_m(player, instrument, plan, list(examples.values())), strict=True))
+    for place, event in zip(places, plan.fingerings, strict=True):
+        examples.setdefault(place, event)
+    held = tuple((place, event.controls, event.fingers) for place, event in examples.items())
+    asked = (plan.player_id, instrument, player.character_id, player.parameters.posture, held)
+    if before is not None and before.asked == asked:
+        gaps_m = before.gaps_m
+    else:
+        gaps_m = tuple(_gaps_m(player, instrument, plan, list(examples.values())))
+    far = {place: gap_m for place, gap_m in zip(examples, gaps_m, strict=True) if gap_m > MOST_GAP_M}
     problems = []
-    for event in plan.fingerings:
-        gap_m = gaps_m[_place(event, carried)]
-        if gap_m > MOST_GAP_M:
-            message = Message("contact.out_of_reach", {"label": event.label, "gap_mm": 5 * round(200.0 * gap_m)})
+    for place, event in zip(places, plan.fingerings, strict=True):
+        if place in far:
+            message = Message("contact.out_of_reach", {"label": event.label, "gap_mm": 5 * round(200.0 * far[place])})
             problems.append(Problem(message, event.note_id, event.start_s, event.end_s))
-    return tuple(problems)
+    return Reached(asked, gaps_m, tuple(problems))
 
 
 def _place(event: FingeringEvent, carried: frozenset[str]) -> Place:

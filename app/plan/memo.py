@@ -36,6 +36,11 @@ class Memo:
         self._steps[name] = (inputs, result)
         return result
 
+    def before(self, name: str) -> Any:
+        """The result of a step in the run before, whatever its inputs were; None where there was none."""
+        known = self._before.get(name)
+        return None if known is None else known[1]
+
     def close(self) -> None:
         """Forget the run before."""
         self._before = {}

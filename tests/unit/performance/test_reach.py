@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from app.errors import FileError
+from app.performance import reach
 from app.performance.bodies import character_of, hold_of
 from app.performance.ensemble import Performance
 from app.performance.motion import player_motion
@@ -36,7 +37,11 @@ def played_by(character_id: str) -> Project:
 
 
 def unreached(project: Project, player_id: str) -> set[str | None]:
-    problems = Performance(project).plan(project.player(player_id)).problems
+    return unreached_at(Performance(project), project.player(player_id))
+
+
+def unreached_at(performance: Performance, player: Player) -> set[str | None]:
+    problems = performance.plan(player).problems
     return {problem.note_id for problem in problems if problem.message.id == "contact.out_of_reach"}
 
 
@@ -103,3 +108,19 @@ def test_a_model_that_cannot_be_read_is_a_problem_of_its_player_alone(monkeypatc
     told = {id_: [problem.message.id for problem in plan.problems] for id_, plan in plans.items()}
     assert told == {player.id: ["model.invalid"] if player.id == ill else [] for player in project.players}
     assert all(plan.fingerings for plan in plans.values())
+
+
+def test_after_an_edit_nobody_is_posed_again_for_places_that_were_judged(monkeypatch: pytest.MonkeyPatch) -> None:
+    project = played_by("woman_adult")
+    performance = Performance(project)
+    player = next(player for player in project.players if unreached_at(performance, player))
+    told = unreached_at(performance, player)
+    other = next(note for note in project.part(player).notes if note.id not in told)
+    monkeypatch.setattr(reach, "_gaps_m", lambda *given: pytest.fail("these places are known"))
+    event = next(event for event in performance.plan(player).fingerings if event.note_id == other.id)
+    pinned = put(project, player.id, [PinFingering(other.id, event.label)])
+    edited = Performance(pinned, performance)
+    assert edited.plan(player).fingerings is not performance.plan(player).fingerings
+    assert unreached_at(edited, player) == told
+    monkeypatch.undo()
+    assert unreached_at(Performance(pinned), player) == told
