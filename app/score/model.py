@@ -108,6 +108,11 @@ class Part(msgspec.Struct, frozen=True, dict=True):
     curves: tuple[ControllerCurve, ...] = ()
 
     @cached_property
+    def note_ids(self) -> frozenset[str]:
+        """Ids of its notes."""
+        return frozenset(note.id for note in self.notes)
+
+    @cached_property
     def end_tick(self) -> int:
         """Where its last note ends; 0 without notes."""
         return max((note.end_tick for note in self.notes), default=0)

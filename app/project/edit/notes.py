@@ -39,9 +39,8 @@ def chosen_notes(project: Project, note_ids: Collection[str]) -> Iterator[tuple[
     """The parts that have some of these notes, each with its own of them in order."""
     wanted = frozenset(note_ids)
     for part in project.score.parts:
-        mine = [note for note in part.notes if note.id in wanted]
-        if mine:
-            yield part, mine
+        if not wanted.isdisjoint(part.note_ids):
+            yield part, [note for note in part.notes if note.id in wanted]
 
 
 def add_note(
@@ -323,7 +322,7 @@ def _notes_of(item: Correction) -> set[str]:
 
 def _each(project: Project, note_ids: Iterable[str], edit: Callable[[Note], Note]) -> Project:
     wanted = frozenset(note_ids)
-    parts = {part.id for part in project.score.parts if any(note.id in wanted for note in part.notes)}
+    parts = {part.id for part in project.score.parts if not wanted.isdisjoint(part.note_ids)}
     return _edited(project, parts, lambda notes: [edit(note) if note.id in wanted else note for note in notes])
 
 
