@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import repeat
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,7 +12,7 @@ from pyqtgraph.Qt.internals import PrimitiveArray
 from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
 from PySide6.QtGui import QBrush, QColor, QFontMetricsF, QImage, QPainter, QPen, QPolygonF, QStaticText
 
-from app.plan.model import PlayerPlan, Problem
+from app.plan.model import FingeringEvent, PlayerPlan, Problem
 from widgets.common.fingering_text import short_label
 from widgets.common.pitch import BLACK
 from widgets.timeline.lane import LaneItem
@@ -177,6 +178,8 @@ def picture_behind(lane: PianoRoll, behind: Behind, alpha: int, ratio: float) ->
     left, top, width, height = boxes = lane.boxes(notes, rows)
     shades = [_shade(colour, alpha) for colour in behind.colours]
     painter = QPainter(image)
+    # See `Pictured`.
+    painter.setClipRect(room)
     if len(rows) > MOST_RECTANGLES:
         narrow = width <= NARROW_PX
         _draw_points(painter, lane, left[narrow], notes.pitch[rows[narrow]], width[narrow], owner[narrow], shades)
@@ -229,7 +232,10 @@ class Labels(LaneItem):
         self._plan: PlayerPlan | None = None
         self._table: NoteTable | None = None
         self._fingered: Integers = np.empty(0, np.int64)
-        self._said: list[tuple[str, bool]] = []
+        self._events: tuple[FingeringEvent, ...] = ()
+        self._note_ids: list[str] = []
+        self._said: Integers = np.empty(0, np.int64)
+        """Numbers of the events, as the notes are ordered that they finger."""
         self._told: tuple[Problem, ...] = ()
         self._problems: frozenset[int] = frozenset()
 
@@ -241,17 +247,17 @@ class Labels(LaneItem):
         """Sort a plan's fingerings to the notes they belong to, once for each pair."""
         if table is self._table and plan is self._plan:
             return
+        if plan is not self._plan:
+            self._events = plan.fingerings if plan is not None else ()
+            self._note_ids = [event.note_id for event in self._events]
         self._table, self._plan = table, plan
-        pairs = []
-        if plan is not None:
-            index = table.index
-            for event in plan.fingerings:
-                place = index.get(event.note_id)
-                if place is not None:
-                    pairs.append((place, short_label(event.label), event.corrected))
-        pairs.sort()
-        self._fingered = np.array([place for place, _, _ in pairs], np.int64)
-        self._said = [(label, corrected) for _, label, corrected in pairs]
+        # While notes are dragged, the table is another with every move of the mouse.
+        found = map(table.index.get, self._note_ids, repeat(-1))
+        places = np.fromiter(found, np.int64, len(self._note_ids))
+        order = np.argsort(places, kind="stable")
+        order = order[np.searchsorted(places[order], 0) :]
+        self._fingered = places[order]
+        self._said = order
 
     def _know_problems(self, table: NoteTable, told: tuple[Problem, ...]) -> None:
         """Sort problems to the notes that they are about, once for each pair."""
@@ -310,11 +316,12 @@ class Labels(LaneItem):
         veil = QColor(tokens.sunken)
         veil.setAlpha(190)
         flags = lane.selected(table)
-        for place, (label, corrected), x, y, free in zip(
-            rows.tolist(), self._said[first:last], left.tolist(), top.tolist(), room.tolist(), strict=True
+        events = [self._events[number] for number in self._said[first:last].tolist()]
+        for place, event, x, y, free in zip(
+            rows.tolist(), events, left.tolist(), top.tolist(), room.tolist(), strict=True
         ):
-            text, text_px = self._text(label)
-            if corrected:
+            text, text_px = self._text(short_label(event.label))
+            if event.corrected:
                 self._mark(painter, x, y, row_px)
             if text_px + LABEL_GAP_PX > free:
                 continue
@@ -324,7 +331,7 @@ class Labels(LaneItem):
             else:
                 below = y + row_px - 1.0
                 painter.fillRect(QRectF(x, below, text_px + 2.0, line_px - 2.0), veil)
-                painter.setPen(pinned if corrected else plain)
+                painter.setPen(pinned if event.corrected else plain)
                 painter.drawStaticText(QPointF(x + 1.0, below - 1.0), text)
 
     def _mark(self, painter: QPainter, x: float, y: float, row_px: float) -> None:
