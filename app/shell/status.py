@@ -264,7 +264,7 @@ class StatusLine(QStatusBar):
     def _tell_motion(self) -> None:
         busy = self._ready < 1.0 and self._files.is_open
         self._motion_bar.setVisible(busy)
-        self._motion_bar.setValue(int(MOTION_PX * self._ready))
+        _show_value(self._motion_bar, int(MOTION_PX * self._ready))
         self._motion.setVisible(self._files.is_open)
         if busy:
             self._motion.setText(self.tr("making motion"))
@@ -308,6 +308,15 @@ def severity_colour(severity: Severity, tokens: Tokens) -> str:
     }[severity]
 
 
+def _show_value(bar: QProgressBar, value: int) -> None:
+    """Show a value with the next picture: a bar left to itself paints it at once, and a window that holds GL puts all
+    of its picture together for that."""
+    if value != bar.value():
+        bar.setUpdatesEnabled(False)
+        bar.setValue(value)
+        bar.setUpdatesEnabled(True)
+
+
 class _TaskRow(QWidget):
     """Work: its name, how far it is, and a way to stop it."""
 
@@ -339,8 +348,10 @@ class _TaskRow(QWidget):
 
     def set_share(self, share: float) -> None:
         """0..1; what says nothing of how far it is moves to and fro."""
-        self._bar.setRange(0, 1000 if share > 0.0 else 0)
-        self._bar.setValue(round(1000 * share))
+        most = 1000 if share > 0.0 else 0
+        if self._bar.maximum() != most:
+            self._bar.setRange(0, most)
+        _show_value(self._bar, round(1000 * share))
 
 
 class _Details(QFrame):
