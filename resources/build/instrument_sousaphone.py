@@ -1,7 +1,7 @@
 """Sousaphone in BB flat: worn round the body, on the left shoulder, its bell ahead over the player's head.
 
 Sizes are those of common instruments: bell 660 mm, bore 18.5 mm, three pistons 32 mm apart with a way of 17 mm; the
-winding is 680 by 450 mm from middle to middle of the tube, as the bundled bodies with their right arms need it. The
+winding is 690 by 490 mm from middle to middle of the tube, as the bundled bodies with their right arms need it. The
 tube goes from the valves as a helix twice round the player: under the right arm, up the back, over the left shoulder
 and down the front, round the right hip and up the back again, to the bell's collar behind the left shoulder. Its turns
 are counted in degrees from the shoulder: 90 is before the breast, 180 at the right hip, 270 at the back; what comes
@@ -31,18 +31,18 @@ from resources.build.instrument_tuba import TUBA_BB, Z, row_contacts, slides, th
 
 ROW = replace(
     TUBA_BB,
-    middle=(-0.025, 0.0, 0.198),
+    middle=(-0.042, 0.0, 0.202),
     ahead_deg=28.0,
     first_valve=0.026,
     row=3,
     fourth_back=0.0,
-    button=-0.200,
+    button=-0.168,
     bore=0.00925,
 )
 """The valves stand as those of the tuba do, where the right hand finds them."""
-SHOULDER, HIP = np.array([0.160, -0.024]), np.array([-0.276, -0.545])
+SHOULDER, HIP = np.array([0.162, -0.006]), np.array([-0.284, -0.525])
 """Middle of the tube on the left shoulder and at the right hip, from the lips to the left and up."""
-BACK, FRONT = -0.372, 0.082
+BACK, FRONT = -0.405, 0.088
 """... and behind the player and in front, from the lips ahead."""
 PITCH = 0.088
 """How far one turn lies beside the next."""
@@ -50,10 +50,10 @@ FIRST_DEG, COLLAR_DEG = -240.0, 290.0
 RADII = ((-240, 0.0135), (-180, 0.020), (-90, 0.028), (0, 0.0345), (60, 0.0375), (180, 0.0445), (290, 0.0520))
 BELL = Bell(0.330, 0.0836, 0.90)
 RIM = np.array([0.085, 0.545, 0.080])
-STEM = np.array([0.205, 0.0, -0.318])
+STEM = np.array([0.205, 0.0, -0.340])
 """Where the bell's stem stands behind the left shoulder."""
 ELBOW_R = 0.125
-NECK = 0.065
+NECK = 0.070
 """How far left of the first valve the tube from the mouthpiece comes down."""
 GRIP_DEG = 66.0
 
