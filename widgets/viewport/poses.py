@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Protocol
 
 import numpy as np
@@ -56,8 +56,8 @@ def same(one: Posed | None, other: Posed | None) -> bool:
 class Poses(Protocol):
     """Poses by player and time."""
 
-    def pose(self, player_id: str, time_s: float) -> Posed | None:
-        """How a player stands at a time; None while that is not made yet. Returns at once."""
+    def poses(self, player_ids: Sequence[str], time_s: float) -> Sequence[Posed | None]:
+        """How players stand at a time, in their order; None while that is not made yet. Returns at once."""
 
     def pose_now(self, player_id: str, time_s: float) -> Posed | None:
-        """The same, made here and now where it is not there yet: for pictures that have to be right."""
+        """How a player stands, made here and now where it is not there yet: for pictures that have to be right."""

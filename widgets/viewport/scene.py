@@ -111,9 +111,10 @@ class Scene(QObject):
     def pose(self, time_s: float) -> None:
         """Put everyone into the pose of a time, as far as it is made."""
         if self._loaded is not None:
-            asked = {member.player_id: self._poses.pose(member.player_id, time_s) for member in self._members()}
-            self.missing = any(pose is None for pose in asked.values())
-            self.take(asked)
+            player_ids = [member.player_id for member in self._members()]
+            asked = self._poses.poses(player_ids, time_s)
+            self.missing = any(pose is None for pose in asked)
+            self.take(dict(zip(player_ids, asked, strict=True)))
 
     def pose_now(self, time_s: float) -> None:
         """Put everyone into the pose of a time, made here where it is not there yet."""
@@ -137,12 +138,10 @@ class Scene(QObject):
 
     def is_outdated(self, time_s: float) -> bool:
         """Whether somebody has another pose now than is shown."""
-        for player_id, shown in self.poses().items():
-            pose = self._poses.pose(player_id, time_s)
-            # A pose that is not there yet leaves the one before it.
-            if pose is not None and not same(pose, shown):
-                return True
-        return False
+        shown = self.poses()
+        found = self._poses.poses(tuple(shown), time_s)
+        # A pose that is not there yet leaves the one before it.
+        return any(pose is not None and not same(pose, own) for pose, own in zip(found, shown.values(), strict=True))
 
     def _members(self) -> tuple[Member, ...]:
         stage = self.stage

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from widgets.common.session import Session
@@ -54,9 +54,12 @@ class WornFaces:
     def __init__(self, session: Session, poses: Poses) -> None:
         self._session, self._poses = session, poses
 
-    def pose(self, player_id: str, time_s: float) -> Posed | None:
-        """See `Poses.pose`."""
-        return self._worn(player_id, self._poses.pose(player_id, time_s))
+    def poses(self, player_ids: Sequence[str], time_s: float) -> Sequence[Posed | None]:
+        """See `Poses.poses`."""
+        found = self._poses.poses(player_ids, time_s)
+        if self._session.preview_morphs is None:
+            return found
+        return [self._worn(player_id, pose) for player_id, pose in zip(player_ids, found, strict=True)]
 
     def pose_now(self, player_id: str, time_s: float) -> Posed | None:
         """See `Poses.pose_now`."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Sequence
 from dataclasses import replace
 from statistics import median
 
@@ -56,10 +57,11 @@ class Ready:
             for frame in range(FRAMES)
         }
 
-    def pose(self, player_id: str, time_s: float) -> Pose | None:
-        return self._poses[player_id, round((time_s - 6.0) * 60.0) % FRAMES]
+    def poses(self, player_ids: Sequence[str], time_s: float) -> list[Pose | None]:
+        return [self.pose_now(player_id, time_s) for player_id in player_ids]
 
-    pose_now = pose
+    def pose_now(self, player_id: str, time_s: float) -> Pose | None:
+        return self._poses[player_id, round((time_s - 6.0) * 60.0) % FRAMES]
 
 
 @pytest.mark.bench

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 import numpy.typing as npt
@@ -39,9 +39,9 @@ class MadeNow:
         self._session = session
         self.missing = False
 
-    def pose(self, player_id: str, time_s: float) -> Pose | None:
+    def poses(self, player_ids: Sequence[str], time_s: float) -> list[Pose | None]:
         """None while told that nothing is made yet."""
-        return None if self.missing else self.pose_now(player_id, time_s)
+        return [None if self.missing else self.pose_now(player_id, time_s) for player_id in player_ids]
 
     def pose_now(self, player_id: str, time_s: float) -> Pose | None:
         """The pose of the newest project."""

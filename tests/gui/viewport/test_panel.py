@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -102,8 +102,8 @@ def test_a_valve_that_goes_down_is_seen(session: Session, viewport: ViewportPane
     class Pressed:
         value = 0.0
 
-        def pose(self, player_id: str, time_s: float) -> object:
-            return self.pose_now(player_id, time_s)
+        def poses(self, player_ids: Sequence[str], time_s: float) -> object:
+            return [self.pose_now(player_id, time_s) for player_id in player_ids]
 
         def pose_now(self, player_id: str, time_s: float) -> object:
             found = poses.pose_now(player_id, time_s)
@@ -122,8 +122,8 @@ def test_a_face_that_opens_its_mouth_is_seen(viewport: ViewportPanel, poses: Mad
     class Agape:
         jaw = 0.0
 
-        def pose(self, player_id: str, time_s: float) -> object:
-            return self.pose_now(player_id, time_s)
+        def poses(self, player_ids: Sequence[str], time_s: float) -> object:
+            return [self.pose_now(player_id, time_s) for player_id in player_ids]
 
         def pose_now(self, player_id: str, time_s: float) -> object:
             found = poses.pose_now(player_id, time_s)
@@ -523,9 +523,10 @@ from widgets.common.session import Session
 from widgets.viewport.panel import ViewportPanel
 
 class Nothing:
-    def pose(self, player_id, time_s):
+    def poses(self, player_ids, time_s):
+        return [None for _ in player_ids]
+    def pose_now(self, player_id, time_s):
         return None
-    pose_now = pose
 
 session = Session(quartet_project(), ImmediateTasks())
 panel = ViewportPanel(session, Nothing())

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from types import SimpleNamespace
 
 import numpy as np
@@ -14,7 +15,10 @@ from widgets.viewport.worn_face import WornFaces
 class Standing:
     """Everybody stands still with an open mouth."""
 
-    def pose(self, player_id: str, time_s: float) -> Posed | None:
+    def poses(self, player_ids: Sequence[str], time_s: float) -> list[Posed | None]:
+        return [self.pose_now(player_id, time_s) for player_id in player_ids]
+
+    def pose_now(self, player_id: str, time_s: float) -> Posed | None:
         if player_id == "nobody":
             return None
         return SimpleNamespace(
@@ -26,28 +30,26 @@ class Standing:
             instrument_rotation=np.zeros(4),
         )
 
-    pose_now = pose
-
 
 def test_only_the_player_in_front_wears_it(session: Session) -> None:
     first, second = (player.id for player in session.project.players[:2])
     poses = WornFaces(session, Standing())
-    plain = poses.pose(first, 0.0)
+    plain = poses.poses((first,), 0.0)[0]
     assert plain is not None
     assert plain.morphs == {"jawOpen": 1.0}
     session.set_preview_morphs({"browInnerUp": 0.5})
-    for pose in (poses.pose(first, 0.0), poses.pose_now(first, 0.0)):
+    for pose in (poses.poses((first,), 0.0)[0], poses.pose_now(first, 0.0)):
         assert pose is not None
         assert pose.morphs == {"browInnerUp": 0.5}
         assert pose.controls == plain.controls
         assert not same(pose, plain)
-    other = poses.pose(second, 0.0)
+    other = poses.poses((second,), 0.0)[0]
     assert other is not None
     assert other.morphs == {"jawOpen": 1.0}
     session.set_players((second, first))
-    worn = poses.pose(second, 0.0)
+    worn = poses.poses((second,), 0.0)[0]
     assert worn is not None
     assert worn.morphs == {"browInnerUp": 0.5}
-    assert poses.pose("nobody", 0.0) is None
+    assert poses.poses(("nobody",), 0.0)[0] is None
     session.set_preview_morphs(None)
-    assert same(poses.pose(second, 0.0), plain)
+    assert same(poses.poses((second,), 0.0)[0], plain)

@@ -150,6 +150,25 @@ def test_between_two_frames_a_pose_is_between_them(performance: Performance) -> 
     np.testing.assert_allclose(middle.rotations, half, atol=1e-5)
 
 
+@pytest.mark.parametrize("off_s", [0.0, 0.006])
+def test_poses_of_several_are_those_of_each(performance: Performance, off_s: float) -> None:
+    live = LiveMotion(performance)
+    all_made(live)
+    ids = [*(player.id for player in performance.project.players), "nobody"]
+    random = np.random.default_rng(3)
+    for frame in random.integers(0, 60 * 20, 40):
+        time_s = performance.time_frame.first_frame_s + float(frame) / 60.0 + off_s
+        together = live.poses(ids, time_s)
+        assert len(together) == len(ids)
+        assert together[-1] is None
+        for player_id, pose in zip(ids[:-1], together, strict=False):
+            alone = live.pose(player_id, time_s)
+            assert pose is not None
+            assert alone is not None
+            for own, other in zip(vars(pose).values(), vars(alone).values(), strict=True):
+                assert own == other if isinstance(own, dict) else np.array_equal(own, other)
+
+
 def test_times_outside_the_performance_are_its_first_and_last_frame(performance: Performance) -> None:
     live = LiveMotion(performance)
     player, frame = performance.project.players[0].id, performance.time_frame
