@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent, QRectF, QSize, QSizeF, Qt
-from PySide6.QtGui import QPainter, QPaintEvent, QPixmap
+from math import ceil
+
+from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, QSizeF, Qt
+from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPixmap
 from PySide6.QtWidgets import QWidget
 
 
@@ -16,10 +18,16 @@ class Pictured(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._picture: QPixmap | None = None
+        self._ratio = 1.0
+        """Pixels of the picture in one of the widget's."""
         self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
 
+    def ground(self) -> QColor:
+        """What it is drawn upon."""
+        raise NotImplementedError
+
     def draw(self, painter: QPainter, room: QRectF) -> None:
-        """Draw all of it, the ground too."""
+        """Draw all of it but the ground."""
         raise NotImplementedError
 
     def redraw(self, *_changes: object) -> None:
@@ -29,25 +37,30 @@ class Pictured(QWidget):
 
     def _drawn(self) -> QPixmap:
         ratio = self.devicePixelRatioF()
-        size = (QSizeF(self.size()) * ratio).toSize()
-        if self._picture is None or self._picture.size() != size or self._picture.devicePixelRatio() != ratio:
-            self._picture = self._draw(size, ratio)
+        # At 125 % a widget may begin between two pixels, and reach into one more.
+        size = QSize(ceil(self.width() * ratio) + 1, ceil(self.height() * ratio) + 1)
+        if self._picture is None or self._picture.size() != size or self._ratio != ratio:
+            self._picture, self._ratio = self._draw(size, ratio), ratio
         return self._picture
 
     def _draw(self, size: QSize, ratio: float) -> QPixmap:
         picture = QPixmap(size)
-        picture.setDevicePixelRatio(ratio)
-        painter, room = QPainter(picture), QRectF(self.rect())
+        picture.fill(self.ground())
+        painter = QPainter(picture)
+        painter.scale(ratio, ratio)
         # Clipped to what there is, Qt draws lines and shapes that are not opaque ten times as fast.
-        painter.setClipRect(room)
-        self.draw(painter, room)
+        painter.setClipRect(QRectF(QPointF(), QSizeF(size) / ratio))
+        self.draw(painter, QRectF(self.rect()))
         painter.end()
         return picture
 
     # Qt overrides
 
     def paintEvent(self, event: QPaintEvent) -> None:
-        QPainter(self).drawPixmap(0, 0, self._drawn())
+        painter, picture = QPainter(self), self._drawn()
+        # Pixel for pixel: scaled to the same size, Qt would read beyond the last row.
+        painter.scale(1.0 / self._ratio, 1.0 / self._ratio)
+        painter.drawPixmap(0, 0, picture)
 
     def changeEvent(self, event: QEvent) -> None:
         super().changeEvent(event)

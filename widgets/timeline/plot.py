@@ -160,8 +160,10 @@ class Plot(Pictured):
         self._items.sort(key=lambda each: each.z)
         self.redraw()
 
+    def ground(self) -> QColor:
+        return QColor(self._lane.session.tokens.sunken)
+
     def draw(self, painter: QPainter, room: QRectF) -> None:
-        painter.fillRect(room, QColor(self._lane.session.tokens.sunken))
         for item in self._items:
             painter.save()
             item.paint_px(painter, room)

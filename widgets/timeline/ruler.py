@@ -420,9 +420,11 @@ class Ruler(Pictured):
     def sizeHint(self) -> QSize:
         return QSize(800, MARKS_PX + SCALE_PX)
 
+    def ground(self) -> QColor:
+        return QColor(self.session.tokens.surface)
+
     def draw(self, painter: QPainter, room: QRectF) -> None:
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        painter.fillRect(room, QColor(self.session.tokens.surface))
         painter.setFont(self.font())
         painter.setClipRect(room.adjusted(GUTTER_PX, 0.0, 0.0, 0.0))
         self._paint_bands(painter)

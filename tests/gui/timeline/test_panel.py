@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import msgspec
 import pytest
-from PySide6.QtCore import QPoint, QPointF, QRectF, Qt
+from PySide6.QtCore import QPoint, QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QPainter
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QMenu, QWidget
@@ -113,6 +113,17 @@ def test_another_colour_of_the_player_in_front_and_new_problems_are_drawn(stage:
     session.set_broken({front.id: (Problem(Message("contact.hand_off", {"side": "left", "gap_mm": 9}), "1:3", 1, 2),)})
     settle()
     assert {"roll", "fingering", "breath"} <= set(drawn)
+
+
+@pytest.mark.parametrize("ratio", [1.0, 1.25, 1.5, 2.0])
+def test_a_picture_reaches_its_last_row_and_column_at_every_scale(stage: Stage, ratio: float) -> None:
+    for height in range(20, 28):
+        lane = stage.panel.lanes["problems"]
+        lane.plot.resize(401, height)
+        image = lane.plot._draw(QSize(round(401 * ratio) + 1, round(height * ratio) + 1), ratio).toImage()
+        last = {image.pixelColor(x, image.height() - 1).name() for x in range(image.width())}
+        assert lane.plot.ground().name() in last
+        assert last <= {image.pixelColor(x, image.height() // 2).name() for x in range(image.width())}
 
 
 def test_another_font_or_theme_is_drawn(stage: Stage, drawn: Counter[str]) -> None:
