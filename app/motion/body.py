@@ -44,8 +44,6 @@ LIFT_LAG = 0.6547
 """Where the side lobe of a bump's acceleration peaks, in half widths: a lift placed there adds to the nod's peak
 without moving it."""
 LIFT_SHARE = 0.6
-LOWER_ELBOWS_RAD = float(np.deg2rad(10.0))
-"""On the instrument's way down and up the elbows come in by this much, so that the wrists stay straight."""
 
 
 @dataclass(frozen=True)
@@ -512,7 +510,7 @@ def body_motion(
         bell_right_rad=np.zeros(frames),
         bell_held_rad=bell_held,
         shoulders_rad=deg(body.breath.shoulder_lift_deg) * inhaled,
-        elbows_rad=deg(body.breath.elbow_out_deg) * inhaled - 4.0 * lowered * (1.0 - lowered) * LOWER_ELBOWS_RAD,
+        elbows_rad=deg(body.breath.elbow_out_deg) * inhaled,
         eyes_yaw_rad=gaze.yaw_rad.sample(times_s) - 0.5 * head_yaw - EYES_BACK * aside_rad,
         eyes_pitch_rad=gaze.pitch_rad.sample(times_s) - 0.5 * head_pitch,
         inhaled=inhaled,

@@ -22,7 +22,10 @@ from instrument_maps.model import Carriage, Lowered
 X_AXIS, Y_AXIS, Z_AXIS = np.eye(3)
 
 CLEAR_M = 0.035
-"""On its way down and up the instrument swings ahead by this much, clear of the chin."""
+"""On its way down and up the instrument swings ahead by this much, clear of the chin ..."""
+CHIN_M = 0.06
+"""... and by less where it goes less far down than from the lips to below the chin: one that stays has nothing to
+pass."""
 
 
 FREE_DEG = 10.0
@@ -145,5 +148,6 @@ def carry(
         ),
     )
     share = lowering[:, None]
-    swing = 4.0 * share * (1.0 - share) * CLEAR_M * Z_AXIS
+    clear_m = CLEAR_M * min(1.0, max(0.0, -lowered.offset_m[1]) / CHIN_M)
+    swing = 4.0 * share * (1.0 - share) * clear_m * Z_AXIS
     return Carried(position_m + (low_m - position_m) * share + swing, quaternion.slerp(rotation, low, lowering))

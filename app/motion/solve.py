@@ -194,12 +194,14 @@ def _helped(player: Player, curves: Curves, half: int) -> BodyMotion:
     quick = max(1, round(ROOM_EASE_S / HELP_EASE_S * half))
     swift = max(1, round(SHOULDER_EASE_S / HELP_EASE_S * half))
     most = {side: _held_back([part.most_turn_rad[side] for part in parts], quick) for side in parts[0].most_turn_rad}
-    asked = _eased(np.concatenate([part.turn_rad for part in parts]), half)
+    # The chest carries a lowered instrument: turning would take it along and bring no hand nearer.
+    turning = 1.0 - curves.body.lowered
+    asked = _eased(np.concatenate([part.turn_rad for part in parts]) * turning, half)
     turn = np.zeros(len(curves))
     if np.any(asked):
         turn += _with_room(np.maximum(asked, 0.0), most["right"])
         turn -= _with_room(np.maximum(-asked, 0.0), most["left"])
-    short_m = _eased(np.concatenate([part.short_m for part in parts]), half)
+    short_m = _eased(np.concatenate([part.short_m for part in parts]) * turning, half)
     if np.any(short_m):
         draw = softly_capped(short_m / _drawn_m(player), 1.0, 0.1) * np.abs(turn) / np.maximum(np.abs(asked), 1e-6)
         motion = _drawn(motion, draw, np.sign(asked))

@@ -159,3 +159,29 @@ def test_posture_corrections_have_the_room_that_the_turned_head_leaves() -> None
     straight = pose_limits("head", MAP, PlayerParameters(), BODY)["left_deg"]
     assert high < straight[1]
     assert low == straight[0]
+
+
+def put_down(offset_m: tuple[float, float, float]) -> InstrumentMap:
+    place = msgspec.structs.replace(MAP.hold.lowered("standing"), offset_m=offset_m)
+    return msgspec.structs.replace(MAP, hold=msgspec.structs.replace(MAP.hold, lowered_standing=place))
+
+
+def test_the_trunk_does_not_turn_after_a_lowered_instrument_that_it_carries() -> None:
+    near, far = (made(put_down(offset_m), 0.0, lowered=True) for offset_m in ((0.0, -0.3, 0.05), (0.2, -0.3, 0.45)))
+    chest = CHARACTER.skeleton.index("upperChest")
+    frame = [round((2.0 + 15.5) * 60)]
+    turned = [
+        forward(CHARACTER.skeleton, motion.rotations[frame], motion.hips_m[frame], [chest]).of(chest)[1]
+        for motion in (near, far)
+    ]
+    np.testing.assert_allclose(turned[0], turned[1], atol=1e-6)
+
+
+@pytest.mark.parametrize(("down_m", "ahead_m"), [(0.0, 0.0), (0.03, 0.0175), (0.3, 0.035)])
+def test_only_what_goes_below_the_chin_swings_ahead_on_its_way(down_m: float, ahead_m: float) -> None:
+    motion = made(put_down((0.0, -down_m, 0.0)), 0.0, lowered=True)
+    start, end = round((2.0 + 12.9) * 60), round((2.0 + 15.5) * 60)
+    ahead = motion.instrument_position_m[start:end, 2].astype(np.float64)
+    # The trunk leans a little over what it has put down.
+    straight = np.minimum(ahead[0], ahead[-1])
+    assert ahead.max() - straight == pytest.approx(ahead_m, abs=0.02 if down_m == 0.0 else 0.012)
