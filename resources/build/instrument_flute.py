@@ -73,8 +73,8 @@ class Sizes:
     """Where the tube lies on the left index finger: how far past its key, and at which angle."""
     g_sharp: float = 0.0212
     """How far before the gap of its neighbours the touch of the G sharp key lies."""
-    trill_angle: float = -24.0
-    """Of the touches of the trill keys."""
+    trill_touch: tuple[float, float] = (-24.0, 0.0085)
+    """Angle and height of the touches of the trill keys."""
     foot: bool = True
     open_hole: float = 0.0030
     head_material: str = "silver"
@@ -101,7 +101,7 @@ PICCOLO = Sizes(
     hole=(0.0052, 0.0045),
     bearing=(-0.0050, 118.0),
     g_sharp=0.0080,
-    trill_angle=-44.0,
+    trill_touch=(-28.0, 0.0085),
     foot=False,
     open_hole=0.0,
     body_material="grenadilla",
@@ -311,7 +311,7 @@ class Flute:
         for index, (name, sign, finger) in enumerate((
             ("key_trill_1", "tr1", "middle"), ("key_trill_2", "tr2", "ring"), ("key_trill_B_flat", "trA#", "index"),
         )):  # fmt: skip
-            touch = self.blade(middle[index], s.trill_angle, 0.0085 * k, oval(0.0068, 0.0120), foot=0.0)
+            touch = self.blade(middle[index], *s.trill_touch, oval(0.0068, 0.0120), foot=0.0)
             work.key(name, sign, f"right.{finger}.pad", long[index], touch, [holes[index]], travel_m=0.0025,
                      clear_m=0.0065 * k)  # fmt: skip
 
@@ -372,4 +372,5 @@ def net(rings: list[Array], *, inward: bool = False) -> Shape:
 
 INSTRUMENTS = {
     "flute": entry(lambda: Flute(Sizes()).make()),
+    "piccolo": entry(lambda: Flute(PICCOLO).make()),
 }
