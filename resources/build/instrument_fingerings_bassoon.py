@@ -15,12 +15,12 @@ LEFT, RIGHT, HALF = "L1 L2 L3", "R1 R2 R3", "L1h L2 L3"
 BOTH, LOW = f"{LEFT} {RIGHT}", f"{LEFT} {RIGHT} Rp_f"
 
 ROWS: dict[int, tuple[str, tuple[tuple[str, str], ...]]] = {
-    34: (f"Lt_bes Lt_b Lt_c Lt_d {LOW}", ()),
-    35: (f"Lt_b Lt_c Lt_d {LOW}", ()),
-    36: (f"Lt_c Lt_d {LOW}", ()),
-    37: (f"Lt_d Lp_des {LOW}", ()),
-    38: (f"Lt_d {LOW}", ()),
-    39: (f"Lt_w Lp_es {LOW}", ()),
+    34: (f"Lt_bes Lt_b Lt_c Lt_d Rt_e {LOW}", ()),
+    35: (f"Lt_b Lt_c Lt_d Rt_e {LOW}", ()),
+    36: (f"Lt_c Lt_d Rt_e {LOW}", ()),
+    37: (f"Lt_c Lt_d Lp_des Rt_e {LOW}", ()),
+    38: (f"Lt_d Rt_e {LOW}", ()),
+    39: (f"Lt_w Lp_es Rt_e {LOW}", ()),
     40: (f"Lt_w Rt_e {LOW}", ()),
     41: (f"Lt_w {LOW}", ()),
     42: (f"Lt_w {BOTH} Rt_fis", ((f"Lt_w {BOTH} Rp_fis", "alternate"),)),
