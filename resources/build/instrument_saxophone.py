@@ -1,11 +1,10 @@
-"""The saxophones: alto first, tenor and baritone with larger tubes, and the straight soprano.
+"""The saxophones: the alto, and the tenor with a larger tube.
 
 Sizes are those of common instruments. Alto: neck 190 mm along its curve, body 455 mm from the receiver to the bow,
 25 mm thick at its top and 53 at its end, bow 98 mm from axis to axis, bell rim 121 mm wide and 215 mm below the
-receiver. Tenor: body 590 mm, 29 to 63 mm thick, bell 153 mm, a neck that rises before it falls to the mouth. Baritone
-to low A: body 800 mm, 37 to 84 mm thick, a loop above the body, bell 180 mm. Soprano: 650 mm long with the mouthpiece,
-straight, bell 92 mm. The pearls are 33 to 36 mm apart on all of them (soprano 31): hands do not grow with the tube; the
-cups lie where the tone holes are, on rods as long as they need to be.
+receiver. Tenor: body 590 mm, 29 to 63 mm thick, bell 153 mm, a neck that rises before it falls to the mouth. The
+pearls are 33 to 38 mm apart on both: hands do not grow with the tube; the cups lie where the tone holes are, on rods as
+long as they need to be.
 
 The model's frame: +Z along the mouthpiece, away from the player. The body hangs from the neck's end, a little to the
 player's right and back to the body (`Shape`); its Wall's front looks ahead, +90 degrees is the player's left. Distances
@@ -39,7 +38,9 @@ from resources.build.instrument_reeds import SingleReed, thumb_rest
 
 X, Y, Z = np.eye(3)
 BRASS = "gold_lacquer"
-THIN_M, FLAT_M, FAR_M = 0.0018, 0.0062, 0.0601
+THIN_M = 0.0018
+FINGER_M = 0.020
+"""How far from the body's wall the middle of a finger goes around it."""
 
 ALTO_REED = SingleReed(
     tip_m=0.013, length=0.086, radius=0.0137, end_radius=0.0128, beak_length=0.036, tip_width=0.0150, table=0.0090,
@@ -48,14 +49,6 @@ ALTO_REED = SingleReed(
 TENOR_REED = SingleReed(
     tip_m=0.014, length=0.093, radius=0.0152, end_radius=0.0140, beak_length=0.038, tip_width=0.0162, table=0.0100,
     bite=0.0092, reed_length=0.0780, reed_width=0.0162, reed_thick=0.0033, ligature=(0.041, 0.066), metal=BRASS,
-)  # fmt: skip
-BARITONE_REED = SingleReed(
-    tip_m=0.015, length=0.104, radius=0.0166, end_radius=0.0152, beak_length=0.042, tip_width=0.0178, table=0.0110,
-    bite=0.0100, reed_length=0.0860, reed_width=0.0178, reed_thick=0.0035, ligature=(0.045, 0.072), metal=BRASS,
-)  # fmt: skip
-SOPRANO_REED = SingleReed(
-    tip_m=0.011, length=0.068, radius=0.0122, end_radius=0.0108, beak_length=0.031, tip_width=0.0125, table=0.0080,
-    bite=0.0076, reed_length=0.0600, reed_width=0.0125, reed_thick=0.0029, ligature=(0.033, 0.054), metal=BRASS,
 )  # fmt: skip
 
 HOLES = {  # along of the alto's holes, radius of their cups
@@ -83,9 +76,14 @@ class Layout:
     left, right : along of the first finger's pearl
     pitch : distance of the pearls, left hand first to second, second to third, right hand
     bow_m : from the body's axis to the bell's
-    bell_length, bell_throat, bell_rim : from the bow to the rim, radii
+    bell_length, bell_throat, bell_rim : from the bow to the rim, radii; ``bell_sides`` around it
     bell_deg, bell_lean : the bell lies so far to the left of ahead, seen from the body, and leans away from it
     bell_cups : along the bell of the cups of B and B flat, and radius
+    hook_deg : from the pearls of the right hand around to the thumb's hook; ``hook_reach`` is its length
+    side : of B flat, C and E at the side, after the right hand's first pearl; ``side_rise`` higher than the alto's
+    little : of the right little finger's E flat: after the third pearl, degrees beside it, height
+    far : thin parts farther than this from every touch have no collision bodies, nor tone holes' rims lower than
+        ``flat``; ``steps`` between the places that bodies of neck, bow and octave lever are taken from
     """
 
     reed: SingleReed = ALTO_REED
@@ -105,13 +103,23 @@ class Layout:
     bell_length: float = 0.228
     bell_throat: float = 0.0330
     bell_rim: float = 0.0605
+    bell_sides: int = 40
     bell_deg: float = 22.0
     bell_lean: float = 0.10
     bell_cups: tuple[tuple[float, float], tuple[float, float]] = ((0.050, 0.0205), (0.110, 0.0215))
     low_a: bool = False
     left_deg: float = -4.0
+    left_share: float = 1.0
     right_stack_deg: float = -4.0
     right_pearl_deg: float = -30.0
+    hook_deg: float = 158.0
+    side: tuple[float, float, float] = (0.0182, 0.0118, 0.0058)
+    little: tuple[float, float, float] = (0.0148, -16.0, 0.0150)
+    hook_reach: float = 0.022
+    side_rise: float = 0.0
+    far: float = 0.0601
+    flat: float = 0.0062
+    steps: tuple[int, int, int] = (5, 3, 6)
 
 
 def coarse(line: Array, radii: Array, sides: int, step: int) -> Shape:
@@ -130,6 +138,7 @@ class Saxophone:
         self.neck_points = self.neck_corners()
         self.body = Wall(self.neck_points[-1], self.down, self.front, layout.body)
         self.end = layout.body[-1][0]
+        self.left_share, self.right_share = layout.left_share, self.share(layout.right, ALTO.right)
 
     def directions(self) -> tuple[Array, Array]:
         """Where the body goes to from the neck, and its front."""
@@ -144,6 +153,11 @@ class Saxophone:
         return [*points, points[-1] + (inner[-1][1] - last) * self.down]
 
     # Places
+
+    def share(self, along: float, of_alto: float) -> float:
+        """How far around this body a hand reaches, as a share of the alto's angle."""
+        alto = float(np.interp(of_alto, *np.transpose(ALTO.body)))
+        return (alto + FINGER_M) / (self.body.radius(along) + FINGER_M)
 
     def hole(self, name: str) -> float:
         return self.layout.holes_from + HOLES[name][0] * self.layout.holes
@@ -201,17 +215,16 @@ class Saxophone:
             if len(kept) < len(part.shape.proxies):
                 parts[index] = replace(part, shape=bodied(part.shape, *kept))
 
-    @staticmethod
-    def is_thin(body: dict[str, object], node: str, places: Array) -> bool:
+    def is_thin(self, body: dict[str, object], node: str, places: Array) -> bool:
         """Whether a collision body is a post's, an arm's or a tone hole's rim that no hand comes near."""
         if body["shape"] not in ("cylinder", "capsule"):
             return False
         ends = np.array([body["a_m"], body["b_m"]])
-        flat = node == "root" and np.linalg.norm(ends[1] - ends[0]) < FLAT_M
+        flat = node == "root" and np.linalg.norm(ends[1] - ends[0]) < self.layout.flat
         if float(body["radius_m"]) > THIN_M and not flat:  # type: ignore[arg-type]
             return False
         steps = ends[0] + np.linspace(0, 1, 9)[:, None] * (ends[1] - ends[0])
-        far = np.linalg.norm(steps[:, None] - places[None], axis=2).min() > FAR_M
+        far = np.linalg.norm(steps[:, None] - places[None], axis=2).min() > self.layout.far
         return bool(far)
 
     def tubes(self) -> None:
@@ -228,7 +241,7 @@ class Saxophone:
         run = lengths(line) / lengths(line)[-1]
         thin, wide = layout.neck_radius
         self.neck = line
-        work.model.add(BRASS, coarse(line, thin + (wide - thin) * run, 20, 5))
+        work.model.add(BRASS, coarse(line, thin + (wide - thin) * run, 20, layout.steps[0]))
         collar = [(0, 0.8 * thin), (0, 1.12 * thin + 0.0004), (0.004, 1.12 * thin + 0.0004), (0.004, 0.8 * thin)]
         work.model.add(BRASS, turned(line[3], line[4] - line[3], collar, sides=24, proxy=False))
         place, top = self.socket
@@ -273,7 +286,7 @@ class Saxophone:
         r = body.radius(self.end)
         bow = half_circle(end, end + layout.bow_m * ahead, self.down, 14)
         share = np.linspace(0, 1, len(bow))
-        work.model.add(BRASS, coarse(bow, r + 0.0004 + (layout.bell_throat - r) * share, 30, 3))
+        work.model.add(BRASS, coarse(bow, r + 0.0004 + (layout.bell_throat - r) * share, 30, layout.steps[1]))
         up = unit(-self.down + layout.bell_lean * ahead)
         self.bell = Wall(bow[-1], up, unit(ahead - up * (ahead @ up)), self.bell_profile())
         for place, low, wide in ((end, -0.009, r), (bow[-1], -0.006, layout.bell_throat)):
@@ -294,8 +307,8 @@ class Saxophone:
         """The bell's skin, its rolled rim and the dark of its throat."""
         profile = self.bell_profile()
         length, rim = profile[-1]
-        work = self.work
-        work.model.add(BRASS, turned(start, up, [(0.0, 0.0), *profile], sides=40))
+        work, layout = self.work, self.layout
+        work.model.add(BRASS, turned(start, up, [(0.0, 0.0), *profile], sides=layout.bell_sides))
         inside = [(along, radius - 0.0008) for along, radius in [*profile[:8:-1], *profile[8:0:-4]]] + [(0.0, 0.0)]
         work.model.add(BRASS, turned(start, up, inside, sides=30, proxy=False))
         work.model.add("inner_brass", turned(start, up, [(0.10 * length, profile[2][1] - 0.0012), (0.10 * length, 0.0)],
@@ -357,7 +370,7 @@ class Saxophone:
     def left_thumb(self) -> None:
         """The thumb's rest, the octave key above it, of the baritone the key of low A below."""
         work, body, layout = self.work, self.body, self.layout
-        along, angle = layout.left + 0.008, 163.0
+        along, angle = layout.left + 0.008, layout.left_deg + 167.0 * self.left_share
         out = body.normal(angle)
         rest = [(-0.002, 0), (-0.002, 0.0076), (0.0040, 0.0076), (0.0055, 0.0068), (0.0060, 0.0046), (0.0060, 0)]
         button = turned(body.point(along, angle), out, rest, sides=24)
@@ -392,7 +405,7 @@ class Saxophone:
         node = "octave_neck"
         work.model.node(node, saddle)
         strap = tube(lever, 0.0021, sides=8, flat=(0.7, 1.5), side=out[first], proxy=False)
-        body = list(tube(lever[::6], 0.0021, sides=3).proxies)
+        body = list(tube(lever[:: self.layout.steps[2]], 0.0021, sides=3).proxies)
         pad = [(-0.0018, 0), (-0.0018, 0.0046), (0.0012, 0.0046), (0.0022, 0.0030), (0.0022, 0)]
         ring_radius = radius[last] + 0.0060
         ring = torus(line[last], unit(steps[last]), ring_radius, 0.0015, sides=6, around=28)
@@ -413,10 +426,11 @@ class Saxophone:
         work, layout = self.work, self.layout
         first = layout.left
         part = "left.index.pad_proximal"
-        for name, label, along, angle, height, axle, cup_angle in (
-            ("key_palm_D", "pd", first + 0.0125, 68.0, 0.0240, 86.0, 112.0),
-            ("key_palm_E_flat", "peb", first + 0.0060, 68.0, 0.0240, 92.0, 118.0),
-            ("key_palm_F", "pf", first - 0.0005, 68.0, 0.0240, 98.0, 124.0),
+        angle = layout.left_deg + 72.0 * self.left_share
+        for name, label, along, height, axle, cup_angle in (
+            ("key_palm_D", "pd", first + 0.0125, 0.0240, 86.0, 112.0),
+            ("key_palm_E_flat", "peb", first + 0.0060, 0.0240, 92.0, 118.0),
+            ("key_palm_F", "pf", first - 0.0005, 0.0240, 98.0, 124.0),
         ):
             touch = self.plate(along, angle, height, 0.0060, 0.0140)
             rod = self.rod(along + 0.004, self.hole(label) - 0.008, axle, 0.0095)
@@ -430,13 +444,14 @@ class Saxophone:
         third = layout.left + layout.pitch[0] + layout.pitch[1]
         part = "left.little.pad"
         for name, label, along, angle, length, width, axle, end in (
-            ("key_G_sharp", "gs", 0.0105, 50.0, 0.0085, 0.0220, 88.0, 0.0),
-            ("key_C_sharp", "cs", 0.0182, 43.0, 0.0080, 0.0105, 90.0, 1.0),
-            ("key_B", "lb", 0.0182, 58.0, 0.0080, 0.0105, 98.0, 1.0),
-            ("key_B_flat", "lbb", 0.0242, 50.0, 0.0072, 0.0220, 106.0, 1.0),
+            ("key_G_sharp", "gs", 0.0105, 54.0, 0.0085, 0.0220, 88.0, 0.0),
+            ("key_C_sharp", "cs", 0.0182, 47.0, 0.0080, 0.0105, 90.0, 1.0),
+            ("key_B", "lb", 0.0182, 62.0, 0.0080, 0.0105, 98.0, 1.0),
+            ("key_B_flat", "lbb", 0.0242, 54.0, 0.0072, 0.0220, 106.0, 1.0),
         ):
             place = third + along
-            touch = self.plate(place, angle, 0.0160, length, width)
+            turned_deg = layout.left_deg + angle * self.left_share
+            touch = self.plate(place, turned_deg, 0.0160, length, width)
             stop = place + 0.010 if not end else self.end - 0.012 * (1 + (axle - 90) / 8)
             work.key(name, label, part, self.rod(place - 0.006, stop, axle), touch, travel_m=0.0045)
         gs = self.cup("gs", layout.left_deg + 2.0)
@@ -456,16 +471,18 @@ class Saxophone:
         work.linked("pad_F_sharp", names, self.rod(f_sharp.along - 0.014, f_sharp.along + 0.014, angle + 52.0),
                     cups=[f_sharp], drop_m=0.0048)  # fmt: skip
         last = layout.right + 2 * layout.pitch[2]
-        touch = self.plate(last - 0.0160, pearls - 15.0, 0.0140, 0.0110, 0.0070)
+        touch = self.plate(last - 0.0160, pearls - 15.0 * self.right_share, 0.0140, 0.0110, 0.0070)
         fork = self.cup("afs", pearls - 62.0)
         rod = self.rod(last - 0.010, fork.along - 0.008, pearls - 42.0, 0.0080)
         work.key("key_fork_F_sharp", "afs", "right.ring.pad", rod, touch, [fork], travel_m=0.0040)
-        touch = self.plate(last - 0.0030, pearls - 29.0, 0.0160, 0.0130, 0.0075)
+        touch = self.plate(last - 0.0030, pearls - 29.0 * self.right_share, 0.0160, 0.0130, 0.0075)
         high = self.cup("hfs", -112.0)
         rod = self.rod(last + 0.004, high.along - 0.008, pearls - 56.0, 0.0125)
         work.key("key_high_F_sharp", "hfs", "right.ring.pad", rod, touch, [high], travel_m=0.0040)
         hook_at = layout.right + 0.012
-        hook = thumb_rest(body, hook_at, 172.0, reach=0.022, width=0.017, metal=BRASS)
+        hook = thumb_rest(
+            body, hook_at, pearls + 360.0 - layout.hook_deg, reach=layout.hook_reach, width=0.017, metal=BRASS
+        )
         work.add(hook.pieces)
         work.contact("right.thumb.side", hook.point, hook.normal)
 
@@ -474,12 +491,14 @@ class Saxophone:
         work, layout = self.work, self.layout
         pearls = layout.right_pearl_deg
         for name, label, along, angle, axle, cup_angle, height in (
-            ("key_side_B_flat", "sbb", 0.0182, -45.0, -90.0, -114.0, 0.0265),
-            ("key_side_C", "sc", 0.0118, -48.0, -96.0, -120.0, 0.0255),
-            ("key_side_E", "se", 0.0058, -51.0, -103.0, -127.0, 0.0240),
+            ("key_side_B_flat", "sbb", layout.side[0], -45.0, -90.0, -114.0, 0.0265),
+            ("key_side_C", "sc", layout.side[1], -48.0, -96.0, -120.0, 0.0255),
+            ("key_side_E", "se", layout.side[2], -51.0, -103.0, -127.0, 0.0240),
         ):
             place = layout.right + along
-            touch = self.plate(place, pearls + angle, height, 0.0056, 0.0115)
+            over = height + layout.side_rise
+            length = min(0.0056, round(layout.side[1] - layout.side[2] - 0.0004, 4))
+            touch = self.plate(place, pearls + angle * self.right_share, over, length, 0.0115)
             cup = self.cup(label, cup_angle)
             rod = self.rod(place + 0.004, cup.along - 0.009, axle, 0.0085)
             work.key(name, label, "right.index.pad_proximal", rod, touch, [cup], travel_m=0.0035)
@@ -490,17 +509,18 @@ class Saxophone:
         pearls = layout.right_pearl_deg
         last = layout.right + 2 * layout.pitch[2]
         eb = self.cup("leb", pearls - 62.0)
-        above, below = last + 0.0148, last + 0.0243
-        angle = pearls - 16.0
+        at, aside, height = layout.little
+        above, below = last + at, last + at + 0.0095
+        angle = pearls + aside * self.right_share
         bar = [
-            roller(body.point(last + at, angle - 11.0, 0.0140), body.point(last + at, angle + 11.0, 0.0140), 0.0020,
+            roller(*(body.point(last + at, angle + end, height - 0.0010) for end in (-11.0, 11.0)), 0.0020,
                    material=BRASS)
-            for at in (0.0185, 0.0205)
+            for at in (at + 0.0037, at + 0.0057)
         ]  # fmt: skip
-        touch = with_pieces(self.plate(above, angle, 0.0150, 0.0075, 0.0190), bar[0])
+        touch = with_pieces(self.plate(above, angle, height, 0.0075, 0.0190), bar[0])
         rod = self.rod(above - 0.007, eb.along + 0.012, pearls - 38.0, 0.0085)
         work.key("key_E_flat", "leb", "right.little.pad", rod, touch, [eb], travel_m=0.0045)
-        touch = with_pieces(self.plate(below, angle, 0.0150, 0.0080, 0.0190), bar[1])
+        touch = with_pieces(self.plate(below, angle, height, 0.0080, 0.0190), bar[1])
         rod = self.rod(below - 0.004, self.end + 0.013, pearls - 62.0, 0.0085)
         work.key("key_C", "lc", "right.little.pad", rod, touch, travel_m=0.0045)
 
@@ -585,134 +605,16 @@ class Saxophone:
         work.model.add(BRASS, torus(plate + 0.0085 * out, body.around(180.0), 0.0075, 0.0016, sides=8, around=24))
 
 
-class Baritone(Saxophone):
-    """Builds the baritone: the tube goes down from the neck, up again and over into the body (the loop)."""
-
-    BACK, LEFT = 0.074, 0.058
-    """The tube that comes from the neck lies behind the body, the one that goes up again to the left of both."""
-    FALL, RISE = 0.150, 0.160
-
-    def neck_corners(self) -> list[Array]:
-        """The neck's corner, then the receiver of the neck, behind the body's upper end."""
-        layout = self.layout
-        corner = np.array([0.0, layout.reed.axis_y + layout.neck[0][1], layout.neck[0][0]])
-        receiver = corner + (layout.neck[0][1] - layout.neck[1][1]) * self.down
-        self.receiver = receiver
-        return [corner, receiver + self.BACK * self.front + 0.020 * self.down]
-
-    def neck_line(self, start: Array) -> Array:
-        """The centre line from the mouthpiece to the receiver."""
-        corners = [start + 0.010 * Z, self.neck_points[0], self.receiver + 0.004 * self.down]
-        straight = start + np.linspace(0.0, 0.010, 5)[:, None] * Z
-        return joined(straight, bend(corners, list(self.layout.bends), 0.006))
-
-    @property
-    def socket(self) -> tuple[Array, float]:
-        """Where the neck goes in, and how wide that tube is."""
-        return self.receiver, self.layout.neck_radius[1] + 0.0010
-
-    def tubes(self) -> None:
-        """As the others, with the loop between neck and body."""
-        super().tubes()
-        down, top = self.down, np.asarray(self.body.start)
-        left = self.body.normal(90.0)
-        side = top - 0.5 * self.BACK * self.front + self.LEFT * left
-        low = self.receiver + self.FALL * down
-        rising = side + (low - side) @ down * down
-        under = half_circle(low, rising, down, 10)
-        over = half_circle(side - 0.004 * down, top - 0.004 * down, -down, 10)
-        line = joined(self.receiver, under, over, top + 0.004 * down)
-        run = lengths(line) / lengths(line)[-1]
-        r0, r1 = self.socket[1], self.body.radius(0.0)
-        self.work.model.add(BRASS, tube(line, r0 + (r1 - r0) * run, sides=20))
-        for place, way in ((low, down), (rising, down), (side, -down), (top, -down)):
-            r = r1 + 0.0022 if way[1] > 0 else r0 + 0.0040
-            ring = [(-0.012, r - 0.004), (-0.012, r), (0.002, r + 0.0004), (0.002, r - 0.004)]
-            self.work.model.add(BRASS, turned(place, way, ring, sides=24, proxy=False))
-        for at in (0.035, 0.110):
-            a, b = self.receiver + at * down, side + (self.receiver + at * down - side) @ down * down
-            c = top + (a - top) @ down * down
-            self.work.model.add(
-                BRASS, tube([a, b], 0.0028, sides=8, proxy=False), tube([b, c], 0.0028, sides=8, proxy=False)
-            )
-
-
-class Soprano(Saxophone):
-    """Builds the straight soprano: neck, body and bell in one line with the mouthpiece."""
-
-    def directions(self) -> tuple[Array, Array]:
-        """Along the mouthpiece; the pearls on top."""
-        return Z, Y
-
-    def neck_corners(self) -> list[Array]:
-        """The upper end, in the mouthpiece."""
-        reed = self.layout.reed
-        return [np.array([0.0, reed.axis_y, reed.end_z + 0.008])]
-
-    def tubes(self) -> None:
-        """Mouthpiece, cork, the straight body and its bell."""
-        work, body, reed = self.work, self.body, self.layout.reed
-        work.add(reed.pieces())
-        start = np.array([0.0, reed.axis_y, reed.end_z])
-        self.beak()
-        cork = body.radius(0.0) + 0.0012
-        work.model.add(
-            "cork", turned(start - 0.001 * Z, Z, [(0, 0), (0, cork), (0.014, cork), (0.014, 0)], sides=24, proxy=False)
-        )
-        work.model.add(BRASS, body.skin(28))
-        for along in (0.040, 0.046, self.end - 0.006):
-            work.model.add(BRASS, body.collar(along, 0.005))
-        up = self.down
-        self.bell = Wall(
-            body.point(self.end, 0.0) - body.radius(self.end) * self.front, up, self.front, self.bell_profile()
-        )
-        self.add_bell(np.asarray(self.bell.start), up)
-
-    def neck_octave(self) -> None:
-        """The octave key's cup on the upper end."""
-        cup = Cup(self.body, 0.026, 0.0, 0.0050, rim_m=0.0028, thick_m=0.0030, rim_material=BRASS, material=BRASS)
-        rod = replace(self.body.cross_rod(0.062, 0.0, 0.010, 0.0060))
-        self.work.linked("octave_neck", ("key_octave",), rod, cups=[cup], drop_m=-0.0022)
-
-    def low_cups(self) -> None:
-        """C, C sharp, B and B flat on the body's lower end, with their guards."""
-        work = self.work
-        for node, control, along, angle, radius, axle, drop in (
-            ("pad_low_C", ("key_C",), 0.443, -40.0, 0.0145, -92.0, 0.0045),
-            ("pad_C_sharp", ("key_C_sharp",), 0.447, 62.0, 0.0125, 112.0, -0.0042),
-            ("pad_B", ("key_B", "key_B_flat"), 0.484, 52.0, 0.0155, 104.0, 0.0048),
-            ("pad_B_flat", ("key_B_flat",), 0.514, 24.0, 0.0160, 76.0, 0.0048),
-        ):
-            cup = Cup(self.body, along, angle, radius, rim_m=0.0034, thick_m=0.0038, rim_material=BRASS, material=BRASS)
-            work.linked(node, control, self.rod(along - radius, along + radius, axle), cups=[cup], drop_m=drop)
-            self.guard(cup)
-
-    def fittings(self) -> None:
-        """The ring of a strap."""
-        self.strap_ring()
-
-
 ALTO = Layout()
 TENOR = Layout(
     reed=TENOR_REED, neck=((0.150, 0.010), (0.262, 0.050), (0.270, -0.062)), bends=(0.090, 0.052),
-    neck_radius=(0.0092, 0.0142), right_deg=15.0, back_deg=7.0, body=((0.0, 0.0148), (0.590, 0.0315)), holes=1.30,
-    cups=1.20, left=0.198, right=0.392, pitch=(0.038, 0.036, 0.036), bow_m=0.122, bell_length=0.312, bell_throat=0.0395,
-    bell_rim=0.0765, bell_cups=((0.062, 0.0245), (0.132, 0.0255)),
-)  # fmt: skip
-BARITONE = Layout(
-    reed=BARITONE_REED, neck=((0.205, 0.004), (0.215, -0.090)), bends=(0.070,), neck_radius=(0.0100, 0.0155),
-    right_deg=15.0, back_deg=7.0, body=((0.0, 0.0190), (0.800, 0.0420)), holes=1.76, cups=1.50, left=0.275, right=0.520,
-    pitch=(0.038, 0.036, 0.037), bow_m=0.166, bell_length=0.500, bell_throat=0.0540, bell_rim=0.0900,
-    bell_cups=((0.085, 0.0300), (0.185, 0.0310)), low_a=True, bell_lean=0.045,
-)  # fmt: skip
-SOPRANO = Layout(
-    reed=SOPRANO_REED, body=((0.0, 0.0068), (0.040, 0.0080), (0.545, 0.0212)), holes=0.667, holes_from=0.118, cups=0.80,
-    left=0.212, right=0.336, pitch=(0.033, 0.031, 0.031), bell_length=0.052, bell_throat=0.0216, bell_rim=0.0455,
+    neck_radius=(0.0092, 0.0142), right_deg=15.0, back_deg=7.0, body=((0.0, 0.0148), (0.590, 0.0315)),
+    holes=1.30, cups=1.20, left=0.198, right=0.392, hook_deg=138.0, right_stack_deg=6.0, side=(0.0195, 0.0142,
+    0.0089), far=0.066, steps=(4, 2, 3), pitch=(0.038, 0.036, 0.033), bow_m=0.122, bell_length=0.312,
+    bell_throat=0.0395, bell_rim=0.0765, bell_sides=56, bell_cups=((0.062, 0.0245), (0.132, 0.0255)),
 )  # fmt: skip
 
 INSTRUMENTS = {
     "sax_alto_Eb": entry(lambda: Saxophone(ALTO).make()),
-    "sax_baritone_Eb": entry(lambda: Baritone(BARITONE).make()),
-    "sax_soprano_Bb": entry(lambda: Soprano(SOPRANO).make()),
     "sax_tenor_Bb": entry(lambda: Saxophone(TENOR).make()),
 }
