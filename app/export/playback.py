@@ -108,16 +108,17 @@ def _dense_weights(mesh: FbxMesh, vertices: IntArray, bones: int) -> FloatArray:
 
 def _touching_morphs(clip: FbxClip, mesh: FbxMesh, vertices: IntArray) -> list[tuple[FloatArray, FloatArray]]:
     """Weight curve (F,) and displacement (V, 3) in metres of every morph that moves one of the vertices."""
+    once, copies = np.unique(vertices, return_inverse=True)
     place = np.full(len(mesh.vertices_cm), -1)
-    place[vertices] = np.arange(len(vertices))
+    place[once] = np.arange(len(once))
     touching = []
     for morph in mesh.morphs:
         curve = clip.morph_weights.get(morph.name)
         rows = place[morph.vertex_indices]
         if curve is None or not (rows >= 0).any():
             continue
-        deltas_m = np.zeros((len(vertices), 3))
+        deltas_m = np.zeros((len(once), 3))
         deltas_m[rows[rows >= 0]] = np.asarray(morph.position_deltas_cm, np.float64)[rows >= 0] * METRES
         if deltas_m.any():
-            touching.append((np.asarray(curve, np.float64), deltas_m))
+            touching.append((np.asarray(curve, np.float64), deltas_m[copies]))
     return touching
