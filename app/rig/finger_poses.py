@@ -34,6 +34,8 @@ ROUNDS = 5
 DAMPING_M = 0.004
 STEP_M = 0.012
 """A finger is brought back to its place in steps of at most this length, stiff where its joints hardly move it."""
+WAITING = 0.5
+"""A finger waits for a hand that will give way for it lifted by this share of what it was lifted on its way there."""
 
 
 def finger_rotations(
@@ -137,13 +139,14 @@ def raised_way(
     table: FingerTable, first: int, second: int, rotations: FloatArray, share: FloatArray, away_m: FloatArray
 ) -> FloatArray:
     """Lift a finger that is between two of its stations, most half way: rotations (K, n, 4)."""
-    joint = min(table.stations[first].tip_joint, table.stations[second].tip_joint)
-    if table.chain is None or joint < 0 or not np.any(away_m):
+    near, far = table.stations[first], table.stations[second]
+    if table.chain is None or min(near.tip_joint, far.tip_joint) < 0 or not np.any(away_m):
         return rotations
-    # The next joint outwards is lifted, or the tip: whatever touches lies there or farther out.
-    tips = np.broadcast_to(table.stations[second].tip_m, (len(share), 3))
-    wanted = _tip(table, rotations, tips, joint) + np.multiply.outer(np.sin(np.pi * share), away_m)
-    return _brought(table, rotations, tips, joint, wanted)
+    # What touches farther out is lifted, or it would dip into what the inner joints are lifted over.
+    outer = max(near, far, key=lambda station: station.tip_joint)
+    tips = np.broadcast_to(outer.tip_m, (len(share), 3))
+    wanted = _tip(table, rotations, tips, outer.tip_joint) + np.multiply.outer(np.sin(np.pi * share), away_m)
+    return _brought(table, rotations, tips, outer.tip_joint, wanted)
 
 
 def _pairs(where: Placed, frames: IntArray) -> list[tuple[int, int, IntArray]]:
@@ -184,25 +187,45 @@ def _kept(
     for first, second, frames in _pairs(where, here):
         share = where.share[frames]
         poses = _both(table, first, second, share, _sampled(table, controls, frames), raised[frames])
-        wrist = wrist_given(hand, [(lean, weight[frames]) for lean, weight in given])
-        far = _at_place(hand, table, second, poses[1], wrist)
+        now = [(lean, weight[frames]) for lean, weight in given]
+        far = _at_place(hand, table, second, poses[1], now)
         if first != second:
-            far = _on_way(table, first, second, _at_place(hand, table, first, poses[0], wrist), far, share)
+            far = _on_way(table, first, second, _at_place(hand, table, first, poses[0], now), far, share)
         result[rows[frames]] = far
     return result
 
 
 def _at_place(
-    hand: HandHold, table: FingerTable, index: int, rotations: FloatArray, wrist: tuple[FloatArray, FloatArray]
+    hand: HandHold, table: FingerTable, index: int, rotations: FloatArray, given: list[tuple[Lean, FloatArray]]
 ) -> FloatArray:
     """Rotations (K, n, 4) at a station, for another wrist than the one they were solved for."""
     station = table.stations[index]
     if station.tip_joint < 0:
         return rotations
-    place, turn = wrist_given(hand, [(lean, np.ones(1)) for lean in hand.leans if _is(lean, table, index)])
+    lean = next((lean for lean in hand.leans if _is(lean, table, index)), None)
+    if lean is None:
+        return with_wrist(table, station, rotations, wrist_given(hand, []), wrist_given(hand, given))
+    waits = 1.0 - next((weight for one, weight in given if one is lean), np.zeros(len(rotations)))
+    lifted = np.multiply.outer(waits, WAITING * station.away_m)
+    own = wrist_given(hand, [(lean, np.ones(1))])
+    return with_wrist(table, station, rotations, own, wrist_given(hand, given), lifted)
+
+
+def with_wrist(
+    table: FingerTable,
+    station: StationTable,
+    rotations: FloatArray,
+    own: tuple[FloatArray, FloatArray],
+    wrist: tuple[FloatArray, FloatArray],
+    lifted_m: FloatArray | float = 0.0,
+) -> FloatArray:
+    """Rotations (K, n, 4) that leave what touches at a station where it is, for another wrist than their ``own``.
+
+    Wrists are places (K, 3) and rotations (K, 4) in one frame; ``lifted_m`` (K, 3) is added in that of the wrist.
+    """
     tips = np.broadcast_to(station.tip_m, (len(rotations), 3))
-    wanted = place + quaternion.rotate(turn, _tip(table, rotations, tips, station.tip_joint))
-    local = quaternion.rotate(quaternion.conjugate(wrist[1]), wanted - wrist[0])
+    wanted = own[0] + quaternion.rotate(own[1], _tip(table, rotations, tips, station.tip_joint))
+    local = quaternion.rotate(quaternion.conjugate(wrist[1]), wanted - wrist[0]) + lifted_m
     return _brought(table, rotations, tips, station.tip_joint, local)
 
 

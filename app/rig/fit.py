@@ -35,7 +35,7 @@ from metadata.model import Body
 
 FloatArray = npt.NDArray[np.float64]
 
-FIT_VERSION = 14
+FIT_VERSION = 15
 """Part of the digest of stored holds (`app.rig.hold_file`): raise it when a fit comes out differently ..."""
 PLACES_VERSION = 2
 """... and this one when it does so only where fingers wait over what they work, or work it at several places."""

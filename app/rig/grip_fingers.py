@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from app.rig import quaternion
-from app.rig.finger_poses import raised_way
+from app.rig.finger_poses import WAITING, raised_way, with_wrist
 from app.rig.grip_problem import (
     COUPLING_RAD,
     Problem,
@@ -414,31 +414,28 @@ def _lifted(
     outwards = np.sum(normals, axis=0)
     outwards = outwards / max(float(np.linalg.norm(outwards)), 1e-6)
     away = outwards @ scene.basis[0]
-    way = np.repeat(np.clip(WAYS, 0.0, 1.0)[:, None], 1, axis=1)
-    pose = mixed(
-        np.repeat(home.rotations[:1], len(WAYS), axis=0),
-        np.repeat(there.rotations[:1], len(WAYS), axis=0),
-        way[..., None],
-    )
-    share = WAYS[:, None]
-    middle = scene.position_m + share * (wrist.position_m - scene.position_m)
-    turn = quaternion.slerp(
-        np.repeat(quaternion.from_matrix(scene.basis), len(WAYS), axis=0),
-        np.repeat(quaternion.from_matrix(wrist.basis), len(WAYS), axis=0),
-        WAYS,
-    )
-    on_way = replace(scene, position_m=middle, basis=quaternion.to_matrix(turn))
+    # A hand that gives way goes along with the key: the finger has come by then.
+    own, at_home = ((one.position_m[:1], quaternion.from_matrix(one.basis[:1])) for one in (wrist, scene))
+    far = with_wrist(table, there, there.rotations[:1], own, at_home)
+    way = WAYS[:, None, None]
+    pose = mixed(np.repeat(home.rotations[:1], len(WAYS), axis=0), np.repeat(far, len(WAYS), axis=0), way)
     carried = hand.all_points[1 + 3 * number : 4 + 3 * number, 3].sum(axis=0) > 0.5
     skin = np.ascontiguousarray(hand.all_points[:, :, carried])
     place_m, bases = nodes_at(scene.model, instrument, frozenset(), None, np.zeros(1))
+    # Its ways, and where it waits for a hand that gives way for it.
+    poses = pose if wrist is scene else np.concatenate([pose, far])
+    on_way = scene.over(np.zeros(len(poses)))
     best, least = 0.0, np.inf
     for lift in LIFTS_M:
-        rotations = np.tile(quaternion.IDENTITY, (len(WAYS), 16, 1))
-        rotations[:, 1 + 3 * number : 4 + 3 * number] = raised_way(table, 0, index, pose, WAYS, lift * away)
+        rotations = np.tile(quaternion.IDENTITY, (len(poses), 16, 1))
+        fingers = rotations[:, 1 + 3 * number : 4 + 3 * number]
+        fingers[: len(WAYS)] = raised_way(table, 0, index, pose, WAYS, lift * away)
+        if wrist is not scene:
+            fingers[len(WAYS) :] = with_wrist(table, there, there.rotations[:1], own, at_home, WAITING * lift * away)
         flesh = on_way.placed(skinned(wrist_from_mesh(hand, wrist_from_joint(hand, rotations)), skin))
         deep = max(
-            float(inside_proxy(problem.proxies, place_m[0], bases[0], flesh[s], np.zeros(flesh.shape[1]))[0].max())
-            for s in range(len(WAYS))
+            float(inside_proxy(problem.proxies, place_m[0], bases[0], points, np.zeros(len(points)))[0].max())
+            for points in flesh
         )
         if deep < least - 0.0005:
             best, least = lift, deep
