@@ -22,6 +22,7 @@ import numpy as np
 from resources.build import (
     instrument_bassoon,
     instrument_clarinet,
+    instrument_contrabassoon,
     instrument_ewi,
     instrument_flute,
     instrument_horn,
@@ -42,6 +43,7 @@ MARK = "# --- from the model"
 FAMILIES = (
     instrument_bassoon,
     instrument_clarinet,
+    instrument_contrabassoon,
     instrument_ewi,
     instrument_flute,
     instrument_horn,
