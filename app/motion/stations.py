@@ -203,25 +203,31 @@ def _ways(visits: Sequence[_Visit]) -> list[tuple[float, float, float]]:
 
 
 def _givings(visits: Sequence[_Visit]) -> list[tuple[float, float, float]]:
-    """Moves (start_s, end_s, station) of a hand that gives way: with the keys, and kept where the next is the same."""
+    """Moves (start_s, end_s, station) of a hand that gives way: with the keys, and kept where a trill comes back."""
     ways: list[tuple[float, float, float]] = []
 
     def go(start_s: float, end_s: float, station: int) -> None:
         start_s = max(start_s, ways[-1][1]) if ways else start_s
         ways.append((start_s, max(end_s, start_s + SHORTEST_S), float(station)))
 
-    here, up = 0, (-np.inf, -np.inf)
+    here = 0
+    last: _Visit | None = None
     for visit in visits:
-        down = visit.down or (visit.start_s, visit.start_s)
-        back = here and (here != visit.station or down[0] - up[1] > HOME_S)
-        if back and up[1] <= down[0]:
-            go(*up, 0)
-            here = 0
+        if last is not None and here:
+            up = last.up or (last.end_s, last.end_s)
+            start_s = visit.start_s if visit.down is None else visit.down[0]
+            goes_on = visit.down is None or last.up is None or start_s < up[1]
+            if start_s - up[1] > TRAVEL_S or (here != visit.station and not goes_on):
+                go(*up, 0)
+                here = 0
         if here != visit.station:
-            go(up[0] if here else down[0], down[1], visit.station)
-        here, up = visit.station, visit.up or (visit.end_s, visit.end_s)
-    if here:
-        go(*up, 0)
+            # From one place to another at once: while keys of the one come up and of the other go down.
+            spans = [span for span in ((last.up if last and here else None), visit.down) if span is not None]
+            start_s, end_s = _hull(spans) or (visit.start_s, visit.start_s)
+            go(start_s, end_s, visit.station)
+        here, last = visit.station, visit
+    if here and last is not None:
+        go(*(last.up or (last.end_s, last.end_s)), 0)
     return ways
 
 

@@ -113,8 +113,8 @@ def test_a_hand_gives_way_while_the_key_is_down_and_for_nothing_else(made_up: In
 
 
 def test_a_hand_stays_where_the_next_note_needs_it_again(made_up: InstrumentMap) -> None:
-    rows = [(0.2 * step, 0.2 * step + 0.2, {"key_G": 1.0} if step % 2 else {}) for step in range(9)]
-    times_s = np.arange(0.2, 1.5, 0.01)
+    rows = [(0.12 * step, 0.12 * step + 0.12, {"key_G": 1.0} if step % 2 else {}) for step in range(9)]
+    times_s = np.arange(0.12, 0.9, 0.01)
     giving, values = little(fingerings(rows), made_up, times_s, giving_for("right.little"))
     assert set(giving.after.tolist()) == {2.0}
     assert set(giving.share.tolist()) == {1.0}
