@@ -1,10 +1,11 @@
-"""The saxophones: the alto, and the tenor with a larger tube.
+"""The saxophones: the alto, and the tenor and the baritone with larger tubes.
 
 Sizes are those of common instruments. Alto: neck 190 mm along its curve, body 455 mm from the receiver to the bow,
 25 mm thick at its top and 53 at its end, bow 98 mm from axis to axis, bell rim 121 mm wide and 215 mm below the
-receiver. Tenor: body 590 mm, 29 to 63 mm thick, bell 153 mm, a neck that rises before it falls to the mouth. The
-pearls are 33 to 38 mm apart on both: hands do not grow with the tube; the cups lie where the tone holes are, on rods as
-long as they need to be.
+receiver. Tenor: body 590 mm, 29 to 63 mm thick, bell 153 mm, a neck that rises before it falls to the mouth.
+Baritone to low A: body 800 mm, 38 to 84 mm thick (slimmer under the hands than a real cone: a small hand must reach
+around it), a loop above the body, bell 180 mm. The pearls are 33 to 38 mm apart on all: hands do not grow with the
+tube; the cups lie where the tone holes are, on rods as long as they need to be.
 
 The model's frame: +Z along the mouthpiece, away from the player. The body hangs from the neck's end, a little to the
 player's right and back to the body (`Shape`); its Wall's front looks ahead, +90 degrees is the player's left. Distances
@@ -50,6 +51,10 @@ TENOR_REED = SingleReed(
     tip_m=0.014, length=0.093, radius=0.0152, end_radius=0.0140, beak_length=0.038, tip_width=0.0162, table=0.0100,
     bite=0.0092, reed_length=0.0780, reed_width=0.0162, reed_thick=0.0033, ligature=(0.041, 0.066), metal=BRASS,
 )  # fmt: skip
+BARITONE_REED = SingleReed(
+    tip_m=0.015, length=0.104, radius=0.0166, end_radius=0.0152, beak_length=0.042, tip_width=0.0178, table=0.0110,
+    bite=0.0100, reed_length=0.0860, reed_width=0.0178, reed_thick=0.0035, ligature=(0.045, 0.072), metal=BRASS,
+)  # fmt: skip
 
 HOLES = {  # along of the alto's holes, radius of their cups
     "hfs": (0.022, 0.0070), "pf": (0.040, 0.0072), "se": (0.058, 0.0074), "peb": (0.074, 0.0076), "pd": (0.100, 0.0080),
@@ -80,10 +85,15 @@ class Layout:
     bell_deg, bell_lean : the bell lies so far to the left of ahead, seen from the body, and leans away from it
     bell_cups : along the bell of the cups of B and B flat, and radius
     hook_deg : from the pearls of the right hand around to the thumb's hook; ``hook_reach`` is its length
+    thumb_deg : from the front around to the left thumb's rest, on the alto
+    palm : of the palm keys of D, E flat and F, after the left hand's first pearl
+    cluster : the left little finger's keys lie so much farther down than the alto's; their height
+    fork : the cup of the fork F sharp lies so much higher than the hole, above the hand
     side : of B flat, C and E at the side, after the right hand's first pearl; ``side_rise`` higher than the alto's
     little : of the right little finger's E flat: after the third pearl, degrees beside it, height
     far : thin parts farther than this from every touch have no collision bodies, nor tone holes' rims lower than
-        ``flat``; ``steps`` between the places that bodies of neck, bow and octave lever are taken from
+        ``flat``, nor posts lower than ``low_posts``; nodes in ``whole`` keep all;
+        ``steps`` between the places that bodies of neck, bow and octave lever are taken from
     """
 
     reed: SingleReed = ALTO_REED
@@ -116,6 +126,13 @@ class Layout:
     side: tuple[float, float, float] = (0.0182, 0.0118, 0.0058)
     little: tuple[float, float, float] = (0.0148, -16.0, 0.0150)
     hook_reach: float = 0.022
+    thumb_deg: float = 167.0
+    palm: tuple[float, float, float] = (0.0125, 0.0060, -0.0005)
+    cluster: tuple[float, float] = (0.0, 0.0160)
+    fork: float = 0.0
+    rod: float = 0.0075
+    low_posts: float = 0.0
+    whole: tuple[str, ...] = ()
     side_rise: float = 0.0
     far: float = 0.0601
     flat: float = 0.0062
@@ -168,15 +185,17 @@ class Saxophone:
             inlay=inlay, rim_material=BRASS, material=BRASS,
         )  # fmt: skip
 
-    def rod(self, start: float, end: float, angle: float, height: float = 0.0075, wall: Wall | None = None) -> Rod:
+    def rod(self, start: float, end: float, angle: float, height: float = 0.0, wall: Wall | None = None) -> Rod:
         """A rod along the body (or the bell) on plain posts: there are some sixty of them."""
-        wall = wall or self.body
+        wall, height = wall or self.body, height or self.layout.rod
         found = replace(wall.rod(min(start, end), max(start, end), angle, height), posts=False)
         for top in (found.a, found.b):
             out = unit(top - wall.point(wall.place(top)[0], angle, -wall.radius(wall.place(top)[0])))
             profile = [(-height - 0.0008, 0.0016), (-0.0014, 0.0013), (0.0, 0.0023), (0.0020, 0.0)]
             shape = turned(top, out, profile, sides=6, proxy=False, hard_deg=80.0)
-            self.work.model.add(BRASS, bodied(shape, cylinder(top - height * out, top + 0.0018 * out, 0.0017)))
+            low = height < self.layout.low_posts
+            bodies = [] if low else [cylinder(top - height * out, top + 0.0018 * out, 0.0017)]
+            self.work.model.add(BRASS, bodied(shape, *bodies))
         return found
 
     def plate(
@@ -220,6 +239,8 @@ class Saxophone:
         if body["shape"] not in ("cylinder", "capsule"):
             return False
         ends = np.array([body["a_m"], body["b_m"]])
+        if node in self.layout.whole:
+            return False
         flat = node == "root" and np.linalg.norm(ends[1] - ends[0]) < self.layout.flat
         if float(body["radius_m"]) > THIN_M and not flat:  # type: ignore[arg-type]
             return False
@@ -370,7 +391,7 @@ class Saxophone:
     def left_thumb(self) -> None:
         """The thumb's rest, the octave key above it, of the baritone the key of low A below."""
         work, body, layout = self.work, self.body, self.layout
-        along, angle = layout.left + 0.008, layout.left_deg + 167.0 * self.left_share
+        along, angle = layout.left + 0.008, layout.left_deg + layout.thumb_deg * self.left_share
         out = body.normal(angle)
         rest = [(-0.002, 0), (-0.002, 0.0076), (0.0040, 0.0076), (0.0055, 0.0068), (0.0060, 0.0046), (0.0060, 0)]
         button = turned(body.point(along, angle), out, rest, sides=24)
@@ -428,11 +449,12 @@ class Saxophone:
         part = "left.index.pad_proximal"
         angle = layout.left_deg + 72.0 * self.left_share
         for name, label, along, height, axle, cup_angle in (
-            ("key_palm_D", "pd", first + 0.0125, 0.0240, 86.0, 112.0),
-            ("key_palm_E_flat", "peb", first + 0.0060, 0.0240, 92.0, 118.0),
-            ("key_palm_F", "pf", first - 0.0005, 0.0240, 98.0, 124.0),
+            ("key_palm_D", "pd", first + layout.palm[0], 0.0240, 86.0, 112.0),
+            ("key_palm_E_flat", "peb", first + layout.palm[1], 0.0240, 92.0, 118.0),
+            ("key_palm_F", "pf", first + layout.palm[2], 0.0240, 98.0, 124.0),
         ):
-            touch = self.plate(along, angle, height, 0.0060, 0.0140)
+            length = min(0.0060, round(layout.palm[1] - layout.palm[2] - 0.0004, 4))
+            touch = self.plate(along, angle, height, length, 0.0140)
             rod = self.rod(along + 0.004, self.hole(label) - 0.008, axle, 0.0095)
             work.key(name, label, part, rod, touch, [self.cup(label, cup_angle)], travel_m=0.0030, clear_m=0.004)
         work.also(part, "key_palm_E_flat", ("key_palm_D",))
@@ -449,9 +471,9 @@ class Saxophone:
             ("key_B", "lb", 0.0182, 62.0, 0.0080, 0.0105, 98.0, 1.0),
             ("key_B_flat", "lbb", 0.0242, 54.0, 0.0072, 0.0220, 106.0, 1.0),
         ):
-            place = third + along
+            place = third + along + layout.cluster[0]
             turned_deg = layout.left_deg + angle * self.left_share
-            touch = self.plate(place, turned_deg, 0.0160, length, width)
+            touch = self.plate(place, turned_deg, layout.cluster[1], length, width)
             stop = place + 0.010 if not end else self.end - 0.012 * (1 + (axle - 90) / 8)
             work.key(name, label, part, self.rod(place - 0.006, stop, axle), touch, travel_m=0.0045)
         gs = self.cup("gs", layout.left_deg + 2.0)
@@ -473,7 +495,8 @@ class Saxophone:
         last = layout.right + 2 * layout.pitch[2]
         touch = self.plate(last - 0.0160, pearls - 15.0 * self.right_share, 0.0140, 0.0110, 0.0070)
         fork = self.cup("afs", pearls - 62.0)
-        rod = self.rod(last - 0.010, fork.along - 0.008, pearls - 42.0, 0.0080)
+        fork = replace(fork, along=fork.along - layout.fork)
+        rod = self.rod(last - 0.010, fork.along - 0.008, pearls - 42.0, layout.rod + 0.0005)
         work.key("key_fork_F_sharp", "afs", "right.ring.pad", rod, touch, [fork], travel_m=0.0040)
         touch = self.plate(last - 0.0030, pearls - 29.0 * self.right_share, 0.0160, 0.0130, 0.0075)
         high = self.cup("hfs", -112.0)
@@ -605,6 +628,53 @@ class Saxophone:
         work.model.add(BRASS, torus(plate + 0.0085 * out, body.around(180.0), 0.0075, 0.0016, sides=8, around=24))
 
 
+class Baritone(Saxophone):
+    """Builds the baritone: the tube goes down from the neck, up again and over into the body (the loop)."""
+
+    BACK, LEFT = 0.074, 0.058
+    """The tube that comes from the neck lies behind the body, the one that goes up again to the left of both."""
+    FALL, RISE = 0.150, 0.160
+
+    def neck_corners(self) -> list[Array]:
+        """The neck's corner, then the receiver of the neck, behind the body's upper end."""
+        layout = self.layout
+        corner = np.array([0.0, layout.reed.axis_y + layout.neck[0][1], layout.neck[0][0]])
+        receiver = corner + (layout.neck[0][1] - layout.neck[1][1]) * self.down
+        self.receiver = receiver
+        return [corner, receiver + self.BACK * self.front + 0.020 * self.down]
+
+    def neck_line(self, start: Array) -> Array:
+        """The centre line from the mouthpiece to the receiver."""
+        corners = [start + 0.010 * Z, self.neck_points[0], self.receiver + 0.004 * self.down]
+        straight = start + np.linspace(0.0, 0.010, 5)[:, None] * Z
+        return joined(straight, bend(corners, list(self.layout.bends), 0.006))
+
+    @property
+    def socket(self) -> tuple[Array, float]:
+        """Where the neck goes in, and how wide that tube is."""
+        return self.receiver, self.layout.neck_radius[1] + 0.0010
+
+    def tubes(self) -> None:
+        """As the others, with the loop between neck and body."""
+        super().tubes()
+        down, top = self.down, np.asarray(self.body.start)
+        left = self.body.normal(90.0)
+        side = top - 0.5 * self.BACK * self.front + self.LEFT * left
+        low = self.receiver + self.FALL * down
+        rising = side + (low - side) @ down * down
+        under = half_circle(low, rising, down, 10)
+        over = half_circle(side - 0.004 * down, top - 0.004 * down, -down, 10)
+        line = joined(self.receiver, under, over, top + 0.004 * down)
+        run = lengths(line) / lengths(line)[-1]
+        r0, r1 = self.socket[1], self.body.radius(0.0)
+        radii = r0 + (r1 - r0) * run
+        self.work.model.add(BRASS, coarse(line, radii, 18, 2))
+        for place, way in ((low, down), (rising, down), (side, -down), (top, -down)):
+            r = float(radii[np.linalg.norm(line - place, axis=1).argmin()]) + 0.0008
+            ring = [(-0.012, r - 0.004), (-0.012, r), (0.002, r + 0.0004), (0.002, r - 0.004)]
+            self.work.model.add(BRASS, turned(place, way, ring, sides=24, proxy=False))
+
+
 ALTO = Layout()
 TENOR = Layout(
     reed=TENOR_REED, neck=((0.150, 0.010), (0.262, 0.050), (0.270, -0.062)), bends=(0.090, 0.052),
@@ -613,8 +683,18 @@ TENOR = Layout(
     0.0089), far=0.066, steps=(4, 2, 3), pitch=(0.038, 0.036, 0.033), bow_m=0.122, bell_length=0.312,
     bell_throat=0.0395, bell_rim=0.0765, bell_sides=56, bell_cups=((0.062, 0.0245), (0.132, 0.0255)),
 )  # fmt: skip
+BARITONE = Layout(
+    reed=BARITONE_REED, neck=((0.205, 0.004), (0.215, -0.090)), bends=(0.070,), neck_radius=(0.0100, 0.0155),
+    right_deg=15.0, back_deg=7.0, body=((0.0, 0.0190), (0.580, 0.0270), (0.800, 0.0420)), holes=1.76, cups=1.30,
+    left=0.245, right=0.445, left_share=0.90, hook_deg=137.0, thumb_deg=170.0, cluster=(-0.0012, 0.0148), fork=0.085,
+    palm=(0.0128, 0.0070, 0.0014), right_stack_deg=12.0, side=(0.0195, 0.0142, 0.0089),
+    pitch=(0.037, 0.035, 0.033), bow_m=0.166, bell_length=0.500, bell_throat=0.0540, bell_rim=0.0900, bell_sides=40,
+    bell_cups=((0.085, 0.0300), (0.185, 0.0310)), low_a=True, bell_lean=0.045, steps=(6, 2, 6),
+    hook_reach=0.0223, rod=0.0064, low_posts=0.0080, whole=("pad_C_sharp", "pad_B", "pad_B_flat", "pad_low_A"),
+)  # fmt: skip
 
 INSTRUMENTS = {
     "sax_alto_Eb": entry(lambda: Saxophone(ALTO).make()),
     "sax_tenor_Bb": entry(lambda: Saxophone(TENOR).make()),
+    "sax_baritone_Eb": entry(lambda: Baritone(BARITONE).make()),
 }
