@@ -254,10 +254,18 @@ def _project(raw: Raw, folder: Path, file: str) -> Project:
 
 
 def _edited_notes(project: Project) -> dict[str, tuple[Note, ...]]:
+    """What the MIDI file held of notes that are other here, or gone, or were drawn here before they were read there."""
     here = {part.id: {note.id: note for note in part.notes} for part in project.score.parts}
     return {
         part_id: tuple(
-            sorted((note for id, note in notes.items() if here.get(part_id, {}).get(id) != note), key=_place)
+            sorted(
+                (
+                    note
+                    for id, note in notes.items()
+                    if id.startswith(DRAWN_NOTE) or here.get(part_id, {}).get(id) != note
+                ),
+                key=_place,
+            )
         )
         for part_id, notes in project.read_notes.items()
     }

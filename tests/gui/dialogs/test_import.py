@@ -18,7 +18,11 @@ from widgets.common.tokens import DARK
 from widgets.dialogs.import_midi import ImportDialog
 
 LUTKIN = Path(__file__).parents[2] / "data" / "midi" / "ensemble" / "brass_quartet_lutkin_2tpt_tbn_tuba.mid"
-MAPS = {id_: table for id_, table in bundled_maps().items() if not any("tuba" in name for name in table.plays)}
+MAPS = {
+    id_: table
+    for id_, table in bundled_maps().items()
+    if not any(tuba in name for name in table.plays for tuba in ("tuba", "sousaphone"))
+}
 """Nobody plays the tuba here: what is left out must be told."""
 
 

@@ -49,6 +49,19 @@ def test_everything_comes_back(tmp_path: Path) -> None:
     assert load(tmp_path / "work.suisou") == project
 
 
+def test_a_note_drawn_here_that_the_file_has_too_is_remembered_as_read(tmp_path: Path) -> None:
+    project = full_project(str(tmp_path / "media"))
+    part = project.score.parts[0]
+    drawn = msgspec.structs.replace(part.notes[0], id="n:1")
+    score = msgspec.structs.replace(
+        project.score, parts=(msgspec.structs.replace(part, notes=(drawn, *part.notes)), *project.score.parts[1:])
+    )
+    read_notes = {**project.read_notes, part.id: {note.id: note for note in score.parts[0].notes}}
+    project = replace(project, score=score, read_notes=read_notes)
+    save(project, tmp_path / "work.suisou")
+    assert load(tmp_path / "work.suisou") == project
+
+
 def test_the_file_is_readable_and_the_same_every_time(tmp_path: Path) -> None:
     save(full_project(str(tmp_path)), tmp_path / "one.suisou")
     save(load(tmp_path / "one.suisou"), tmp_path / "two.suisou")
