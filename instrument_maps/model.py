@@ -81,15 +81,11 @@ class Embouchure(_Table, frozen=True):
         the lower teeth under the reed. ``"double_reed"``: both lips drawn over the teeth around the reed.
         ``"air_jet"``: the plate under the lower lip, a small opening between the lips blows across the hole.
         ``"fipple"``: a beak between relaxed lips.
-    upper_lip_share : float
-        Part of the rim's diameter that lies on the upper lip, 0..1; of what is between the lips, the part above the
-        line where they would meet.
     lips_apart_m : float
         Height of what lies between the lips where they close around it; 0 for a cup and an air jet.
     """
 
     kind: EmbouchureKind
-    upper_lip_share: float
     lips_apart_m: float = 0.0
 
 

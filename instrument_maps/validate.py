@@ -80,8 +80,6 @@ def _head(instrument: InstrumentMap) -> Iterator[Problem]:
         yield "transposition_semitones", f"{instrument.transposition_semitones} is more than three octaves"
     if not instrument.model.endswith(".glb") or "/" in instrument.model or "\\" in instrument.model:
         yield "model", f"'{instrument.model}' is not the name of a .glb file"
-    if not 0 < instrument.embouchure.upper_lip_share < 1:
-        yield "embouchure.upper_lip_share", "must lie between 0 and 1"
 
 
 def _mouthpiece(instrument: InstrumentMap) -> Iterator[Problem]:

@@ -49,7 +49,6 @@ easy_high = 79
 
 [embouchure]
 kind = "fipple"
-upper_lip_share = 0.5
 lips_apart_m = 0.012
 
 [mouthpiece]
