@@ -9,10 +9,10 @@ from typing import Final
 import platformdirs
 
 CACHE_VARIABLE: Final = "SUISOU_CACHE"
-"""Environment variable that names another folder."""
+"""Environment variable that names another folder, with one for each kind in it."""
 
 
 def cache_folder(kind: str) -> Path:
     """Return the person's folder for results of a kind; it may not be there yet."""
     named = os.environ.get(CACHE_VARIABLE)
-    return Path(named) if named else platformdirs.user_cache_path("suisou", appauthor=False) / kind
+    return (Path(named) if named else platformdirs.user_cache_path("suisou", appauthor=False)) / kind

@@ -6,6 +6,7 @@ the person's cache. A file that is absent, damaged or of other inputs is as good
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 from dataclasses import replace
 from importlib.resources import files
@@ -119,12 +120,10 @@ def hold_for(character: Character, model: InstrumentModel, instrument: Instrumen
         if hold is not None:
             return hold
     hold = stored(fit_hold(character, model, instrument, body))
-    try:
+    # A cache that cannot be written costs the next run some seconds and nothing else.
+    with contextlib.suppress(OSError, FileError):
         cached.parent.mkdir(parents=True, exist_ok=True)
         write_hold(cached, digest, hold)
-    except (OSError, FileError):
-        # A cache that cannot be written costs the next run some seconds and nothing else.
-        return hold
     return hold
 
 

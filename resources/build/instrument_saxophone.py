@@ -242,7 +242,7 @@ class Saxophone:
         if node in self.layout.whole:
             return False
         flat = node == "root" and np.linalg.norm(ends[1] - ends[0]) < self.layout.flat
-        if float(body["radius_m"]) > THIN_M and not flat:  # type: ignore[arg-type]
+        if np.asarray(body["radius_m"]) > THIN_M and not flat:
             return False
         steps = ends[0] + np.linspace(0, 1, 9)[:, None] * (ends[1] - ends[0])
         far = np.linalg.norm(steps[:, None] - places[None], axis=2).min() > self.layout.far

@@ -29,7 +29,7 @@ def piece(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     for name in ("tin_whistle_D.toml", "tin_whistle_D.glb"):
         shutil.copy(EXAMPLE / name, own)
     monkeypatch.setenv(library.FOLDER_VARIABLE, str(own))
-    monkeypatch.setenv(CACHE_VARIABLE, str(tmp_path / "holds"))
+    monkeypatch.setenv(CACHE_VARIABLE, str(tmp_path / "cache"))
     monkeypatch.setattr(library, "_library", None)
     track = mido.MidiTrack([mido.MetaMessage("track_name", name="Tin Whistle")])
     for pitch in TUNE:
