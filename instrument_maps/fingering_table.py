@@ -23,7 +23,6 @@ from __future__ import annotations
 
 import json
 import re
-import tomllib
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from pathlib import Path
@@ -35,14 +34,12 @@ from app.errors import MapError, UsageError
 from app.formats.atomic import atomic_write
 from instrument_maps.extend import BASE
 from instrument_maps.fingering_label import HALF, NONE, OPEN, controls_of, says_words, words_of
-from instrument_maps.load import bundled_maps, parse_map
+from instrument_maps.load import bundled_maps, parse_map, parse_table
 from instrument_maps.model import Fingering, InstrumentMap
 from instrument_maps.validate import Problem, problems
 
 Table: TypeAlias = tuple[Fingering, ...]
 
-TAGS = ("alternate", "trill", "fast", "forked", "raised", "forte", "piano")
-"""Why one would take an alternate: the words that the maps use."""
 _OURS = frozenset({BASE, "id", "fingerings"})
 _ROW_KEYS = ("written_pitch", "rank", "label", "controls", "cents", "correction", "fingers", "tags")
 
@@ -194,7 +191,7 @@ def base_table(instrument: InstrumentMap, path: Path | None) -> Table:
     if path is None:
         return instrument.fingerings
     text = path.read_text("utf-8-sig")
-    base = tomllib.loads(text).get(BASE)
+    base = parse_table(text, str(path)).get(BASE)
     if not isinstance(base, str):
         return ()
     bare = f'{BASE} = "{base}"\nid = "{instrument.id}"\n'
@@ -217,16 +214,16 @@ def own_text(instrument: InstrumentMap, table: Table, text: str | None, file: st
     Raises
     ------
     MapError
-        ``map.not_rewritten``; what `parse_map` finds wrong with the result.
+        ``map.syntax`` of the person's file; ``map.not_rewritten``; what `parse_map` finds wrong with the result.
     """
-    known: dict[str, Any] = {} if text is None else tomllib.loads(text)
+    known: dict[str, Any] = {} if text is None else parse_table(text, file)
     fresh = text is None
     if text is None:
         text = (
             f"# {instrument.name.en}: your own version. What is not said here is as in the map it extends.\n\n"
             f'{BASE} = "{instrument.id}"\nid = "{instrument.id}"\n'
         )
-    base = tomllib.loads(text).get(BASE)
+    base = parse_table(text, file).get(BASE)
     below = bundled_maps()[instrument.id].fingerings if fresh else ()
     if not fresh and isinstance(base, str):
         below = parse_map(f'{BASE} = "{base}"\nid = "{instrument.id}"\n', file).fingerings
@@ -241,7 +238,7 @@ def own_text(instrument: InstrumentMap, table: Table, text: str | None, file: st
         result = _with_block(result, _block(told, instrument))
     try:
         read = parse_map(result, file)
-        rest = {key: value for key, value in tomllib.loads(result).items() if key != "fingerings"}
+        rest = {key: value for key, value in parse_table(result, file).items() if key != "fingerings"}
     except MapError as error:
         if error.message.id == "map.syntax":
             raise MapError("map.not_rewritten", file=file) from error

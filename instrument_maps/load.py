@@ -162,7 +162,7 @@ def _text(path: Path) -> str:
 
 def _shaped(text: str, file: str) -> InstrumentMap:
     """Parse, extend and convert: everything that types alone can tell."""
-    table = _extended(_parsed(text, file), file, ())
+    table = _extended(parse_table(text, file), file, ())
     try:
         instrument = msgspec.convert(table, InstrumentMap)
     except msgspec.ValidationError as error:
@@ -180,8 +180,8 @@ def _shaped(text: str, file: str) -> InstrumentMap:
 
 
 @lru_cache(maxsize=4)
-def _parsed(text: str, file: str) -> dict[str, Any]:
-    """A map's table, which nobody changes: several maps extend the same one."""
+def parse_table(text: str, file: str) -> dict[str, Any]:
+    """Return a map's table, which nobody changes: several maps extend the same one. MapError: ``map.syntax``."""
     try:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
@@ -207,7 +207,7 @@ def _extended(table: dict[str, Any], file: str, above: tuple[Path, ...]) -> dict
         raise MapError("map.invalid", file=file, path=BASE, detail=f"'{base}' extends itself")
     if path is None:
         raise MapError("map.invalid", file=file, path=BASE, detail=f"there is no map named '{base}'")
-    below = _extended(_parsed(_text(path), str(path)), str(path), (*above, own))
+    below = _extended(parse_table(_text(path), str(path)), str(path), (*above, own))
     return extended(below, table)
 
 

@@ -185,6 +185,37 @@
     </message>
 </context>
 <context>
+    <name>FingeringTag</name>
+    <message>
+        <source>alternate</source>
+        <translation>替え指</translation>
+    </message>
+    <message>
+        <source>trill</source>
+        <translation>トリル</translation>
+    </message>
+    <message>
+        <source>fast</source>
+        <translation>速い音形</translation>
+    </message>
+    <message>
+        <source>forked</source>
+        <translation>フォーク</translation>
+    </message>
+    <message>
+        <source>raised</source>
+        <translation>高め</translation>
+    </message>
+    <message>
+        <source>forte</source>
+        <translation>フォルテ</translation>
+    </message>
+    <message>
+        <source>piano</source>
+        <translation>ピアノ</translation>
+    </message>
+</context>
+<context>
     <name>Language</name>
     <message>
         <source>en</source>

@@ -524,22 +524,6 @@
         <translation>自動生成: {reason}</translation>
     </message>
     <message>
-        <source>for trills</source>
-        <translation>トリル用</translation>
-    </message>
-    <message>
-        <source>for fast passages</source>
-        <translation>速いパッセージ用</translation>
-    </message>
-    <message>
-        <source>raised position</source>
-        <translation>高めのポジション</translation>
-    </message>
-    <message>
-        <source>alternate</source>
-        <translation>替え指</translation>
-    </message>
-    <message>
         <source>first choice</source>
         <translation>第 1 候補</translation>
     </message>

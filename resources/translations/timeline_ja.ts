@@ -43,22 +43,6 @@
 <context>
     <name>Alternates</name>
     <message>
-        <source>trill</source>
-        <translation>トリル</translation>
-    </message>
-    <message>
-        <source>fast</source>
-        <translation>速い音形</translation>
-    </message>
-    <message>
-        <source>raised</source>
-        <translation>高め</translation>
-    </message>
-    <message>
-        <source>alternate</source>
-        <translation>替え指</translation>
-    </message>
-    <message>
         <source>Choice {rank}</source>
         <translation>第 {rank} 候補</translation>
     </message>

@@ -40,6 +40,7 @@ from instrument_maps.fingering_label import says_words, words_of
 from instrument_maps.library import library
 from instrument_maps.model import Fingering, InstrumentMap
 from widgets.common.fingering_diagram import DOWN, FingeringDiagram
+from widgets.common.fingering_tags import tag_words, tags_of_text, words_of_tags
 from widgets.common.instrument_name import instrument_name
 from widgets.common.pitch import LETTERS, pitch_name, syllables
 from widgets.common.session import Session, Severity
@@ -322,7 +323,7 @@ class InstrumentsDialog(QDialog):
                 str(one.rank),
                 one.label,
                 f"{one.cents:g}" if one.cents else "",
-                ", ".join(one.tags),
+                ", ".join(words_of_tags(one.tags)),
             )
             for column, text in enumerate(texts):
                 item = QTableWidgetItem(text)
@@ -398,7 +399,7 @@ class InstrumentsDialog(QDialog):
             return []
         if column == LABEL:
             return list(dict.fromkeys(one.label for one in draft.instrument.fingerings))
-        return list(edit.TAGS) if column == TAGS else []
+        return list(tag_words().values()) if column == TAGS else []
 
     # Editing
 
@@ -430,7 +431,7 @@ class InstrumentsDialog(QDialog):
         elif column == CENTS:
             self._do(lambda draft: edit.with_cents(draft.table, written, rank, self._number(text)))
         elif column == TAGS:
-            self._do(lambda draft: edit.with_tags(draft.table, written, rank, text.split(",")))
+            self._do(lambda draft: edit.with_tags(draft.table, written, rank, tags_of_text(text)))
 
     def _number(self, text: str) -> float:
         """Raises UsageError for what is no number."""
@@ -628,7 +629,7 @@ def _base_of(instrument: InstrumentMap) -> edit.Table:
     """What the map that an instrument extends has; of a bundled one its own."""
     try:
         return edit.base_table(instrument, library().own.get(instrument.id))
-    except (MapError, OSError, ValueError):
+    except (MapError, OSError, UnicodeDecodeError):
         # Their file is wrong now and an earlier version in use: there is nothing to go back to.
         return instrument.fingerings
 

@@ -15,6 +15,7 @@ from instrument_maps.library import find_map
 from instrument_maps.model import Fingering, InstrumentMap
 from widgets.common.chip import Chip
 from widgets.common.fingering_diagram import FingeringDiagram
+from widgets.common.fingering_tags import words_of_tags
 from widgets.common.fingering_text import short_label
 from widgets.common.flow import FlowLayout
 from widgets.common.musical_time import beat_ticks, place_text, tick_of_place
@@ -220,19 +221,13 @@ class NoteSection(QWidget):
             chip.setToolTip(self._chip_tip(fingering, made))
 
     def _chip_tip(self, fingering: Fingering, made: FingeringEvent | None) -> str:
-        tags = {
-            "trill": self.tr("for trills"),
-            "fast": self.tr("for fast passages"),
-            "raised": self.tr("raised position"),
-            "alternate": self.tr("alternate"),
-        }
         lines = [
             *([fingering.label] if " " in fingering.label else []),
             self.tr("first choice")
             if fingering.rank == 1
             else self.tr("choice no. {rank}").format(rank=fingering.rank),
         ]
-        lines += [tags.get(tag, tag) for tag in fingering.tags]
+        lines += words_of_tags(fingering.tags)
         if round(fingering.cents):
             lines.append(self.tr("{cents} cents when simply blown").format(cents=f"{fingering.cents:+.0f}"))
         if made is not None and made.label == fingering.label:

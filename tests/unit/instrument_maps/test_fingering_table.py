@@ -138,6 +138,17 @@ def test_a_file_that_says_it_in_another_way_is_left_alone(tmp_path: Path) -> Non
     assert path.read_text("utf-8") == text
 
 
+def test_a_file_that_was_broken_meanwhile_is_told_and_left_alone(tmp_path: Path) -> None:
+    path = tmp_path / "trumpet_Bb.toml"
+    text = 'extends = "trumpet_Bb"\nid = "trumpet_Bb\n'
+    path.write_text(text, "utf-8")
+    with pytest.raises(MapError) as caught:
+        edit.save_own(TRUMPET, edit.moved(TRUMPET.fingerings, D5, 1, 1), tmp_path)
+    assert caught.value.message.id == "map.syntax"
+    assert caught.value.message.arguments["line"] == 2
+    assert path.read_text("utf-8") == text
+
+
 def test_a_map_that_stands_alone_keeps_all_its_fingerings(tmp_path: Path) -> None:
     path = add(tmp_path)
     pipe = load_map(path)

@@ -11,6 +11,7 @@ from app.plan.model import FingeringEvent
 from app.project.edit.events import corrections_of, give_back, pin_fingerings
 from instrument_maps.model import Fingering
 from widgets.common.chip import Chip
+from widgets.common.fingering_tags import words_of_tags
 from widgets.common.icons import icon
 from widgets.common.session import Session
 from widgets.common.tokens import LEAST_TARGET_PX
@@ -43,15 +44,8 @@ class Alternates(QFrame):
 
     def note_text(self, fingering: Fingering) -> str:
         """What is told of a fingering beside its label: how far out of tune, and why one would take it."""
-        words = {
-            "trill": self.tr("trill"),
-            "fast": self.tr("fast"),
-            "raised": self.tr("raised"),
-            "alternate": self.tr("alternate"),
-        }
         parts = [f"{fingering.cents:+.0f} ¢".replace("-", "−")] if round(fingering.cents) else []
-        parts += [words.get(tag, tag) for tag in fingering.tags]
-        return " · ".join(parts)
+        return " · ".join([*parts, *words_of_tags(fingering.tags)])
 
     def is_pinned(self, player_id: str, event: FingeringEvent) -> bool:
         """Whether a person chose the fingering."""
