@@ -433,13 +433,13 @@ def _label(path: str, fingering: Fingering, instrument: InstrumentMap) -> Iterat
     signed = [control for control in moved if control.kind != "slide"]
     if not all(control.label for control in signed):
         return
-    told = "".join(sign for sign in fingering.label if not sign.isspace())
+    told, none = "".join(sign for sign in fingering.label if not sign.isspace()), NONE
     if any(control.kind == "slide" for control in pitch):
-        told = told.rstrip("0123456789")
+        told, none = told.rstrip("0123456789"), "a place of the slide"
     named = "".join(control.label for control in signed)
     plain = told.replace(NONE, "") if told.count(NONE) <= 1 else told
     if Counter(plain) != Counter(named) or (NONE in told and any(sign.isdigit() for sign in plain)):
-        yield path, f"'{fingering.label}' does not name what the controls say, '{named or 'a place of the slide'}'"
+        yield path, f"'{fingering.label}' does not name what the controls say, '{named or none}'"
 
 
 def _harmonic(path: str, fingering: Fingering, instrument: InstrumentMap) -> Iterator[Problem]:

@@ -25,6 +25,7 @@ from PySide6.QtWidgets import (
 from app.errors import Message
 from app.shell.files import Files
 from app.shell.tasks import Task, ThreadTasks
+from instrument_maps.library import library
 from widgets.common.icons import icon, pixmap
 from widgets.common.session import Session, Severity
 from widgets.common.text import message_text, sentence
@@ -56,9 +57,12 @@ class StatusLine(QStatusBar):
     -------
     problems_asked()
         The person wants to see the problems.
+    instruments_asked()
+        The person wants to see what is wrong with instruments of their own.
     """
 
     problems_asked = Signal()
+    instruments_asked = Signal()
 
     def __init__(self, session: Session, files: Files, tasks: ThreadTasks | None, parent: QWidget) -> None:
         super().__init__(parent)
@@ -91,10 +95,10 @@ class StatusLine(QStatusBar):
         self.addWidget(self._work)
         self.addWidget(self._notice)
         self.addWidget(self._dismiss)
-        self._problems = QPushButton()
-        self._problems.setObjectName("problems")
-        self._problems.setFlat(True)
-        self._problems.setStyleSheet("padding: 3px 6px;")
+        self._instruments = _flat("instrument_problems")
+        self._instruments.clicked.connect(self.instruments_asked)
+        self.addPermanentWidget(self._instruments)
+        self._problems = _flat("problems")
         self._problems.clicked.connect(self.problems_asked)
         self._saved, self._rate, self._motion = QLabel(), QLabel(), QLabel()
         self._saved.setObjectName("saved")
@@ -123,6 +127,7 @@ class StatusLine(QStatusBar):
         session.noticed.connect(self.tell)
         session.performance_changed.connect(self._tell_problems)
         session.problems_changed.connect(self._tell_problems)
+        session.instruments_changed.connect(self._tell_instruments)
         session.theme_changed.connect(self.retranslate)
         session.playing_changed.connect(self._played)
         files.changed.connect(self._tell_saved)
@@ -221,6 +226,16 @@ class StatusLine(QStatusBar):
         text = self.tr("problems: {count}").format(count=count) if count else self.tr("no problems")
         self._problems.setText(f" {text}")
 
+    def _tell_instruments(self) -> None:
+        """Until the last file is mended: a notice goes with the next one."""
+        wrong = library().problems
+        tokens = self._session.tokens
+        self._instruments.setVisible(bool(wrong))
+        self._instruments.setIcon(icon("error", tokens, tokens.error))
+        self._instruments.setText(" " + self.tr("faulty instruments: {count}").format(count=len(wrong)))
+        told = "\n".join(sentence(problems[0], self._session) for problems in wrong.values())
+        self._instruments.setToolTip(told + "\n\n" + self.tr("Show the instruments"))
+
     def _tell_saved(self) -> None:
         files = self._files
         if not files.is_open:
@@ -285,6 +300,7 @@ class StatusLine(QStatusBar):
             self._show_notice()
         for task, row in self._rows.items():
             row.tell(task, tokens)
+        self._tell_instruments()
         self._opened()
 
     def changeEvent(self, event: QEvent) -> None:
@@ -409,6 +425,14 @@ class _Details(QFrame):
     def _copy_all(self) -> None:
         QApplication.clipboard().setText(self._text)
         self.hide()
+
+
+def _flat(name: str) -> QPushButton:
+    button = QPushButton()
+    button.setObjectName(name)
+    button.setFlat(True)
+    button.setStyleSheet("padding: 3px 6px;")
+    return button
 
 
 def _tool(name: str) -> QToolButton:

@@ -138,6 +138,7 @@ class Window(QMainWindow):
         self._files.overtaken.connect(self._ask_to_save_over)
         self.session.theme_changed.connect(self._dress)
         self.status.problems_asked.connect(self._next_problem)
+        self.status.instruments_asked.connect(self.show_instruments)
         generator.ready_changed.connect(self.status.set_ready)
         picture = self.viewport.findChild(QOpenGLWidget)
         if isinstance(picture, QOpenGLWidget):

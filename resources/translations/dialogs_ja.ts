@@ -220,6 +220,14 @@
         <translation>付属</translation>
     </message>
     <message>
+        <source>Files of your own that are wrong; what was good before stays in use:</source>
+        <translation>ご自身の楽器ファイルに誤りがあります（直前の正しい内容が引き続き使われます）:</translation>
+    </message>
+    <message>
+        <source>and {count} more</source>
+        <translation>ほか {count} 件</translation>
+    </message>
+    <message>
         <source>sounds {low} to {high}</source>
         <translation>実音 {low}～{high}</translation>
     </message>

@@ -933,6 +933,14 @@
         <translation>問題なし</translation>
     </message>
     <message>
+        <source>faulty instruments: {count}</source>
+        <translation>楽器定義のエラー: {count}</translation>
+    </message>
+    <message>
+        <source>Show the instruments</source>
+        <translation>楽器を表示</translation>
+    </message>
+    <message>
         <source>saved</source>
         <translation>保存済み</translation>
     </message>

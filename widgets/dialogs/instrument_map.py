@@ -11,7 +11,7 @@ from functools import partial
 
 import msgspec
 from PySide6.QtCore import QEvent, QModelIndex, QPersistentModelIndex, QSize, Qt, QUrl, Signal
-from PySide6.QtGui import QCloseEvent, QColor, QDesktopServices, QKeySequence, QShortcut
+from PySide6.QtGui import QCloseEvent, QColor, QDesktopServices, QIcon, QKeySequence, QShortcut
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QCompleter,
@@ -41,12 +41,15 @@ from instrument_maps.library import library
 from instrument_maps.model import Fingering, InstrumentMap
 from widgets.common.fingering_diagram import DOWN, FingeringDiagram
 from widgets.common.fingering_tags import tag_words, tags_of_text, words_of_tags
+from widgets.common.icons import icon
 from widgets.common.instrument_name import instrument_name
 from widgets.common.pitch import LETTERS, pitch_name, syllables
 from widgets.common.session import Session, Severity
 from widgets.common.text import message_text
 
 WRITTEN, SOUNDS, RANK, LABEL, CENTS, TAGS = range(6)
+MOST_WRONG = 6
+"""So much of what is wrong with files is told at once."""
 _PLACE = Qt.ItemDataRole.UserRole
 
 
@@ -103,7 +106,8 @@ class InstrumentsDialog(QDialog):
         self._filling = False
         self._list = QListWidget()
         self._list.setObjectName("instruments_list")
-        self._facts, self._file, self._problem = QLabel(), QLabel(), QLabel()
+        self._wrong, self._facts, self._file, self._problem = QLabel(), QLabel(), QLabel(), QLabel()
+        self._wrong.setObjectName("instruments_wrong")
         self._title = QLabel()
         self._title.setObjectName("instruments_title")
         self._facts.setObjectName("instruments_facts")
@@ -128,9 +132,10 @@ class InstrumentsDialog(QDialog):
         for name, button in self._buttons.items():
             button.setObjectName(f"instruments_{name}")
             button.setAutoDefault(False)
-        for label in (self._facts, self._file, self._problem, self._hint):
+        for label in (self._wrong, self._facts, self._file, self._problem, self._hint):
             label.setWordWrap(True)
-        self._file.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        for label in (self._wrong, self._file):
+            label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         table = self._table
         table.verticalHeader().hide()
         table.setShowGrid(False)
@@ -163,6 +168,7 @@ class InstrumentsDialog(QDialog):
         right = QWidget()
         lines = QVBoxLayout(right)
         lines.setContentsMargins(8, 0, 0, 0)
+        lines.addWidget(self._wrong)
         lines.addWidget(self._title)
         lines.addWidget(self._facts)
         lines.addWidget(self._file)
@@ -271,8 +277,20 @@ class InstrumentsDialog(QDialog):
         self._file.setText(
             self.tr("Your own version: {file}").format(file=str(own)) if own is not None else self.tr("Bundled")
         )
+        self._show_wrong()
         self._fill_table(draft)
         self._show_state()
+
+    def _show_wrong(self) -> None:
+        """What keeps files of the person's own from being used; there may be no instrument of theirs to show it at."""
+        told = [problem for problems in library().problems.values() for problem in problems]
+        lines = [self.tr("Files of your own that are wrong; what was good before stays in use:")]
+        lines += [message_text(problem, self._session) for problem in told[:MOST_WRONG]]
+        if len(told) > MOST_WRONG:
+            lines.append(self.tr("and {count} more").format(count=len(told) - MOST_WRONG))
+        self._wrong.setText("\n".join(lines))
+        self._wrong.setStyleSheet(f"color: {self._session.tokens.error};")
+        self._wrong.setVisible(bool(told))
 
     def _facts_of(self, instrument: InstrumentMap) -> str:
         low, high, shift = instrument.range.low, instrument.range.high, instrument.transposition_semitones
@@ -378,6 +396,7 @@ class InstrumentsDialog(QDialog):
         for name, is_enabled in enabled.items():
             self._buttons[name].setEnabled(is_enabled)
         self._tell("\n".join(f"{_named(path, draft.table, self._name)}: {detail}" for path, detail in wrong[:3]))
+        faulty = {path.stem for path in library().problems}
         for row in range(self._list.count()):
             item = self._list.item(row)
             id = str(item.data(_PLACE))
@@ -386,6 +405,7 @@ class InstrumentsDialog(QDialog):
             unsaved = known is not None and not known.is_saved
             item.setText(f"{instrument_name(instrument)}{' •' if unsaved else ''}")
             tokens = self._session.tokens
+            item.setIcon(icon("error", tokens, tokens.error) if id in faulty else QIcon())
             item.setForeground(QColor(tokens.by_hand if is_own or unsaved else tokens.text))
 
     def _tell(self, text: str) -> None:

@@ -6,13 +6,18 @@ import os
 from pathlib import Path
 
 import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QLabel, QPushButton
 from pytestqt.qtbot import QtBot
 
 import instrument_maps.library as module
+from app.errors import Message
 from instrument_maps.library import FOLDER_VARIABLE
 from instrument_maps.load import bundled_maps
 from tests.gui.conftest import QUARTET
 from tests.gui.shell.conftest import Start
+from widgets.dialogs.instrument_map import InstrumentsDialog
 
 # The first choice of written D 5 is another one here.
 OWN = """extends = "trumpet_Bb"
@@ -67,10 +72,24 @@ def test_a_map_that_is_edited_is_played_at_once_and_a_wrong_one_is_told(
     assert str(told[-1][1]["path"]).startswith("fingerings[")
     assert labels() == {"13"}
     assert session.performance.instrument(trumpet) is good.instrument(trumpet)
+    # It stays to be seen, whatever else is said, until it is mended.
+    session.notice(Message("problems.none"))
+    lasting = program.window.status.findChild(QPushButton, "instrument_problems")
+    assert lasting.isVisible()
+    assert "'19'" in lasting.toolTip()
+    QTest.mouseClick(lasting, Qt.MouseButton.LeftButton)
+    dialog = program.window.findChild(InstrumentsDialog)
+    wrong = dialog.findChild(QLabel, "instruments_wrong")
+    assert wrong.isVisible()
+    assert str(folder / "trumpet_Bb.toml") in wrong.text()
+    assert "'19'" in wrong.text()
     # Saved as editors do, by renaming a new file over the old one: the watch goes on.
     write(folder / "new", OWN.replace('label = "13"', 'label = "1"'), 3)
     (folder / "new").replace(folder / "trumpet_Bb.toml")
     qtbot.waitUntil(lambda: labels() == {"1"}, timeout=5000)
+    assert not lasting.isVisible()
+    assert not wrong.isVisible()
+    dialog.close()
     # Gone: the bundled one again.
     (folder / "trumpet_Bb.toml").unlink()
     qtbot.waitUntil(lambda: session.performance.instrument(trumpet) is bundled_maps()["trumpet_Bb"], timeout=5000)

@@ -78,6 +78,7 @@ def test_unreadable_files_are_map_errors(tmp_path: Path) -> None:
             "fingerings[0].label",
             "does not name what the controls say",
         ),
+        ('label = "0"', 'label = "9"', None, "'9' does not name what the controls say, '0'"),
         (
             "written_pitch = 54, rank",
             "written_pitch = 53, rank",
