@@ -16,10 +16,10 @@ from typing import Any, Literal
 import numpy as np
 
 from app.motion.curve import Curve, FloatArray, Noise, bump, moves, rows_changed_s, through
-from app.motion.gaze import Gaze
-from app.motion.pose import Poses, hold_body
+from app.motion.gaze import Look
+from app.motion.pose import Offset, Poses, hold_body
 from app.motion.seed import generator
-from app.plan.model import BreathEvent, CueEvent, GestureEvent, PlayerParameters, PlayerPlan, same_events
+from app.plan.model import BreathEvent, CueEvent, GestureEvent, PlayerParameters, PlayerPlan, PoseTarget, same_events
 from app.plan.pose import BELL_LEFT, BELL_UP, NECK_SHARES, TRUNK_SHARES
 from metadata.model import AmplitudeScale, Body, Posture, at_amplitude
 
@@ -352,6 +352,25 @@ _KINDS = ("sway", "weight_shift", "bell_height", "lower_instrument")
 
 
 @dataclass(frozen=True)
+class Levels:
+    """The layers at some frames, before the player's sizes: members as of `Layers`, each (F,) float64.
+
+    ``dip`` and ``lift`` are of the nods, ``held`` what the animator holds differently.
+    """
+
+    full: FloatArray
+    leaning: FloatArray
+    dip: FloatArray
+    lift: FloatArray
+    sway: FloatArray
+    weight: FloatArray
+    height: FloatArray
+    bobbing: FloatArray
+    lowered: FloatArray
+    held: dict[PoseTarget, Offset]
+
+
+@dataclass(frozen=True)
 class Layers:
     """What one player's plan asks of the body, as curves of time; each is sampled with the sizes of the player.
 
@@ -417,32 +436,47 @@ class Layers:
             poses=Poses.of(plan.poses),
         )
 
+    def sample(self, times_s: FloatArray) -> Levels:
+        """The layers at ascending times."""
+        dip, lift = self.nods.sample(times_s)
+        return Levels(
+            full=self.full.sample(times_s),
+            leaning=self.leaning.sample(times_s),
+            dip=dip,
+            lift=lift,
+            sway=self.sway.sample(times_s),
+            weight=self.weight.sample(times_s),
+            height=self.height.sample(times_s),
+            bobbing=self.bobbing.sample(times_s),
+            lowered=self.lowered.sample(times_s),
+            held=self.poses.sample(times_s),
+        )
+
 
 def body_motion(
-    layers: Layers,
+    levels: Levels,
     player_id: str,
     parameters: PlayerParameters,
     body: Body,
     posture: Posture,
-    gaze: Gaze,
+    look: Look,
     times_s: FloatArray,
 ) -> BodyMotion:
     """Sum of all layers at ascending ``times_s`` (F,), on top of the posture's own angles."""
     sizes = _Sizes(body, parameters, player_id)
     sway, frames = body.sway, len(times_s)
-    inhaled, lean = layers.full.sample(times_s), layers.leaning.sample(times_s)
-    dip, lift = layers.nods.sample(times_s)
+    inhaled, lean, dip, lift = levels.full, levels.leaning, levels.dip, levels.lift
 
-    aside = parameters.sway * layers.sway.sample(times_s)
-    down = parameters.sway * layers.bobbing.sample(times_s) * (1.0 - np.clip(inhaled, 0.0, 1.0))
-    weight = parameters.weight_shift * layers.weight.sample(times_s)
-    height = parameters.bell_height * layers.height.sample(times_s)
+    aside = parameters.sway * levels.sway
+    down = parameters.sway * levels.bobbing * (1.0 - np.clip(inhaled, 0.0, 1.0))
+    weight = parameters.weight_shift * levels.weight
+    height = parameters.bell_height * levels.height
     bell_up = np.maximum(height, 0.0) * sizes.rad(body.bell.up_deg) + np.minimum(height, 0.0) * sizes.rad(
         body.bell.down_deg
     )
 
     forward, left, turn = _Sum(frames), _Sum(frames), _Sum(frames)
-    lowered = layers.lowered.sample(times_s)
+    lowered = levels.lowered
     for joint, angle_deg in posture.spine_deg.items():
         forward.add({joint: 1.0}, np.full(frames, np.deg2rad(angle_deg)))
     for summed, angles in ((left, posture.spine_left_deg), (turn, posture.spine_turn_deg)):
@@ -475,16 +509,15 @@ def body_motion(
     forward.add(NECK_SHARES, -0.35 * bell_up)
     forward.add(TRUNK_SHARES, -0.15 * bell_up)
 
-    head_yaw, head_pitch = gaze.head_yaw_rad.sample(times_s), gaze.head_pitch_rad.sample(times_s)
-    turn.add(NECK_SHARES, 0.5 * head_yaw)
-    forward.add(NECK_SHARES, 0.5 * head_pitch)
+    turn.add(NECK_SHARES, 0.5 * look.head_yaw_rad)
+    forward.add(NECK_SHARES, 0.5 * look.head_pitch_rad)
 
     forward.add(TRUNK_SHARES, deg(body.bell.lowered_trunk_deg) * lowered)
 
     roll = weight * sizes.rad(body.weight_shift.roll_deg)
     left.add(TRUNK_SHARES, -0.8 * roll)
     forward_rad, left_rad, turn_rad = forward.all(), left.all(), turn.all()
-    held = layers.poses.sample(times_s)
+    held = levels.held
     hold_body(held, body, forward_rad, left_rad, turn_rad)
     bell_held, elbows_held = {}, {}
     if "bell" in held:
@@ -511,8 +544,8 @@ def body_motion(
         bell_held_rad=bell_held,
         shoulders_rad=deg(body.breath.shoulder_lift_deg) * inhaled,
         elbows_rad=deg(body.breath.elbow_out_deg) * inhaled,
-        eyes_yaw_rad=gaze.yaw_rad.sample(times_s) - 0.5 * head_yaw - EYES_BACK * aside_rad,
-        eyes_pitch_rad=gaze.pitch_rad.sample(times_s) - 0.5 * head_pitch,
+        eyes_yaw_rad=look.yaw_rad - 0.5 * look.head_yaw_rad - EYES_BACK * aside_rad,
+        eyes_pitch_rad=look.pitch_rad - 0.5 * look.head_pitch_rad,
         inhaled=inhaled,
         lowered=lowered,
         protraction_rad={},

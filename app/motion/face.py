@@ -13,7 +13,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from app.motion.curve import Curve, Envelopes, FloatArray, moves, moves_to
-from app.motion.gaze import Gaze
 from app.plan.model import EmbouchureEvent, PlayerPlan, same_events
 from app.rig.hold import Lips
 from metadata.model import Embouchure, Expression
@@ -99,6 +98,19 @@ def _shown(plan: PlayerPlan) -> dict[str, Envelopes]:
 
 
 @dataclass(frozen=True)
+class Drivers:
+    """What moves the face at some frames: members as of `Face`, each (F,) float64."""
+
+    at_lips: FloatArray
+    tension: FloatArray
+    effort: FloatArray
+    air: FloatArray
+    tongue: FloatArray
+    mouth_open: FloatArray
+    expressions: dict[str, FloatArray]
+
+
+@dataclass(frozen=True)
 class Face:
     """What one player's plan asks of the face, as curves of time.
 
@@ -146,41 +158,45 @@ class Face:
             expressions=_shown(plan),
         )
 
+    def sample(self, times_s: FloatArray) -> Drivers:
+        """What moves the face at ascending times."""
+        return Drivers(
+            at_lips=self.at_lips.sample(times_s),
+            tension=self.tension.sample(times_s),
+            effort=self.effort.sample(times_s),
+            air=self.air.sample(times_s),
+            tongue=self.tongue.sample(times_s),
+            mouth_open=self.mouth_open.sample(times_s),
+            expressions={name: envelopes.sample(times_s) for name, envelopes in self.expressions.items()},
+        )
+
 
 def face_morphs(
-    face: Face,
+    face: Drivers,
     embouchure: Embouchure,
     lips: Lips,
     expressions: Mapping[str, Expression],
-    gaze: Gaze,
-    mouth_open: FloatArray,
+    blinks: FloatArray,
     lowered: FloatArray,
-    times_s: FloatArray,
 ) -> dict[str, FloatArray]:
     """Weights 0..1 of every morph that moves, each (F,) float64.
 
     Parameters
     ----------
-    face : Face
+    face : Drivers
     embouchure : Embouchure
         Weights of the instrument's kind of embouchure.
     lips : Lips
         Of the character, with the instrument.
     expressions : mapping of str to Expression
-        All that the plan names.
-    gaze : Gaze
-        For the lids.
-    mouth_open : (F,) float64
-        ``face.mouth_open``, sampled.
+        All that ``face`` names.
+    blinks : (F,) float64
+        Lids: 1 is closed.
     lowered : (F,) float64
         0 with the instrument at the lips, 1 with it lowered.
-    times_s : (F,) float64
-        Ascending.
     """
-    inhaling = mouth_open
-    at_lips = face.at_lips.sample(times_s)
+    inhaling, at_lips, tension = face.mouth_open, face.at_lips, face.tension
     formed = at_lips * (1.0 - 0.9 * inhaling)
-    tension, effort, air = face.tension.sample(times_s), face.effort.sample(times_s), face.air.sample(times_s)
     around = formed
     if lips.apart_m > 0.0:
         # What is between the lips stays between them in a rest, as long as it is not lowered.
@@ -190,16 +206,15 @@ def face_morphs(
     drivers: list[tuple[FloatArray, Mapping[str, float]]] = [
         (formed * (1.0 - tension) + resting, embouchure.relaxed),
         (formed * tension, embouchure.tight),
-        (formed * air, embouchure.air),
-        (formed * effort, embouchure.effort),
-        (face.tongue.sample(times_s), embouchure.tongue_stroke),
+        (formed * face.air, embouchure.air),
+        (formed * face.effort, embouchure.effort),
+        (face.tongue, embouchure.tongue_stroke),
         (inhaling, embouchure.inhale),
     ]
-    for name, envelopes in face.expressions.items():
+    for name, shown in face.expressions.items():
         expression = expressions[name]
-        shown = envelopes.sample(times_s)
         drivers.append((shown if expression.while_playing else shown * (1.0 - at_lips), expression.weights))
-    drivers.append((gaze.blinks.sample(times_s), dict.fromkeys(LIDS, 1.0)))
+    drivers.append((blinks, dict.fromkeys(LIDS, 1.0)))
     morphs = _mixed(drivers)
     if lips.jaw:
         _part_lips(morphs, lips, around, formed)

@@ -14,7 +14,7 @@ from itertools import accumulate
 
 import numpy as np
 
-from app.motion.curve import Curve, Envelopes, moves
+from app.motion.curve import Curve, Envelopes, FloatArray, moves
 from app.motion.seed import generator
 from app.plan.model import PlayerPlan
 
@@ -26,6 +26,17 @@ REST_S = 1.0
 
 MUSIC_PITCH_RAD = 0.20
 """The music on its stand lies about 12 degrees below the line of sight."""
+
+
+@dataclass(frozen=True)
+class Look:
+    """Eyes and lids at some frames: members as of `Gaze`, each (F,) float64."""
+
+    yaw_rad: FloatArray
+    pitch_rad: FloatArray
+    head_yaw_rad: FloatArray
+    head_pitch_rad: FloatArray
+    blinks: FloatArray
 
 
 @dataclass(frozen=True)
@@ -47,6 +58,16 @@ class Gaze:
     head_yaw_rad: Curve
     head_pitch_rad: Curve
     blinks: Envelopes
+
+    def sample(self, times_s: FloatArray) -> Look:
+        """Where the eyes look at ascending times."""
+        return Look(
+            yaw_rad=self.yaw_rad.sample(times_s),
+            pitch_rad=self.pitch_rad.sample(times_s),
+            head_yaw_rad=self.head_yaw_rad.sample(times_s),
+            head_pitch_rad=self.head_pitch_rad.sample(times_s),
+            blinks=self.blinks.sample(times_s),
+        )
 
 
 def plan_gaze(plan: PlayerPlan, seed: int) -> Gaze:

@@ -10,12 +10,12 @@ from fractions import Fraction
 import msgspec
 import numpy as np
 
-from app.motion.body import BodyMotion, Layers, body_motion
+from app.motion.body import BodyMotion, Layers, Levels, body_motion
 from app.motion.contact import freedom
 from app.motion.controls import control_curves
 from app.motion.curve import EVERYWHERE, Curve, Envelopes, FloatArray, frame_times, moves
-from app.motion.face import Face, face_morphs, usual_morphs
-from app.motion.gaze import Gaze, looks_alike, plan_gaze
+from app.motion.face import Drivers, Face, face_morphs, usual_morphs
+from app.motion.gaze import Gaze, Look, looks_alike, plan_gaze
 from app.motion.model import Motion
 from app.motion.posture import hips_path, stance, trunk
 from app.motion.solve import Curves, Player, padding, solve
@@ -40,6 +40,31 @@ def frame_count(time_frame: TimeFrame, fps: Fraction) -> int:
     """Number of frames of a performance: those in ``[first_frame_s, end_s)``."""
     exact = (time_frame.end_s - time_frame.first_frame_s) * fps.numerator / fps.denominator
     return max(1, math.ceil(exact - 1e-9))
+
+
+@dataclass(frozen=True)
+class Frames:
+    """What a player does at some frames, before any contact is solved.
+
+    Attributes
+    ----------
+    times_s : (F,) float64
+        Ascending.
+    levels, look, face
+        Body, eyes and face.
+    controls : dict of str to (F,) float64
+    placed : dict of str to Placed
+    raised : (F,) float64
+        As the curves of `Playing`.
+    """
+
+    times_s: FloatArray
+    levels: Levels
+    look: Look
+    face: Drivers
+    controls: dict[str, FloatArray]
+    placed: dict[str, Placed]
+    raised: FloatArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,26 +123,32 @@ class Playing:
         """Make some frames of the motion. The same frames are the same bits in every span."""
         pad = padding(fps)
         times_s = frame_times(self.start_s, fps, first_frame - pad, frames + 2 * pad)
-        mouth_open = self.face.mouth_open.sample(times_s)
-        moved = body_motion(self.layers, self.player_id, self.parameters, self.body, self.posture, self.gaze, times_s)
-        curves = Curves(
-            body=moved,
+        frames_of = Frames(
+            times_s=times_s,
+            levels=self.layers.sample(times_s),
+            look=self.gaze.sample(times_s),
+            face=self.face.sample(times_s),
             controls={name: curve.sample(times_s) for name, curve in self.controls.items()},
-            morphs=face_morphs(
-                self.face,
-                self.body.embouchure[self.instrument_map.embouchure.kind],
-                self.player.hold.lips,
-                self.expressions,
-                self.gaze,
-                mouth_open,
-                moved.lowered,
-                times_s,
-            ),
-            mouth_open=mouth_open,
             placed=self.placed(times_s),
             raised=self.raised.sample(times_s),
         )
+        curves = self.curves(frames_of)
         return solve(self.player, curves, fps, float(frame_times(self.start_s, fps, first_frame, 1)[0]))
+
+    def curves(self, frames: Frames) -> Curves:
+        """What the contacts are solved from, of frames wherever they come from."""
+        moved = body_motion(
+            frames.levels, self.player_id, self.parameters, self.body, self.posture, frames.look, frames.times_s
+        )
+        morphs = face_morphs(
+            frames.face,
+            self.body.embouchure[self.instrument_map.embouchure.kind],
+            self.player.hold.lips,
+            self.expressions,
+            frames.look.blinks,
+            moved.lowered,
+        )
+        return Curves(moved, frames.controls, morphs, frames.face.mouth_open, frames.placed, frames.raised)
 
     def placed(self, times_s: FloatArray) -> dict[str, Placed]:
         """Where the fingers are, and the hands that give way for some of them, at ascending times."""

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from functools import cached_property
 
 import numpy as np
 
@@ -15,7 +16,7 @@ from app.motion.contact import Carried, carry
 from app.motion.curve import FloatArray
 from app.motion.model import Motion
 from app.motion.posture import Stance, Trunk, hips_path, solve_legs, trunk
-from app.motion.reach import TURN_RAD, needed_help, shoulder_distance_m, softly_capped
+from app.motion.reach import TURN_RAD, Help, needed_help, shoulder_distance_m, softly_capped
 from app.rig import quaternion
 from app.rig.finger_poses import finger_rotations
 from app.rig.hold import Hold, Placed, hand_targets
@@ -61,6 +62,11 @@ class Player:
     still: BodyMotion
     base: Trunk
     grip_of_lips_m: FloatArray
+
+    @cached_property
+    def drawn_m(self) -> float:
+        """How much nearer a far hand comes when head and instrument give way."""
+        return _drawn_m(self)
 
 
 @dataclass(frozen=True)
@@ -118,8 +124,13 @@ def solve(player: Player, curves: Curves, fps: Fraction, first_frame_s: float) -
         Time of the first wanted frame.
     """
     pad = padding(fps)
-    curves = replace(curves, body=_helped(player, curves, pad // 2))
-    curves = curves[pad : len(curves) - pad]
+    needed = [needs(player, curves[part]) for part in _parts(len(curves))]
+    curves = replace(curves, body=helped(player, curves.body, _spread(needed, pad // 2)))
+    return poses(player, curves[pad : len(curves) - pad], fps, first_frame_s)
+
+
+def poses(player: Player, curves: Curves, fps: Fraction, first_frame_s: float) -> Motion:
+    """The poses of a body that is helped already: frame by frame, none of them needs its neighbours."""
     frames, joints = len(curves), len(player.skeleton.names)
     rotations = np.zeros((frames, joints, 4), dtype=np.float32)
     rotations[..., 3] = 1.0
@@ -182,37 +193,54 @@ def _pose(player: Player, curves: Curves) -> tuple[FloatArray, dict[int, FloatAr
     return hips_m, local, carried
 
 
-def _helped(player: Player, curves: Curves, half: int) -> BodyMotion:
-    """The body with trunk and shoulders brought towards far hands, slowly; neck and head turn back, so that the lips
-    stay where they are."""
-    parts = []
-    for part in _parts(len(curves)):
-        chunk = curves[part]
-        _, _, upper, carried = _upper(player, chunk)
-        parts.append(needed_help(player.skeleton, player.hold, upper, carried, chunk.controls, chunk.placed))
-    motion = curves.body
-    quick = max(1, round(ROOM_EASE_S / HELP_EASE_S * half))
-    swift = max(1, round(SHOULDER_EASE_S / HELP_EASE_S * half))
-    most = {side: _held_back([part.most_turn_rad[side] for part in parts], quick) for side in parts[0].most_turn_rad}
+def needs(player: Player, curves: Curves) -> Help:
+    """What trunk and shoulders must add for far hands, frame by frame."""
+    _, _, upper, carried = _upper(player, curves)
+    needed = needed_help(player.skeleton, player.hold, upper, carried, curves.controls, curves.placed)
     # The chest carries a lowered instrument: turning would take it along and bring no hand nearer.
     turning = 1.0 - curves.body.lowered
-    asked = _eased(np.concatenate([part.turn_rad for part in parts]) * turning, half)
-    turn = np.zeros(len(curves))
+    return replace(needed, turn_rad=needed.turn_rad * turning, short_m=needed.short_m * turning)
+
+
+def _spread(parts: list[Help], half: int) -> Help:
+    """Help that comes slowly and early enough, and goes slowly, from what is needed in stretches of frames."""
+    quick = max(1, round(ROOM_EASE_S / HELP_EASE_S * half))
+    swift = max(1, round(SHOULDER_EASE_S / HELP_EASE_S * half))
+    sides = parts[0].protraction_rad.keys()
+    return Help(
+        turn_rad=_eased(np.concatenate([part.turn_rad for part in parts]), half),
+        short_m=_eased(np.concatenate([part.short_m for part in parts]), half),
+        protraction_rad={
+            side: _eased(np.concatenate([part.protraction_rad[side] for part in parts]), swift) for side in sides
+        },
+        most_turn_rad={side: _held_back([part.most_turn_rad[side] for part in parts], quick) for side in sides},
+        most_protraction_rad={
+            side: _held_back([part.most_protraction_rad[side] for part in parts], quick) for side in sides
+        },
+    )
+
+
+def helped(player: Player, motion: BodyMotion, help_given: Help) -> BodyMotion:
+    """The body with trunk and shoulders brought towards far hands; neck and head turn back, so that the lips stay
+    where they are."""
+    asked, most, short_m = help_given.turn_rad, help_given.most_turn_rad, help_given.short_m
+    turn = np.zeros(len(asked))
     if np.any(asked):
         turn += _with_room(np.maximum(asked, 0.0), most["right"])
         turn -= _with_room(np.maximum(-asked, 0.0), most["left"])
-    short_m = _eased(np.concatenate([part.short_m for part in parts]) * turning, half)
     if np.any(short_m):
-        draw = softly_capped(short_m / _drawn_m(player), 1.0, 0.1) * np.abs(turn) / np.maximum(np.abs(asked), 1e-6)
+        draw = softly_capped(short_m / player.drawn_m, 1.0, 0.1) * np.abs(turn) / np.maximum(np.abs(asked), 1e-6)
         motion = _drawn(motion, draw, np.sign(asked))
-    turns = _turned(motion.turn_rad, turn)
-    protraction = {}
-    for side in parts[0].protraction_rad:
-        needed = _eased(np.concatenate([part.protraction_rad[side] for part in parts]), swift)
-        room = _held_back([part.most_protraction_rad[side] for part in parts], quick)
-        protraction[side] = _with_room(needed, room) if np.any(needed) else needed
-    hips_turn = motion.hips_turn_rad + HIPS_TURN * turn
-    return replace(motion, hips_turn_rad=hips_turn, turn_rad=turns, protraction_rad=protraction)
+    protraction = {
+        side: _with_room(needed, help_given.most_protraction_rad[side]) if np.any(needed) else needed
+        for side, needed in help_given.protraction_rad.items()
+    }
+    return replace(
+        motion,
+        hips_turn_rad=motion.hips_turn_rad + HIPS_TURN * turn,
+        turn_rad=_turned(motion.turn_rad, turn),
+        protraction_rad=protraction,
+    )
 
 
 def _turned(turn_rad: dict[str, FloatArray], turn: FloatArray) -> dict[str, FloatArray]:

@@ -27,10 +27,9 @@ def plan(**changes: object) -> PlayerPlan:
 
 def face(made: PlayerPlan, times_s: np.ndarray = TIMES_S, **parameters: float) -> dict[str, np.ndarray]:
     settings = PlayerParameters(**parameters)
-    opening = breath_opening(made).sample(times_s)
-    face = Face.of(made, settings.embouchure_tension)
-    gaze, up = plan_gaze(made, 0), np.zeros(len(times_s))
-    return face_morphs(face, load_body().embouchure["cup"], LIPS, load_expressions(), gaze, opening, up, times_s)
+    face = Face.of(made, settings.embouchure_tension).sample(times_s)
+    blinks, up = plan_gaze(made, 0).blinks.sample(times_s), np.zeros(len(times_s))
+    return face_morphs(face, load_body().embouchure["cup"], LIPS, load_expressions(), blinks, up)
 
 
 def embouchure(tension: float, effort: float = 0.0, air: float = 0.0) -> tuple[EmbouchureEvent, ...]:
