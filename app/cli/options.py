@@ -5,20 +5,26 @@ from __future__ import annotations
 import argparse
 import math
 import sys
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 from typing import TypeAlias
 
+import msgspec
+
 from app.errors import UsageError
 from app.messages import text as worded
 from app.plan.generate import PREROLL_BEATS, PREROLL_LEAST_S
 from app.project.model import Project, map_choices, project_from_score, with_settings
-from app.project.parameters import parameter_names, parse_settings
+from app.project.names import unique_names
+from app.project.parameters import parameter_names, parse_settings, select_players
 from app.project.storage import is_project_file, load
 from app.rig.character import characters
-from app.score.read import read_midi
+from app.score.choose import MapChoice
+from app.score.model import Score
+from app.score.parts import usual_wishes
+from app.score.read import read_contents, wished_score
 from instrument_maps.library import library
 from instrument_maps.model import InstrumentMap
 
@@ -135,6 +141,14 @@ def add_source_options(command: argparse.ArgumentParser) -> None:
         metavar="NAME",
         help="of a MIDI file's texts (default: each is UTF-8 if it can be, else CP932, else Latin-1)",
     )
+    command.add_argument(
+        "--written",
+        action="append",
+        default=[],
+        metavar="PLAYER",
+        help="a MIDI file has this player's pitches as they are written for a transposing instrument, not as they "
+        "sound; PLAYER may be a pattern such as '*sax*'; repeatable",
+    )
 
 
 def open_project(arguments: argparse.Namespace) -> Project:
@@ -144,7 +158,8 @@ def open_project(arguments: argparse.Namespace) -> Project:
     Raises
     ------
     AppError
-        Those of reading, and `UsageError` of what makes no sense, ``project.encoding`` (file) among them.
+        Those of reading, and `UsageError` of what makes no sense, ``project.encoding`` (file) and
+        ``project.written`` (file) among them.
     """
     known = library()
     maps = known.maps
@@ -160,6 +175,8 @@ def open_project(arguments: argparse.Namespace) -> Project:
 def _saved_project(arguments: argparse.Namespace) -> Project:
     if arguments.encoding is not None:
         raise UsageError("project.encoding", file=str(arguments.file))
+    if arguments.written:
+        raise UsageError("project.written", file=str(arguments.file))
     project = load(arguments.file)
     asked = {
         "seed": arguments.seed,
@@ -170,11 +187,27 @@ def _saved_project(arguments: argparse.Namespace) -> Project:
 
 
 def _cast_project(arguments: argparse.Namespace, maps: Mapping[str, InstrumentMap]) -> Project:
-    score = read_midi(arguments.file, encoding=arguments.encoding, maps=map_choices(maps.values()))
     return project_from_score(
-        score,
+        _read_score(arguments, map_choices(maps.values())),
         maps,
         seed=arguments.seed or 0,
         preroll_beats=PREROLL_BEATS if arguments.preroll is None else arguments.preroll,
         felt_beat_quarters=1.0 if arguments.felt_beat is None else arguments.felt_beat,
     )
+
+
+def _read_score(arguments: argparse.Namespace, maps: Sequence[MapChoice]) -> Score:
+    """The score of a MIDI file, with the pitches that are written ones transposed."""
+    contents = read_contents(arguments.file, encoding=arguments.encoding)
+    wishes = usual_wishes(contents.streams, maps)
+    score = wished_score(contents, wishes, maps)
+    if not arguments.written:
+        return score
+    chosen = select_players(arguments.written, unique_names(part.name for part in score.parts))
+    places = {(score.parts[index].track, score.parts[index].channel) for index in chosen}
+    streams = [contents.streams[wish.streams[0]] for wish in wishes]
+    asked = [
+        msgspec.structs.replace(wish, written=(stream.track, stream.channel) in places)
+        for wish, stream in zip(wishes, streams, strict=True)
+    ]
+    return wished_score(contents, asked, maps)

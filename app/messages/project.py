@@ -26,6 +26,10 @@ TEMPLATES: Final[dict[str, str]] = {
     "project.open_elsewhere": (
         "{file} is open in another window too; what is saved here and there replaces each other"
     ),
+    "project.written": (
+        "--written says how the pitches of a MIDI file are read; {file} is a project, whose notes are "
+        "transposed in the editor"
+    ),
     "project.encoding": "--encoding says how the texts of a MIDI file are read; {file} is a project and needs none",
     "project.instrument_missing": (
         "{player} plays the instrument {id!r}, which is not installed; choose another one or install it"

@@ -56,5 +56,9 @@ TEMPLATES: Final[dict[str, str]] = {
         "{part}: neither its name nor its program says what it is; {map} plays it, though {outside} of {total} notes "
         "lie outside its range"
     ),
+    "score.looks_written": (
+        "{part}: {outside} of {total} notes lie outside the range of {map}, and all of them within it as written "
+        "pitches: this looks like an untransposed part; import its pitches as written ones"
+    ),
     "score.voices": "{part}: up to {voices} notes sound together, so {voices} players share it",
 }

@@ -98,6 +98,7 @@ def _part_faults(part: Part, place: str) -> Iterator[Fault]:
     yield from _between(f"{place}.channel", part.channel, (0, 15))
     yield from _between(f"{place}.track", part.track, (0, limits.LAST_TICK))
     yield from _between(f"{place}.voice", part.voice, (0, limits.LAST_TICK))
+    yield from _between(f"{place}.transposed_semitones", part.transposed_semitones, (-127, 127))
     if part.program is not None:
         yield from _between(f"{place}.program", part.program, (0, 127))
     yield from _note_faults(part.notes, f"{place}.notes")

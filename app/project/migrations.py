@@ -21,7 +21,13 @@ def _with_read_notes(raw: Raw) -> Raw:
     return {**raw, "edited_notes": {}}
 
 
-MIGRATIONS: Final[tuple[Migration, ...]] = (_with_read_notes,)
+def _with_transpositions(raw: Raw) -> Raw:
+    """2 to 3: how a part that the file has in written pitches was transposed; nobody could say so before."""
+    parts = [{**part, "transposed_semitones": 0} for part in raw["score"]["parts"]]
+    return {**raw, "score": {**raw["score"], "parts": parts}}
+
+
+MIGRATIONS: Final[tuple[Migration, ...]] = (_with_read_notes, _with_transpositions)
 """In order."""
 
 CURRENT: Final = len(MIGRATIONS) + 1

@@ -197,6 +197,7 @@ def map_choices(maps: Iterable[InstrumentMap]) -> tuple[MapChoice, ...]:
             substitutes_for=instrument.substitutes_for,
             concert_low=instrument.range.low,
             concert_high=instrument.range.high,
+            transposition_semitones=instrument.transposition_semitones,
         )
         for instrument in maps
     )

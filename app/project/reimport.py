@@ -49,6 +49,7 @@ from app.project.ids import (
 from app.project.limits import LAST_TICK
 from app.project.model import Player, Project, characters_for
 from app.score.model import Note, Part, Score
+from app.score.parts import transposed
 from instrument_maps.model import InstrumentMap
 
 ALIKE: Final = 0.25
@@ -157,6 +158,7 @@ def reimport(project: Project, score: Score, maps: Mapping[str, InstrumentMap], 
     scale = Fraction(score.ticks_per_quarter, old.ticks_per_quarter)
     partners = _matched_parts(old.parts, score.parts, old.ticks_per_quarter, score.ticks_per_quarter)
     former_of = {new: former for former, new in partners}
+    score = _as_read(score, old, former_of)
     held = {former: _held_by_file(project, old.parts[former]) for former, _ in partners}
     pairs = {
         former: align(
@@ -271,6 +273,16 @@ def _matched_parts(
     pairs = zip(*linear_sum_assignment(-(content + named)), strict=True)
     # A part rewritten from end to end is still the same player's where everything else says so.
     return [(int(one), int(other)) for one, other in pairs if content[one, other] >= ALIKE or named[one, other] >= 0.4]
+
+
+def _as_read(score: Score, old: Score, former_of: Mapping[int, int]) -> Score:
+    """The score with the parts that were read as written pitches before read so again."""
+    parts = list(score.parts)
+    for new, former in former_of.items():
+        shift = old.parts[former].transposed_semitones
+        notes = transposed(parts[new].notes, shift)
+        parts[new] = msgspec.structs.replace(parts[new], notes=notes, transposed_semitones=shift)
+    return msgspec.structs.replace(score, parts=tuple(parts))
 
 
 def _turns(part: Part, quarter: int) -> Floats:

@@ -33,6 +33,8 @@ class MapChoice(msgspec.Struct, frozen=True):
         Ids in the vocabulary of instruments: its own, and those it may stand in for.
     concert_low, concert_high : int
         Its range at concert pitch, both included, MIDI numbers.
+    transposition_semitones : int
+        How much higher its parts are written than they sound.
     """
 
     map_id: str
@@ -40,6 +42,13 @@ class MapChoice(msgspec.Struct, frozen=True):
     substitutes_for: tuple[str, ...]
     concert_low: int
     concert_high: int
+    transposition_semitones: int = 0
+
+    def outside(self, pitches: Sequence[int], written: bool = False) -> int:
+        """How many of these pitches, sounding or written ones, it does not reach."""
+        shift = self.transposition_semitones if written else 0
+        low, high = self.concert_low + shift, self.concert_high + shift
+        return 0 if low <= min(pitches) and max(pitches) <= high else sum(not low <= pitch <= high for pitch in pitches)
 
 
 class Stream(msgspec.Struct, frozen=True):
@@ -109,15 +118,23 @@ class Candidates(msgspec.Struct, frozen=True):
     maps: tuple[MapChoice, ...]
     exact: frozenset[str] = frozenset()
 
-    def best(self, pitches: Sequence[int]) -> MapChoice:
+    def best(self, pitches: Sequence[int], written: bool = False) -> MapChoice:
         """The map that plays just this instrument where it has the notes; else the one that reaches most of them, among
-        equals the one in the middle of whose range they lie."""
+        equals the one in the middle of whose range they lie.
+
+        Parameters
+        ----------
+        pitches : sequence of int
+        written : bool
+            They are written ones, not those that sound.
+        """
 
         lowest, highest = min(pitches), max(pitches)
 
         def rank(choice: MapChoice) -> tuple[bool, float, int, int]:
-            share = _share(pitches, choice)
-            below, above = lowest - choice.concert_low, choice.concert_high - highest
+            share = _share(pitches, choice, written)
+            shift = choice.transposition_semitones if written else 0
+            below, above = lowest - shift - choice.concert_low, choice.concert_high - highest + shift
             return choice.map_id in self.exact and share >= _OWN_SHARE, share, -abs(below - above), min(below, above)
 
         return max(self.maps, key=rank)
@@ -219,8 +236,6 @@ def _where(maps: Iterable[MapChoice], wanted: Callable[[Instrument], bool]) -> l
     return [choice for choice in maps if any(id not in known or wanted(known[id]) for id in choice.plays)]
 
 
-def _share(pitches: Sequence[int], choice: MapChoice) -> float:
+def _share(pitches: Sequence[int], choice: MapChoice, written: bool = False) -> float:
     """How many of the notes a map reaches, 0..1."""
-    if choice.concert_low <= min(pitches) and max(pitches) <= choice.concert_high:
-        return 1.0
-    return sum(choice.concert_low <= pitch <= choice.concert_high for pitch in pitches) / len(pitches)
+    return (len(pitches) - choice.outside(pitches, written)) / len(pitches)

@@ -94,6 +94,8 @@ class Part(msgspec.Struct, frozen=True, dict=True):
         By onset, then pitch.
     curves : tuple of ControllerCurve
         Of the whole track; voices of one track share them.
+    transposed_semitones : int
+        How much higher it was read than the file has it, which had written pitches (lower: negative).
     """
 
     id: str
@@ -106,6 +108,7 @@ class Part(msgspec.Struct, frozen=True, dict=True):
     map_id: str
     notes: tuple[Note, ...]
     curves: tuple[ControllerCurve, ...] = ()
+    transposed_semitones: int = 0
 
     @cached_property
     def note_ids(self) -> frozenset[str]:

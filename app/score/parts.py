@@ -25,6 +25,8 @@ score.chosen_by_range : part, map
 score.chosen_by_range_partly : part, map, outside, total
     "{part}: neither its name nor its program says what it is; {map} plays it, though {outside} of {total} notes lie
     outside its range"
+score.looks_written : part, map, outside, total
+    "{part}: {outside} of {total} notes lie outside the range of {map}, and all within it as written pitches: ..."
 score.left_out : (a reason)
     "left out on import"
 score.voices : part, voices
@@ -43,6 +45,9 @@ from app.score.model import Note, Part, UnplayedPart
 from app.score.tempo import TempoMap
 from app.score.voices import split_voices
 from instrument_maps.vocabulary import Instrument, vocabulary
+
+LEAST_OUTSIDE = 0.01
+"""The share of a part's notes beyond its instrument's range from which on its pitches are taken for written ones."""
 
 
 def parts_of(
@@ -73,12 +78,15 @@ class PartWish(msgspec.Struct, frozen=True):
         Of the part; empty: what the file calls it.
     split : bool
         Share notes that sound together among players; without it one player has them all.
+    written : bool
+        The file has the pitches that stand in the part of a transposing instrument, not those that sound.
     """
 
     streams: tuple[int, ...]
     map_id: str | None = None
     name: str = ""
     split: bool = True
+    written: bool = False
 
 
 def usual_wishes(streams: Sequence[Stream], maps: Sequence[MapChoice]) -> tuple[PartWish, ...]:
@@ -111,10 +119,13 @@ def wished_parts(
         voices = split_voices(notes, tempo_map) if wish.split else [tuple(notes)]
         curves = next((stream.curves for stream in chosen if stream.curves), ())
         name = wish.name or chosen[0].name or chosen[0].instrument_name
-        mine = _parts(msgspec.structs.replace(chosen[0], curves=curves), name, instrument, voices, found)
+        lead = msgspec.structs.replace(chosen[0], curves=curves)
+        mine = _parts(lead, name, instrument, voices, found, wish.written)
         parts += mine
         if len(mine) > 1:
             warnings.append(Message("score.voices", {"part": mine[0].name, "voices": len(mine)}))
+        if found.how is not How.RANGE and not wish.written:
+            warnings += _written_warnings(mine, maps)
         if wish.map_id is not None:
             continue
         if found.how is How.RANGE:
@@ -169,11 +180,13 @@ def _parts(
     instrument: Instrument | None,
     voices: Sequence[tuple[Note, ...]],
     found: Candidates,
+    written: bool,
 ) -> list[Part]:
     """A part for every voice."""
     parts = []
     for voice, notes in enumerate(voices):
-        chosen = found.best([note.pitch for note in notes])
+        chosen = found.best([note.pitch for note in notes], written)
+        shift = -chosen.transposition_semitones if written else 0
         parts.append(
             Part(
                 id=f"{stream.track + 1}.{stream.channel + 1}.{voice + 1}",
@@ -184,16 +197,38 @@ def _parts(
                 program=stream.program,
                 instrument=instrument.id if instrument is not None else None,
                 map_id=chosen.map_id,
-                notes=notes,
+                notes=transposed(notes, shift),
                 curves=stream.curves,
+                transposed_semitones=shift,
             )
         )
     return parts
 
 
+def transposed(notes: tuple[Note, ...], semitones: int) -> tuple[Note, ...]:
+    """The notes so much higher; those that MIDI has no number for as far as it goes."""
+    if not semitones:
+        return notes
+    return tuple(msgspec.structs.replace(note, pitch=min(max(note.pitch + semitones, 0), 127)) for note in notes)
+
+
+def _written_warnings(parts: Sequence[Part], maps: Sequence[MapChoice]) -> list[Message]:
+    """Of parts that the instrument has no notes for unless they are read as they are written."""
+    choices = {choice.map_id: choice for choice in maps}
+    found = []
+    for part in parts:
+        choice, pitches = choices[part.map_id], [note.pitch for note in part.notes]
+        outside, total = choice.outside(pitches), len(pitches)
+        # A wrong note or two in a long part says nothing.
+        if outside >= LEAST_OUTSIDE * total and outside and not choice.outside(pitches, written=True):
+            told = {"part": part.name, "map": part.map_id, "outside": outside, "total": total}
+            found.append(Message("score.looks_written", told))
+    return found
+
+
 def _range_warning(part: Part, maps: Sequence[MapChoice]) -> Message:
     choice = next(choice for choice in maps if choice.map_id == part.map_id)
-    outside = sum(not choice.concert_low <= note.pitch <= choice.concert_high for note in part.notes)
+    outside = choice.outside([note.pitch for note in part.notes])
     if outside == 0:
         return Message("score.chosen_by_range", {"part": part.name, "map": part.map_id})
     return Message(

@@ -143,6 +143,10 @@
         <translation>楽器</translation>
     </message>
     <message>
+        <source>Pitches</source>
+        <translation>音高</translation>
+    </message>
+    <message>
         <source>Character</source>
         <translation>キャラクター</translation>
     </message>
@@ -187,6 +191,18 @@
     <message>
         <source>Automatic: {name}</source>
         <translation>自動: {name}</translation>
+    </message>
+    <message>
+        <source>As they sound</source>
+        <translation>実音</translation>
+    </message>
+    <message>
+        <source>As written</source>
+        <translation>記譜音</translation>
+    </message>
+    <message>
+        <source>Which pitches the file has of an instrument whose part is not written as it sounds</source>
+        <translation>移調楽器のパートが、ファイルに実音と記譜音のどちらで入っているか</translation>
     </message>
     <message>
         <source>Automatic</source>

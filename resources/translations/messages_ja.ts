@@ -752,6 +752,10 @@
             <translation>{file}は別のウィンドウでも開かれています。両方で保存すると互いに上書きされます</translation>
         </message>
         <message>
+            <source>--written says how the pitches of a MIDI file are read; {file} is a project, whose notes are transposed in the editor</source>
+            <translation>--written は MIDI ファイルの音高の読み方を指定します。{file} はプロジェクトで、音符の移調はエディターで行えます</translation>
+        </message>
+        <message>
             <source>--encoding says how the texts of a MIDI file are read; {file} is a project and needs none</source>
             <translation>--encoding は MIDI ファイルの文字の読み方を指定するものです。{file} はプロジェクトなので不要です</translation>
         </message>
@@ -1026,6 +1030,10 @@
         <message>
             <source>{part}: neither its name nor its program says what it is; {map} plays it, though {outside} of {total} notes lie outside its range</source>
             <translation>{part}: 名前からもプログラム番号からも楽器が分かりません。{map} で演奏しますが、{total} 音中 {outside} 音が音域外です</translation>
+        </message>
+        <message>
+            <source>{part}: {outside} of {total} notes lie outside the range of {map}, and all of them within it as written pitches: this looks like an untransposed part; import its pitches as written ones</source>
+            <translation>{part}: {total} 音のうち {outside} 音が{map}の音域から外れていますが、記譜音と見なすとすべて収まります。記譜音のまま書き出されたパートのようです。「記譜音」として読み込んでください</translation>
         </message>
         <message>
             <source>{part}: up to {voices} notes sound together, so {voices} players share it</source>

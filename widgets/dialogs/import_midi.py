@@ -36,7 +36,7 @@ from widgets.common.pitch import pitch_name
 from widgets.common.text import message_text
 from widgets.common.tokens import LEAST_TARGET_PX, Tokens
 
-_USE, _NAME, _PREVIEW, _NOTES, _SPLIT, _INSTRUMENT, _CHARACTER = range(7)
+_USE, _NAME, _PREVIEW, _NOTES, _SPLIT, _INSTRUMENT, _PITCHES, _CHARACTER = range(8)
 _ROW_PX = 40
 
 
@@ -71,7 +71,7 @@ class ImportDialog(QDialog):
 
         self._heading = QLabel()
         self._heading.setObjectName("heading")
-        self._table = QTableWidget(0, 7)
+        self._table = QTableWidget(0, 8)
         self._table.setObjectName("import_tracks")
         self._table.verticalHeader().hide()
         self._table.verticalHeader().setDefaultSectionSize(_ROW_PX)
@@ -168,6 +168,7 @@ class ImportDialog(QDialog):
                 self.tr("Number, range"),
                 self.tr("Notes together"),
                 self.tr("Instrument"),
+                self.tr("Pitches"),
                 self.tr("Character"),
             ]
         )
@@ -233,6 +234,17 @@ class ImportDialog(QDialog):
         instrument.currentTextChanged.connect(instrument.setToolTip)
         self._table.setCellWidget(place, _INSTRUMENT, instrument)
 
+        pitches = QComboBox()
+        pitches.setObjectName(f"pitches_{place}")
+        pitches.addItem(self.tr("As they sound"), False)
+        pitches.addItem(self.tr("As written"), True)
+        pitches.setCurrentIndex(1 if row.wish.written else 0)
+        pitches.currentIndexChanged.connect(lambda _, box=pitches: self._wish(place, written=bool(box.currentData())))
+        pitches.setToolTip(
+            self.tr("Which pitches the file has of an instrument whose part is not written as it sounds")
+        )
+        self._table.setCellWidget(place, _PITCHES, pitches)
+
         character = QComboBox()
         character.setObjectName(f"character_{place}")
         character.addItem(self.tr("Automatic"), None)
@@ -246,8 +258,13 @@ class ImportDialog(QDialog):
     def _automatic(self, row: ImportRow) -> str:
         """The instruments that the file's names, programs and ranges choose."""
         wish = msgspec.structs.replace(row.wish, map_id=None)
-        parts = score_of_rows(self._contents, [msgspec.structs.replace(row, wish=wish, wanted=True)], self._maps).parts
-        return " + ".join(dict.fromkeys(instrument_name(self._maps[part.map_id]) for part in parts))
+        used = self._instruments(msgspec.structs.replace(row, wish=wish))
+        return " + ".join(dict.fromkeys(map(instrument_name, used)))
+
+    def _instruments(self, row: ImportRow) -> list[InstrumentMap]:
+        """What a row is played on, were it wanted."""
+        wanted = msgspec.structs.replace(row, wanted=True)
+        return [self._maps[part.map_id] for part in score_of_rows(self._contents, [wanted], self._maps).parts]
 
     def _name(self, row: ImportRow) -> str:
         return " + ".join(stream_name(self._contents.streams[stream]) for stream in row.wish.streams)
@@ -266,6 +283,12 @@ class ImportDialog(QDialog):
             widget = self._table.cellWidget(place, column)
             if widget is not None:
                 widget.setEnabled(self._rows[place].wanted)
+        pitches = self._table.cellWidget(place, _PITCHES)
+        if pitches is not None:
+            # Only there is a difference.
+            used = self._instruments(self._rows[place])
+            transposes = any(instrument.transposition_semitones for instrument in used)
+            pitches.setEnabled(self._rows[place].wanted and transposes)
 
     def _show_tools(self) -> None:
         places = self._selected()

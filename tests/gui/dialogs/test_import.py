@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import mido
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
@@ -102,3 +103,38 @@ def test_usual_rows_without_any_wish_are_an_empty_stage() -> None:
     project = import_project(contents, rows, MAPS)
     assert project.players == ()
     assert project.score.tempo_map == contents.tempo_map
+
+
+def test_a_part_that_looks_written_is_told_and_read_so(qt_app: QApplication, qtbot: QtBot, tmp_path: Path) -> None:
+    low, high = (bundled_maps()["sax_alto_Eb"].range.low, bundled_maps()["sax_alto_Eb"].range.high)
+    # The lowest and the highest note that the alto saxophone has, as they are written.
+    path = piece(tmp_path, {"Alto Sax": (low + 9, low + 20, high + 9), "Flute": (72, 74, 76)})
+    dialog = ImportDialog(read_contents(path), bundled_maps(), str(path), DARK)
+    qtbot.addWidget(dialog)
+    dialog.show()
+    told = dialog.findChild(QListWidget, "import_warnings")
+    assert any("as written" in told.item(row).text() for row in range(told.count()))
+    assert not dialog.findChild(QComboBox, "pitches_1").isEnabled()
+    choose(dialog, "pitches_0", True)
+    assert told.count() == 0
+    sax, flute = dialog.project().score.parts
+    assert [note.pitch for note in sax.notes] == [low, low + 11, high]
+    assert sax.transposed_semitones == -9
+    assert [note.pitch for note in flute.notes] == [72, 74, 76]
+    choose(dialog, "pitches_0", False)
+    assert dialog.project().score.parts[0].notes[0].pitch == low + 9
+    # For an instrument that sounds as it is written there is nothing to choose.
+    choose(dialog, "instrument_0", "oboe")
+    assert not dialog.findChild(QComboBox, "pitches_0").isEnabled()
+
+
+def piece(folder: Path, tracks: dict[str, tuple[int, ...]]) -> Path:
+    """A MIDI file with these tracks."""
+    made = [mido.MidiTrack([mido.MetaMessage("track_name", name=name)]) for name in tracks]
+    for track, pitches in zip(made, tracks.values(), strict=True):
+        for pitch in pitches:
+            track.append(mido.Message("note_on", note=pitch, velocity=80))
+            track.append(mido.Message("note_off", note=pitch, time=480))
+    path = folder / "piece.mid"
+    mido.MidiFile(type=1, tracks=made).save(path)
+    return path

@@ -17,6 +17,7 @@ from app.project.edit.corrections import put
 from app.project.storage import save
 from tests.unit.project.pieces import small_project
 
+QUARTET = Path(__file__).parents[3] / "resources" / "examples" / "quartet.mid"
 Run = Callable[..., tuple[int, str, str]]
 
 
@@ -63,11 +64,30 @@ def test_an_export_has_the_projects_frame_rate(run: Run, project: Path, tmp_path
     assert json.loads((tmp_path / "other" / "report.json").read_text())["fps_exact"] == "12"
 
 
-def test_what_only_midi_has_is_bad_use(run: Run, project: Path) -> None:
-    status, _, complaint = run("inspect", project, "--encoding", "cp932")
+@pytest.mark.parametrize(("option", "value"), [("--encoding", "cp932"), ("--written", "*")])
+def test_what_only_midi_has_is_bad_use(run: Run, project: Path, option: str, value: str) -> None:
+    status, _, complaint = run("inspect", project, option, value)
     assert status == 2
     assert str(project) in complaint
-    assert "--encoding" in complaint
+    assert option in complaint
+
+
+def test_written_pitches_sound_as_the_instrument_has_them(run: Run) -> None:
+    def pitches(*options: str) -> dict[str, list[int]]:
+        status, out, _ = run("inspect", QUARTET, "--json", *options)
+        assert status == 0
+        return {player["name"]: [note["pitch"] for note in player["notes"]] for player in json.loads(out)["players"]}
+
+    usual, written = pitches(), pitches("--written", "trumpet*")
+    # A trumpet in B flat is written a whole tone higher than it sounds.
+    shifts = {name: {now - before for now, before in zip(written[name], usual[name], strict=True)} for name in usual}
+    assert {name for name, shift in shifts.items() if shift == {-2}} == {
+        name for name in usual if name.startswith("Trumpet")
+    }
+    assert {frozenset(shift) for name, shift in shifts.items() if not name.startswith("Trumpet")} == {frozenset({0})}
+    status, _, complaint = run("inspect", QUARTET, "--written", "Sax")
+    assert status == 2
+    assert "'Sax'" in complaint
 
 
 @pytest.mark.parametrize("content", [b"", b"{", b"[]", b'{"schema_version": 99}', b"MThd", b"\xff\xfe"])

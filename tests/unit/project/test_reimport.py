@@ -28,7 +28,8 @@ from app.project.model import Project, map_choices, project_from_score
 from app.project.reimport import orphaned, reattached, reimport
 from app.project.storage import load, save
 from app.score.model import Note, Part, Score
-from app.score.read import read_midi
+from app.score.parts import usual_wishes
+from app.score.read import read_contents, read_midi, wished_score
 from app.score.tempo import TempoMap
 from instrument_maps.load import bundled_maps
 from tests.unit.project.pieces import small_project
@@ -75,6 +76,34 @@ def later(notes: tuple[Note, ...], from_tick: int, by_tick: int) -> list[Note]:
 
 def corrections_of(project: Project, player: str, kind: type[Correction]) -> list[Correction]:
     return [item for item in project.corrections.get(player, ()) if isinstance(item, kind)]
+
+
+def test_parts_read_as_written_pitches_are_read_so_again() -> None:
+    """The file's trumpet is written a tone higher than it sounds; then it gets one more note."""
+    contents = read_contents(LUTKIN)
+    choices = map_choices(MAPS.values())
+
+    def score(written: bool, *more: Note) -> Score:
+        wishes = [
+            msgspec.structs.replace(wish, written=written and wish.streams == (0,))
+            for wish in usual_wishes(contents.streams, choices)
+        ]
+        found = wished_score(contents, wishes, choices)
+        return with_notes(found, 0, [*found.parts[0].notes, *more])
+
+    project = project_from_score(score(written=True), MAPS)
+    assert project.score.parts[0].transposed_semitones == -2
+    # Files are read as they stand.
+    assert reimport(project, score(written=False), MAPS).project is project
+    last = project.score.parts[0].notes[-1]
+    new = Note("1:999", last.end_tick + BAR, 480, 70, 80)
+    grown = reimport(project, score(False, new), MAPS)
+    assert grown.conflicts == ()
+    assert len(grown.added) == 1
+    part = grown.project.score.parts[0]
+    assert part.transposed_semitones == -2
+    assert part.notes[:-1] == project.score.parts[0].notes
+    assert part.notes[-1].pitch == 68
 
 
 def test_the_same_file_changes_nothing() -> None:

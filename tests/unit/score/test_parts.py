@@ -120,3 +120,20 @@ def test_a_part_without_name_is_called_after_its_instrument() -> None:
     assert one_part(60, program=56).parts[0].name == "Trumpet"
     assert one_part(60, instrument="tromba").parts[0].name == "tromba"
     assert one_part(45, maps=(TRUMPET, TROMBONE)).parts[0].name == "Trombone"
+
+
+CLARINET = MapChoice("clarinet", ("clarinet",), (), 50, 70, transposition_semitones=2)
+
+
+def test_a_part_beyond_its_range_that_fits_as_written_is_said_so() -> None:
+    score = one_part(52, 60, 72, name="Clarinet", maps=(CLARINET,))
+    (warning,) = score.warnings
+    assert warning.id == "score.looks_written"
+    assert warning.arguments == {"part": "Clarinet", "map": "clarinet", "outside": 1, "total": 3}
+    # Nothing is changed before somebody says so.
+    assert [note.pitch for note in score.parts[0].notes] == [52, 60, 72]
+    # Beyond both, or within as it sounds: nothing is known.
+    assert one_part(51, 60, 72, name="Clarinet", maps=(CLARINET,)).warnings == ()
+    assert one_part(52, 60, 70, name="Clarinet", maps=(CLARINET,)).warnings == ()
+    # One wrong note in a long part says nothing.
+    assert one_part(*[60] * 120, 72, name="Clarinet", maps=(CLARINET,)).warnings == ()

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import msgspec
 import pytest
 
 from app.project.model import map_choices
-from app.score.parts import PartWish, usual_wishes
+from app.score.parts import PartWish, stream_name, usual_wishes
 from app.score.read import read_contents, read_midi, wished_score
 from instrument_maps.load import bundled_maps
 
@@ -49,3 +50,27 @@ def test_merged_tracks_are_split_again_where_wanted() -> None:
     score = wished_score(contents, [PartWish((0, 1))], MAPS)
     assert len(score.parts) == 2
     assert len({part.id for part in score.parts}) == 2
+
+
+BAND = MIDI / "concert_band_hall_tenth_regiment_march.mid"
+SAXOPHONES = {"alto sax": -9, "tenor sax": -14, "baritone sax": -21}
+
+
+def test_written_parts_of_a_real_band_are_told_and_fit_when_read_so() -> None:
+    contents = read_contents(BAND)
+    usual = usual_wishes(contents.streams, MAPS)
+    score = wished_score(contents, usual, MAPS)
+    told = {str(warning.arguments["part"]) for warning in score.warnings if warning.id == "score.looks_written"}
+    assert told == set(SAXOPHONES)
+    wishes = [
+        msgspec.structs.replace(wish, written=stream_name(contents.streams[wish.streams[0]]) in SAXOPHONES) for wish in usual
+    ]
+    read = wished_score(contents, wishes, MAPS)
+    assert "score.looks_written" not in [warning.id for warning in read.warnings]
+    for before, now in zip(score.parts, read.parts, strict=True):
+        shift = SAXOPHONES.get(now.name, 0)
+        assert now.transposed_semitones == shift
+        assert [note.pitch for note in now.notes] == [note.pitch + shift for note in before.notes]
+        if shift:
+            instrument = bundled_maps()[now.map_id]
+            assert all(instrument.range.low <= note.pitch <= instrument.range.high for note in now.notes)
