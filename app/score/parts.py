@@ -221,8 +221,12 @@ def _written_warnings(parts: Sequence[Part], maps: Sequence[MapChoice]) -> list[
         outside, total = choice.outside(pitches), len(pitches)
         # A wrong note or two in a long part says nothing.
         if outside >= LEAST_OUTSIDE * total and outside and not choice.outside(pitches, written=True):
-            told = {"part": part.name, "map": part.map_id, "outside": outside, "total": total}
-            found.append(Message("score.looks_written", told))
+            found.append(
+                Message(
+                    "score.looks_written",
+                    {"part": part.name, "map": part.map_id, "outside": outside, "total": total},
+                )
+            )
     return found
 
 

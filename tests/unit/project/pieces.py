@@ -59,7 +59,13 @@ def full_project(folder: str = "/music") -> Project:
     small = small_project()
     score = small.score
     curve = ControllerCurve("breath", (0, 240, 480), (0.0, 0.1 + 0.2, 1.0))
-    first = Part(**{**{f: getattr(score.parts[0], f) for f in Part.__struct_fields__}, "curves": (curve,), "transposed_semitones": -2})
+    first = Part(
+        **{
+            **{f: getattr(score.parts[0], f) for f in Part.__struct_fields__},
+            "curves": (curve,),
+            "transposed_semitones": -2,
+        }
+    )
     full_score = Score(
         title="全部 “everything” \n\t\u2028",
         ticks_per_quarter=480,

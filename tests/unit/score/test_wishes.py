@@ -63,7 +63,8 @@ def test_written_parts_of_a_real_band_are_told_and_fit_when_read_so() -> None:
     told = {str(warning.arguments["part"]) for warning in score.warnings if warning.id == "score.looks_written"}
     assert told == set(SAXOPHONES)
     wishes = [
-        msgspec.structs.replace(wish, written=stream_name(contents.streams[wish.streams[0]]) in SAXOPHONES) for wish in usual
+        msgspec.structs.replace(wish, written=stream_name(contents.streams[wish.streams[0]]) in SAXOPHONES)
+        for wish in usual
     ]
     read = wished_score(contents, wishes, MAPS)
     assert "score.looks_written" not in [warning.id for warning in read.warnings]
