@@ -10,186 +10,30 @@ Messages: ``player.no_instrument`` (player, instrument), ``player.no_character``
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
-from fractions import Fraction
 from threading import Lock
-
-import numpy as np
-import numpy.typing as npt
 
 from app.errors import AppError, Message
 from app.motion.model import Motion
-from app.motion.perform import Playing, frame_count
-from app.motion.solve import padding
+from app.motion.perform import Playing
 from app.performance.bodies import character_of, model_of
+from app.performance.chunks import Chunk, Grid, Pose, poses_of
 from app.performance.contacts import Break, ContactJudge, contact_problems
 from app.performance.ensemble import Performance
 from app.performance.motion import playing_of
-from app.plan.model import PlayerPlan, Problem, TimeFrame
+from app.plan.model import PlayerPlan, Problem
 from app.project.model import Player
 
-Floats = npt.NDArray[np.float32]
 StopWanted = Callable[[], bool]
 
-CHUNK_S = 4.0
-"""Length of a chunk: long enough that numpy's overhead is small, short enough that a correction is seen at once."""
 BUDGET_BYTES = 128 * 1024 * 1024
 """Four players for thirteen minutes, fifty for a minute around the playhead; it is made twenty times as fast as it is
 played."""
-OVERHEAD_BYTES = 1024
-"""Of a chunk, beside its numbers."""
 SEEN_S = 4.0
 """Looked at unless somebody says otherwise."""
 BEHIND_COSTS = 3
 """What lies before the playhead is wanted as much as what lies this many times as far after it."""
-
-
-@dataclass(frozen=True)
-class Pose:
-    """One player at one moment; members as of `app.motion.model.Motion`, for one frame.
-
-    Attributes
-    ----------
-    rotations : (J, 4) float32
-    hips_m : (3,) float32
-    morphs, controls : dict of str to float
-        Morphs that are not named are 0.
-    instrument_position_m, instrument_rotation : (3,) and (4,) float32
-    """
-
-    rotations: Floats
-    hips_m: Floats
-    morphs: dict[str, float]
-    controls: dict[str, float]
-    instrument_position_m: Floats
-    instrument_rotation: Floats
-
-
-@dataclass(frozen=True, eq=False)
-class _Chunk:
-    """Some frames of one player; joints that do not move in it are kept once.
-
-    ``values`` (F, M + C) are morphs, then controls.
-    """
-
-    still: Floats
-    moving: npt.NDArray[np.intp]
-    rotations: Floats
-    placed: Floats
-    values: Floats
-    morphs: tuple[str, ...]
-    controls: tuple[str, ...]
-    bytes: int
-
-    @classmethod
-    def of(cls, motion: Motion) -> _Chunk:
-        # One axis after the other: both at once take forty times as long.
-        moves = (motion.rotations != motion.rotations[:1]).any(axis=0).any(axis=1)
-        columns = [*motion.morphs.values(), *motion.controls.values()]
-        still = motion.rotations[0].copy()
-        rotations = np.ascontiguousarray(motion.rotations[:, moves])
-        placed = np.concatenate((motion.hips_m, motion.instrument_position_m, motion.instrument_rotation), axis=1)
-        values = np.stack(columns, axis=1) if columns else np.zeros((motion.frames, 0), np.float32)
-        return cls(
-            still=still,
-            moving=np.flatnonzero(moves),
-            rotations=rotations,
-            placed=placed,
-            values=values,
-            morphs=tuple(motion.morphs),
-            controls=tuple(motion.controls),
-            bytes=still.nbytes + rotations.nbytes + placed.nbytes + values.nbytes + OVERHEAD_BYTES,
-        )
-
-    @property
-    def frames(self) -> int:
-        return len(self.placed)
-
-
-def _poses(chunks: Sequence[_Chunk], frame: int, share: float) -> list[Pose]:
-    """The poses of players at a frame of their chunks, or between it and the next one of the chunk.
-
-    All at once: fifty players one after the other cost twice as much.
-    """
-    if not chunks:
-        return []
-    turns = [chunk.rotations[frame] for chunk in chunks]
-    placed = np.array([chunk.placed[frame] for chunk in chunks])
-    values = np.concatenate([chunk.values[frame] for chunk in chunks])
-    if share > 0.0:
-        later = [(chunk, min(frame + 1, chunk.frames - 1)) for chunk in chunks]
-        mixed = _between(np.concatenate(turns), np.concatenate([chunk.rotations[at] for chunk, at in later]), share)
-        turns = np.split(mixed, np.cumsum([len(own) for own in turns[:-1]]))
-        placed_after = np.array([chunk.placed[at] for chunk, at in later])
-        held = _between(placed[:, 6:], placed_after[:, 6:], share)
-        placed += np.float32(share) * (placed_after - placed)
-        placed[:, 6:] = held
-        values += np.float32(share) * (np.concatenate([chunk.values[at] for chunk, at in later]) - values)
-    numbers, first, result = values.tolist(), 0, list[Pose]()
-    for chunk, own, place in zip(chunks, turns, placed, strict=True):
-        rotations = chunk.still.copy()
-        rotations[chunk.moving] = own
-        middle = first + len(chunk.morphs)
-        end = middle + len(chunk.controls)
-        result.append(
-            Pose(
-                rotations=rotations,
-                hips_m=place[:3],
-                morphs=dict(zip(chunk.morphs, numbers[first:middle], strict=True)),
-                controls=dict(zip(chunk.controls, numbers[middle:end], strict=True)),
-                instrument_position_m=place[3:6],
-                instrument_rotation=place[6:],
-            )
-        )
-        first = end
-    return result
-
-
-def _between(before: Floats, after: Floats, share: float) -> Floats:
-    """Rotations (N, 4) on the straight way from one frame's to the next one's, which are near each other."""
-    sign = np.where(np.einsum("ji,ji->j", before, after) < 0.0, np.float32(-share), np.float32(share))
-    mixed: Floats = before * np.float32(1.0 - share) + after * sign[:, None]
-    mixed /= np.sqrt(np.einsum("ji,ji->j", mixed, mixed))[:, None]
-    return mixed
-
-
-@dataclass(frozen=True)
-class _Grid:
-    """The frames of a performance, and how they are cut."""
-
-    fps: Fraction
-    start_s: float
-    frames: int
-    length: int
-
-    @classmethod
-    def of(cls, time_frame: TimeFrame, fps: Fraction) -> _Grid:
-        return cls(fps, time_frame.first_frame_s, frame_count(time_frame, fps), max(1, round(CHUNK_S * fps)))
-
-    @property
-    def chunks(self) -> int:
-        return -(-self.frames // self.length)
-
-    def place(self, time_s: float) -> tuple[int, float]:
-        """The frame at or before a time, and how far the time is on its way to the next one; within the performance."""
-        exact = (time_s - self.start_s) * self.fps.numerator / self.fps.denominator
-        frame = math.floor(exact + 1e-6)
-        if frame < 0:
-            return 0, 0.0
-        if frame >= self.frames - 1:
-            return self.frames - 1, 0.0
-        return frame, max(exact - frame, 0.0) if exact - frame > 1e-6 else 0.0
-
-    def span(self, chunk: int) -> tuple[int, int]:
-        """First frame and number of frames of a chunk; the last one is as long as the others, cut at the end."""
-        first = chunk * self.length
-        return first, min(self.length, self.frames - first)
-
-    def same_frames(self, other: _Grid) -> bool:
-        """Whether a frame of one is the same moment in the other."""
-        return self.fps == other.fps and self.start_s == other.start_s
 
 
 @dataclass(eq=False)
@@ -202,16 +46,18 @@ class _Track:
     plan : PlayerPlan
     playing : Playing or None
         None until it is first needed, and for who cannot play.
-    chunks : dict of int to _Chunk
+    chunks : dict of int to Chunk
         Made from ``playing``.
     basis : Playing or None
         What ``unproven`` was made from: chunks of the performance before, some of which are still right.
-    unproven, outdated : dict of int to _Chunk
+    unproven, outdated : dict of int to Chunk
         Shown as long as there is nothing better.
     error : Message or None
         Why the player cannot be seen.
     prepared : Playing or None
         What ``playing`` will be, once the chunks are proven.
+    judge : ContactJudge or None
+        Of ``playing``'s contacts; None until chunks are judged.
     judged : set of int
         Chunks whose contacts were judged as ``playing`` (before it is proven: ``basis``) makes them.
     breaks : dict of int to tuple of Break
@@ -223,10 +69,10 @@ class _Track:
     player: Player
     plan: PlayerPlan
     playing: Playing | None = None
-    chunks: dict[int, _Chunk] = field(default_factory=dict)
+    chunks: dict[int, Chunk] = field(default_factory=dict)
     basis: Playing | None = None
-    unproven: dict[int, _Chunk] = field(default_factory=dict)
-    outdated: dict[int, _Chunk] = field(default_factory=dict)
+    unproven: dict[int, Chunk] = field(default_factory=dict)
+    outdated: dict[int, Chunk] = field(default_factory=dict)
     error: Message | None = None
     prepared: Playing | None = None
     judge: ContactJudge | None = None
@@ -239,7 +85,7 @@ class _Track:
         kinds = (self.chunks, self.unproven, self.outdated)
         return sum(chunk.bytes for chunks in kinds for chunk in tuple(chunks.values()))
 
-    def shown(self, index: int) -> _Chunk | None:
+    def shown(self, index: int) -> Chunk | None:
         """What is shown of a chunk's time: the best there is."""
         return self.chunks.get(index) or self.unproven.get(index) or self.outdated.get(index)
 
@@ -261,7 +107,7 @@ class _Track:
 @dataclass(frozen=True, eq=False)
 class _Shown:
     performance: Performance
-    grid: _Grid
+    grid: Grid
     tracks: dict[str, _Track]
 
 
@@ -290,7 +136,7 @@ class LiveMotion:
         """What was made last, until its contacts are judged."""
         self._chunk_bytes = 0
         self._seen = 0
-        self._shown = _Shown(performance, _Grid.of(performance.time_frame, performance.project.fps), {})
+        self._shown = _Shown(performance, Grid.of(performance.time_frame, performance.project.fps), {})
         self.show(performance)
 
     @property
@@ -300,7 +146,7 @@ class LiveMotion:
 
     def show(self, performance: Performance) -> None:
         """Show another performance. What did not change stays; what did is shown as it was until it is made again."""
-        grid = _Grid.of(performance.time_frame, performance.project.fps)
+        grid = Grid.of(performance.time_frame, performance.project.fps)
         with self._lock:
             before = self._shown
             same_frames = grid.same_frames(before.grid)
@@ -343,14 +189,14 @@ class LiveMotion:
         frame, share = shown.grid.place(time_s)
         index, inner = divmod(frame, shown.grid.length)
         result: list[Pose | None] = [None] * len(player_ids)
-        places, chunks = list[int](), list[_Chunk]()
+        places, chunks = list[int](), list[Chunk]()
         for place, player_id in enumerate(player_ids):
             track = shown.tracks.get(player_id)
             chunk = track.shown(index) if track is not None else None
             if chunk is not None and inner < chunk.frames:
                 places.append(place)
                 chunks.append(chunk)
-        for place, pose in zip(places, _poses(chunks, inner, share), strict=True):
+        for place, pose in zip(places, poses_of(chunks, inner, share), strict=True):
             result[place] = pose
         return result
 
@@ -367,12 +213,12 @@ class LiveMotion:
         index, inner = divmod(frame, shown.grid.length)
         chunk = track.chunks.get(index)
         if chunk is not None and inner < chunk.frames:
-            return _poses([chunk], inner, share)[0]
+            return poses_of([chunk], inner, share)[0]
         playing = self._playing(shown, track)
         if playing is None:
             return None
-        made = _Chunk.of(playing.motion(shown.grid.fps, frame, 2 if share > 0.0 else 1))
-        return _poses([made], 0, share)[0]
+        made = Chunk.of(playing.motion(shown.grid.fps, frame, 2 if share > 0.0 else 1))
+        return poses_of([made], 0, share)[0]
 
     def error(self, player_id: str) -> Message | None:
         """Why a player cannot be seen; None if nothing is known against it."""
@@ -428,7 +274,7 @@ class LiveMotion:
         if not self._make_room(shown, track, index):
             return False
         motion = track.playing.motion(shown.grid.fps, *shown.grid.span(index))
-        chunk = _Chunk.of(motion)
+        chunk = Chunk.of(motion)
         with self._lock:
             track.chunks[index] = chunk
             track.outdated.pop(index, None)
@@ -560,9 +406,9 @@ class LiveMotion:
             track.breaks = {}
             self._name_breaks(track)
             return
-        kept: dict[int, _Chunk] = {}
+        kept: dict[int, Chunk] = {}
         if track.basis is not None:
-            touched = _touched(playing.changed_s(track.basis), shown.grid)
+            touched = shown.grid.touched(playing.changed_s(track.basis))
             for index, chunk in track.unproven.items():
                 right = index < len(touched) and not touched[index] and chunk.frames == shown.grid.span(index)[1]
                 (kept if right else track.outdated)[index] = chunk
@@ -584,7 +430,7 @@ class LiveMotion:
         for index in sorted(range(grid.chunks), key=lambda index: _distance(index, places[0])):
             yield from ((player_id, index) for player_id in everyone)
 
-    def _in_sight(self, grid: _Grid) -> range:
+    def _in_sight(self, grid: Grid) -> range:
         """The chunks that are looked at; the first one holds the playhead."""
         time_s, span_s, _ = self._wanted
         return range(grid.place(time_s)[0] // grid.length, grid.place(time_s + span_s)[0] // grid.length + 1)
@@ -630,18 +476,3 @@ def _looks_same(player: Player, before: Player) -> bool:
         return True
     same = player.instrument_id == before.instrument_id and player.character_id == before.character_id
     return same and player.parameters == before.parameters
-
-
-def _touched(spans_s: npt.NDArray[np.float64], grid: _Grid) -> list[bool]:
-    """For every chunk whether one of the spans lies in it or in the frames around it that it is made from."""
-    rate = grid.fps.numerator / grid.fps.denominator
-    pad = padding(grid.fps) + 2
-    result = np.zeros(grid.chunks + 1, np.int64)
-    first = np.clip((spans_s[:, 0] - grid.start_s) * rate - pad, -1.0, grid.frames)
-    last = np.clip((spans_s[:, 1] - grid.start_s) * rate + pad, -1.0, grid.frames)
-    low = np.maximum(np.floor(first / grid.length), 0.0).astype(np.int64)
-    high = np.minimum(np.floor(last / grid.length) + 1.0, grid.chunks).astype(np.int64)
-    some = (high > low) & (last >= 0.0)
-    np.add.at(result, low[some], 1)
-    np.add.at(result, high[some], -1)
-    return [bool(count) for count in np.cumsum(result)[:-1].tolist()]

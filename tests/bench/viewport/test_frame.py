@@ -12,7 +12,7 @@ import pytest
 from pytestqt.qtbot import QtBot
 from vispy.gloo.gl import use_gl
 
-from app.performance.live import Pose
+from app.performance.chunks import Pose
 from app.project.casting import stage_arc
 from app.project.model import Project
 from tests.support.tasks import ImmediateTasks

@@ -12,8 +12,9 @@ import pytest
 from pytestqt.qtbot import QtBot
 
 from app.errors import Message
+from app.performance.chunks import Pose
 from app.performance.ensemble import Performance
-from app.performance.live import LiveMotion, Pose
+from app.performance.live import LiveMotion
 from app.plan.corrections import AddExpression, AddGesture, SetEmbouchure
 from app.project.edit.corrections import put
 from app.shell import generator as module

@@ -10,8 +10,9 @@ import pytest
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
+from app.performance.chunks import Pose
 from app.performance.ensemble import Performance
-from app.performance.live import LiveMotion, Pose
+from app.performance.live import LiveMotion
 from app.project.model import Project
 from widgets.common.session import Session
 from widgets.viewport.panel import ViewportPanel

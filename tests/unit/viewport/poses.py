@@ -5,8 +5,9 @@ from __future__ import annotations
 from functools import cache
 from pathlib import Path
 
+from app.performance.chunks import Pose
 from app.performance.ensemble import Performance
-from app.performance.live import LiveMotion, Pose
+from app.performance.live import LiveMotion
 from app.project.model import Project, map_choices, project_from_score
 from app.score.read import read_midi
 from instrument_maps.load import bundled_maps

@@ -1,0 +1,183 @@
+"""Chunks of frames: how a performance is cut, what is kept of one player's motion, and poses between two frames."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+import numpy as np
+import numpy.typing as npt
+
+from app.motion.model import Motion
+from app.motion.perform import frame_count
+from app.motion.solve import padding
+from app.plan.model import TimeFrame
+
+Floats = npt.NDArray[np.float32]
+
+CHUNK_S = 4.0
+"""Length of a chunk: long enough that numpy's overhead is small, short enough that a correction is seen at once."""
+OVERHEAD_BYTES = 1024
+"""Of a chunk, beside its numbers."""
+
+
+@dataclass(frozen=True)
+class Pose:
+    """One player at one moment; members as of `app.motion.model.Motion`, for one frame.
+
+    Attributes
+    ----------
+    rotations : (J, 4) float32
+    hips_m : (3,) float32
+    morphs, controls : dict of str to float
+        Morphs that are not named are 0.
+    instrument_position_m, instrument_rotation : (3,) and (4,) float32
+    """
+
+    rotations: Floats
+    hips_m: Floats
+    morphs: dict[str, float]
+    controls: dict[str, float]
+    instrument_position_m: Floats
+    instrument_rotation: Floats
+
+
+@dataclass(frozen=True, eq=False)
+class Chunk:
+    """Some frames of one player; joints that do not move in it are kept once.
+
+    ``values`` (F, M + C) are morphs, then controls.
+    """
+
+    still: Floats
+    moving: npt.NDArray[np.intp]
+    rotations: Floats
+    placed: Floats
+    values: Floats
+    morphs: tuple[str, ...]
+    controls: tuple[str, ...]
+    bytes: int
+
+    @classmethod
+    def of(cls, motion: Motion) -> Chunk:
+        # One axis after the other: both at once take forty times as long.
+        moves = (motion.rotations != motion.rotations[:1]).any(axis=0).any(axis=1)
+        columns = [*motion.morphs.values(), *motion.controls.values()]
+        still = motion.rotations[0].copy()
+        rotations = np.ascontiguousarray(motion.rotations[:, moves])
+        placed = np.concatenate((motion.hips_m, motion.instrument_position_m, motion.instrument_rotation), axis=1)
+        values = np.stack(columns, axis=1) if columns else np.zeros((motion.frames, 0), np.float32)
+        return cls(
+            still=still,
+            moving=np.flatnonzero(moves),
+            rotations=rotations,
+            placed=placed,
+            values=values,
+            morphs=tuple(motion.morphs),
+            controls=tuple(motion.controls),
+            bytes=still.nbytes + rotations.nbytes + placed.nbytes + values.nbytes + OVERHEAD_BYTES,
+        )
+
+    @property
+    def frames(self) -> int:
+        return len(self.placed)
+
+
+def poses_of(chunks: Sequence[Chunk], frame: int, share: float) -> list[Pose]:
+    """The poses of players at a frame of their chunks, or between it and the next one of the chunk.
+
+    All at once: fifty players one after the other cost twice as much.
+    """
+    if not chunks:
+        return []
+    turns = [chunk.rotations[frame] for chunk in chunks]
+    placed = np.array([chunk.placed[frame] for chunk in chunks])
+    values = np.concatenate([chunk.values[frame] for chunk in chunks])
+    if share > 0.0:
+        later = [(chunk, min(frame + 1, chunk.frames - 1)) for chunk in chunks]
+        mixed = _between(np.concatenate(turns), np.concatenate([chunk.rotations[at] for chunk, at in later]), share)
+        turns = np.split(mixed, np.cumsum([len(own) for own in turns[:-1]]))
+        placed_after = np.array([chunk.placed[at] for chunk, at in later])
+        held = _between(placed[:, 6:], placed_after[:, 6:], share)
+        placed += np.float32(share) * (placed_after - placed)
+        placed[:, 6:] = held
+        values += np.float32(share) * (np.concatenate([chunk.values[at] for chunk, at in later]) - values)
+    numbers, first, result = values.tolist(), 0, list[Pose]()
+    for chunk, own, place in zip(chunks, turns, placed, strict=True):
+        rotations = chunk.still.copy()
+        rotations[chunk.moving] = own
+        middle = first + len(chunk.morphs)
+        end = middle + len(chunk.controls)
+        result.append(
+            Pose(
+                rotations=rotations,
+                hips_m=place[:3],
+                morphs=dict(zip(chunk.morphs, numbers[first:middle], strict=True)),
+                controls=dict(zip(chunk.controls, numbers[middle:end], strict=True)),
+                instrument_position_m=place[3:6],
+                instrument_rotation=place[6:],
+            )
+        )
+        first = end
+    return result
+
+
+def _between(before: Floats, after: Floats, share: float) -> Floats:
+    """Rotations (N, 4) on the straight way from one frame's to the next one's, which are near each other."""
+    sign = np.where(np.einsum("ji,ji->j", before, after) < 0.0, np.float32(-share), np.float32(share))
+    mixed: Floats = before * np.float32(1.0 - share) + after * sign[:, None]
+    mixed /= np.sqrt(np.einsum("ji,ji->j", mixed, mixed))[:, None]
+    return mixed
+
+
+@dataclass(frozen=True)
+class Grid:
+    """The frames of a performance, and how they are cut."""
+
+    fps: Fraction
+    start_s: float
+    frames: int
+    length: int
+
+    @classmethod
+    def of(cls, time_frame: TimeFrame, fps: Fraction) -> Grid:
+        return cls(fps, time_frame.first_frame_s, frame_count(time_frame, fps), max(1, round(CHUNK_S * fps)))
+
+    @property
+    def chunks(self) -> int:
+        return -(-self.frames // self.length)
+
+    def place(self, time_s: float) -> tuple[int, float]:
+        """The frame at or before a time, and how far the time is on its way to the next one; within the performance."""
+        exact = (time_s - self.start_s) * self.fps.numerator / self.fps.denominator
+        frame = math.floor(exact + 1e-6)
+        if frame < 0:
+            return 0, 0.0
+        if frame >= self.frames - 1:
+            return self.frames - 1, 0.0
+        return frame, max(exact - frame, 0.0) if exact - frame > 1e-6 else 0.0
+
+    def span(self, chunk: int) -> tuple[int, int]:
+        """First frame and number of frames of a chunk; the last one is as long as the others, cut at the end."""
+        first = chunk * self.length
+        return first, min(self.length, self.frames - first)
+
+    def same_frames(self, other: Grid) -> bool:
+        """Whether a frame of one is the same moment in the other."""
+        return self.fps == other.fps and self.start_s == other.start_s
+
+    def touched(self, spans_s: npt.NDArray[np.float64]) -> list[bool]:
+        """For every chunk whether one of the spans (N, 2) lies in it, or in the frames around that it is made from."""
+        rate = self.fps.numerator / self.fps.denominator
+        pad = padding(self.fps) + 2
+        result = np.zeros(self.chunks + 1, np.int64)
+        first = np.clip((spans_s[:, 0] - self.start_s) * rate - pad, -1.0, self.frames)
+        last = np.clip((spans_s[:, 1] - self.start_s) * rate + pad, -1.0, self.frames)
+        low = np.maximum(np.floor(first / self.length), 0.0).astype(np.int64)
+        high = np.minimum(np.floor(last / self.length) + 1.0, self.chunks).astype(np.int64)
+        some = (high > low) & (last >= 0.0)
+        np.add.at(result, low[some], 1)
+        np.add.at(result, high[some], -1)
+        return [bool(count) for count in np.cumsum(result)[:-1].tolist()]
