@@ -10,28 +10,31 @@ import itertools
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TypeAlias
 
 import msgspec
 import numpy as np
 import numpy.typing as npt
 
+from app.export.control_judge import (
+    BoolArray,
+    ControlJudge,
+    ControlMeasure,
+    FloatArray,
+    IntArray,
+    control_values,
+    notes_of,
+)
 from app.export.joints import anatomical_angles, angular_accelerations
 from app.export.penetration import Hands
 from app.export.playback import Playback, Surface
 from app.formats.fbx.scene import FbxScene
-from app.performance.contacts import FEET_MM, LIPS_MM, TOUCH_MM, bound_mm, in_place
-from app.plan.model import BreathEvent, FingeringEvent, PlayerPlan
-from app.rig import quaternion
+from app.performance.contacts import FEET_MM, LIPS_MM, TOUCH_MM, bound_mm
+from app.plan.model import BreathEvent, PlayerPlan
 from app.rig.lips import meeting
 from app.rig.model import Character, Landmark
 from app.rig.stations import MOST_HOVER_M, aside_m, only_at, stations, stations_of_notes, worked_by
-from instrument_maps.model import ROOT, Contact, Control, InstrumentMap
+from instrument_maps.model import ROOT, Contact, InstrumentMap
 from metadata.model import Body, SkeletonProfile
-
-FloatArray: TypeAlias = npt.NDArray[np.float64]
-BoolArray: TypeAlias = npt.NDArray[np.bool_]
-IntArray: TypeAlias = npt.NDArray[np.intp]
 
 BONES_MM = 0.01
 PENETRATION_MM = 3.0
@@ -62,17 +65,6 @@ class Spread(msgspec.Struct, frozen=True):
     def kept(self) -> bool:
         """Whether the bound is kept at every frame."""
         return self.max_mm <= self.bound_mm
-
-
-class ControlMeasure(msgspec.Struct, frozen=True):
-    """Whether a control is in place at the judged frames, and stays there until it may leave."""
-
-    judged: int
-    right: int
-    short_notes: int
-    short_right: int
-    held_frames: int
-    held_wrong: int
 
 
 class JointMeasure(msgspec.Struct, frozen=True):
@@ -197,155 +189,6 @@ def measure_player(
         hovering=_hovering(instrument, traces, judge, working),
     )
     return Measured(measures, traces.torso)
-
-
-def notes_of(notes: Sequence[FingeringEvent], first_s: float, last_s: float) -> list[FingeringEvent]:
-    """The notes that sound in a span, and the next one: a control may leave the last note's place for its sake."""
-    later = [note for note in notes if note.end_s > first_s]
-    inside = sum(note.start_s <= last_s for note in later)
-    return later[: inside + 1]
-
-
-def control_values(instrument: InstrumentMap, held: Playback) -> dict[str, FloatArray]:
-    """Value of every control (F,), from where its bone is in the file."""
-    frames = held.clip.frames
-    rotations, translations_m = held.rotations(0, frames), held.translations_m(0, frames)
-    result = {}
-    for control in instrument.controls:
-        if control.motion is None:
-            continue
-        bone = held.bone_names.index(control.name)
-        axis = np.asarray(control.motion.axis)
-        if control.travel_m:
-            moved_m = (translations_m[:, bone] - held.rest_m[bone]) @ axis
-            result[control.name] = moved_m / control.travel_m
-        else:
-            angles = quaternion.twist_angle(rotations[:, bone], axis)
-            result[control.name] = angles / (control.motion.angle_rad or math.nan)
-    return result
-
-
-class ControlJudge:
-    """The notes of a file and when each is judged.
-
-    Parameters
-    ----------
-    times_s : (F,) float64
-    fps, first_frame_s : float
-    notes : sequence of FingeringEvent
-        Ordered by onset.
-    """
-
-    def __init__(self, times_s: FloatArray, fps: float, first_frame_s: float, notes: Sequence[FingeringEvent]) -> None:
-        self._times_s = times_s
-        self._notes = notes
-        starts = np.array([note.start_s for note in notes])
-        self._ends = np.array([note.end_s for note in notes])
-        self._frames = np.ceil((starts - first_frame_s) * fps).astype(np.int64)
-        self._inside = (self._frames >= 0) & (self._frames < len(times_s))
-        self._short = self._ends - starts < 2.0 / fps
-
-    def targets(self, control: Control) -> FloatArray:
-        """Value of a control that each note asks for."""
-        return np.array([note.controls.get(control.name, control.rest_value) for note in self._notes])
-
-    def working(self, control: Control, values: FloatArray) -> tuple[BoolArray, BoolArray]:
-        """Frames of a sounding note at which a control is away from rest as its note asks, and at rest as it asks."""
-        pressed = np.zeros(len(self._times_s), dtype=np.bool_)
-        released = pressed.copy()
-        for note, target in zip(self._notes, self.targets(control), strict=True):
-            span = self._span(note.start_s, note.end_s)
-            there = in_place(control, values[span], np.asarray(target))
-            (released if target == control.rest_value else pressed)[span] |= there
-        return pressed, released
-
-    def asked(self, wanted: Sequence[bool] | BoolArray) -> BoolArray:
-        """Frames of the sounding notes for which ``wanted`` (N,) is true."""
-        frames = np.zeros(len(self._times_s), dtype=np.bool_)
-        for index in np.flatnonzero(wanted).tolist():
-            frames[self._belongs(index)] = True
-        return frames
-
-    def kept(self, station: int, worked: IntArray, controls: Sequence[Control]) -> BoolArray:
-        """Frames of the notes that a finger works at this of its stations, until it may leave for the next note.
-
-        Parameters
-        ----------
-        worked : (N,) int
-            Its station in every note.
-        controls : sequence of Control
-            All that it works anywhere.
-        """
-        frames = np.zeros(len(self._times_s), dtype=np.bool_)
-        targets = [(control, self.targets(control)) for control in controls]
-        for index in np.flatnonzero(worked == station).tolist():
-            span = self._belongs(index)
-            frames[span] = True
-            following = min(index + 1, len(self._notes) - 1)
-            leaves_s = [
-                self._leaves_s(control, values, index)
-                for control, values in targets
-                if values[index] != values[following]
-            ]
-            if leaves_s:
-                frames[self._span(min(leaves_s), math.inf).start : span.stop] = False
-        return frames
-
-    def targets_at_frames(self, control: Control) -> FloatArray:
-        """Value of a control (F,) that the note at each frame asks for; NaN where none sounds."""
-        result = np.full(len(self._times_s), np.nan)
-        for index, target in enumerate(self.targets(control).tolist()):
-            result[self._belongs(index)] = target
-        return result
-
-    def measure(self, control: Control, values: FloatArray) -> ControlMeasure:
-        """Count the notes at whose judged frame a control is in place, and the frames at which it left too early."""
-        targets = self.targets(control)
-        long, short = self._inside & ~self._short, self._inside & self._short
-        right = np.zeros(len(targets), dtype=np.bool_)
-        right[self._inside] = in_place(control, values[self._frames[self._inside]], targets[self._inside])
-        held = wrong = 0
-        for index in np.flatnonzero(long).tolist():
-            span = self._span(self._notes[index].start_s, self._leaves_s(control, targets, index))
-            there = in_place(control, values[span], targets[index])
-            held += len(there)
-            wrong += int((~there).sum())
-        return ControlMeasure(
-            judged=int(long.sum()),
-            right=int(right[long].sum()),
-            short_notes=int(short.sum()),
-            short_right=int(right[short].sum()),
-            held_frames=held,
-            held_wrong=wrong,
-        )
-
-    def _leaves_s(self, control: Control, targets: FloatArray, index: int) -> float:
-        """The earliest time at which a control may leave the place of a note: its end, or shortly before.
-
-        Where its share of the note is not enough for the way at the speed the map gives, it may take the time it
-        needs: the plan flags such notes.
-        """
-        note = self._notes[index]
-        if index + 1 == len(targets):
-            return note.end_s
-        needed_s = 0.0
-        if control.max_speed_m_s and control.travel_m:
-            needed_s = abs(targets[index + 1] - targets[index]) * control.travel_m / control.max_speed_m_s
-        next_s = self._notes[index + 1].start_s
-        # A note may sound on under the next one (legato); its control belongs to it until then only.
-        end_s = min(note.end_s, next_s)
-        allowed_s = max(next_s - end_s, control.move_note_share * (end_s - note.start_s))
-        window_s = max(needed_s, min(control.move_window_s, allowed_s))
-        return min(end_s, next_s - window_s)
-
-    def _belongs(self, index: int) -> slice:
-        """The frames of a note, to the next one's onset at most."""
-        note = self._notes[index]
-        following_s = self._notes[index + 1].start_s if index + 1 < len(self._notes) else math.inf
-        return self._span(note.start_s, min(note.end_s, following_s))
-
-    def _span(self, start_s: float, end_s: float) -> slice:
-        return slice(*np.searchsorted(self._times_s, [start_s - 1e-9, end_s - 1e-9]))
 
 
 def greatest_correlations(players: Mapping[str, FloatArray]) -> dict[str, float]:

@@ -16,9 +16,10 @@ import msgspec
 
 from app.errors import Cancelled, FileError, Message
 from app.export.character import character_scene
+from app.export.control_judge import FloatArray
 from app.export.folder import files_into
 from app.export.instrument import instrument_scene
-from app.export.measure import FloatArray, Measured, greatest_correlations, measure_player
+from app.export.measure import Measured, greatest_correlations, measure_player
 from app.export.report import PlayerReport, Report, StagePlace, UnplayedPart, encode_report
 from app.export.skeleton import character_bvh
 from app.formats.atomic import atomic_write

@@ -12,8 +12,9 @@ import pytest
 
 from app.errors import Message
 from app.export.character import character_scene
+from app.export.control_judge import ControlJudge, notes_of
 from app.export.instrument import instrument_scene
-from app.export.measure import ControlJudge, Measured, greatest_correlations, measure_player, notes_of
+from app.export.measure import Measured, greatest_correlations, measure_player
 from app.export.penetration import Hands
 from app.export.playback import Playback, Surface
 from app.export.proxy import signed_distance

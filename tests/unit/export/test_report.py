@@ -10,7 +10,8 @@ import msgspec
 import pytest
 
 from app.cli.summary import columns, summary
-from app.export.measure import BreathMeasure, ControlMeasure, JointMeasure, PlayerMeasures, Spread
+from app.export.control_judge import ControlMeasure
+from app.export.measure import BreathMeasure, JointMeasure, PlayerMeasures, Spread
 from app.export.report import PlayerReport, Report, StagePlace, UnplayedPart, encode_report, failures
 
 
