@@ -15,6 +15,7 @@ import app.cli.edit
 import app.cli.export
 import app.cli.inspect
 import app.cli.instruments
+import app.cli.midi
 from app.errors import AppError, UsageError
 from app.messages import error_text
 from app.version import program_version
@@ -31,6 +32,7 @@ examples:
   suisou export quartet.mid --to out
   suisou export quartet.mid --to out --format fbx --fps 30 --from-bar 1 --to-bar 8
   suisou export quartet.mid --to out --set "*.amplitude=0.8" --set "trombone.posture=seated"
+  suisou midi session.suisou --to session.mid
   suisou instruments
   suisou instruments scale trumpet_Bb
 """
@@ -49,6 +51,7 @@ def parser() -> argparse.ArgumentParser:
     app.cli.edit.add_command(commands)
     app.cli.inspect.add_command(commands)
     app.cli.export.add_command(commands)
+    app.cli.midi.add_command(commands)
     app.cli.instruments.add_command(commands)
     return top
 

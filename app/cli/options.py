@@ -107,9 +107,28 @@ def text_encoding(text: str) -> str:
     return text
 
 
+def add_file_options(command: argparse.ArgumentParser) -> None:
+    """Declare the file and how it is read."""
+    command.add_argument("file", type=Path, metavar="FILE", help="a Standard MIDI File or a .suisou project")
+    command.add_argument(
+        "--encoding",
+        type=text_encoding,
+        metavar="NAME",
+        help="of a MIDI file's texts (default: each is UTF-8 if it can be, else CP932, else Latin-1)",
+    )
+    command.add_argument(
+        "--written",
+        action="append",
+        default=[],
+        metavar="PLAYER",
+        help="a MIDI file has this player's pitches as they are written for a transposing instrument, not as they "
+        "sound; PLAYER may be a pattern such as '*sax*'; repeatable",
+    )
+
+
 def add_source_options(command: argparse.ArgumentParser) -> None:
     """Declare the file and everything that decides what its players do."""
-    command.add_argument("file", type=Path, metavar="FILE", help="a Standard MIDI File or a .suisou project")
+    add_file_options(command)
     command.add_argument(
         "--set",
         dest="settings",
@@ -134,20 +153,6 @@ def add_source_options(command: argparse.ArgumentParser) -> None:
         metavar="QUARTERS",
         help="length of the beat that the players feel: 1.5 for a fast 6/8, 2 for alla breve (default: the project's, "
         "1); breaths, cues, sway and the pre-roll count in it",
-    )
-    command.add_argument(
-        "--encoding",
-        type=text_encoding,
-        metavar="NAME",
-        help="of a MIDI file's texts (default: each is UTF-8 if it can be, else CP932, else Latin-1)",
-    )
-    command.add_argument(
-        "--written",
-        action="append",
-        default=[],
-        metavar="PLAYER",
-        help="a MIDI file has this player's pitches as they are written for a transposing instrument, not as they "
-        "sound; PLAYER may be a pattern such as '*sax*'; repeatable",
     )
 
 

@@ -36,6 +36,26 @@ TEMPLATES: Final[dict[str, str]] = {
     "midi.zero_length_notes": "{count} notes of track {track} have no length; they last one tick",
     "midi.impossible_metre": "track {track} has an impossible time signature at tick {tick}; it was left out",
     "midi.impossible_tempo": "track {track} has an impossible tempo at tick {tick}; it was left out",
+    # MIDI files that were written, and what they cannot hold
+    "midi.written": "{file} is written: {count} {count:track|tracks}",
+    "midi.written_but": "{file} is written, but: {first} ({count} {count:remark|remarks} in all)",
+    "midi.tempo_unwritable": (
+        "bar {bar}: a MIDI file cannot hold a tempo of {bpm:g} quarters per minute, only {low:g} to {high:g}; change "
+        "it and export again"
+    ),
+    "midi.nested_notes": (
+        "{part}: {count} {count:note sounds|notes sound} within another of the same pitch; in a MIDI file the two "
+        "exchange their ends"
+    ),
+    "midi.name_says_other": (
+        "{part}: its name says {said}, so who reads the file takes it for that and not for {played}"
+    ),
+    "midi.shared_again": "{part}: notes sound together; who reads the file shares them among players",
+    "midi.onto_source": (
+        "{file} is what the piece was read from, and holds {count} {count:part|parts} more that nobody plays here; "
+        "write to another file"
+    ),
+    "midi.onto_itself": "{file} would be replaced by what was read from it; write to another file",
     # Parts and who plays them
     "score.no_map": "there is no instrument map for {instrument} yet",
     "score.left_out": "left out on import",

@@ -15,6 +15,7 @@ TEMPLATES: Final[dict[str, str]] = {
     "work.reimport": "reading the MIDI file again",
     "work.portraits": "drawing the characters' portraits",
     "work.export": "writing the files",
+    "work.export_midi": "writing the MIDI file",
     "work.playblast": "making the film",
     "work.synthesise": "making the sound",
     "work.read_recording": "reading {file}",

@@ -87,8 +87,8 @@ def _metre_faults(metres: Sequence[Metre]) -> Iterator[Fault]:
     for index, metre in enumerate(metres):
         place = f"metres[{index}]"
         yield from _between(f"{place}.numerator", metre.numerator, limits.METRE_NUMERATOR)
-        if not 1 <= metre.denominator <= limits.METRE_DENOMINATORS[-1]:
-            yield f"{place}.denominator", f"must be from 1 to {limits.METRE_DENOMINATORS[-1]}"
+        if metre.denominator not in limits.METRE_DENOMINATORS:
+            yield f"{place}.denominator", f"must be one of {', '.join(map(str, limits.METRE_DENOMINATORS))}"
 
 
 def _part_faults(part: Part, place: str) -> Iterator[Fault]:

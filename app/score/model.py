@@ -12,7 +12,7 @@ import numpy.typing as npt
 from app.errors import Message
 from app.score.tempo import TempoMap
 
-CurveKind: TypeAlias = Literal["breath", "volume", "expression", "aftertouch", "pitch_bend"]
+CurveKind: TypeAlias = Literal["breath", "volume", "expression", "aftertouch", "pitch_bend", "bite"]
 
 
 class Note(msgspec.Struct, frozen=True, gc=False):
@@ -48,8 +48,9 @@ class ControllerCurve(msgspec.Struct, frozen=True):
 
     Attributes
     ----------
-    kind : {"breath", "volume", "expression", "aftertouch", "pitch_bend"}
-        MIDI controllers 2, 7 and 11; channel and key pressure; pitch bend.
+    kind : {"breath", "volume", "expression", "aftertouch", "pitch_bend", "bite"}
+        MIDI controllers 2, 7 and 11; channel and key pressure; pitch bend; how hard the teeth press, controller 16 (see
+        `app.score.write`).
     ticks : tuple of int
         Strictly ascending.
     values : tuple of float

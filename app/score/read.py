@@ -52,7 +52,7 @@ from app.score.parts import PartWish, parts_of, wished_parts
 from app.score.repair import Repaired, last_system_message, repaired
 from app.score.tempo import TempoChange, TempoMap
 from app.score.texts import decoded
-from app.score.tracks import TrackEvents, gather
+from app.score.tracks import LEAST_TEMPO, TrackEvents, gather
 from instrument_maps.vocabulary import vocabulary
 
 # What mido raises on bytes it does not understand, found by reading it and by fuzzing.
@@ -63,8 +63,6 @@ _LILYPOND_NAME = re.compile(r"^([^:]*):([^:]*)$")
 
 _SMPTE_RATES = {24: Fraction(24), 25: Fraction(25), 29: Fraction(30000, 1001), 30: Fraction(30)}
 _LARGEST_DENOMINATOR = 64
-_LEAST_TEMPO = 10_000
-"""Microseconds per quarter: nothing is played at 6000 quarters a minute, so less is damage."""
 
 
 class MidiContents(msgspec.Struct, frozen=True):
@@ -222,7 +220,7 @@ def _tempo_map(container: Container, tracks: Sequence[TrackEvents]) -> tuple[Tem
     warnings = []
     for index, events in enumerate(tracks):
         for tick, tempo in events.tempos:
-            if tempo >= _LEAST_TEMPO:
+            if tempo >= LEAST_TEMPO:
                 changes.append(TempoChange(tick, tempo))
             else:
                 warnings.append(Message("midi.impossible_tempo", {"track": index + 1, "tick": tick}))

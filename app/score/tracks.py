@@ -4,13 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable
 from operator import itemgetter
-from typing import Any
+from typing import Any, Final
 
 import msgspec
 
 from app.score.model import ControllerCurve, CurveKind
 
-_CONTROLLERS: dict[int, CurveKind] = {2: "breath", 7: "volume", 11: "expression"}
+CONTROLLERS: Final[dict[CurveKind, int]] = {"breath": 2, "volume": 7, "expression": 11, "bite": 16}
+"""The curves that are MIDI controllers, and their numbers."""
+LEAST_TEMPO: Final = 10_000
+"""Microseconds per quarter: nothing is played at 6000 quarters a minute, so less is damage."""
+_KINDS: Final = {number: kind for kind, number in CONTROLLERS.items()}
 _NOTES_OFF = frozenset({120, 123})
 
 
@@ -146,7 +150,7 @@ def gather(messages: Iterable[Any], begin_tick: int) -> TrackEvents:
 def _note_other(events: TrackEvents, message: Any, kind: str, tick: int) -> None:
     """Keep a message that is about no note."""
     if kind == "control_change":
-        curve = _CONTROLLERS.get(message.control)
+        curve = _KINDS.get(message.control)
         if curve is not None:
             events.controls.setdefault((message.channel, curve), {})[tick] = message.value / 127
     elif kind == "pitchwheel":

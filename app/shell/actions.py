@@ -79,6 +79,7 @@ FILE_ORDER: Final = (
     "file.reimport",
     "file.reimport_other",
     "file.add_audio",
+    "file.export_midi",
     "file.close",
     "file.quit",
 )

@@ -996,6 +996,38 @@
             <translation>トラック {track} のティック {tick} のテンポはあり得ない値のため省きました</translation>
         </message>
         <message>
+            <source>{file} is written: {count} {count:track|tracks}</source>
+            <translation>{file} を書き出しました（{count} トラック）</translation>
+        </message>
+        <message>
+            <source>{file} is written, but: {first} ({count} {count:remark|remarks} in all)</source>
+            <translation>{file} を書き出しましたが、注意があります：{first}（全 {count} 件）</translation>
+        </message>
+        <message>
+            <source>bar {bar}: a MIDI file cannot hold a tempo of {bpm:g} quarters per minute, only {low:g} to {high:g}; change it and export again</source>
+            <translation>小節 {bar}：MIDI ファイルのテンポは ♩={low:g}～{high:g} に限られ、♩={bpm:g} は保存できません。変更してからもう一度書き出してください</translation>
+        </message>
+        <message>
+            <source>{part}: {count} {count:note sounds|notes sound} within another of the same pitch; in a MIDI file the two exchange their ends</source>
+            <translation>{part}：同じ高さの音の中で鳴る音が {count} 個あります。MIDI ファイルでは両者の終わりが入れ替わります</translation>
+        </message>
+        <message>
+            <source>{part}: its name says {said}, so who reads the file takes it for that and not for {played}</source>
+            <translation>{part}：名前が {said} を示すため、読み込むと {played} ではなくそちらとして扱われます</translation>
+        </message>
+        <message>
+            <source>{part}: notes sound together; who reads the file shares them among players</source>
+            <translation>{part}：同時に鳴る音があるため、読み込むと複数の奏者に分けられます</translation>
+        </message>
+        <message>
+            <source>{file} is what the piece was read from, and holds {count} {count:part|parts} more that nobody plays here; write to another file</source>
+            <translation>{file} は曲の読み込み元で、ここで演奏されないパートがほかに {count} 個入っています。別のファイルに書き出してください</translation>
+        </message>
+        <message>
+            <source>{file} would be replaced by what was read from it; write to another file</source>
+            <translation>{file} は読み込み元なので上書きできません。別のファイルに書き出してください</translation>
+        </message>
+        <message>
             <source>there is no instrument map for {instrument} yet</source>
             <translation>{instrument} のインストゥルメントマップはまだありません</translation>
         </message>
@@ -1166,6 +1198,10 @@
         <message>
             <source>writing the files</source>
             <translation>ファイルを書き出しています</translation>
+        </message>
+        <message>
+            <source>writing the MIDI file</source>
+            <translation>MIDI ファイルの書き出し</translation>
         </message>
         <message>
             <source>making the film</source>

@@ -583,6 +583,10 @@
         <translation>新しい MIDI ファイルを取り込む...</translation>
     </message>
     <message>
+        <source>Export MIDI...</source>
+        <translation>MIDI を書き出し...</translation>
+    </message>
+    <message>
         <source>Export Players...</source>
         <translation>プレイヤーを書き出す...</translation>
     </message>
@@ -700,6 +704,10 @@
     <message>
         <source>Re-import MIDI</source>
         <translation>MIDI を再読み込み</translation>
+    </message>
+    <message>
+        <source>Export MIDI</source>
+        <translation>MIDI の書き出し</translation>
     </message>
 </context>
 <context>

@@ -1,4 +1,5 @@
-"""Commands that exchange files with other programs: a changed MIDI file in, players and films out."""
+"""Commands that exchange files with other programs: a changed MIDI file in; a MIDI file, players and films
+out."""
 
 from __future__ import annotations
 
@@ -7,6 +8,7 @@ from pathlib import Path
 from PySide6.QtCore import QCoreApplication
 
 from app.errors import AppError, Message
+from app.project.midi_out import export_midi as write_piece
 from app.project.model import Player, Project, map_choices
 from app.project.reimport import Reimport, reimport
 from app.score.read import read_midi
@@ -17,7 +19,7 @@ from app.version import program_version
 from instrument_maps.library import all_maps
 from widgets.common.session import Session, Severity
 from widgets.common.tasks import Progress, StopWanted
-from widgets.common.text import note_text
+from widgets.common.text import message_text, note_text
 from widgets.inspector.words import correction_title
 
 
@@ -87,6 +89,35 @@ def _take(session: Session, before: Project, outcome: Reimport) -> None:
         )
 
 
+def export_midi(session: Session) -> None:
+    """Ask for a file, and write the piece to it as MIDI."""
+    editor = editor_of(session)
+    translate = QCoreApplication.translate
+    proposal = Path(editor.files.folder) / f"{Path(editor.files.name).stem}.mid"
+    kinds = f"{translate('Files', 'MIDI files')} (*.mid)"
+    path = editor.questions.save_file(translate("Files", "Export MIDI"), str(proposal), kinds)
+    if path is None:
+        return
+    target = path if path.suffix.lower() in MIDI_SUFFIXES else path.with_name(f"{path.name}.mid")
+    project = session.project
+
+    def work(progress: Progress, stop_wanted: StopWanted) -> tuple[Message, ...]:
+        return write_piece(project, target, all_maps())
+
+    def done(warnings: tuple[Message, ...]) -> None:
+        if warnings:
+            first = message_text(warnings[0], session)
+            told = Message("midi.written_but", {"file": target.name, "first": first, "count": len(warnings)})
+            session.notice(told, Severity.WARNING)
+        else:
+            session.notice(Message("midi.written", {"file": target.name, "count": len(project.score.parts)}))
+
+    def failed(error: AppError) -> None:
+        session.notice(error.message, Severity.ERROR)
+
+    session.tasks.run(Message("work.export_midi"), work, done, failed, key="export_midi")
+
+
 def export_files(session: Session) -> None:
     """Ask what to export, and write it."""
     editor = editor_of(session)
@@ -143,6 +174,13 @@ ACTIONS: tuple[Action, ...] = (
         read_another,
         "File",
         enabled=_is_open,
+    ),
+    Action(
+        "file.export_midi",
+        QT_TRANSLATE_NOOP("Action", "Export MIDI..."),
+        export_midi,
+        "File",
+        enabled=_can_export,
     ),
     Action(
         "export.files",

@@ -24,13 +24,15 @@ from app.project.casting import StagePosition
 from app.project.edit.piece import set_audio
 from app.project.edit.players import place
 from app.project.grid import Grid
-from app.project.model import Player, Project
+from app.project.model import Player, Project, map_choices
 from app.project.presence import Presence
 from app.score.model import Note
+from app.score.read import read_midi
 from app.shell.actions import rows
 from app.shell.app import Program
 from app.shell.settings import Settings
 from app.shell.sound import sound_of
+from instrument_maps.load import bundled_maps
 from tests.gui.conftest import QUARTET, delete_now
 from tests.gui.shell.conftest import Answers
 from tests.support.tasks import ImmediateTasks
@@ -338,6 +340,16 @@ def onset_s(desk: Desk, index: int) -> float:
     return desk.project.score.tempo_map.seconds(float(desk.notes()[index].onset_tick))
 
 
+def reads_back(desk: Desk, path: Path) -> bool:
+    """Whether a MIDI file holds what the players play."""
+    score = read_midi(path, maps=map_choices(bundled_maps().values()))
+    heard = [(part.name, [(n.onset_tick, n.duration_tick, n.pitch) for n in part.notes]) for part in score.parts]
+    return heard == [
+        (player.name, [(n.onset_tick, n.duration_tick, n.pitch) for n in desk.project.part(player).notes])
+        for player in desk.project.players
+    ]
+
+
 CASES: dict[str, Case] = {
     # Files
     "file.new": Case(lambda d: not d.project.players and d.program.editor.files.is_open),
@@ -367,6 +379,10 @@ CASES: dict[str, Case] = {
         lambda d: d.project.audio is not None and d.project.audio.path.endswith("tone.wav"),
         lambda d: (has_recording(d), d.session.document.undo(), setattr(d.answers, "path", d.folder / "tone.wav")),
         edits=True,
+    ),
+    "file.export_midi": Case(
+        lambda d: d.answers.asked == ["save"] and reads_back(d, d.folder / "piece.mid"),
+        lambda d: setattr(d.answers, "path", d.folder / "piece"),
     ),
     "file.close": Case(lambda d: not d.program.editor.files.is_open and d.program.window.start_page.isVisible()),
     "export.files": Case(lambda d: d.dialog("export_files")),

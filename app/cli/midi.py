@@ -1,0 +1,45 @@
+"""``suisou midi``: the piece as a MIDI file."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+from app.cli.options import Commands, add_file_options, open_project
+from app.errors import FileError
+from app.messages import text
+
+
+def add_command(commands: Commands) -> None:
+    """Declare the sub-command."""
+    command = commands.add_parser(
+        "midi",
+        help="write the piece as a MIDI file",
+        description="Writes the piece as a MIDI file of format 1, a track for every player, with everything that was "
+        "drawn and recorded: notes, breath, bite and other controllers, tempo, metres and pickup.",
+    )
+    add_file_options(command)
+    command.add_argument("--to", type=Path, required=True, metavar="FILE", help="the MIDI file; one there is replaced")
+    command.set_defaults(run=write, settings=[], seed=None, preroll=None, felt_beat=None)
+
+
+def write(arguments: argparse.Namespace) -> None:
+    """Write the file and say what it holds."""
+    from app.project.midi_out import export_midi
+    from instrument_maps.library import library
+
+    project = open_project(arguments)
+    if _same(arguments.to, arguments.file):
+        raise FileError("midi.onto_itself", file=str(arguments.to))
+    for warning in export_midi(project, arguments.to, library().maps):
+        print(f"suisou: {text(warning)}", file=sys.stderr)
+    notes = sum(len(part.notes) for part in project.score.parts)
+    print(f"{arguments.to}: {len(project.score.parts)} tracks, {notes} notes")
+
+
+def _same(one: Path, other: Path) -> bool:
+    try:
+        return one.samefile(other)
+    except OSError:
+        return False  # what is written is not there yet

@@ -1,0 +1,51 @@
+"""A project's piece as a MIDI file: what its players play, under their names.
+
+Messages: ``midi.onto_source`` (file, count): "{file} is what the piece was read from, and holds {count} parts more that
+nobody plays here; write to another file".
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+from app.errors import FileError, Message
+from app.project.model import Project, map_choices
+from app.score.write import Performer, write_midi
+from instrument_maps.model import InstrumentMap
+
+
+def export_midi(project: Project, path: Path, maps: Mapping[str, InstrumentMap]) -> tuple[Message, ...]:
+    """Write the piece with everything drawn and recorded; what the file could not hold is returned.
+
+    Parameters
+    ----------
+    project : Project
+    path : Path
+    maps : mapping of str to InstrumentMap
+        By id. Of a player whose instrument is not there, the part says what it is for.
+
+    Raises
+    ------
+    AppError
+        Those of `app.score.write`, and ``midi.onto_source``.
+    """
+    _keep_source(project, path)
+    performers: dict[str, Performer] = {}
+    for player in project.players:
+        if player.instrument_id in maps:
+            [choice] = map_choices([maps[player.instrument_id]])
+            performers.setdefault(player.part_id, Performer(player.name, choice))
+    return write_midi(project.score, path, performers)
+
+
+def _keep_source(project: Project, path: Path) -> None:
+    """A file that holds more than the project is not replaced by less."""
+    if not project.score.unplayed or not project.source:
+        return
+    try:
+        same = path.samefile(project.source)
+    except OSError:
+        return  # one of the two is not there
+    if same:
+        raise FileError("midi.onto_source", file=str(path), count=len(project.score.unplayed))

@@ -1,0 +1,279 @@
+"""Writes a score as a MIDI file of format 1: a conductor's track, then one track for every part.
+
+What the file holds comes back as it was when `app.score.read` reads it: title, division, tempo, metres and pickup; of
+every part its name, what plays it, every note's onset, length, pitch and velocity, and every step of its controller
+curves. What a MIDI file has no place for does not:
+
+- The notes of parts nobody plays, which a score does not keep either; ids of notes and parts, which count tracks and
+  note-ons. Voices that shared a track get one each. A part without notes is written and not read as one.
+- Who plays on, where a name says otherwise: a name beats everything else, so a "Violin" that a person gave to a flutist
+  is a violin again. A part of which notes sound together is shared among players again. Both are told.
+- Which of two notes of one pitch ends first, where one sounds within the other: a note-off ends the oldest, so the two
+  exchange their ends. This is told. (Notes that only overlap end as they did.)
+- A channel that another part has already, or that is the percussion's: the part gets a free one as long as there is
+  one; then channels repeat, and tracks keep the parts apart. Without a program a part gets its instrument's, for it
+  would sound like a piano elsewhere.
+- Fractions: tempi are whole microseconds per quarter, controllers have 128 steps, pitch bends 16384 with +1 the
+  highest of them (8191/8192). Texts lose control characters and spaces around them.
+- A metre that only restates the one before at a bar line; a short first bar is read as a pickup.
+
+The bite goes to controller 16 ("general purpose controller 1"): MIDI has no controller for it, and one that has a
+meaning (1, modulation; 77, vibrato depth) would add a vibrato to the one that was played. The standard leaves
+16 to each device.
+
+Errors
+------
+midi.tempo_unwritable : bar, bpm, low, high
+    "bar {bar}: a MIDI file cannot hold a tempo of {bpm} quarters per minute; from {low} to {high} it can"
+
+Warnings
+--------
+midi.nested_notes : part, count
+    "{part}: {count} notes sound within another of the same pitch; in a MIDI file the two exchange their ends"
+midi.name_says_other : part, said, played
+    "{part}: its name says {said}, so who reads the file takes it for that and not for {played}"
+midi.shared_again : part
+    "{part}: notes sound together; who reads the file shares them among players"
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from operator import itemgetter
+from pathlib import Path
+from typing import Final, TypeAlias
+
+import msgspec
+
+from app.errors import AppError, Message
+from app.formats.atomic import atomic_write
+from app.score.choose import PERCUSSION_CHANNEL, MapChoice, plays
+from app.score.model import ControllerCurve, CurveKind, Metre, Note, Part, Score
+from app.score.tempo import TempoChange
+from app.score.tracks import CONTROLLERS, LEAST_TEMPO
+from app.score.voices import split_voices
+from instrument_maps.vocabulary import Instrument, vocabulary
+
+MOST_TEMPO: Final = 0xFFFFFF
+"""Microseconds per quarter: the 24 bits of the event."""
+_LONGEST_DELTA: Final = 0x0FFFFFFF
+_CHANNELS: Final = tuple(channel for channel in range(16) if channel != PERCUSSION_CHANNEL)
+_END_OF_TRACK: Final = b"\xff\x2f\x00"
+_EMPTY_TEXT: Final = b"\xff\x01\x00"
+
+# What comes first at one tick: what ends a note comes before what begins the next, controllers before both begin.
+_OFF, _PROGRAM, _CONTROL, _ON = range(4)
+
+_Event: TypeAlias = tuple[int, int, bytes]
+"""Tick, place among those of the tick, message."""
+
+
+class Performer(msgspec.Struct, frozen=True):
+    """Who plays a part.
+
+    Attributes
+    ----------
+    name : str
+        What the part's track is called.
+    choice : MapChoice
+        The instrument.
+    """
+
+    name: str
+    choice: MapChoice
+
+
+class MidiFile(msgspec.Struct, frozen=True):
+    """A MIDI file, and what it could not hold."""
+
+    data: bytes
+    warnings: tuple[Message, ...]
+
+
+def write_midi(score: Score, path: Path, performers: Mapping[str, Performer] | None = None) -> tuple[Message, ...]:
+    """Write a score as a MIDI file, which appears whole or not at all.
+
+    Parameters
+    ----------
+    score : Score
+    path : Path
+    performers : mapping of str to Performer, optional
+        By part id; a part that is not there has its own name and what it is for.
+
+    Returns
+    -------
+    tuple of Message
+        What the file could not hold.
+
+    Raises
+    ------
+    AppError
+        ``midi.tempo_unwritable``; ``file.cannot_write``.
+    """
+    made = midi_file(score, performers)
+    with atomic_write(path) as stream:
+        stream.write(made.data)
+    return made.warnings
+
+
+def midi_file(score: Score, performers: Mapping[str, Performer] | None = None) -> MidiFile:
+    """A score as the bytes of a MIDI file; parameters and errors as in `write_midi`."""
+    performing = performers or {}
+    warnings: list[Message] = []
+    tracks = [_track(_conductor(score))]
+    for part, channel in zip(score.parts, _channels(score.parts), strict=True):
+        performer = performing.get(part.id)
+        name = part.name if performer is None else performer.name
+        instrument = _instrument(part, performer)
+        warnings += _warnings(part, name, performer, score)
+        tracks.append(_track(_part(part, name, instrument, channel)))
+    header = b"MThd" + b"".join(
+        value.to_bytes(size, "big") for value, size in ((6, 4), (1, 2), (len(tracks), 2), (score.ticks_per_quarter, 2))
+    )
+    return MidiFile(header + b"".join(tracks), tuple(warnings))
+
+
+def _channels(parts: Sequence[Part]) -> list[int]:
+    """A channel for each part: its own where it is the first to have it, else a free one, else its own again."""
+    own: dict[int, int] = {}
+    for index, part in enumerate(parts):
+        if part.channel != PERCUSSION_CHANNEL:
+            own.setdefault(part.channel, index)
+    free = [channel for channel in _CHANNELS if channel not in own]
+    channels = []
+    for index, part in enumerate(parts):
+        if own.get(part.channel) == index:
+            channels.append(part.channel)
+        elif free:
+            channels.append(free.pop(0))
+        else:
+            channels.append(_CHANNELS[index % len(_CHANNELS)])
+    return channels
+
+
+def _instrument(part: Part, performer: Performer | None) -> Instrument | None:
+    """What a reader is to take a part for: what the part says where its player's map is for that, else what the map
+    is for."""
+    known = vocabulary().instruments
+    own = known.get(part.instrument or "")
+    if performer is None or (own is not None and _may_play(performer.choice, own)):
+        return own
+    return next((known[id] for id in performer.choice.plays if id in known), own)
+
+
+def _may_play(choice: MapChoice, instrument: Instrument) -> bool:
+    return instrument.any_pitch or plays(choice, instrument) or instrument.id in choice.substitutes_for
+
+
+def _warnings(part: Part, name: str, performer: Performer | None, score: Score) -> Iterable[Message]:
+    nested = _nested(part.notes)
+    if nested:
+        yield Message("midi.nested_notes", {"part": name, "count": nested})
+    if len(split_voices(part.notes, score.tempo_map)) > 1:
+        yield Message("midi.shared_again", {"part": name})
+    said = vocabulary().by_name(name)
+    if performer is not None and said is not None and not said.vague and not _may_play(performer.choice, said):
+        played = _instrument(part, performer) or said
+        if played is not said:
+            yield Message("midi.name_says_other", {"part": name, "said": said.names[0], "played": played.names[0]})
+
+
+def _nested(notes: Sequence[Note]) -> int:
+    """How many notes end before one of their pitch that began before."""
+    last_end: dict[int, int] = {}
+    count = 0
+    for note in sorted(notes, key=lambda note: (note.onset_tick, note.end_tick)):
+        count += note.end_tick < last_end.get(note.pitch, 0)
+        last_end[note.pitch] = max(last_end.get(note.pitch, 0), note.end_tick)
+    return count
+
+
+def _conductor(score: Score) -> list[_Event]:
+    events = [(0, 0, _meta(0x03, score.title.encode("utf-8")))]
+    for change in score.tempo_map.changes:
+        tempo = round(change.microseconds_per_quarter)
+        if not LEAST_TEMPO <= tempo <= MOST_TEMPO:
+            raise _unwritable(score, change)
+        events.append((change.tick, 2, _meta(0x51, tempo.to_bytes(3, "big"))))
+    return events + [(metre.tick, 1, _time_signature(metre)) for metre in score.metres]
+
+
+def _unwritable(score: Score, change: TempoChange) -> AppError:
+    return AppError(
+        "midi.tempo_unwritable",
+        bar=score.bar_of_tick(change.tick),
+        bpm=round(60e6 / change.microseconds_per_quarter, 3),
+        low=round(60e6 / MOST_TEMPO, 3),
+        high=round(60e6 / LEAST_TEMPO),
+    )
+
+
+def _time_signature(metre: Metre) -> bytes:
+    # A click every quarter, eight 32nds to a quarter: what nearly all files say.
+    return _meta(0x58, bytes((metre.numerator, metre.denominator.bit_length() - 1, 24, 8)))
+
+
+def _part(part: Part, name: str, instrument: Instrument | None, channel: int) -> list[_Event]:
+    events = [(0, _OFF, _meta(0x03, name.encode("utf-8")))]
+    if instrument is not None:
+        events.append((0, _OFF, _meta(0x04, instrument.names[0].encode("utf-8"))))
+    program = part.program
+    if program is None and instrument is not None:
+        program = next(iter(instrument.programs), None)
+    if program is not None:
+        events.append((0, _PROGRAM, bytes((0xC0 | channel, program))))
+    for curve in part.curves:
+        events += _steps(curve, channel)
+    on, off = 0x90 | channel, 0x80 | channel
+    # Of notes that begin together on one pitch the shortest comes first: a note-off ends the oldest.
+    for note in sorted(part.notes, key=lambda note: (note.onset_tick, note.pitch, note.duration_tick)):
+        events.append((note.onset_tick, _ON, bytes((on, note.pitch, note.velocity))))
+        events.append((note.end_tick, _OFF, bytes((off, note.pitch, 64))))
+    return events
+
+
+def _steps(curve: ControllerCurve, channel: int) -> list[_Event]:
+    return [
+        (tick, _CONTROL, _step(curve.kind, value, channel))
+        for tick, value in zip(curve.ticks, curve.values, strict=True)
+    ]
+
+
+def _step(kind: CurveKind, value: float, channel: int) -> bytes:
+    if kind == "pitch_bend":
+        bend = min(max(round(8192 + 8192 * value), 0), 16383)
+        return bytes((0xE0 | channel, bend & 127, bend >> 7))
+    level = min(max(round(127 * value), 0), 127)
+    if kind == "aftertouch":
+        return bytes((0xD0 | channel, level))
+    return bytes((0xB0 | channel, CONTROLLERS[kind], level))
+
+
+def _meta(kind: int, data: bytes) -> bytes:
+    return bytes((0xFF, kind)) + _variable(len(data)) + data
+
+
+def _track(events: list[_Event]) -> bytes:
+    """A chunk of events. By hand: a library takes ten times as long, with the editor's window waiting beside it."""
+    events.sort(key=itemgetter(0, 1))
+    pieces: list[bytes] = []
+    at = 0
+    for tick, _, message in events:
+        delta = tick - at
+        while delta > _LONGEST_DELTA:
+            pieces += (_variable(_LONGEST_DELTA), _EMPTY_TEXT)
+            delta -= _LONGEST_DELTA
+        pieces += (_variable(delta), message)
+        at = tick
+    data = b"".join(pieces) + b"\x00" + _END_OF_TRACK
+    return b"MTrk" + len(data).to_bytes(4, "big") + data
+
+
+def _variable(number: int) -> bytes:
+    """A number in as many groups of seven bits as it needs."""
+    if number < 128:
+        return bytes((number,))
+    groups = [number & 127]
+    while number := number >> 7:
+        groups.append(number & 127 | 128)
+    return bytes(reversed(groups))
