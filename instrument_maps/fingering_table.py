@@ -97,6 +97,25 @@ def with_label(instrument: InstrumentMap, table: Table, written: int, rank: int,
     return _changed(table, written, rank, label=label, controls=controls, correction={}, fingers={})
 
 
+def pressed_label(instrument: InstrumentMap, one: Fingering, name: str) -> str:
+    """The label of a fingering with one control at its next value: down, half down where it may be, up again."""
+    control = instrument.control(name)
+    value = one.controls.get(name, control.rest_value)
+    steps = [0.0, 1.0] if control.half_value is None else [0.0, 1.0, control.half_value]
+    # A value between is nearer to one of the ends, and goes to the other.
+    after = steps[(steps.index(value) + 1) % len(steps)] if value in steps else float(value < 0.5)
+    values = {**one.controls, name: after}
+    pitch = [control for control in instrument.controls if control.role == "pitch"]
+    if says_words(pitch):
+        return words_of(values, pitch)
+    down = "".join(
+        control.label for control in pitch if control.kind != "slide" and values.get(control.name, 0.0) > 0.0
+    )
+    if any(control.kind == "slide" for control in pitch):
+        return down + one.label.lstrip("".join(control.label for control in pitch))
+    return down or NONE
+
+
 def read_cents(text: str) -> float:
     """What a person typed, as cents; nothing is 0. Raises UsageError ``fingering.no_number`` (text)."""
     try:

@@ -10,7 +10,7 @@ import numpy.typing as npt
 from app.identity_cache import IdentityCache
 from app.project.casting import Footprint
 from app.rig import quaternion
-from instrument_maps.model import ROOT, Box, Capsule, Carriage, Cone, Cylinder, InstrumentMap, Ring
+from instrument_maps.model import ROOT, Box, Carriage, Cone, InstrumentMap, Ring
 from instrument_maps.vocabulary import vocabulary
 
 LIPS_AHEAD_M = 0.12
@@ -84,11 +84,6 @@ def _bodies(instrument: InstrumentMap) -> Iterator[tuple[npt.NDArray[np.float64]
         elif isinstance(body, Ring):
             yield np.array(body.centre_m) + corners * (body.radius_m + body.tube_radius_m), body.node
         else:
-            radii = (body.radius_a_m, body.radius_b_m) if isinstance(body, Cone) else (body.radius_m, body.radius_m)
-            assert isinstance(body, Capsule | Cylinder | Cone)
-            yield (
-                np.concatenate(
-                    [np.array(end) + corners * size for end, size in zip((body.a_m, body.b_m), radii, strict=True)]
-                ),
-                body.node,
-            )
+            radii_m = (body.radius_a_m, body.radius_b_m) if isinstance(body, Cone) else (body.radius_m, body.radius_m)
+            ends_m = zip((body.a_m, body.b_m), radii_m, strict=True)
+            yield np.concatenate([np.array(end_m) + corners * radius_m for end_m, radius_m in ends_m]), body.node

@@ -6,7 +6,6 @@ What the bundled map says stays what it is: a change makes a map of the person's
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
 from functools import partial
 
 import msgspec
@@ -34,62 +33,23 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from app.errors import AppError, MapError
+from app.errors import AppError
 from instrument_maps import fingering_table as edit
-from instrument_maps.fingering_label import says_words, words_of
 from instrument_maps.library import library
 from instrument_maps.model import Fingering, InstrumentMap
-from widgets.common.fingering_diagram import DOWN, FingeringDiagram
+from widgets.common.fingering_diagram import FingeringDiagram
 from widgets.common.fingering_tags import tag_words, tags_of_text, words_of_tags
 from widgets.common.icons import icon
 from widgets.common.instrument_name import instrument_name
 from widgets.common.pitch import LETTERS, pitch_name, syllables
 from widgets.common.session import Session, Severity
 from widgets.common.text import message_text
+from widgets.dialogs.fingering_draft import Draft, base_of
 
 WRITTEN, SOUNDS, RANK, LABEL, CENTS, TAGS = range(6)
 MOST_WRONG = 6
 """So much of what is wrong with files is told at once."""
 _PLACE = Qt.ItemDataRole.UserRole
-
-
-@dataclass
-class Draft:
-    """What a person made of one instrument's table, with every state before and after.
-
-    Attributes
-    ----------
-    instrument : InstrumentMap
-        As it is in the library.
-    base : tuple of Fingering
-        What the map it extends has.
-    states : list of tuple of Fingering
-    at : int
-        The state that is shown.
-    """
-
-    instrument: InstrumentMap
-    base: edit.Table
-    states: list[edit.Table] = field(default_factory=list)
-    at: int = 0
-    _judged: tuple[edit.Table, tuple[tuple[str, str], ...]] | None = None
-
-    @property
-    def table(self) -> edit.Table:
-        """The table as it is now."""
-        return self.states[self.at]
-
-    @property
-    def is_saved(self) -> bool:
-        """Whether it is what the library has."""
-        return self.table == self.instrument.fingerings
-
-    @property
-    def problems(self) -> tuple[tuple[str, str], ...]:
-        """What the map would be refused for."""
-        if self._judged is None or self._judged[0] is not self.table:
-            self._judged = (self.table, edit.problems_of(self.instrument, self.table))
-        return self._judged[1]
 
 
 class InstrumentsDialog(QDialog):
@@ -251,7 +211,7 @@ class InstrumentsDialog(QDialog):
         instrument = library().maps.get(id)
         if instrument is None:
             return None
-        self._drafts[id] = Draft(instrument, _base_of(instrument), [instrument.fingerings])
+        self._drafts[id] = Draft(instrument, base_of(instrument), [instrument.fingerings])
         return self._drafts[id]
 
     def _library_changed(self) -> None:
@@ -262,7 +222,7 @@ class InstrumentsDialog(QDialog):
             if instrument is None or (draft.is_saved and draft.table != instrument.fingerings):
                 del self._drafts[id]
             else:
-                draft.instrument, draft.base = instrument, _base_of(instrument)
+                draft.instrument, draft.base = instrument, base_of(instrument)
         self._fill_list(shown.instrument.id if shown is not None else "")
 
     # Showing
@@ -499,20 +459,7 @@ class InstrumentsDialog(QDialog):
         draft, one = self.draft, self._fingering()
         if draft is None or one is None:
             return
-        control = draft.instrument.control(name)
-        value = one.controls.get(name, control.rest_value)
-        steps = [0.0, 1.0] if control.half_value is None else [0.0, 1.0, control.half_value]
-        after = steps[(steps.index(value) + 1) % len(steps)] if value in steps else 0.0 if value >= DOWN else 1.0
-        values = {**one.controls, name: after}
-        pitch = [control for control in draft.instrument.controls if control.role == "pitch"]
-        if says_words(pitch):
-            label = words_of(values, pitch)
-        else:
-            down = [control.label for control in pitch if control.kind != "slide" and values.get(control.name, 0.0) > 0]
-            label = "".join(down) or "0"
-            if any(control.kind == "slide" for control in pitch):
-                place = one.label.lstrip("".join(control.label for control in pitch))
-                label = "".join(down) + place
+        label = edit.pressed_label(draft.instrument, one, name)
         written, rank = one.written_pitch, one.rank
         self._do(lambda draft: edit.with_label(draft.instrument, draft.table, written, rank, label))
 
@@ -643,15 +590,6 @@ class _Completing(QStyledItemDelegate):
         completer.setFilterMode(Qt.MatchFlag.MatchContains)
         line.setCompleter(completer)
         return line
-
-
-def _base_of(instrument: InstrumentMap) -> edit.Table:
-    """What the map that an instrument extends has; of a bundled one its own."""
-    try:
-        return edit.base_table(instrument, library().own.get(instrument.id))
-    except (MapError, OSError, UnicodeDecodeError):
-        # Their file is wrong now and an earlier version in use: there is nothing to go back to.
-        return instrument.fingerings
 
 
 def _named(path: str, table: edit.Table, name: Callable[[int], str]) -> str:

@@ -23,7 +23,7 @@ NOWHERE_M = (0.0, 0.0, 0.0)
 
 
 class Instruments:
-    """The instruments of everyone on a stage: N of them, with K moving parts together.
+    """The instruments of everyone on a stage, N of them, with all their moving parts one after another.
 
     Parameters
     ----------
@@ -42,7 +42,10 @@ class Instruments:
         starts = np.cumsum([0, *(len(names) for names in self._names)])
         self._own = [slice(int(start), int(end)) for start, end in pairwise(starts)]
         self._values = np.zeros(int(starts[-1]))
-        rows, nodes, controls, parts = list[int](), list[int](), list[list[int]](), list[MovingPart]()
+        rows: list[int] = []
+        nodes: list[int] = []
+        controls: list[list[int]] = []
+        parts: list[MovingPart] = []
         for row, (model, instrument) in enumerate(kits):
             for part in instrument.moving_parts:
                 rows.append(row)

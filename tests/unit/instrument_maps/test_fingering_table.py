@@ -43,6 +43,24 @@ def test_labels_are_read_as_they_are_typed(tmp_path: Path) -> None:
         assert caught.value.message.id == id
 
 
+def test_what_is_pressed_next_is_in_the_label(tmp_path: Path) -> None:
+    open_valves = next(one for one in TRUMPET.fingerings if one.label == "0")
+    assert edit.pressed_label(TRUMPET, open_valves, "valve_2") == "2"
+    second = next(one for one in TRUMPET.fingerings if one.label == "12")
+    assert edit.pressed_label(TRUMPET, second, "valve_2") == "1"
+    first = next(one for one in TRUMPET.fingerings if one.label == "1")
+    assert edit.pressed_label(TRUMPET, first, "valve_1") == "0"
+    # The slide stays where it is.
+    place = next(one for one in TROMBONE.fingerings if one.label == "6")
+    trigger = next(control.name for control in TROMBONE.controls if control.label == "T")
+    assert edit.pressed_label(TROMBONE, place, trigger) == "T6"
+    # A hole: open, closed, half open.
+    pipe = load_map(add(tmp_path))
+    closed = next(one for one in pipe.fingerings if "L1" in one.label.split())
+    hole = next(control.name for control in pipe.controls if control.label == "L1")
+    assert "L1h" in edit.pressed_label(pipe, closed, hole).split()
+
+
 def test_ranks_follow_what_is_moved_added_and_removed() -> None:
     table = TRUMPET.fingerings
     before = labels(table, D5)

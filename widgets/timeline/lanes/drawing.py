@@ -67,14 +67,20 @@ def draw_mark(painter: QPainter, tokens: Tokens, x: float, y: float, removed: bo
 
 def draw_rects(painter: QPainter, left: Floats, top: Floats, width: Floats, height: Floats, colour: QColor) -> None:
     """Many rectangles of one colour; arrays (N,) of pixels."""
-    array: Any = PrimitiveArray(QRectF, 4)
-    array.resize(len(left))
     if len(left):
-        table = array.ndarray()
-        table[:, 0], table[:, 1], table[:, 2], table[:, 3] = left, top, width, height
         painter.setPen(Qt.PenStyle.NoPen)
         painter.setBrush(colour)
-        painter.drawRects(*array.drawargs())
+        painter.drawRects(*_rectangles((left, top, width, height)).drawargs())
+
+
+def _rectangles(boxes: tuple[Floats, Floats, Floats, Floats]) -> Any:
+    """Rectangles for Qt, one behind the other in memory."""
+    array: Any = PrimitiveArray(QRectF, 4)
+    array.resize(len(boxes[0]))
+    table = array.ndarray()
+    for column, values in enumerate(boxes):
+        table[:, column] = values
+    return array
 
 
 def draw_groups(
@@ -96,11 +102,9 @@ def draw_groups(
     """
     if not len(group):
         return
-    array: Any = PrimitiveArray(QRectF, 4)
-    array.resize(len(group))
+    # Kept until all are drawn: they are its memory.
+    array = _rectangles(boxes)
     table = array.ndarray()
-    for column, values in enumerate(boxes):
-        table[:, column] = values
     address, size = table.ctypes.data, table.strides[0]
     starts = np.flatnonzero(np.diff(group, prepend=-1)).tolist()
     painter.setPen(Qt.PenStyle.NoPen)

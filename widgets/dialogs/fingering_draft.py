@@ -1,0 +1,58 @@
+"""A table of fingerings while it is edited."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from app.errors import MapError
+from instrument_maps import fingering_table as edit
+from instrument_maps.library import library
+from instrument_maps.model import InstrumentMap
+
+
+@dataclass
+class Draft:
+    """What a person made of one instrument's table, with every state before and after.
+
+    Attributes
+    ----------
+    instrument : InstrumentMap
+        As it is in the library.
+    base : tuple of Fingering
+        What the map it extends has.
+    states : list of tuple of Fingering
+    at : int
+        The state that is shown.
+    """
+
+    instrument: InstrumentMap
+    base: edit.Table
+    states: list[edit.Table] = field(default_factory=list)
+    at: int = 0
+    _judged: tuple[edit.Table, tuple[tuple[str, str], ...]] | None = None
+
+    @property
+    def table(self) -> edit.Table:
+        """The table as it is now."""
+        return self.states[self.at]
+
+    @property
+    def is_saved(self) -> bool:
+        """Whether it is what the library has."""
+        return self.table == self.instrument.fingerings
+
+    @property
+    def problems(self) -> tuple[tuple[str, str], ...]:
+        """What the map would be refused for."""
+        if self._judged is None or self._judged[0] is not self.table:
+            self._judged = (self.table, edit.problems_of(self.instrument, self.table))
+        return self._judged[1]
+
+
+def base_of(instrument: InstrumentMap) -> edit.Table:
+    """The fingerings of the map that an instrument extends; of a bundled one its own."""
+    try:
+        return edit.base_table(instrument, library().own.get(instrument.id))
+    except (MapError, OSError, UnicodeDecodeError):
+        # Their file is wrong now and an earlier version in use: there is nothing to go back to.
+        return instrument.fingerings
