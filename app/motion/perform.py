@@ -152,11 +152,10 @@ class Playing:
 
     def placed(self, times_s: FloatArray) -> dict[str, Placed]:
         """Where the fingers are, and the hands that give way for some of them, at ascending times."""
-        leaning = {giving_for(lean.finger) for hand in self.player.hold.hands for lean in hand.leans}
-        fingers = {finger for hand in self.player.hold.hands for finger in (table.finger for table in hand.fingers)}
-        return {
-            name: sampled(curve, times_s) for name, curve in self.stations.items() if name in leaning or name in fingers
-        }
+        hands = self.player.hold.hands
+        asked = {table.finger for hand in hands for table in hand.fingers}
+        asked |= {giving_for(lean.finger) for hand in hands for lean in hand.leans}
+        return {name: sampled(curve, times_s) for name, curve in self.stations.items() if name in asked}
 
     def changed_s(self, other: Playing) -> FloatArray:
         """Spans (K, 2) of seconds, outside of which (and of `padding` frames around) both make the very same frames."""

@@ -69,9 +69,10 @@ def finger_rotations(
     start = 0
     for hand in hold.hands:
         moved = np.zeros(frames, dtype=np.bool_)
-        for share in (share for lean in hand.leans for share in (given_way(lean, placed), come_to(lean, placed))):
-            if share is not None:
-                moved |= share > 0.0
+        for lean in hand.leans:
+            for share in (given_way(lean, placed), come_to(lean, placed)):
+                if share is not None:
+                    moved |= share > 0.0
         here = np.flatnonzero(moved)
         for table in hand.fingers:
             stop = start + len(table.joints)
