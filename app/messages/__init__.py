@@ -10,7 +10,7 @@ from string import Formatter
 from typing import Final
 
 from app.errors import AppError, Message
-from app.messages import audio, edit, files, formats, notes, picture, plan, project, request, score, tables, work
+from app.messages import audio, edit, files, formats, notes, picture, plan, project, request, score, tables, takes, work
 
 TEMPLATES: Final[dict[str, str]] = {
     **audio.TEMPLATES,
@@ -24,6 +24,7 @@ TEMPLATES: Final[dict[str, str]] = {
     **request.TEMPLATES,
     **score.TEMPLATES,
     **tables.TEMPLATES,
+    **takes.TEMPLATES,
     **work.TEMPLATES,
 }
 

@@ -18,7 +18,7 @@ from app.plan.corrections import Correction
 C = TypeVar("C", bound=Correction)
 
 NOTE_FIELDS = ("note_id", "moved_from")
-_NOTE = re.compile(r"(?:^|(?<=:))(?:\d+|[nf]):\d+$", re.ASCII)
+_NOTE = re.compile(r"(?:^|(?<=:))(?:\d+|[nft]):\d+$", re.ASCII)
 _PLACE = re.compile(r"(?:^|(?<=:))@(-?\d+)$", re.ASCII)
 
 

@@ -12,9 +12,10 @@ import msgspec
 
 from app.plan.corrections import Correction
 from app.project import limits
-from app.project.model import AudioTrack, Player, Project
+from app.project.model import AudioTrack, Player, PlayerTakes, Project
 from app.project.parameters import is_possible, range_text
 from app.score.model import ControllerCurve, Metre, Note, Part, Score
+from app.score.take import Take, is_message
 from app.score.tempo import TempoChange
 from metadata.model import ARKIT_MORPHS, Expression
 
@@ -22,6 +23,7 @@ Fault: TypeAlias = tuple[str, str]
 """The key path, and what is wrong there."""
 
 _COLOUR = re.compile(r"#[0-9a-fA-F]{6}", re.ASCII)
+_TAKE = re.compile(r"take:[1-9][0-9]{0,8}", re.ASCII)
 _MORPHS = frozenset(ARKIT_MORPHS)
 
 
@@ -32,6 +34,7 @@ def faults(project: Project) -> Iterator[Fault]:
     yield from _correction_faults(project)
     yield from _setting_faults(project)
     yield from _read_faults(project)
+    yield from _take_faults(project)
 
 
 def _read_faults(project: Project) -> Iterator[Fault]:
@@ -207,6 +210,69 @@ def _plain_faults(place: str, value: Any) -> Iterator[Fault]:
     elif isinstance(value, msgspec.Struct):
         for field in value.__struct_fields__:
             yield from _plain_faults(f"{place}.{field}", getattr(value, field))
+
+
+def _take_faults(project: Project) -> Iterator[Fault]:
+    known = {player.id for player in project.players}
+    all_takes = [take for recorded in project.takes.values() for take in recorded.takes]
+    if len(all_takes) > limits.MOST_TAKES:
+        yield "takes", f"at most {limits.MOST_TAKES}"
+    yield from _unique("takes", (take.id for take in all_takes))
+    for player, recorded in project.takes.items():
+        place = f"takes[{player!r}]"
+        if player not in known:
+            yield place, "there is no player of this id"
+        for index, take in enumerate(recorded.takes):
+            yield from _one_take_faults(take, f"{place}.takes[{index}]")
+        yield from _comp_faults(recorded, f"{place}.comp")
+        yield from _note_faults(recorded.before_notes, f"{place}.before_notes")
+        for index, curve in enumerate(recorded.before_curves):
+            yield from _curve_faults(curve, f"{place}.before_curves[{index}]")
+
+
+def _one_take_faults(take: Take, place: str) -> Iterator[Fault]:
+    if not _TAKE.fullmatch(take.id):
+        yield f"{place}.id", 'must be like "take:1"'
+    yield from _text(f"{place}.name", take.name)
+    yield from _text(f"{place}.device", take.device)
+    yield from _text(f"{place}.recorded", take.recorded)
+    if take.colour and not _COLOUR.fullmatch(take.colour):
+        yield f"{place}.colour", 'must be empty or like "#3366cc"'
+    yield from _between(f"{place}.wiring.channel", take.wiring.channel, (0, 16))
+    yield from _plain_faults(f"{place}.cleaning", take.cleaning)
+    for field in take.cleaning.__struct_fields__:
+        low, high = limits.CLEANING[field]
+        yield from _between(f"{place}.cleaning.{field}", getattr(take.cleaning, field), (low, high))
+    yield from _within(place, _within("tempo_map", _tempo_faults(take.tempo_map.changes)))
+    yield from _between(
+        f"{place}.tempo_map.ticks_per_quarter", take.tempo_map.ticks_per_quarter, limits.TICKS_PER_QUARTER
+    )
+    times = take.times_us
+    if len(times) != len(take.messages):
+        yield f"{place}.messages", "must be as many as the times"
+    if len(times) > limits.MOST_TAKE_EVENTS:
+        yield f"{place}.times_us", f"at most {limits.MOST_TAKE_EVENTS}"
+    for value in (take.start_us, take.end_us, *times[:1], *times[-1:]):
+        yield from _between(f"{place}.times_us", value, limits.TAKE_US)
+    if take.start_us > take.end_us:
+        yield f"{place}.end_us", "must not be before the start"
+    if any(following < time for time, following in pairwise(times)):
+        yield f"{place}.times_us", "must ascend"
+    for raw in dict.fromkeys(take.messages):
+        if not is_message(raw):
+            yield f"{place}.messages[{take.messages.index(raw)}]", f"{raw[:20]!r} is no MIDI message in hexadecimal"
+            return
+
+
+def _comp_faults(recorded: PlayerTakes, place: str) -> Iterator[Fault]:
+    known, end = {take.id for take in recorded.takes}, 0
+    for index, span in enumerate(recorded.comp):
+        if span.take_id not in known:
+            yield f"{place}[{index}].take_id", f"there is no take {span.take_id!r}"
+        if not end <= span.start_tick < span.end_tick <= limits.LAST_TICK:
+            yield f"{place}[{index}].start_tick", "spans must be in order and apart"
+            return
+        end = span.end_tick
 
 
 def _setting_faults(project: Project) -> Iterator[Fault]:

@@ -4,13 +4,16 @@ Ids from a MIDI file are ``"track:number"`` (notes) and ``"track.channel.voice"`
 them), all digits. Other ids begin with a word, so that they can never be taken for something of a file: notes drawn
 here are ``"n:1"`` and so on, their parts ``"part:1"``; what a file brought when it was read again ``"f:1"`` and
 ``"file:1"``. Each follows every number that the project knows, also from corrections that have lost their note, so
-that such a correction can never come to mean another note.
+that such a correction can never come to mean another note. The notes of a take are ``"t:1000001"`` and so on: the
+number of the take, and of the note among those that were played (`take_note_id`); they are the same whenever the take
+is cut or cleaned anew.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from itertools import count, islice
 from typing import Final
 
 from app.plan.corrections import Correction
@@ -18,23 +21,34 @@ from app.project.model import Project
 
 DRAWN_NOTE: Final = "n:"
 READ_NOTE: Final = "f:"
+TAKE_NOTE: Final = "t:"
+TAKE: Final = "take:"
 MADE_PART: Final = "part:"
 READ_PART: Final = "file:"
 
-_NUMBERED = re.compile(r"(?:^|:)([nf]:)(\d+)$", re.ASCII)
+MOST_TAKE_NOTES: Final = 1_000_000
+"""Of one take; more are left out."""
+
+_NUMBERED = re.compile(r"(?:^|:)([nft]:)(\d+)$", re.ASCII)
 
 
-def fresh_note_ids(project: Project, count: int, prefix: str = DRAWN_NOTE) -> tuple[str, ...]:
+def fresh_note_ids(project: Project, number: int, prefix: str = DRAWN_NOTE) -> tuple[str, ...]:
     """Ids for new notes, ``"n:1"``, ``"n:2"`` and so on; the same project gives the same ids."""
+    return tuple(islice(new_note_ids(project, prefix), number))
+
+
+def new_note_ids(project: Project, prefix: str = DRAWN_NOTE) -> Iterator[str]:
+    """Ids for as many new notes as are wanted: nobody has them, and no correction waits for them."""
     last = max(
         (
             *(_number(note.id, prefix) for part in project.score.parts for note in part.notes),
             *(_number(id, prefix) for notes in project.read_notes.values() for id in notes),
             *(_named(correction, prefix) for corrections in project.corrections.values() for correction in corrections),
+            *(_number(note.id, prefix) for recorded in project.takes.values() for note in recorded.before_notes),
         ),
         default=0,
     )
-    return tuple(f"{prefix}{last + index}" for index in range(1, count + 1))
+    return (f"{prefix}{number}" for number in count(last + 1))
 
 
 def fresh_part_ids(project: Project, count: int = 1, prefix: str = MADE_PART) -> tuple[str, ...]:
@@ -45,6 +59,24 @@ def fresh_part_ids(project: Project, count: int = 1, prefix: str = MADE_PART) ->
 def fresh_player_ids(project: Project, count: int = 1) -> tuple[str, ...]:
     """Ids for new players, ``"player:1"`` and so on."""
     return _following("player:", (player.id for player in project.players), count)
+
+
+def fresh_take_ids(project: Project, count: int = 1) -> tuple[str, ...]:
+    """Ids for new takes; a number is not given again as long as anything still names a note of its take."""
+    takes = (take.number for recorded in project.takes.values() for take in recorded.takes)
+    (following,) = fresh_note_ids(project, 1, TAKE_NOTE)
+    last = max((*takes, _number(following, TAKE_NOTE) // MOST_TAKE_NOTES), default=0)
+    return tuple(f"{TAKE}{last + index}" for index in range(1, count + 1))
+
+
+def take_note_id(take_number: int, index: int) -> str:
+    """The id of a take's note, by its place among the notes that were played."""
+    return f"{TAKE_NOTE}{take_number * MOST_TAKE_NOTES + index + 1}"
+
+
+def is_made_here(note_id: str) -> bool:
+    """Whether a note was drawn or recorded here, not read from a file."""
+    return note_id.startswith((DRAWN_NOTE, TAKE_NOTE))
 
 
 def _following(prefix: str, ids: Iterable[str], count: int) -> tuple[str, ...]:

@@ -6,6 +6,7 @@ memory.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from fractions import Fraction
 from typing import Final, TypeAlias
 
@@ -36,5 +37,19 @@ MOST_ID: Final = 500
 MOST_NAME: Final = 200
 """Characters of a name that a person gives."""
 MOST_PLAYERS: Final = 1000
+MOST_TAKES: Final = 2000
+MOST_TAKE_EVENTS: Final = 5_000_000
+TAKE_US: Final = (-(10**13), 10**13)
+"""Performance times of a take, microseconds: four months."""
+CLEANING: Final[Mapping[str, Bounds]] = {
+    "ghost_s": (0.0, 0.5),
+    "ghost_loudness": (0.0, 1.0),
+    "double_s": (0.0, 0.2),
+    "overlap_s": (0.0, 0.2),
+    "quantise": (0.0, 1.0),
+    "grid_quarters": (1 / 32, 16.0),
+    "align": (0.0, 1.0),
+}
+"""Of `app.score.take.Cleaning`, by field."""
 MOST_NUMBER: Final = 1e12
 """Of any number without a bound of its own."""

@@ -27,7 +27,12 @@ def _with_transpositions(raw: Raw) -> Raw:
     return {**raw, "score": {**raw["score"], "parts": parts}}
 
 
-MIGRATIONS: Final[tuple[Migration, ...]] = (_with_read_notes, _with_transpositions)
+def _with_takes(raw: Raw) -> Raw:
+    """3 to 4: takes are kept."""
+    return {**raw, "takes": {}}
+
+
+MIGRATIONS: Final[tuple[Migration, ...]] = (_with_read_notes, _with_transpositions, _with_takes)
 """In order."""
 
 CURRENT: Final = len(MIGRATIONS) + 1

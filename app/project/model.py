@@ -22,7 +22,8 @@ from app.project.parameters import with_settings as parameters_with
 from app.rig.character import bundled_character, characters
 from app.rig.model import Character
 from app.score.choose import MapChoice
-from app.score.model import Note, Part, Score
+from app.score.model import ControllerCurve, Note, Part, Score
+from app.score.take import Take
 from instrument_maps.model import Control, InstrumentMap
 from metadata.model import Expression
 
@@ -55,6 +56,47 @@ class Player(msgspec.Struct, frozen=True):
     colour: str = ""
     muted: bool = False
     soloed: bool = False
+
+
+class CompSpan(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """A stretch of a part that a take gave.
+
+    Attributes
+    ----------
+    start_tick, end_tick : int
+        Half-open: the notes that begin in it.
+    take_id : str
+    """
+
+    start_tick: int
+    end_tick: int
+    take_id: str
+
+
+class PlayerTakes(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """What was recorded of a player's part.
+
+    Attributes
+    ----------
+    takes : tuple of Take
+        In the order of their lanes.
+    comp : tuple of CompSpan
+        Which take the part has where, in order and apart; elsewhere it is what was there before.
+    before_notes, before_curves : tuple
+        The part when the first take came: it can be gone back to, like to a take.
+    """
+
+    takes: tuple[Take, ...]
+    comp: tuple[CompSpan, ...] = ()
+    before_notes: tuple[Note, ...] = ()
+    before_curves: tuple[ControllerCurve, ...] = ()
+
+    def take(self, take_id: str) -> Take:
+        """The take of this id; KeyError where there is none."""
+        for take in self.takes:
+            if take.id == take_id:
+                return take
+        raise KeyError(take_id)
 
 
 class AudioTrack(msgspec.Struct, frozen=True):
@@ -103,6 +145,8 @@ class Project:
     read_notes : mapping of str to mapping of str to Note
         By part and note id: what the MIDI file held when it was last read, whatever was done to the notes since. A
         part that is not there was not read from a file, or by a program that did not keep it.
+    takes : mapping of str to PlayerTakes
+        By player id; who was never recorded is not there.
     """
 
     score: Score
@@ -116,6 +160,7 @@ class Project:
     expressions: tuple[Expression, ...] = ()
     source: str = ""
     read_notes: Mapping[str, Mapping[str, Note]] = field(default_factory=dict)
+    takes: Mapping[str, PlayerTakes] = field(default_factory=dict)
 
     @property
     def felt_beat_ticks(self) -> int:

@@ -38,13 +38,13 @@ from app.project.casting import StagePosition
 from app.project.edit.corrections import put, take_back
 from app.project.edit.players import cast_parameters, free_name, with_newcomers
 from app.project.ids import (
-    DRAWN_NOTE,
     MADE_PART,
     READ_NOTE,
     READ_PART,
     fresh_note_ids,
     fresh_part_ids,
     fresh_player_ids,
+    is_made_here,
 )
 from app.project.limits import LAST_TICK
 from app.project.model import Player, Project, characters_for
@@ -405,7 +405,7 @@ def _drawn(
     onsets = [note.onset_tick for note in part.notes]
     result = []
     for note in before.notes:
-        if note.id in kept or not (note.id.startswith(DRAWN_NOTE) or before.id.startswith(MADE_PART)):
+        if note.id in kept or not (is_made_here(note.id) or before.id.startswith(MADE_PART)):
             continue
         onset, length = max(place(note.onset_tick), 0), max(round(note.duration_tick * scale), 1)
         at = bisect_right(onsets, onset)
@@ -438,7 +438,7 @@ def _with_players(
     staying: list[Player] = []
     for player in project.players:
         own = project.corrections.get(player.id, ())
-        if player.part_id not in known and not own:
+        if player.part_id not in known and not own and player.id not in project.takes:
             continue
         staying.append(player)
         if own:
@@ -452,7 +452,9 @@ def _with_players(
         if part.id in kept and part.id not in known
     ]
     whole = msgspec.structs.replace(score, title=project.score.title, parts=(*parts, *idle))
-    result = replace(project, score=whole, players=tuple(staying), corrections=corrections)
+    ids = {player.id for player in staying}
+    takes = {id: recorded for id, recorded in project.takes.items() if id in ids}
+    result = replace(project, score=whole, players=tuple(staying), corrections=corrections, takes=takes)
     former = {part.id for part in project.score.parts}
     fresh = [part for part in parts if part.id not in former]
     return _with_new_players(result, fresh, maps) if fresh else result

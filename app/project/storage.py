@@ -31,9 +31,9 @@ from app.errors import FileError, Message
 from app.formats.atomic import atomic_write
 from app.plan.corrections import Correction
 from app.project.check import faults
-from app.project.ids import DRAWN_NOTE
+from app.project.ids import is_made_here
 from app.project.migrations import CURRENT, VERSION_KEY, Raw, migrated
-from app.project.model import AudioTrack, Player, Project
+from app.project.model import AudioTrack, Player, PlayerTakes, Project
 from app.project.remarks import sayable
 from app.rig.character import characters
 from app.score.model import Note, Score
@@ -70,6 +70,8 @@ class _Content(msgspec.Struct, forbid_unknown_fields=True):
     score: Score
     edited_notes: dict[str, tuple[Note, ...]]
     """By part that was read from a MIDI file: the file's version of the notes that are other ones here, or gone."""
+    takes: dict[str, PlayerTakes]
+    """By player."""
 
 
 def save(project: Project, path: str | os.PathLike[str]) -> None:
@@ -121,6 +123,7 @@ def encode(project: Project, path: Path) -> bytes:
         expressions=project.expressions,
         score=project.score,
         edited_notes=_edited_notes(project),
+        takes=dict(project.takes),
     )
     try:
         raw = msgspec.to_builtins(content, order="deterministic", enc_hook=_plain_number)
@@ -227,7 +230,7 @@ def _project(raw: Raw, folder: Path, file: str) -> Project:
         if items
     }
     # What a struct does not forbid it passes over: nothing in a file may be lost by saving it again.
-    for key in ("audio", "players", "expressions", "score", "edited_notes"):
+    for key in ("audio", "players", "expressions", "score", "edited_notes", "takes"):
         for place in _unknown(raw[key], msgspec.to_builtins(getattr(content, key)), key):
             raise FileError("project.invalid", file=file, place=place, detail="unknown key")
     audio = content.audio
@@ -250,6 +253,7 @@ def _project(raw: Raw, folder: Path, file: str) -> Project:
         expressions=content.expressions,
         source=_full_path(content.source, folder),
         read_notes=_read_notes(content.edited_notes, score),
+        takes=content.takes,
     )
 
 
@@ -259,11 +263,7 @@ def _edited_notes(project: Project) -> dict[str, tuple[Note, ...]]:
     return {
         part_id: tuple(
             sorted(
-                (
-                    note
-                    for id, note in notes.items()
-                    if id.startswith(DRAWN_NOTE) or here.get(part_id, {}).get(id) != note
-                ),
+                (note for id, note in notes.items() if is_made_here(id) or here.get(part_id, {}).get(id) != note),
                 key=_place,
             )
         )
@@ -279,7 +279,7 @@ def _read_notes(edited: dict[str, tuple[Note, ...]], score: Score) -> dict[str, 
     """What the MIDI file held: the notes that are here and were not drawn here, with its version of the edited ones."""
     parts = {part.id: part.notes for part in score.parts}
     return {
-        part_id: {note.id: note for note in parts.get(part_id, ()) if not note.id.startswith(DRAWN_NOTE)}
+        part_id: {note.id: note for note in parts.get(part_id, ()) if not is_made_here(note.id)}
         | {note.id: note for note in notes}
         for part_id, notes in edited.items()
     }

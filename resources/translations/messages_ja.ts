@@ -1160,6 +1160,26 @@
             <translation>キャラクター {id!r} には演奏に必要なものがありません: {missing}</translation>
         </message>
         <message>
+            <source>There is no take {take} any more.</source>
+            <translation>テイク {take} はもうありません。</translation>
+        </message>
+        <message>
+            <source>A project has room for {most} takes: delete some first.</source>
+            <translation>プロジェクトに入るテイクは{most}個までです。先にいくつか削除してください。</translation>
+        </message>
+        <message>
+            <source>{part} has notes already, so the tempo cannot follow one take. Quantise the take instead.</source>
+            <translation>{part}にはすでに音符があるため、テンポを1つのテイクに合わせられません。代わりにテイクをクオンタイズしてください。</translation>
+        </message>
+        <message>
+            <source>The take has {count} {count:note|notes}; beats can be found from {least} on.</source>
+            <translation>このテイクの音符は{count}個です。拍の検出には{least}個以上必要です。</translation>
+        </message>
+        <message>
+            <source>No beat can be heard in this take.</source>
+            <translation>このテイクからは拍を検出できません。</translation>
+        </message>
+        <message>
             <source>opening</source>
             <translation>開いています</translation>
         </message>

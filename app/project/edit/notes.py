@@ -19,20 +19,20 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Iterator
 from dataclasses import replace
 from fractions import Fraction
-from itertools import count, groupby
+from itertools import groupby
 
 import msgspec
 
 from app.errors import AppError
 from app.plan.corrections import Correction, anchor
 from app.project.grid import Grid
+from app.project.ids import new_note_ids
 from app.project.limits import LAST_TICK
 from app.project.model import Project
 from app.score.model import Note, Part
 
 LOW_PITCH, HIGH_PITCH = 0, 127
 LOW_VELOCITY, HIGH_VELOCITY = 1, 127
-NEW_ID = "n:"
 
 
 def chosen_notes(project: Project, note_ids: Collection[str]) -> Iterator[tuple[Part, list[Note]]]:
@@ -47,7 +47,7 @@ def add_note(
     project: Project, part_id: str, onset_tick: int, duration_tick: int, pitch: int, velocity: int
 ) -> tuple[Project, str]:
     """Add a note to a part; its id comes with the project. KeyError where there is no such part."""
-    note = _checked(Note(next(_new_ids(project)), onset_tick, duration_tick, pitch, velocity))
+    note = _checked(Note(next(new_note_ids(project)), onset_tick, duration_tick, pitch, velocity))
     if part_id not in {part.id for part in project.score.parts}:
         raise KeyError(part_id)
     return _edited(project, {part_id}, lambda notes: [*notes, note]), note.id
@@ -106,7 +106,7 @@ def erase(project: Project, note_ids: Collection[str]) -> Project:
 
 def split(project: Project, note_ids: Collection[str], tick: int) -> tuple[Project, tuple[str, ...]]:
     """Cut notes in two at a place; the first half keeps the id. The ids of the second halves come with the project."""
-    ids = _new_ids(project)
+    ids = new_note_ids(project)
     seconds: dict[str, Note] = {}
     for _, mine in chosen_notes(project, note_ids):
         for note in mine:
@@ -161,7 +161,7 @@ def duplicate(
     project: Project, note_ids: Collection[str], by_tick: int, by_pitch: int = 0
 ) -> tuple[Project, tuple[str, ...]]:
     """Copy notes within their parts, moved by a distance; the ids of the copies come with the project."""
-    ids = _new_ids(project)
+    ids = new_note_ids(project)
     copies = {
         note.id: _checked(
             msgspec.structs.replace(
@@ -270,7 +270,7 @@ def paste(project: Project, part_id: str, clip: Clip, at_tick: int) -> tuple[Pro
     Notes of one part go to ``part_id``, whatever they came from; those of several parts go back to their own, and to
     ``part_id`` where there is none of that id.
     """
-    ids = _new_ids(project)
+    ids = new_note_ids(project)
     scale = Fraction(project.score.ticks_per_quarter, clip.ticks_per_quarter)
     known = {part.id for part in project.score.parts}
     if part_id not in known:
@@ -303,15 +303,6 @@ def _checked(note: Note) -> Note:
     if not LOW_VELOCITY <= note.velocity <= HIGH_VELOCITY:
         raise AppError("note.velocity_outside", velocity=note.velocity, low=LOW_VELOCITY, high=HIGH_VELOCITY)
     return note
-
-
-def _new_ids(project: Project) -> Iterator[str]:
-    """Free ids: neither a note's nor one that a correction still waits for."""
-    used = [note.id for part in project.score.parts for note in part.notes if note.id.startswith(NEW_ID)]
-    for items in project.corrections.values():
-        used.extend(id for item in items for id in _notes_of(item) if id.startswith(NEW_ID))
-    numbers = [int(id[len(NEW_ID) :]) for id in used if id[len(NEW_ID) :].isdecimal()]
-    return (f"{NEW_ID}{number}" for number in count(max(numbers, default=0) + 1))
 
 
 def _notes_of(item: Correction) -> set[str]:

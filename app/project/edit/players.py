@@ -289,6 +289,7 @@ def remove_players(project: Project, player_ids: Collection[str]) -> Project:
         project,
         players=kept,
         corrections={id: items for id, items in project.corrections.items() if id not in player_ids},
+        takes={id: recorded for id, recorded in project.takes.items() if id not in player_ids},
     )
     if len(parts) < len(project.score.parts):
         result = replace(result, score=msgspec.structs.replace(project.score, parts=parts))

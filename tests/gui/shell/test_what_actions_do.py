@@ -755,6 +755,8 @@ def focus(desk: Desk, context: str) -> QWidget:
     """Bring the keyboard to where the shortcut holds."""
     window = desk.program.window
     window.activateWindow()
+    # After a dialog was closed the display may take its time, and shortcuts belong to the active window.
+    assert QTest.qWaitForWindowActive(window, 10_000)
     if context == "timeline":
         target: QWidget = desk.timeline.roll.plot
     elif context == "viewport":

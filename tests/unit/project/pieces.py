@@ -20,8 +20,9 @@ from app.plan.corrections import (
 )
 from app.plan.model import PlayerParameters
 from app.project.casting import stage_arc
-from app.project.model import AudioTrack, Player, Project
+from app.project.model import AudioTrack, CompSpan, Player, PlayerTakes, Project
 from app.score.model import ControllerCurve, Metre, Note, Part, Score, UnplayedPart
+from app.score.take import Cleaning, Take, Wiring
 from app.score.tempo import TempoChange, TempoMap
 from metadata.model import Expression
 
@@ -114,4 +115,27 @@ def full_project(folder: str = "/music") -> Project:
         expressions=(ANGRY,),
         source=f"{folder}/piece.mid",
         read_notes={"1.1.1": read},
+        takes={
+            "1.1.1": PlayerTakes(
+                takes=(
+                    Take(
+                        id="take:2",
+                        name="二回目",
+                        colour="#123456",
+                        device="EWI5000 MIDI 1",
+                        recorded="2026-11-21T12:00:00+00:00",
+                        wiring=Wiring(3, "cc11", "pitch_bend"),
+                        cleaning=Cleaning(0.04, 0.2, 0.02, 0.01, 0.5, 1 / 3, 0.25),
+                        tempo_map=TempoMap(480, (TempoChange(0, 400_000.0),)),
+                        start_us=-500_000,
+                        end_us=2_000_000,
+                        times_us=(-100_000, 0, 900_000),
+                        messages=("b20b40", "923c64", "823c00"),
+                    ),
+                ),
+                comp=(CompSpan(0, 960, "take:2"),),
+                before_notes=first.notes,
+                before_curves=first.curves,
+            )
+        },
     )

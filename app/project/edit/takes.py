@@ -1,0 +1,439 @@
+"""Takes: recorded, cleaned, and put together into the part (the comp).
+
+A take is kept as it was played. What of it a part has is said by the comp: spans of the part and the takes they came
+from. Only what is swiped over is changed, so that whatever was corrected by hand elsewhere stays; a note of a take has
+the same id whenever it is brought in, so that corrections about it wait for it.
+
+Messages
+--------
+take.none(take) : there is no such take.
+take.too_many(most) : a project has no room for more takes.
+take.not_free(part) : other parts have notes, so the tempo is not one take's to say.
+take.too_few_notes(count, least), take.no_beats() : no beat is found (`app.score.beats`).
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+from fractions import Fraction
+from typing import Any, Final
+
+import msgspec
+import numpy as np
+
+from app.errors import AppError
+from app.identity_cache import IdentityCache
+from app.project import limits
+from app.project.alignment import Floats, Line, align
+from app.project.grid import Grid
+from app.project.ids import MOST_TAKE_NOTES, fresh_take_ids, take_note_id
+from app.project.limits import LAST_TICK
+from app.project.model import CompSpan, PlayerTakes, Project
+from app.project.names import clean_name
+from app.score.beats import find_beats, tempo_of_beats
+from app.score.clean import Cleaned, cleaned
+from app.score.model import ControllerCurve, Note, Score
+from app.score.take import Cleaning, Take
+
+BEFORE: Final = ""
+"""The id of what the part was before the first take, where a take is asked for."""
+
+_NOTES: Final[IdentityCache[tuple[Note, ...]]] = IdentityCache(64)
+_CURVES: Final[IdentityCache[tuple[ControllerCurve, ...]]] = IdentityCache(64)
+
+
+def recorded_of(project: Project, player_id: str) -> PlayerTakes:
+    """What was recorded of a player; nothing, with the part as it is, of one who never was."""
+    recorded = project.takes.get(player_id)
+    if recorded is not None:
+        return recorded
+    part = project.part(project.player(player_id))
+    return PlayerTakes((), (), part.notes, part.curves)
+
+
+def add_takes(project: Project, player_id: str, takes: Sequence[Take]) -> tuple[Project, tuple[str, ...]]:
+    """Add what was recorded; ids are given here, and come with the project. Raises AppError ``take.too_many``."""
+    count = sum(len(recorded.takes) for recorded in project.takes.values()) + len(takes)
+    if count > limits.MOST_TAKES:
+        raise AppError("take.too_many", most=limits.MOST_TAKES)
+    ids = fresh_take_ids(project, len(takes))
+    named = tuple(msgspec.structs.replace(take, id=id) for take, id in zip(takes, ids, strict=True))
+    recorded = recorded_of(project, player_id)
+    return _with(project, player_id, msgspec.structs.replace(recorded, takes=(*recorded.takes, *named))), ids
+
+
+def rename_take(project: Project, player_id: str, take_id: str, name: str) -> Project:
+    """Call a take something else; a name without a sign that can be seen changes nothing."""
+    wanted = clean_name(name)[: limits.MOST_NAME]
+    return _changed(project, player_id, take_id, name=wanted) if wanted else project
+
+
+def colour_take(project: Project, player_id: str, take_id: str, colour: str) -> Project:
+    """Show a take in a colour, ``"#rrggbb"``; empty: the player's."""
+    return _changed(project, player_id, take_id, colour=colour)
+
+
+def remove_take(project: Project, player_id: str, take_id: str) -> Project:
+    """Throw a take away; what the part has of it stays in the part, as notes of its own."""
+    recorded = _recorded(project, player_id, take_id)
+    takes = tuple(take for take in recorded.takes if take.id != take_id)
+    comp = tuple(span for span in recorded.comp if span.take_id != take_id)
+    return _with(project, player_id, msgspec.structs.replace(recorded, takes=takes, comp=comp))
+
+
+def move_take(project: Project, player_id: str, take_id: str, before: int) -> Project:
+    """Put a take's lane before the one that has the number ``before`` now."""
+    recorded = _recorded(project, player_id, take_id)
+    take = recorded.take(take_id)
+    first = [one for one in recorded.takes[:before] if one is not take]
+    last = [one for one in recorded.takes[before:] if one is not take]
+    return _with(project, player_id, msgspec.structs.replace(recorded, takes=(*first, take, *last)))
+
+
+# The comp
+
+
+def comp(project: Project, player_id: str, take_id: str, start_tick: int, end_tick: int) -> Project:
+    """Let the part have what a take has in a span; `BEFORE` is what the part was before the first take.
+
+    Notes go by their onsets. A note of the part that sounds into the span is cut where the first new one begins, and a
+    new one where the part goes on.
+
+    Raises
+    ------
+    AppError
+        ``take.none``.
+    """
+    start_tick, end_tick = max(start_tick, 0), min(end_tick, LAST_TICK)
+    if start_tick >= end_tick:
+        return project
+    recorded = _recorded(project, player_id, take_id)
+    notes, curves = _source(project, player_id, take_id)
+    wanted = [note for note in notes if start_tick <= note.onset_tick < end_tick]
+    project = _replaced(project, player_id, wanted, curves, start_tick, end_tick)
+    spans = _laid(recorded.comp, start_tick, end_tick, take_id)
+    return _with(project, player_id, msgspec.structs.replace(recorded, comp=spans))
+
+
+def comp_whole(project: Project, player_id: str, take_id: str) -> Project:
+    """Let the part have all of a take, from where it begins to where it ends."""
+    if take_id == BEFORE:
+        return comp(project, player_id, take_id, 0, LAST_TICK)
+    take = _recorded(project, player_id, take_id).take(take_id)
+    # A little early is still the first beat; what was played before the piece begins is left out.
+    slack = project.score.ticks_per_quarter // 8
+    start, end = round(take.start_tick), round(take.end_tick)
+    return comp(project, player_id, take_id, max(start, 0) if start <= slack else start, end)
+
+
+def set_cleaning(project: Project, player_id: str, take_id: str, cleaning: Cleaning) -> Project:
+    """Clean a take otherwise; what the part has of it follows, but for notes that were changed in the part by hand."""
+    recorded = _recorded(project, player_id, take_id)
+    if recorded.take(take_id).cleaning == cleaning:
+        return project
+    before = {note.id: note for note in take_notes(project, player_id, take_id)}
+    project = _changed(project, player_id, take_id, cleaning=cleaning)
+    after = take_notes(project, player_id, take_id)
+    for span in recorded.comp:
+        if span.take_id == take_id:
+            project = _recleaned(project, player_id, before, after, span)
+    return project
+
+
+def take_notes(project: Project, player_id: str, take_id: str) -> tuple[Note, ...]:
+    """A take's notes as the part would have them: cleaned, drawn to the score and the grid, in the piece's ticks.
+
+    A note that is taken for one of the score's keeps that one's id, so that its corrections hold for it.
+    """
+    recorded = _recorded(project, player_id, take_id)
+    take = recorded.take(take_id)
+    score, before = project.score, recorded.before_notes
+    # The score is another value after every edit; these are what the notes depend on.
+    keys = (take, before, score.metres, score.ticks_per_quarter, score.pickup_ticks)
+    return _NOTES.get(keys, lambda: _notes(take, score, before))
+
+
+def take_cleaned(project: Project, player_id: str, take_id: str) -> Cleaned:
+    """What the cleaning of a take leaves out, and why."""
+    return cleaned(_recorded(project, player_id, take_id).take(take_id))
+
+
+def take_curves(project: Project, player_id: str, take_id: str) -> tuple[ControllerCurve, ...]:
+    """A take's breath, bite and other controllers, in the piece's ticks."""
+    take = _recorded(project, player_id, take_id).take(take_id)
+    return _CURVES.get((take,), lambda: _curves(take))
+
+
+# A take without a score
+
+
+def follow_beats(project: Project, player_id: str, take_id: str) -> Project:
+    """Find the beats of a take that was played freely, and let the piece have its tempo: the take's first beat begins
+    the piece, and its notes lie on beats as they were meant.
+
+    Raises
+    ------
+    AppError
+        ``take.not_free``: others play too; ``take.too_few_notes``, ``take.no_beats``.
+    """
+    for part in project.score.parts:
+        if part.notes and part.id != project.player(player_id).part_id:
+            raise AppError("take.not_free", part=part.name)
+    recorded = _recorded(project, player_id, take_id)
+    take = recorded.take(take_id)
+    clean = cleaned(take)
+    kept = clean.kept
+    beats_s = find_beats(clean.onsets_s[kept], clean.ends_s[kept])
+    tempo_map = tempo_of_beats(beats_s, project.score.ticks_per_quarter)
+    shift_us = round(float(beats_s[0]) * 1e6)
+    take = msgspec.structs.replace(
+        take,
+        tempo_map=tempo_map,
+        start_us=take.start_us - shift_us,
+        end_us=take.end_us - shift_us,
+        times_us=tuple(time_us - shift_us for time_us in take.times_us),
+    )
+    takes = tuple(take if one.id == take_id else one for one in recorded.takes)
+    project = replace(project, score=msgspec.structs.replace(project.score, tempo_map=tempo_map))
+    project = _with(project, player_id, msgspec.structs.replace(recorded, takes=takes))
+    return comp(project, player_id, take_id, 0, LAST_TICK)
+
+
+# How it is done
+
+
+def _recorded(project: Project, player_id: str, take_id: str) -> PlayerTakes:
+    recorded = recorded_of(project, player_id)
+    if take_id != BEFORE and take_id not in {take.id for take in recorded.takes}:
+        raise AppError("take.none", take=take_id)
+    return recorded
+
+
+def _with(project: Project, player_id: str, recorded: PlayerTakes) -> Project:
+    if recorded == project.takes.get(player_id):
+        return project
+    return replace(project, takes={**project.takes, player_id: recorded})
+
+
+def _changed(project: Project, player_id: str, take_id: str, **fields: Any) -> Project:
+    recorded = _recorded(project, player_id, take_id)
+    takes = tuple(msgspec.structs.replace(take, **fields) if take.id == take_id else take for take in recorded.takes)
+    return _with(project, player_id, msgspec.structs.replace(recorded, takes=takes))
+
+
+def _source(project: Project, player_id: str, take_id: str) -> tuple[tuple[Note, ...], tuple[ControllerCurve, ...]]:
+    """What a take, or the part before the first one, has to give."""
+    if take_id == BEFORE:
+        recorded = recorded_of(project, player_id)
+        return recorded.before_notes, recorded.before_curves
+    return take_notes(project, player_id, take_id), take_curves(project, player_id, take_id)
+
+
+def _notes(take: Take, score: Score, before: tuple[Note, ...]) -> tuple[Note, ...]:
+    clean = cleaned(take)
+    kept = [index for index in clean.kept[:MOST_TAKE_NOTES] if clean.ends_s[index] > 0.0]
+    onsets = np.maximum(take.tempo_map.ticks(clean.onsets_s[kept]), 0.0)
+    ends = np.minimum(take.tempo_map.ticks(clean.ends_s[kept]), LAST_TICK)
+    ids = [take_note_id(take.number, index) for index in kept]
+    pitches = clean.pitches[kept].tolist()
+    if take.cleaning.align > 0.0:
+        onsets, ends, ids, pitches = _aligned(take.cleaning.align, onsets, ends, ids, pitches, before, score)
+    if take.cleaning.quantise > 0.0:
+        onsets, ends = _quantised(take.cleaning, onsets, ends, score)
+    notes = [
+        Note(id, round(onset), max(round(end) - round(onset), 1), pitch, velocity)
+        for id, onset, end, pitch, velocity in zip(
+            ids, onsets.tolist(), ends.tolist(), pitches, clean.velocities[kept].tolist(), strict=True
+        )
+        if round(onset) < LAST_TICK
+    ]
+    return tuple(sorted(notes, key=lambda note: (note.onset_tick, note.pitch)))
+
+
+def _aligned(
+    strength: float,
+    onsets: Floats,
+    ends: Floats,
+    ids: list[str],
+    pitches: list[int],
+    before: tuple[Note, ...],
+    score: Score,
+) -> tuple[Floats, Floats, list[str], list[int]]:
+    """Notes drawn to those of the score that they are taken for, which give them pitch and name; others move with
+    their neighbours, so that what was played between stays between."""
+    quarter = score.ticks_per_quarter
+    order = np.lexsort((np.array(pitches), onsets))
+    played = Line(onsets[order] / quarter, (ends - onsets)[order] / quarter, np.array(pitches, np.int64)[order])
+    pairs = align(Line.of(before, quarter), played)
+    if not len(pairs):
+        return onsets, ends, ids, pitches
+    meant = [before[index] for index in pairs[:, 0].tolist()]
+    found = order[pairs[:, 1]]
+    at, by = onsets[found], np.array([note.onset_tick for note in meant]) - onsets[found]
+    moved = strength * np.interp(onsets, at, by)
+    moved_ends = strength * np.interp(ends, at, by)
+    lengths = np.maximum(ends + moved_ends - onsets - moved, 1.0)
+    ids, pitches = list(ids), list(pitches)
+    for index, note in zip(found.tolist(), meant, strict=True):
+        ids[index], pitches[index] = note.id, note.pitch
+        lengths[index] += strength * (note.duration_tick - lengths[index])
+    onsets = np.maximum(onsets + moved, 0.0)
+    return onsets, onsets + lengths, ids, pitches
+
+
+def _quantised(cleaning: Cleaning, onsets: Floats, ends: Floats, score: Score) -> tuple[Floats, Floats]:
+    """Onsets drawn to the grid; where a legato note's successor goes its end goes with it."""
+    grid = Grid(Fraction(cleaning.grid_quarters).limit_denominator(960))
+    by = cleaning.quantise * np.array([grid.snap(score, onset) - onset for onset in onsets.tolist()])
+    if not len(onsets):
+        return onsets, ends
+    ends_by = np.interp(ends, onsets, by) if np.all(np.diff(onsets) > 0.0) else by
+    new = np.maximum(onsets + by, 0.0)
+    return new, np.maximum(ends + ends_by, new + 1.0)
+
+
+def _curves(take: Take) -> tuple[ControllerCurve, ...]:
+    curves = []
+    for kind, curve in take.played.curves.items():
+        ticks = np.rint(take.tempo_map.ticks(curve.times_s)).astype(np.int64)
+        inside = (ticks >= 0) & (ticks <= LAST_TICK)
+        # What was sent before the piece holds at its beginning.
+        earlier = np.flatnonzero(ticks < 0)
+        steps = dict(zip(ticks[inside].tolist(), curve.values[inside].tolist(), strict=True))
+        if len(earlier):
+            steps.setdefault(0, float(curve.values[earlier[-1]]))
+        ordered = sorted(steps.items())
+        if ordered:
+            curves.append(ControllerCurve(kind, *zip(*ordered, strict=True)))
+    return tuple(curves)
+
+
+def _replaced(
+    project: Project,
+    player_id: str,
+    wanted: Sequence[Note],
+    curves: Sequence[ControllerCurve],
+    start_tick: int,
+    end_tick: int,
+) -> Project:
+    """The part with other notes and curves in a span."""
+    part = project.part(project.player(player_id))
+    outside = [note for note in part.notes if not start_tick <= note.onset_tick < end_tick]
+    # A note that was moved out of the span by hand is there already.
+    known = {note.id for note in outside} | _others(project, part.id)
+    inside = [note for note in wanted if note.id not in known]
+    notes = _fitted([note for note in outside if note.onset_tick < start_tick], inside)
+    notes = _fitted(notes, [note for note in outside if note.onset_tick >= end_tick])
+    return _with_part(project, part.id, notes, _spliced(part.curves, curves, start_tick, end_tick))
+
+
+def _others(project: Project, part_id: str) -> set[str]:
+    """Ids of the notes of other parts; a duplicate of the player may have some that a take would bring."""
+    return {note.id for part in project.score.parts if part.id != part_id for note in part.notes}
+
+
+def _fitted(before: list[Note], after: list[Note]) -> list[Note]:
+    """Notes one after the other; what sounds beyond the first of those that follow is cut there."""
+    if not after:
+        return before
+    first = min(note.onset_tick for note in after)
+    cut = [
+        msgspec.structs.replace(note, duration_tick=first - note.onset_tick) if note.end_tick > first else note
+        for note in before
+    ]
+    return [*cut, *after]
+
+
+def _with_part(project: Project, part_id: str, notes: Iterable[Note], curves: tuple[ControllerCurve, ...]) -> Project:
+    ordered = tuple(sorted(notes, key=lambda note: (note.onset_tick, note.pitch)))
+    parts = []
+    for part in project.score.parts:
+        if part.id == part_id and (part.notes != ordered or part.curves != curves):
+            part = msgspec.structs.replace(part, notes=ordered, curves=curves)
+        parts.append(part)
+    if all(after is before for after, before in zip(parts, project.score.parts, strict=True)):
+        return project
+    return replace(project, score=msgspec.structs.replace(project.score, parts=tuple(parts)))
+
+
+def _spliced(
+    before: Sequence[ControllerCurve], given: Sequence[ControllerCurve], start_tick: int, end_tick: int
+) -> tuple[ControllerCurve, ...]:
+    """Curves with others in a span: where it ends, what was there before goes on."""
+    old, new = {curve.kind: curve for curve in before}, {curve.kind: curve for curve in given}
+    result = []
+    for kind in (*old, *(kind for kind in new if kind not in old)):
+        steps = {tick: value for tick, value in _steps(old.get(kind)) if not start_tick <= tick < end_tick}
+        inside = {tick: value for tick, value in _steps(new.get(kind)) if start_tick <= tick < end_tick}
+        held = _value_at(new.get(kind), start_tick)
+        inside.setdefault(start_tick, 0.0 if held is None else held)
+        after = _value_at(old.get(kind), end_tick)
+        if end_tick < LAST_TICK:
+            inside.setdefault(end_tick, 0.0 if after is None else after)
+        ordered = sorted({**inside, **steps}.items())
+        kept = [step for index, step in enumerate(ordered) if index == 0 or step[1] != ordered[index - 1][1]]
+        # A controller that never says anything is none.
+        if any(value for _, value in kept):
+            result.append(ControllerCurve(kind, *zip(*kept, strict=True)))
+    return tuple(result)
+
+
+def _steps(curve: ControllerCurve | None) -> Iterable[tuple[int, float]]:
+    return () if curve is None else zip(curve.ticks, curve.values, strict=True)
+
+
+def _value_at(curve: ControllerCurve | None, tick: int) -> float | None:
+    """What holds at a tick; None before the first."""
+    if curve is None:
+        return None
+    index = bisect_right(curve.ticks, tick) - 1
+    return curve.values[index] if index >= 0 else None
+
+
+def _laid(spans: tuple[CompSpan, ...], start_tick: int, end_tick: int, take_id: str) -> tuple[CompSpan, ...]:
+    """The comp with a span laid over it; neighbours of one take are one."""
+    result = []
+    for span in spans:
+        if span.start_tick < start_tick:
+            result.append(msgspec.structs.replace(span, end_tick=min(span.end_tick, start_tick)))
+        if span.end_tick > end_tick:
+            result.append(msgspec.structs.replace(span, start_tick=max(span.start_tick, end_tick)))
+    if take_id != BEFORE:
+        result.append(CompSpan(start_tick, end_tick, take_id))
+    joined: list[CompSpan] = []
+    for span in sorted(result, key=lambda span: span.start_tick):
+        if joined and joined[-1].take_id == span.take_id and joined[-1].end_tick == span.start_tick:
+            joined[-1] = msgspec.structs.replace(joined[-1], end_tick=span.end_tick)
+        else:
+            joined.append(span)
+    return tuple(joined)
+
+
+def _recleaned(
+    project: Project, player_id: str, before: dict[str, Note], after: tuple[Note, ...], span: CompSpan
+) -> Project:
+    """The part with a take's notes as they are now instead of as they were; what was changed by hand stays."""
+    part = project.part(project.player(player_id))
+    here = {note.id: note for note in part.notes}
+    now = {note.id: note for note in after if span.start_tick <= note.onset_tick < span.end_tick}
+    was = {id: note for id, note in before.items() if span.start_tick <= note.onset_tick < span.end_tick}
+    notes = dict(here)
+    for id, note in was.items():
+        if id in here and _is_as_given(here[id], note):
+            del notes[id]
+            if id in now:
+                notes[id] = now[id]
+    known = here.keys() | _others(project, part.id)
+    notes |= {id: note for id, note in now.items() if id not in was and id not in known}
+    ordered = sorted(notes.values(), key=lambda note: (note.onset_tick, note.pitch))
+    return _with_part(project, part.id, ordered, part.curves)
+
+
+def _is_as_given(here: Note, given: Note) -> bool:
+    """Whether a note of the part is as the take gave it; it may have been cut where another take goes on."""
+    return here == given or (
+        here.duration_tick < given.duration_tick
+        and here == msgspec.structs.replace(given, duration_tick=here.duration_tick)
+    )

@@ -1,0 +1,99 @@
+"""The beats of what was played without a click: a tempo map that follows the player.
+
+The beats are found by librosa (dynamic programming over an onset envelope: Ellis, 2007, "Beat tracking by dynamic
+programming").
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+import numpy.typing as npt
+
+from app.errors import AppError
+from app.score.tempo import TempoChange, TempoMap
+
+Floats = npt.NDArray[np.float64]
+
+_RATE_HZ: Final = 200
+"""Of the envelope: 5 ms, finer than a beat is played."""
+_SPREAD_S: Final = 0.02
+_LEAST_NOTES: Final = 8
+TIGHTNESS: Final = 60.0
+"""How much a beat's length may differ from the one before; librosa's usual 100 is for bands that keep time."""
+_SLOWEST_US, _FASTEST_US = 2_000_000.0, 200_000.0
+
+
+def find_beats(onsets_s: Floats, ends_s: Floats, start_bpm: float = 100.0) -> Floats:
+    """Times of the beats.
+
+    Parameters
+    ----------
+    onsets_s, ends_s : float64, shape (n,)
+        Of the notes. Longer notes begin on beats more often.
+    start_bpm : float
+        What tempo is likely; beats twice as fast or slow are told apart by it.
+
+    Returns
+    -------
+    float64, shape (beats,)
+        Ascending; from before the first note or at it, to the last one or after it.
+
+    Raises
+    ------
+    AppError
+        ``take.too_few_notes`` (count, least).
+    """
+    if len(onsets_s) < _LEAST_NOTES:
+        raise AppError("take.too_few_notes", count=len(onsets_s), least=_LEAST_NOTES)
+    import librosa  # heavy: compiles on its first use, and only here
+
+    first_s = float(onsets_s[0]) - 1.0
+    envelope = np.zeros(int(np.ceil((float(onsets_s[-1]) - first_s + 2.0) * _RATE_HZ)))
+    times_s = first_s + np.arange(len(envelope)) / _RATE_HZ
+    for onset_s, end_s in zip(onsets_s.tolist(), ends_s.tolist(), strict=True):
+        weight = 0.5 + min(max(end_s - onset_s, 0.0), 1.0)
+        low, high = np.searchsorted(times_s, [onset_s - 4 * _SPREAD_S, onset_s + 4 * _SPREAD_S])
+        envelope[low:high] += weight * np.exp(-0.5 * ((times_s[low:high] - onset_s) / _SPREAD_S) ** 2)
+    _, frames = librosa.beat.beat_track(
+        onset_envelope=envelope, sr=_RATE_HZ, hop_length=1, start_bpm=start_bpm, tightness=TIGHTNESS, trim=False
+    )
+    beats = _settled(times_s[frames], onsets_s)
+    if len(beats) < 2:
+        raise AppError("take.no_beats")
+    return _covering(beats, float(onsets_s[0]), float(onsets_s[-1]))
+
+
+def tempo_of_beats(beats_s: Floats, ticks_per_quarter: int) -> TempoMap:
+    """A tempo map in which every beat is a quarter; the first lies on tick 0 and second 0.
+
+    A bar line cannot be found in onsets alone: the first beat begins one.
+    """
+    lengths_us = np.clip(np.diff(beats_s) * 1e6, _FASTEST_US, _SLOWEST_US)
+    changes = [TempoChange(index * ticks_per_quarter, float(length)) for index, length in enumerate(lengths_us)]
+    return TempoMap.of_changes(ticks_per_quarter, changes)
+
+
+def _settled(beats_s: Floats, onsets_s: Floats) -> Floats:
+    """Beats on the notes that they mean: the envelope is coarse, and a beat near an onset is that onset."""
+    if not len(beats_s):
+        return beats_s
+    after = np.clip(np.searchsorted(onsets_s, beats_s), 1, len(onsets_s) - 1)
+    nearest = np.where(
+        np.abs(onsets_s[after] - beats_s) < np.abs(onsets_s[after - 1] - beats_s), onsets_s[after], onsets_s[after - 1]
+    )
+    return np.where(np.abs(nearest - beats_s) <= 2 * _SPREAD_S, nearest, beats_s)
+
+
+def _covering(beats_s: Floats, first_s: float, last_s: float) -> Floats:
+    """Beats from the first note, or just before it, to the last one or just after it; where none were found, at the
+    pace of those next to there."""
+    inside = beats_s[(beats_s > first_s - 2 * _SPREAD_S) & (beats_s < last_s + 2 * _SPREAD_S)]
+    beats_s = inside if len(inside) >= 2 else beats_s
+    lead, tail = beats_s[1] - beats_s[0], beats_s[-1] - beats_s[-2]
+    before = max(int(np.ceil((beats_s[0] - first_s) / lead - 1e-6)), 0)
+    after = max(int(np.ceil((last_s - beats_s[-1]) / tail - 1e-6)), 0)
+    start = beats_s[0] - lead * np.arange(before, 0, -1)
+    end = beats_s[-1] + tail * np.arange(1, after + 1)
+    return np.concatenate([start, beats_s, end])

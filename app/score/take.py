@@ -1,0 +1,272 @@
+"""A take: what a wind controller sent while somebody played, kept as it came, and what was played in it.
+
+A take is never changed: it is cleaned, quantised and cut anew from the same events whenever somebody wants it
+otherwise.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cache, cached_property
+from typing import Final, Literal, TypeAlias
+
+import mido
+import msgspec
+import numpy as np
+import numpy.typing as npt
+
+from app.score.model import CurveKind
+from app.score.tempo import TempoMap
+
+Floats: TypeAlias = npt.NDArray[np.float64]
+Ints: TypeAlias = npt.NDArray[np.int64]
+
+Source: TypeAlias = Literal["", "cc2", "cc7", "cc11", "channel_pressure", "pitch_bend", "cc1"]
+"""What a controller sends something with; empty: it does not send it."""
+
+_CONTROLLERS: Final[Mapping[int, Source]] = {1: "cc1", 2: "cc2", 7: "cc7", 11: "cc11"}
+_ALL_SOUND_OFF, _ALL_NOTES_OFF = 120, 123
+_BEND_RANGE = 8192
+
+
+class Wiring(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """With what a controller sends the player's breath and lips.
+
+    Attributes
+    ----------
+    channel : int
+        1..16; 0: any.
+    breath, bite : str
+        A `Source`.
+    """
+
+    channel: int = 0
+    breath: Source = "cc2"
+    bite: Source = ""
+
+
+class Cleaning(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """How notes are made from what was played; see `app.score.clean`.
+
+    Attributes
+    ----------
+    ghost_s : float
+        A note shorter than this is left out where it is soft too, or lies between two notes of a legato (fingers that
+        did not move at once); 0: none is.
+    ghost_loudness : float
+        Soft: the breath stays below this (0..1); where no breath was sent, the velocity.
+    double_s : float
+        A note struck again at the same pitch within this time is one note; 0: never.
+    overlap_s : float
+        The longest that a note may sound into the next; more is cut, so that a slur stays one.
+    quantise : float
+        0..1: how far onsets are drawn to the grid.
+    grid_quarters : float
+        The grid's step.
+    align : float
+        0..1: how far notes are drawn to those of the score that they are taken for; 0: they are not compared.
+    """
+
+    ghost_s: float = 0.05
+    ghost_loudness: float = 0.15
+    double_s: float = 0.03
+    overlap_s: float = 0.02
+    quantise: float = 0.0
+    grid_quarters: float = 0.25
+    align: float = 0.0
+
+
+class Take(msgspec.Struct, frozen=True, dict=True, forbid_unknown_fields=True):
+    """One pass of a recording.
+
+    Attributes
+    ----------
+    id : str
+        ``"take:1"`` and so on; unique in the project, never used again.
+    name : str
+    colour : str
+        ``"#rrggbb"``; empty: the player's.
+    device : str
+        The port it came from.
+    recorded : str
+        When, as ISO 8601 in UTC; empty where nobody knows.
+    wiring : Wiring
+    cleaning : Cleaning
+    tempo_map : TempoMap
+        What was heard while it was played: the events keep their places in the music when the piece's tempo changes.
+    start_us, end_us : int
+        Performance time of its beginning and end, microseconds; tick 0 of ``tempo_map`` is 0, the pre-roll negative.
+    times_us : tuple of int
+        Performance time of every event, ascending.
+    messages : tuple of str
+        The events as hexadecimal bytes of MIDI.
+    """
+
+    id: str
+    name: str
+    colour: str
+    device: str
+    recorded: str
+    wiring: Wiring
+    cleaning: Cleaning
+    tempo_map: TempoMap
+    start_us: int
+    end_us: int
+    times_us: tuple[int, ...]
+    messages: tuple[str, ...]
+
+    @property
+    def number(self) -> int:
+        """The number in its id."""
+        return int(self.id.rpartition(":")[2])
+
+    @cached_property
+    def played(self) -> Played:
+        """What the events mean."""
+        return played(self)
+
+    @property
+    def start_tick(self) -> float:
+        """Where it begins in the music."""
+        return self.tempo_map.ticks(self.start_us / 1e6)
+
+    @property
+    def end_tick(self) -> float:
+        """Where it ends in the music."""
+        return self.tempo_map.ticks(self.end_us / 1e6)
+
+
+@dataclass(frozen=True, eq=False)
+class Controlled:
+    """A controller over time: a step function; times ascend.
+
+    Attributes
+    ----------
+    times_s, values : float64, shape (n,)
+        Values as `app.score.model.ControllerCurve` has them.
+    """
+
+    times_s: Floats
+    values: Floats
+
+    def at(self, times_s: Floats) -> Floats:
+        """The value at times; 0 before the first."""
+        index = np.searchsorted(self.times_s, times_s, side="right")
+        return np.concatenate(([0.0], self.values))[index]
+
+
+@dataclass(frozen=True, eq=False)
+class Played:
+    """The notes and curves of a take, as they were played; all arrays of notes have one length, in order of onset.
+
+    Attributes
+    ----------
+    onsets_s, ends_s : float64
+        Performance time. A note that was held at the end ends with the take.
+    pitches, velocities : int64
+    curves : mapping of CurveKind to Controlled
+        ``breath`` and ``bite`` by the take's wiring, the others as they came.
+    """
+
+    onsets_s: Floats
+    ends_s: Floats
+    pitches: Ints
+    velocities: Ints
+    curves: Mapping[CurveKind, Controlled]
+
+    def __len__(self) -> int:
+        return len(self.onsets_s)
+
+
+def played(take: Take) -> Played:
+    """Decode a take; messages that say nothing of notes, breath or lips are passed over."""
+    notes: list[tuple[float, float, int, int]] = []
+    sounding: dict[int, tuple[float, int]] = {}
+    sent: dict[CurveKind, tuple[list[float], list[float]]] = {}
+    for time_us, raw in zip(take.times_us, take.messages, strict=True):
+        message = decoded(raw)
+        if message is None or (take.wiring.channel and message.channel + 1 != take.wiring.channel):
+            continue
+        time_s = time_us / 1e6
+        kind = message.type
+        if kind in ("note_on", "note_off"):
+            if message.note in sounding:
+                onset_s, velocity = sounding.pop(message.note)
+                notes.append((onset_s, time_s, message.note, velocity))
+            if kind == "note_on" and message.velocity:
+                sounding[message.note] = (time_s, message.velocity)
+        elif kind == "control_change" and message.control in (_ALL_SOUND_OFF, _ALL_NOTES_OFF):
+            notes += [(onset_s, time_s, pitch, velocity) for pitch, (onset_s, velocity) in sounding.items()]
+            sounding.clear()
+        for curve, value in _values(message, take.wiring):
+            times, values = sent.setdefault(curve, ([], []))
+            if times and times[-1] == time_s:
+                values[-1] = value
+            else:
+                times.append(time_s)
+                values.append(value)
+    end_s = take.end_us / 1e6
+    notes += [(onset_s, max(end_s, onset_s), pitch, velocity) for pitch, (onset_s, velocity) in sounding.items()]
+    notes.sort()
+    columns = np.array(notes, np.float64).reshape(-1, 4)
+    return Played(
+        columns[:, 0],
+        columns[:, 1],
+        columns[:, 2].astype(np.int64),
+        columns[:, 3].astype(np.int64),
+        {kind: Controlled(np.array(times), np.array(values)) for kind, (times, values) in sent.items()},
+    )
+
+
+@cache
+def decoded(raw: str) -> mido.Message | None:
+    """A message of a channel; None for any other, and for bytes that are none."""
+    try:
+        message = mido.Message.from_bytes(bytes.fromhex(raw))
+    except (ValueError, IndexError, TypeError, KeyError):
+        return None
+    return message if hasattr(message, "channel") else None
+
+
+def is_message(raw: str) -> bool:
+    """Whether this is one MIDI message in hexadecimal."""
+    try:
+        mido.Message.from_bytes(bytes.fromhex(raw))
+    except (ValueError, IndexError, TypeError, KeyError):
+        return False
+    return True
+
+
+def _values(message: mido.Message, wiring: Wiring) -> Iterable[tuple[CurveKind, float]]:
+    """What a message says, by the kinds of curves."""
+    source, value = _source(message)
+    if not source:
+        return
+    if source == wiring.bite:
+        yield "bite", abs(value) if source == "pitch_bend" else value
+    if source == wiring.breath:
+        yield "breath", value
+    elif source != wiring.bite or source == "pitch_bend":
+        kind = _USUAL.get(source)
+        if kind is not None:
+            yield kind, value
+
+
+_USUAL: Final[Mapping[Source, CurveKind]] = {
+    "cc7": "volume",
+    "cc11": "expression",
+    "channel_pressure": "aftertouch",
+    "pitch_bend": "pitch_bend",
+}
+"""What the others are, that neither breathe nor bite."""
+
+
+def _source(message: mido.Message) -> tuple[Source, float]:
+    if message.type == "control_change":
+        return _CONTROLLERS.get(message.control, ""), message.value / 127.0
+    if message.type == "aftertouch":
+        return "channel_pressure", message.value / 127.0
+    if message.type == "pitchwheel":
+        return "pitch_bend", message.pitch / _BEND_RANGE
+    return "", 0.0
