@@ -17,10 +17,12 @@ from typing import TypeVar, get_args
 import msgspec
 
 from app.errors import MapError, Message
-from metadata.model import ARKIT_MORPHS, Body, EmbouchureKind, Expression, SkeletonProfile
+from metadata.model import ARKIT_MORPHS, Body, Controller, EmbouchureKind, Expression, SkeletonProfile
 
 ROOT = Path(__file__).parent
-_KIND_FOLDERS = {"expression": "expressions", "body": "bodies", "skeleton": "skeletons"}
+_KIND_FOLDERS = {"expression": "expressions", "body": "bodies", "skeleton": "skeletons", "controller": "controllers"}
+GENERIC_CONTROLLER = "generic"
+"""The controller of last resort: any that no other table recognises."""
 _AXIS_TOLERANCE = 2e-3
 _MORPHS = frozenset(ARKIT_MORPHS)
 WEIGHTS = ("relaxed", "tight", "air", "effort", "tongue_stroke", "inhale")
@@ -30,7 +32,7 @@ T = TypeVar("T")
 
 
 def names(kind: str) -> tuple[str, ...]:
-    """Names of the tables of a kind (``expression``, ``body``, ``skeleton``), sorted."""
+    """Names of the tables of a kind (``expression``, ``body``, ``skeleton``, ``controller``), sorted."""
     return tuple(sorted(path.stem for path in (ROOT / _KIND_FOLDERS[kind]).glob("*.toml")))
 
 
@@ -55,6 +57,42 @@ def load_skeleton(name: str = "vrm1") -> SkeletonProfile:
 def load_body(name: str = "adult") -> Body:
     """The bundled body of this name. Raises MapError."""
     return read_body(_path("body", name))
+
+
+@cache
+def load_controller(name: str = GENERIC_CONTROLLER) -> Controller:
+    """The bundled controller of this name. Raises MapError."""
+    return read_controller(_path("controller", name))
+
+
+def load_controllers() -> dict[str, Controller]:
+    """Every bundled controller, by name."""
+    return {name: load_controller(name) for name in names("controller")}
+
+
+def recognised_controller(port: str) -> Controller:
+    """The controller whose MIDI port is called so; the generic one where none is known by that name."""
+    for controller in load_controllers().values():
+        if any(re.search(pattern, port, re.IGNORECASE) for pattern in controller.ports):
+            return controller
+    return load_controller()
+
+
+def read_controller(path: Path) -> Controller:
+    """Read and check a controller. Raises MapError."""
+    controller = _decode(path, Controller)
+    _check_name(path, controller.name)
+    for index, pattern in enumerate(controller.ports):
+        try:
+            re.compile(pattern)
+        except re.error as error:
+            raise _invalid(path, f"ports[{index}]", str(error)) from error
+    for source in controller.breath:
+        if controller.breath.count(source) > 1:
+            raise _invalid(path, "breath", f"{source!r} appears twice")
+    if controller.bite in controller.breath:
+        raise _invalid(path, "bite", f"{controller.bite!r} is what breathes")
+    return controller
 
 
 def read_expression(path: Path) -> Expression:
@@ -198,5 +236,5 @@ def _check_axes(path: Path, key: str, axes: tuple[tuple[float, float, float], ..
 
 # msgspec works a type out when it is first used, and two threads that do so at once crash it: it is done here, under
 # the import's lock.
-for _type in (Body, Expression, SkeletonProfile):
+for _type in (Body, Controller, Expression, SkeletonProfile):
     msgspec.json.Decoder(_type)

@@ -1,4 +1,4 @@
-"""What an animator may edit as data: facial expressions, bodies, skeleton profiles.
+"""What an animator may edit as data: facial expressions, bodies, skeleton profiles, wind controllers.
 
 Angles in the tables are degrees, because people edit them; every name says so. Rotations are about the axes of the
 normalised T-pose: joint frames parallel to the world, the character faces +Z, its left is +X, arms
@@ -334,3 +334,50 @@ class SkeletonProfile(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 def _mirrored(axis: Axis) -> Axis:
     # 0.0 - y rather than -y: no negative zeros.
     return (axis[0], 0.0 - axis[1], 0.0 - axis[2])
+
+
+BreathSource: TypeAlias = Literal["cc2", "cc7", "cc11", "channel_pressure"]
+"""What may carry a player's breath: MIDI's breath controller, volume, expression, channel pressure (aftertouch)."""
+BiteSource: TypeAlias = Annotated[
+    str, msgspec.Meta(pattern=r"^(none|pitch_bend|channel_pressure|cc([0-9]|[1-9][0-9]|1[01][0-9]))$")
+]
+"""What may carry the bite on a mouthpiece: nothing, pitch bend, channel pressure or a controller by its number."""
+
+
+class ControllerName(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """A controller's name by language."""
+
+    en: str
+    ja: str
+
+
+class Controller(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """What an electronic wind instrument sends as it comes from its maker.
+
+    Attributes
+    ----------
+    name : str
+        Id; the file's name.
+    title : ControllerName
+    ports : tuple of str
+        Regular expressions, of which one is found in the name of its MIDI port, whatever the case; none recognises
+        the controller of last resort.
+    breath : tuple of BreathSource
+        Where its breath may be, the most trusted first.
+    channel : int
+        1..16; 0 where it may be any.
+    bite : BiteSource
+    bend_range_semitones : float
+        To how many semitones a full pitch bend is played.
+    source : str
+        Where this is known from.
+    """
+
+    name: str
+    title: ControllerName
+    ports: tuple[str, ...]
+    breath: Annotated[tuple[BreathSource, ...], msgspec.Meta(min_length=1)]
+    channel: Annotated[int, msgspec.Meta(ge=0, le=16)]
+    bite: BiteSource
+    bend_range_semitones: Annotated[float, msgspec.Meta(gt=0.0, le=96.0)]
+    source: str

@@ -16,6 +16,8 @@ import app.cli.export
 import app.cli.inspect
 import app.cli.instruments
 import app.cli.midi
+import app.cli.ports
+import app.cli.record
 from app.errors import AppError, UsageError
 from app.messages import error_text
 from app.version import program_version
@@ -35,6 +37,8 @@ examples:
   suisou midi session.suisou --to session.mid
   suisou instruments
   suisou instruments scale trumpet_Bb
+  suisou ports
+  suisou record --port EWI --to take.mid --count-in 1 --tempo 96
 """
 
 
@@ -53,6 +57,8 @@ def parser() -> argparse.ArgumentParser:
     app.cli.export.add_command(commands)
     app.cli.midi.add_command(commands)
     app.cli.instruments.add_command(commands)
+    app.cli.ports.add_command(commands)
+    app.cli.record.add_command(commands)
     return top
 
 

@@ -10,10 +10,26 @@ from string import Formatter
 from typing import Final
 
 from app.errors import AppError, Message
-from app.messages import audio, edit, files, formats, notes, picture, plan, project, request, score, tables, takes, work
+from app.messages import (
+    audio,
+    capture,
+    edit,
+    files,
+    formats,
+    notes,
+    picture,
+    plan,
+    project,
+    request,
+    score,
+    tables,
+    takes,
+    work,
+)
 
 TEMPLATES: Final[dict[str, str]] = {
     **audio.TEMPLATES,
+    **capture.TEMPLATES,
     **edit.TEMPLATES,
     **files.TEMPLATES,
     **formats.TEMPLATES,

@@ -1,0 +1,376 @@
+"""The journal of a running take: lines of text, only ever added to, so that a crash costs what was not yet written.
+
+Line 1 is a JSON object, the header. Then, with moments of `time.perf_counter_ns`::
+
+    e <ns> <hex>                      what was played: the bytes of one message
+    s <ns> <position in s> <pass>     at this moment that place of the piece was heard
+    lost <ns>, back <ns>              the device had gone, and was listened to again
+    end <ns>                          the take was ended, not torn off
+
+A line without its line feed was torn off and counts as not written.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+from bisect import bisect_left
+from collections.abc import Iterable, Iterator, Sequence
+from io import FileIO
+from itertools import pairwise
+from pathlib import Path
+from typing import Final, TypeAlias
+
+import msgspec
+
+from app.errors import FileError
+from app.formats.locks import lock
+
+VERSION: Final = 1
+_LENGTHS: Final = {0x8: 3, 0x9: 3, 0xA: 3, 0xB: 3, 0xC: 2, 0xD: 2, 0xE: 3}
+_LARGEST_NS: Final = 1 << 62
+_LARGEST_S: Final = 1e7
+_LARGEST_LATENCY_S: Final = 10.0
+
+Gap: TypeAlias = tuple[int, int | None]
+"""When the device had gone and when it was back; None where it stayed away."""
+
+
+class Header(msgspec.Struct, frozen=True):
+    """What a journal is of.
+
+    Attributes
+    ----------
+    project : str
+        Path of the project file, or what the editor calls a project never saved.
+    player : str
+        Id of the player the take is for.
+    port, controller : str
+        Name of the device; id of the preset in ``metadata/controllers``.
+    latency_s : float
+        What lies between playing and the event's arrival, and between the performance's time and its sound; is taken
+        off the events' times.
+    started : str
+        ISO 8601 date and time.
+    """
+
+    project: str
+    player: str
+    port: str
+    controller: str
+    latency_s: float
+    started: str
+    version: int = VERSION
+
+
+class _Version(msgspec.Struct, frozen=True):
+    version: int
+
+
+# Made under the import's lock: see the end of `metadata.load`.
+_HEADERS: Final = msgspec.json.Decoder(Header)
+_VERSIONS: Final = msgspec.json.Decoder(_Version)
+
+
+class SyncPoint(msgspec.Struct, frozen=True, gc=False):
+    """At a moment that place of the piece was heard, in this pass of a loop."""
+
+    ns: int
+    position_s: float
+    pass_: int
+
+
+class Journal(msgspec.Struct, frozen=True):
+    """What a journal holds.
+
+    Attributes
+    ----------
+    times_ns : tuple of int
+        When each event arrived, ascending; `time.perf_counter_ns`.
+    messages : tuple of bytes
+        One whole message of a channel each.
+    gaps : tuple of (int, int or None)
+    complete : bool
+        Whether the take was ended; else it was torn off.
+    """
+
+    header: Header
+    times_ns: tuple[int, ...]
+    messages: tuple[bytes, ...]
+    syncs: tuple[SyncPoint, ...]
+    gaps: tuple[Gap, ...]
+    complete: bool
+
+
+class Pass(msgspec.Struct, frozen=True):
+    """What was played in one pass of a loop, in the performance's time.
+
+    Attributes
+    ----------
+    number : int
+    times_us : tuple of int
+        Microseconds, not descending; before the first note negative.
+    messages : tuple of bytes
+    gaps_us : tuple of (int, int)
+        Where the device was away.
+    """
+
+    number: int
+    times_us: tuple[int, ...]
+    messages: tuple[bytes, ...]
+    gaps_us: tuple[tuple[int, int], ...] = ()
+
+
+def is_whole(message: bytes) -> bool:
+    """Whether the bytes are one message of a channel: a status and as many data bytes as it has."""
+    return (
+        len(message) > 1 and _LENGTHS.get(message[0] >> 4) == len(message) and message[1] < 0x80 and message[-1] < 0x80
+    )
+
+
+class JournalWriter:
+    """Writes a journal. What the system does not take at once is kept and tried again with the next.
+
+    Parameters
+    ----------
+    path : str
+        Must not be there; with ``resumed`` it may, and a torn last line is cut off.
+    header : Header
+
+    Raises
+    ------
+    FileError
+        ``journal.exists`` (file), ``file.cannot_write`` (file, reason).
+    """
+
+    def __init__(self, path: str, header: Header, *, resumed: bool = False) -> None:
+        self.path = path
+        self.count = 0
+        mode = "r+" if resumed and Path(path).exists() else "x"
+        try:
+            self._file = FileIO(path, mode)
+            # For whoever finds the journal: somebody still writes it.
+            lock(self._file)
+            is_new = mode == "x" or self._cut() == 0
+        except FileExistsError as error:
+            raise FileError("journal.exists", file=path) from error
+        except OSError as error:
+            raise FileError("file.cannot_write", file=path, reason=error.strerror or str(error)) from error
+        self._pending = bytearray(msgspec.json.encode(header) + b"\n" if is_new else b"")
+        self._is_synced = False
+
+    def _cut(self) -> int:
+        """Cut a torn line off and count the events; the length of what stays."""
+        data = self._file.read()
+        whole = data.rfind(b"\n") + 1
+        self._file.truncate(whole)
+        self._file.seek(whole)
+        self.count = data[:whole].count(b"\ne ")
+        return whole
+
+    def event(self, ns: int, message: bytes) -> None:
+        """Add what was played."""
+        self._is_synced = False
+        self._pending += b"e %d %s\n" % (ns, message.hex().encode())
+        self.count += 1
+
+    def sync(self, ns: int, position_s: float, pass_: int) -> None:
+        """Add what was heard."""
+        self._is_synced = False
+        self._pending += b"s %d %.6f %d\n" % (ns, position_s, pass_)
+
+    def mark(self, word: str, ns: int) -> None:
+        """Add that the device had gone (``lost``), was ``back``, or that the take was ended (``end``)."""
+        self._is_synced = False
+        self._pending += b"%s %d\n" % (word.encode(), ns)
+
+    def write(self) -> None:
+        """Hand everything to the system. Raises OSError; nothing is lost by it."""
+        while self._pending:
+            del self._pending[: self._file.write(self._pending)]
+
+    def to_disk(self) -> bool:
+        """Have the disk take everything; whether there was anything new. Raises OSError."""
+        if self._is_synced:
+            return False
+        self.write()
+        os.fsync(self._file.fileno())
+        self._is_synced = True
+        return True
+
+    def close(self) -> None:
+        """Have the disk take everything and close. Raises OSError; it is closed all the same."""
+        try:
+            self.write()
+            os.fsync(self._file.fileno())
+        finally:
+            self._file.close()
+
+
+def read_journal(path: Path) -> Journal:
+    """Read a journal, also one that was torn off.
+
+    Raises
+    ------
+    FileError
+        ``file.cannot_read`` (file, reason), ``journal.no_header`` (file), ``journal.newer`` (file, version),
+        ``journal.line`` (file, line, detail).
+    """
+    try:
+        data = path.read_bytes()
+    except OSError as error:
+        raise FileError("file.cannot_read", file=str(path), reason=error.strerror or str(error)) from error
+    first, *lines = data.split(b"\n")
+    # What follows the last line feed was torn off, or nothing.
+    torn = not lines
+    header = None if torn else _header(path, first)
+    if header is None:
+        raise FileError("journal.no_header", file=str(path))
+    events: list[tuple[int, bytes]] = []
+    syncs: list[SyncPoint] = []
+    gaps: list[Gap] = []
+    complete = False
+    for number, line in enumerate(lines[:-1], 2):
+        try:
+            word, *values = line.decode("ascii").split(" ")
+            if complete:
+                raise ValueError("the take had ended before")
+            if word == "e":
+                events.append(_event(*values))
+            elif word == "s":
+                syncs.append(_sync(syncs, *values))
+            elif word == "lost":
+                _begin_gap(gaps, _ns(*values))
+            elif word == "back":
+                _end_gap(gaps, _ns(*values))
+            elif word == "end":
+                _ns(*values)
+                complete = True
+            else:
+                raise ValueError(f"{word!r} is no word of a journal")
+        except (ValueError, TypeError) as error:
+            raise FileError("journal.line", file=str(path), line=number, detail=_detail(error)) from error
+    # A device that is opened again hands its events over in another thread.
+    events.sort(key=lambda event: event[0])
+    return Journal(
+        header=header,
+        times_ns=tuple(ns for ns, _ in events),
+        messages=tuple(message for _, message in events),
+        syncs=tuple(syncs),
+        gaps=tuple(gaps),
+        complete=complete,
+    )
+
+
+def passes(journal: Journal) -> tuple[Pass, ...]:
+    """The passes of a take in the performance's time, the latency taken off; none where nothing was heard.
+
+    Between two moments at which it is known what was heard the time is interpolated, outside them it goes on as a
+    clock does. Between two passes the return lies where the first of the next is said to begin; where that is not said
+    to the moment, in the middle.
+    """
+    by_pass: dict[int, list[SyncPoint]] = {}
+    for point in journal.syncs:
+        by_pass.setdefault(point.pass_, []).append(point)
+    if not by_pass:
+        return ()
+    latency_ns = round(journal.header.latency_s * 1e9)
+    returns = [(a[-1].ns + b[0].ns) // 2 for a, b in pairwise(by_pass.values())]
+    edges_ns = [-_LARGEST_NS, *returns, _LARGEST_NS]
+    found = []
+    for (number, points), (begin_ns, end_ns) in zip(by_pass.items(), pairwise(edges_ns), strict=True):
+        begin = bisect_left(journal.times_ns, begin_ns + latency_ns)
+        end = bisect_left(journal.times_ns, end_ns + latency_ns)
+        found.append(
+            Pass(
+                number=number,
+                times_us=tuple(_performance_us(journal.times_ns[begin:end], latency_ns, points)),
+                messages=journal.messages[begin:end],
+                gaps_us=tuple(_gaps_us(journal.gaps, latency_ns, (begin_ns, end_ns), points)),
+            )
+        )
+    return tuple(found)
+
+
+def _gaps_us(
+    gaps: Sequence[Gap], latency_ns: int, span_ns: tuple[int, int], points: Sequence[SyncPoint]
+) -> Iterator[tuple[int, int]]:
+    for lost_ns, back_ns in gaps:
+        end_ns = points[-1].ns + latency_ns if back_ns is None else back_ns
+        first_ns, last_ns = max(lost_ns, span_ns[0] + latency_ns), min(end_ns, span_ns[1] + latency_ns)
+        if first_ns < last_ns:
+            first_us, last_us = _performance_us((first_ns, last_ns), latency_ns, points)
+            yield first_us, last_us
+
+
+def _performance_us(times_ns: Iterable[int], latency_ns: int, points: Sequence[SyncPoint]) -> Iterator[int]:
+    """Ascending moments as microseconds of the performance, by what was heard in one pass."""
+    index = 0
+    for time_ns in times_ns:
+        played_ns = time_ns - latency_ns
+        while index + 2 < len(points) and points[index + 1].ns <= played_ns:
+            index += 1
+        near = points[index]
+        position_s, speed = near.position_s, 1.0
+        if index + 1 < len(points):
+            after = points[index + 1]
+            if played_ns >= after.ns:
+                near, position_s = after, after.position_s
+            elif played_ns > near.ns:
+                speed = (after.position_s - near.position_s) / ((after.ns - near.ns) / 1e9)
+        yield round((position_s + speed * ((played_ns - near.ns) / 1e9)) * 1e6)
+
+
+def _header(path: Path, line: bytes) -> Header | None:
+    try:
+        version = _VERSIONS.decode(line).version
+        if version > VERSION:
+            raise FileError("journal.newer", file=str(path), version=version)
+        header = _HEADERS.decode(line)
+    except (msgspec.MsgspecError, UnicodeDecodeError, RecursionError):
+        return None
+    known = header.version == VERSION and abs(header.latency_s) <= _LARGEST_LATENCY_S
+    return header if known else None
+
+
+def _ns(text: str) -> int:
+    ns = int(text) if len(text) < 24 else _LARGEST_NS
+    if abs(ns) >= _LARGEST_NS:
+        raise ValueError(f"{text[:24]} is no moment")
+    return ns
+
+
+def _event(ns: str, message: str) -> tuple[int, bytes]:
+    data = bytes.fromhex(message)
+    if not is_whole(data):
+        raise ValueError(f"{message[:24]!r} is no message of a MIDI channel")
+    return _ns(ns), data
+
+
+def _sync(before: Sequence[SyncPoint], ns: str, position: str, pass_: str) -> SyncPoint:
+    position_s = float(position)
+    if not math.isfinite(position_s) or abs(position_s) > _LARGEST_S:
+        raise ValueError(f"{position[:24]} is no place of a piece")
+    point = SyncPoint(_ns(ns), position_s, _ns(pass_))
+    if before and (point.ns < before[-1].ns or point.pass_ < before[-1].pass_):
+        raise ValueError("time goes back")
+    return point
+
+
+def _begin_gap(gaps: list[Gap], ns: int) -> None:
+    # A recorder that goes on with another's journal does not know that the device had gone before.
+    if not gaps or gaps[-1][1] is not None:
+        gaps.append((ns, None))
+
+
+def _end_gap(gaps: list[Gap], ns: int) -> None:
+    if not gaps or gaps[-1][1] is not None:
+        raise ValueError("the device is back and was never lost")
+    gaps[-1] = (gaps[-1][0], ns)
+
+
+def _detail(error: Exception) -> str:
+    # Too few or too many values: Python would tell of our functions.
+    if isinstance(error, TypeError):
+        return "too few or too many values"
+    return "not ASCII" if isinstance(error, UnicodeDecodeError) else str(error)

@@ -1,0 +1,270 @@
+"""The editor's side of the recorder: starts it, asks it, gathers its news; headless."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import subprocess
+import sys
+import threading
+import time
+from collections import deque
+from collections.abc import Callable
+from pathlib import Path
+from types import TracebackType
+from typing import Final, Self
+
+import msgspec
+
+from app.capture.journal import Header
+from app.capture.protocol import (
+    NEWS,
+    Command,
+    Finished,
+    Leave,
+    News,
+    NotStarted,
+    Open,
+    Refused,
+    Restarted,
+    Send,
+    Start,
+    Stop,
+    Sync,
+    framed,
+    read_framed,
+)
+from app.capture.recorder import SYSTEM_VARIABLE
+from app.errors import Message
+
+_MOST_DEATHS: Final = 3
+_DEATHS_WITHIN_S: Final = 10.0
+_END_WITHIN_S: Final = 5.0
+
+
+class RecorderLink:
+    """A recorder in a process of its own. Started at once, started again if it dies; a running journal goes on.
+
+    Parameters
+    ----------
+    on_news : callable
+        Called in a thread of the link's when there is something to `poll` and nobody was called since the last time.
+    system : str
+        The only MIDI system to try, as rtmidi names it; empty for any.
+    """
+
+    def __init__(self, on_news: Callable[[], None] = lambda: None, *, system: str = "") -> None:
+        self._on_news = on_news
+        self._system = system
+        self._news: deque[News] = deque()
+        self._is_called = False
+        self._lock = threading.Lock()
+        self._child: subprocess.Popen[bytes] | None = None
+        self._is_leaving = False
+        self._is_closed = False
+        self._open = Open(None, None)
+        self._take: Start | None = None
+        self._is_stopping = False
+        self._unsent: list[Sync] = []
+        self._deaths_s: list[float] = []
+        self._thread = threading.Thread(target=self._run, name="recorder link", daemon=True)
+        self._thread.start()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    @property
+    def port(self) -> str | None:
+        """The port that is listened to, or as soon as it is there."""
+        return self._open.port
+
+    @property
+    def is_recording(self) -> bool:
+        """Whether a journal runs, or is not yet finished."""
+        return self._take is not None
+
+    def open(self, port: str | None) -> None:
+        """Listen to a port, and again whenever it comes back: `Opened`, `Refused`, `Lost`, `Back`."""
+        self._reopen(msgspec.structs.replace(self._open, port=port))
+
+    def open_output(self, port: str | None) -> None:
+        """Send to a port."""
+        self._reopen(msgspec.structs.replace(self._open, output=port))
+
+    def _reopen(self, wanted: Open) -> None:
+        with self._lock:
+            if wanted == self._open:
+                return
+            had_port = self._open != Open(None, None)
+            self._open = wanted
+            if not had_port:
+                self._tell(wanted)
+            elif self._tell(Leave()):
+                # The next recorder opens it: a port in use is only closed by the end of its process.
+                self._is_leaving = True
+
+    def send(self, message: bytes) -> None:
+        """Send a message to the output; `Refused` where it cannot be."""
+        with self._lock:
+            self._tell(Send(message))
+
+    def start(self, path: str | os.PathLike[str], header: Header) -> None:
+        """Begin a journal, which must not be there: `Written`, or `NotStarted`. One that runs is finished first."""
+        with self._lock:
+            self._take = Start(str(Path(path).absolute()), header)
+            self._is_stopping = False
+            self._unsent.clear()
+            self._tell(self._take)
+
+    def sync(self, ns: int, position_s: float, pass_: int = 0) -> None:
+        """Say what place of the piece is heard at a moment of `time.perf_counter_ns`.
+
+        At the return of a loop say both at the same moment: its end in the pass that ends, its begin in the next.
+        """
+        with self._lock:
+            point = Sync(ns, position_s, pass_)
+            if self._take is not None and not self._tell(point):
+                self._unsent.append(point)
+
+    def stop(self) -> None:
+        """Finish the journal: `Finished` comes when it is whole."""
+        with self._lock:
+            if self._take is not None:
+                self._is_stopping = True
+                self._tell(Stop())
+
+    def poll(self) -> list[News]:
+        """The news since the last time, in order."""
+        self._is_called = False
+        found = []
+        with contextlib.suppress(IndexError):
+            while True:
+                found.append(self._news.popleft())
+        return found
+
+    def close(self) -> None:
+        """End the recorder, which finishes its journal first."""
+        with self._lock:
+            self._is_closed = True
+            if self._child is not None:
+                _hang_up(self._child)
+        self._thread.join()
+
+    def _tell(self, command: Command) -> bool:
+        """Whether the recorder was told; what matters of the rest is told to the next. The lock is held."""
+        if self._child is None or self._is_leaving:
+            return False
+        assert self._child.stdin is not None
+        try:
+            self._child.stdin.write(framed(command))
+            self._child.stdin.flush()
+        except (OSError, ValueError):
+            return False
+        return True
+
+    def _run(self) -> None:
+        resumed_ns: int | None = None
+        while True:
+            try:
+                child = self._started(resumed_ns)
+            except OSError as error:
+                self._put(Refused(Message("capture.recorder_fails", {"detail": error.strerror or str(error)})))
+                return
+            if child is None:
+                return
+            self._read(child)
+            resumed_ns = time.perf_counter_ns()
+            with self._lock:
+                planned = self._is_leaving or self._is_closed
+                self._is_leaving = False
+                self._child = None
+            status = _ended(child)
+            if not planned and not self._may_restart():
+                self._put(Refused(Message("capture.recorder_fails", {"detail": f"status {status}"})))
+                return
+            if not planned:
+                self._put(Restarted(Message("capture.recorder_ended")))
+
+    def _started(self, resumed_ns: int | None) -> subprocess.Popen[bytes] | None:
+        """A new recorder that goes on where the last one ended; None after the link was closed."""
+        with self._lock:
+            if self._is_closed:
+                return None
+            self._child = _started(self._system)
+            if self._take is not None:
+                self._tell(
+                    self._take if resumed_ns is None else msgspec.structs.replace(self._take, resumed_ns=resumed_ns)
+                )
+            if self._open != Open(None, None):
+                self._tell(self._open)
+            for point in self._unsent:
+                self._tell(point)
+            self._unsent.clear()
+            if self._is_stopping:
+                self._tell(Stop())
+            return self._child
+
+    def _may_restart(self) -> bool:
+        now_s = time.monotonic()
+        self._deaths_s = [at_s for at_s in self._deaths_s if now_s - at_s < _DEATHS_WITHIN_S] + [now_s]
+        return len(self._deaths_s) <= _MOST_DEATHS
+
+    def _read(self, child: subprocess.Popen[bytes]) -> None:
+        assert child.stdout is not None
+        with contextlib.suppress(EOFError, OSError, msgspec.MsgspecError):
+            while True:
+                told = read_framed(child.stdout, NEWS)
+                if isinstance(told, Finished | NotStarted):
+                    self._take_ended(told)
+                self._put(told)
+
+    def _take_ended(self, told: Finished | NotStarted) -> None:
+        with self._lock:
+            # A journal that was started while another ran ends that one.
+            if self._take is not None and (isinstance(told, NotStarted) or told.path == self._take.path):
+                self._take = None
+                self._is_stopping = False
+
+    def _put(self, told: News) -> None:
+        self._news.append(told)
+        if not self._is_called:
+            self._is_called = True
+            self._on_news()
+
+
+def _started(system: str) -> subprocess.Popen[bytes]:
+    # The child finds the same packages, wherever it is started.
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+    if system:
+        environment[SYSTEM_VARIABLE] = system
+    return subprocess.Popen(
+        [sys.executable, "-m", "app.capture.recorder"],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        env=environment,
+        creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),
+    )
+
+
+def _hang_up(child: subprocess.Popen[bytes]) -> None:
+    assert child.stdin is not None
+    # It may have been killed with something unsaid; the stream is closed all the same.
+    with contextlib.suppress(OSError):
+        child.stdin.close()
+
+
+def _ended(child: subprocess.Popen[bytes]) -> int:
+    _hang_up(child)
+    try:
+        status = child.wait(_END_WITHIN_S)
+    except subprocess.TimeoutExpired:
+        child.kill()
+        status = child.wait()
+    assert child.stdout is not None
+    child.stdout.close()
+    return status

@@ -1,0 +1,158 @@
+"""What the editor and its recorder tell one another: commands one way, news the other, each after its length."""
+
+from __future__ import annotations
+
+import struct
+from typing import IO, Final, TypeAlias, TypeVar
+
+import msgspec
+
+from app.capture.journal import Header
+from app.errors import Message
+
+_LENGTH: Final = struct.Struct("<I")
+T = TypeVar("T")
+
+
+class _Told(msgspec.Struct, frozen=True, tag=True, array_like=True, gc=False):
+    pass
+
+
+class Open(_Told, frozen=True):
+    """Listen to one port, again whenever it comes back, and send to another; the first command that a recorder gets,
+    and only once (see `app.capture.recorder`)."""
+
+    port: str | None
+    output: str | None
+
+
+class Send(_Told, frozen=True):
+    """Send a message to the output."""
+
+    message: bytes
+
+
+class Start(_Told, frozen=True):
+    """Write what is heard into a journal. ``resumed_ns``: another recorder began it, and since then nobody listened."""
+
+    path: str
+    header: Header
+    resumed_ns: int | None = None
+
+
+class Sync(_Told, frozen=True):
+    """At this moment that place of the piece is heard."""
+
+    ns: int
+    position_s: float
+    pass_: int
+
+
+class Stop(_Told, frozen=True):
+    """Finish the journal."""
+
+
+class Leave(_Told, frozen=True):
+    """End, the journal as it is: another recorder goes on with it."""
+
+
+class Ports(_Told, frozen=True):
+    """The devices that are there now; told at the start and whenever they change.
+
+    Attributes
+    ----------
+    inputs, outputs : tuple of str
+        Names, each once; they stay the same when a device goes and comes back.
+    system : str
+        The MIDI system that is used (``alsa``, ``jack``, ``coremidi``, ``winmm``); empty while none answers.
+    """
+
+    inputs: tuple[str, ...]
+    outputs: tuple[str, ...]
+    system: str
+
+
+class Opened(_Told, frozen=True):
+    """The port is listened to."""
+
+    port: str
+    ns: int
+
+
+class Lost(_Told, frozen=True):
+    """The port has gone; it is opened again when it comes back."""
+
+    port: str
+    ns: int
+
+
+class Back(_Told, frozen=True):
+    """The lost port is listened to again."""
+
+    port: str
+    ns: int
+
+
+class Refused(_Told, frozen=True):
+    """Something asked for cannot be done, and why."""
+
+    reason: Message
+
+
+class NotStarted(_Told, frozen=True):
+    """The journal cannot be begun, and why: nothing is recorded."""
+
+    reason: Message
+
+
+class Restarted(_Told, frozen=True):
+    """The recorder ended unexpectedly and was started again; the journal goes on."""
+
+    reason: Message
+
+
+class Events(_Told, frozen=True):
+    """What was played: moments of `time.perf_counter_ns` and the bytes of the messages (of channels only)."""
+
+    times_ns: tuple[int, ...]
+    messages: tuple[bytes, ...]
+
+
+class Written(_Told, frozen=True):
+    """So many events of the running journal are safe on the disk."""
+
+    count: int
+
+
+class Finished(_Told, frozen=True):
+    """The journal is whole and closed."""
+
+    path: str
+    count: int
+
+
+Command: TypeAlias = Open | Send | Start | Sync | Stop | Leave
+News: TypeAlias = Ports | Opened | Lost | Back | Refused | NotStarted | Restarted | Events | Written | Finished
+
+COMMANDS: Final = msgspec.msgpack.Decoder(Command)
+NEWS: Final = msgspec.msgpack.Decoder(News)
+_ENCODER: Final = msgspec.msgpack.Encoder()
+
+
+def framed(told: Command | News) -> bytes:
+    """A command or news as bytes with their length before them."""
+    data = _ENCODER.encode(told)
+    return _LENGTH.pack(len(data)) + data
+
+
+def read_framed(stream: IO[bytes], decoder: msgspec.msgpack.Decoder[T]) -> T:
+    """The next command or news. Raises EOFError where the other side has ended."""
+    (length,) = _LENGTH.unpack(_exactly(stream, _LENGTH.size))
+    return decoder.decode(_exactly(stream, length))
+
+
+def _exactly(stream: IO[bytes], count: int) -> bytes:
+    data = stream.read(count)
+    if len(data) < count:
+        raise EOFError
+    return data

@@ -1,0 +1,389 @@
+"""The recorder: a process of its own that listens to one MIDI port, stamps what it hears, and writes the journal.
+
+Neither the window's redrawing nor the editor's death reaches it. It is this module, run as a program: commands come in
+by its input, news go out by its output (`app.capture.protocol`), and it ends when its input does, the journal finished.
+
+Threads: the driver's calls `_heard`, which stamps and hands on and nothing else; one sends the news, one writes the
+journal, one reads the commands. The main thread opens the port and looks twice a second which are there.
+
+A recorder opens its port once. To listen to another the editor starts another recorder: a port from which events
+come cannot be closed (`app.capture.ports.close_lost`).
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import signal
+import sys
+import threading
+import time
+from itertools import groupby
+from queue import Empty, SimpleQueue
+from typing import IO, Any, Final, TypeAlias
+
+from app.capture.journal import JournalWriter, is_whole
+from app.capture.ports import MidiSystem, Port, PortError, close_lost
+from app.capture.protocol import (
+    COMMANDS,
+    Back,
+    Command,
+    Events,
+    Finished,
+    Leave,
+    Lost,
+    News,
+    NotStarted,
+    Open,
+    Opened,
+    Ports,
+    Refused,
+    Send,
+    Start,
+    Stop,
+    Sync,
+    Written,
+    framed,
+    read_framed,
+)
+from app.errors import FileError, Message
+
+SYSTEM_VARIABLE: Final = "SUISOU_MIDI_API"
+"""Environment: the only MIDI system to try, by rtmidi's name."""
+_LOOK_S: Final = 0.5
+_NO_SYSTEM_LOOK_S: Final = 2.0
+_TO_DISK_S: Final = 0.25
+_SWITCH_S: Final = 0.0005
+"""How long a thread of ours may keep the driver's from stamping."""
+
+Heard: TypeAlias = tuple[int, bytes]
+"""A moment of `time.perf_counter_ns` and a message."""
+Mark: TypeAlias = tuple[str, int]
+"""A word of the journal and its moment."""
+
+
+class Recorder:
+    """What the main thread does: obeys, and looks after the port.
+
+    Parameters
+    ----------
+    news : SimpleQueue of News or Heard
+        What is put into it is sent.
+    journal : SimpleQueue
+        What is put into it is written.
+    wanted_system : str
+    """
+
+    def __init__(
+        self, news: SimpleQueue[News | Heard | None], journal: SimpleQueue[Any], wanted_system: str = ""
+    ) -> None:
+        self._news, self._journal = news, journal
+        self._wanted_system = wanted_system
+        self._system: MidiSystem | None = None
+        self._has_ports = False
+        self._tried_at_s = -_NO_SYSTEM_LOOK_S
+        self._told: News | None = None
+        self._refused: list[Message] = []
+        self._asked = Open(None, None)
+        self._input: Any = None
+        self._identity = ""
+        self._was_open = False
+        self._output: Any = None
+
+    def obey(self, command: Command) -> None:
+        """Do what the editor asks."""
+        match command:
+            case Open():
+                self._asked = command
+                self.look()
+            case Send(message=message):
+                self._send(message)
+            case Start(resumed_ns=None):
+                self._journal.put(command)
+                if self._input is None:
+                    self._journal.put(("lost", time.perf_counter_ns()))
+            case _:
+                self._journal.put(command)
+
+    def look(self) -> None:
+        """See which ports are there; notice that ours has gone, or open it."""
+        system = self._answering()
+        if system is None:
+            return
+        inputs, outputs = system.inputs(), system.outputs()
+        self._lose(inputs)
+        self._tell(Ports(_names(inputs), _names(outputs), system.name))
+        if self._input is None:
+            # The output first: see `MidiSystem.open_input`.
+            self._open_output(system, outputs)
+            self._open(system, inputs)
+        self._has_ports = bool(inputs or outputs)
+
+    def _answering(self) -> MidiSystem | None:
+        """The system, tried anew now and then where none answers; a JACK server that has gone looks like one without
+        ports, also when another has come."""
+        is_sure = self._system is not None and (self._has_ports or self._system.name != "jack")
+        now_s = time.perf_counter()
+        if not is_sure and now_s >= self._tried_at_s + _NO_SYSTEM_LOOK_S:
+            self._tried_at_s = now_s
+            self._leave_system()
+            try:
+                self._system = MidiSystem(self._wanted_system)
+                self._refused.clear()
+            except PortError as error:
+                self._tell(Ports((), (), ""))
+                self._refuse(error.message)
+        return self._system
+
+    def _leave_system(self) -> None:
+        if self._system is not None:
+            self._system.close()
+        if self._output is not None:
+            close_lost(self._output)
+        self._system = self._output = None
+
+    def _lose(self, inputs: tuple[Port, ...]) -> None:
+        if self._input is not None and self._identity not in {port.identity for port in inputs}:
+            ns = time.perf_counter_ns()
+            close_lost(self._input)
+            self._input = None
+            assert self._asked.port is not None
+            self._journal.put(("lost", ns))
+            self._news.put(Lost(self._asked.port, ns))
+
+    def _open(self, system: MidiSystem, inputs: tuple[Port, ...]) -> None:
+        name = self._asked.port
+        if name is None:
+            return
+        port = next((port for port in inputs if port.name == name), None)
+        if port is None:
+            if not self._was_open:
+                self._refuse(Message("capture.port_not_here", {"port": name}))
+            return
+        try:
+            self._input = system.open_input(port, self._heard)
+        except PortError as error:
+            self._refuse(error.message)
+            return
+        ns = time.perf_counter_ns()
+        self._identity = port.identity
+        self._journal.put(("back", ns))
+        self._news.put(Back(name, ns) if self._was_open else Opened(name, ns))
+        self._was_open = True
+        self._refused.clear()
+
+    def _open_output(self, system: MidiSystem, outputs: tuple[Port, ...]) -> None:
+        port = next((port for port in outputs if port.name == self._asked.output), None)
+        if self._output is None and port is not None:
+            try:
+                self._output = system.open_output(port)
+            except PortError as error:
+                self._refuse(error.message)
+
+    def _send(self, message: bytes) -> None:
+        detail = "not open"
+        if self._output is not None:
+            try:
+                self._output.send_message(message)
+                return
+            except (OSError, ValueError) as error:
+                detail = str(error)
+        self._news.put(Refused(Message("capture.not_sent", {"port": self._asked.output or "", "detail": detail})))
+
+    def _heard(self, event: tuple[list[int], float], _: object) -> None:
+        ns = time.perf_counter_ns()
+        heard = (ns, bytes(event[0]))
+        self._journal.put(heard)
+        self._news.put(heard)
+
+    def _tell(self, ports: Ports) -> None:
+        if ports != self._told:
+            self._told = ports
+            self._news.put(ports)
+
+    def _refuse(self, reason: Message) -> None:
+        """Say why something cannot be done, once for as long as it stays so."""
+        if reason not in self._refused:
+            self._refused.append(reason)
+            self._news.put(Refused(reason))
+
+
+def _names(ports: tuple[Port, ...]) -> tuple[str, ...]:
+    return tuple(port.name for port in ports)
+
+
+class JournalKeeper:
+    """Writes what comes into a queue: commands `Start`, `Sync`, `Stop`, `Leave`, what was heard, marks; None ends the
+    running journal and the keeping."""
+
+    def __init__(self, queue: SimpleQueue[Any], news: SimpleQueue[News | Heard | None]) -> None:
+        self._queue, self._news = queue, news
+        self._writer: JournalWriter | None = None
+        self._is_away = False
+        self._failed = False
+        self._to_disk_at_s = 0.0
+
+    def run(self) -> None:
+        """Write until None or `Leave` comes."""
+        while True:
+            with contextlib.suppress(Empty):
+                item = self._queue.get(timeout=None if self._writer is None else _TO_DISK_S)
+                if not self._keep(item):
+                    return
+            self._write()
+
+    def _keep(self, item: Any) -> bool:
+        match item:
+            case None:
+                self._finish("end")
+            case Leave():
+                self._finish(None)
+            case Start():
+                self._start(item)
+            case Stop():
+                self._finish("end")
+            case Sync(ns=ns, position_s=position_s, pass_=pass_):
+                if self._writer is not None:
+                    self._writer.sync(ns, position_s, pass_)
+            case (int(ns), bytes(message)):
+                if self._writer is not None and is_whole(message):
+                    self._writer.event(ns, message)
+            case (str(word), int(ns)):
+                self._mark(word, ns)
+        return item is not None and not isinstance(item, Leave)
+
+    def _mark(self, word: str, ns: int) -> None:
+        if self._writer is not None and self._is_away != (word == "lost"):
+            self._is_away = word == "lost"
+            self._writer.mark(word, ns)
+
+    def _start(self, start: Start) -> None:
+        self._finish("end")
+        try:
+            self._writer = JournalWriter(start.path, start.header, resumed=start.resumed_ns is not None)
+            self._is_away = False
+            if start.resumed_ns is not None:
+                self._mark("lost", start.resumed_ns)
+            self._to_disk()
+        except FileError as error:
+            self._news.put(NotStarted(error.message))
+        except OSError as error:
+            self._tell_failure(error)
+
+    def _write(self) -> None:
+        if self._writer is None:
+            return
+        try:
+            self._writer.write()
+            if time.perf_counter() >= self._to_disk_at_s:
+                self._to_disk()
+            self._failed = False
+        except OSError as error:
+            self._tell_failure(error)
+
+    def _to_disk(self) -> None:
+        assert self._writer is not None
+        if self._writer.to_disk():
+            self._news.put(Written(self._writer.count))
+        self._to_disk_at_s = time.perf_counter() + _TO_DISK_S
+
+    def _finish(self, word: str | None) -> None:
+        writer = self._writer
+        if writer is None:
+            return
+        if word is not None:
+            writer.mark(word, time.perf_counter_ns())
+        try:
+            writer.close()
+        except OSError as error:
+            self._tell_failure(error)
+        self._writer = None
+        self._failed = False
+        if word is not None:
+            self._news.put(Finished(writer.path, writer.count))
+
+    def _tell_failure(self, error: OSError) -> None:
+        """Say that the disk takes nothing, once; it is tried again with what comes next."""
+        if not self._failed and self._writer is not None:
+            self._failed = True
+            reason = {"file": self._writer.path, "reason": error.strerror or str(error)}
+            self._news.put(Refused(Message("capture.not_written", {**reason})))
+
+
+def send_news(queue: SimpleQueue[News | Heard | None], stream: IO[bytes]) -> None:
+    """Send what comes into a queue, events that have gathered together; None ends it, and that nobody reads."""
+    with contextlib.suppress(OSError):
+        while True:
+            items = [queue.get()]
+            with contextlib.suppress(Empty):
+                while True:
+                    items.append(queue.get_nowait())
+            for is_heard, group in groupby(items, lambda item: isinstance(item, tuple)):
+                if is_heard:
+                    heard = [item for item in group if isinstance(item, tuple) and is_whole(item[1])]
+                    if heard:
+                        times_ns, messages = zip(*heard, strict=True)
+                        stream.write(framed(Events(times_ns, messages)))
+                    continue
+                for item in group:
+                    if item is None:
+                        stream.flush()
+                        return
+                    assert not isinstance(item, tuple)
+                    stream.write(framed(item))
+            stream.flush()
+
+
+def _read_commands(queue: SimpleQueue[Command | None]) -> None:
+    with contextlib.suppress(EOFError):
+        while True:
+            queue.put(read_framed(sys.stdin.buffer, COMMANDS))
+    queue.put(None)
+
+
+def _private_output() -> IO[bytes]:
+    """Our output for ourselves: what drivers' libraries print goes nowhere, Python's own complaints still appear."""
+    own = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
+    sys.stderr = os.fdopen(os.dup(sys.stderr.fileno()), "w", errors="backslashreplace", buffering=1)
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, 1)
+    os.dup2(nowhere, 2)
+    return own
+
+
+def main() -> None:
+    """Record for whoever started this process."""
+    # Ctrl-C in the terminal is meant for the editor, which ends this process by ending.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    sys.setswitchinterval(_SWITCH_S)
+    output = _private_output()
+    news: SimpleQueue[News | Heard | None] = SimpleQueue()
+    journal: SimpleQueue[Any] = SimpleQueue()
+    commands: SimpleQueue[Command | None] = SimpleQueue()
+    writing = threading.Thread(target=JournalKeeper(journal, news).run, name="journal")
+    sending = threading.Thread(target=send_news, args=(news, output), name="news")
+    reading = threading.Thread(target=_read_commands, args=(commands,), name="commands", daemon=True)
+    for thread in (writing, sending, reading):
+        thread.start()
+    recorder = Recorder(news, journal, os.environ.get(SYSTEM_VARIABLE, ""))
+    next_look_s = time.perf_counter()
+    command: Command | None = None
+    while True:
+        try:
+            command = commands.get(timeout=max(next_look_s - time.perf_counter(), 0.0))
+            if command is None or isinstance(command, Leave):
+                break
+            recorder.obey(command)
+        except Empty:
+            recorder.look()
+            next_look_s = time.perf_counter() + _LOOK_S
+    journal.put(command)
+    writing.join()
+    news.put(None)
+    sending.join()
+    # The port is not closed: see `close_lost`.
+    os._exit(0)
+
+
+if __name__ == "__main__":
+    main()

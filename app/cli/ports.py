@@ -1,0 +1,105 @@
+"""``suisou ports``: list the MIDI devices that are there."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import threading
+import time
+from collections.abc import Iterator
+from types import TracebackType
+from typing import Final, Self
+
+from app.capture.link import RecorderLink
+from app.capture.protocol import News, Ports, Refused
+from app.cli.options import Commands
+from app.errors import AppError, Message
+from app.messages import text
+from metadata.load import recognised_controller
+
+_ANSWER_WITHIN_S: Final = 15.0
+
+
+class NoDevice(AppError):
+    """There is no such device, or none at all."""
+
+
+class Listening:
+    """A recorder, and its news as they come."""
+
+    def __init__(self) -> None:
+        self._news = threading.Event()
+        self.link = RecorderLink(self._news.set)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.link.close()
+
+    def until(self, end_s: float) -> Iterator[News]:
+        """News until a moment of `time.monotonic`."""
+        while True:
+            self._news.clear()
+            yield from self.link.poll()
+            # In bites: on Windows Ctrl-C does not end a wait.
+            left_s = end_s - time.monotonic()
+            if left_s <= 0.0:
+                return
+            self._news.wait(min(left_s, 0.1))
+
+    def ports(self) -> Ports:
+        """The devices that are there.
+
+        Raises
+        ------
+        AppError
+            No MIDI system answers.
+        """
+        reason = Message("capture.no_system")
+        for told in self.until(time.monotonic() + _ANSWER_WITHIN_S):
+            if isinstance(told, Ports) and told.system:
+                return told
+            if isinstance(told, Refused):
+                raise NoDevice(told.reason.id, **told.reason.arguments)
+        raise NoDevice(reason.id)
+
+
+def add_command(commands: Commands) -> None:
+    """Declare the sub-command."""
+    command = commands.add_parser(
+        "ports",
+        help="list the MIDI devices that are there",
+        description="Lists the MIDI devices that can be recorded from, what each is taken for, and those that can be "
+        "sent to.",
+    )
+    command.add_argument("--json", action="store_true", help="print JSON")
+    command.set_defaults(run=list_ports)
+
+
+def list_ports(arguments: argparse.Namespace) -> None:
+    """Print the devices. Raises AppError where no MIDI system answers."""
+    with Listening() as listening:
+        ports = listening.ports()
+    taken_for = {name: recognised_controller(name) for name in ports.inputs}
+    if arguments.json:
+        inputs = [{"name": name, "controller": controller.name} for name, controller in taken_for.items()]
+        print(
+            json.dumps(
+                {"system": ports.system, "inputs": inputs, "outputs": ports.outputs}, ensure_ascii=False, indent=2
+            )
+        )
+        return
+    if not ports.inputs:
+        print(text(Message("capture.no_ports")))
+    else:
+        width = max(map(len, ports.inputs))
+        print("to record from:")
+        for name, controller in taken_for.items():
+            print(f"  {name.ljust(width)}  {controller.title.en}")
+    if ports.outputs:
+        print("to send to:")
+        for name in ports.outputs:
+            print(f"  {name}")

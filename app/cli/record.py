@@ -1,0 +1,229 @@
+"""``suisou record``: record from a MIDI device into a MIDI file."""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import math
+import sys
+import time
+from datetime import datetime
+from pathlib import Path
+from typing import Final
+
+from app.capture.journal import Header, Journal, passes, read_journal
+from app.capture.protocol import Back, Finished, Lost, NotStarted, Opened, Refused, Restarted, Written
+from app.cli.options import Commands
+from app.cli.ports import Listening, NoDevice
+from app.errors import AppError, FileError, UsageError
+from app.formats.locks import is_locked
+from app.messages import text
+from app.score.write_take import write_take
+from metadata.load import recognised_controller
+
+_WITHIN_S: Final = 15.0
+_LEAD_S: Final = 0.2
+_BEATS_IN_BAR: Final = 4
+_USUAL_TEMPO: Final = 120.0
+_FOR_EVER_S: Final = 24 * 3600.0
+
+
+class RecordError(AppError):
+    """Nothing could be recorded."""
+
+
+def add_command(commands: Commands) -> None:
+    """Declare the sub-command."""
+    command = commands.add_parser(
+        "record",
+        help="record from a MIDI device into a MIDI file",
+        description="Records what is played on a MIDI device, with breath, bite and bending, until the time is over or "
+        "Ctrl+C is pressed, and writes it as a MIDI file. Until that is written everything is in a journal beside it "
+        "(TAKE.mid.take-journal), at most a second behind; what a crash left of it is written with --rescue.",
+    )
+    command.add_argument("--port", metavar="NAME", help="a device as 'suisou ports' lists it, or a part of its name")
+    command.add_argument("--to", type=Path, required=True, metavar="TAKE.mid", help="the MIDI file to write")
+    command.add_argument("--seconds", type=_seconds, metavar="S", help="stop after so many (default: at Ctrl+C)")
+    command.add_argument(
+        "--count-in", type=_bars, default=0, metavar="BARS", help="count so many bars of 4/4 before (default: none)"
+    )
+    command.add_argument(
+        "--tempo",
+        type=_tempo,
+        default=_USUAL_TEMPO,
+        metavar="BPM",
+        help=f"of the count-in and of the file, quarters in a minute (default: {_USUAL_TEMPO:g})",
+    )
+    command.add_argument(
+        "--rescue", action="store_true", help="record nothing: write TAKE.mid from the journal that a crash left"
+    )
+    command.set_defaults(run=record)
+
+
+def record(arguments: argparse.Namespace) -> None:
+    """Record, and write the file.
+
+    Raises
+    ------
+    AppError
+        No device, nothing heard, nothing to be written to.
+    """
+    target: Path = arguments.to
+    journal = target.with_name(f"{target.name}.take-journal")
+    if arguments.port is None and not arguments.rescue:
+        raise UsageError("record.no_port")
+    if target.exists():
+        raise FileError("record.exists", file=str(target))
+    if is_locked(journal):
+        raise FileError("record.running", file=str(target))
+    if not arguments.rescue:
+        if journal.exists():
+            raise FileError("record.journal_left", file=str(target), journal=journal.name)
+        _listen(arguments, journal)
+    _write(target, journal, arguments.tempo)
+
+
+def _listen(arguments: argparse.Namespace, journal: Path) -> None:
+    """Record into the journal until the time is over or Ctrl+C."""
+    with Listening() as listening:
+        port = _open(listening, arguments.port)
+        count_in_s = arguments.count_in * _BEATS_IN_BAR * 60.0 / arguments.tempo
+        begin_ns = time.perf_counter_ns() + round((_LEAD_S * bool(arguments.count_in) + count_in_s) * 1e9)
+        header = Header(
+            project="",
+            player="",
+            port=port,
+            controller=recognised_controller(port).name,
+            latency_s=0.0,
+            started=datetime.now().astimezone().isoformat(timespec="seconds"),
+        )
+        listening.link.start(journal, header)
+        listening.link.sync(begin_ns, 0.0)
+        try:
+            _begun(listening)
+            with contextlib.suppress(KeyboardInterrupt):
+                _count_in(listening, arguments.count_in, arguments.tempo, begin_ns)
+                length_s = _FOR_EVER_S if arguments.seconds is None else arguments.seconds
+                _say("recording" if arguments.seconds else "recording; Ctrl+C ends it")
+                _tell_until(listening, _monotonic_s(begin_ns) + length_s)
+        finally:
+            now_ns = time.perf_counter_ns()
+            listening.link.sync(max(now_ns, begin_ns), max(now_ns - begin_ns, 0) / 1e9)
+            listening.link.stop()
+        _finished(listening)
+
+
+def _open(listening: Listening, wanted: str) -> str:
+    """Open the device that is called so, or the only one whose name holds the text."""
+    inputs = listening.ports().inputs
+    if not inputs:
+        raise NoDevice("capture.no_ports")
+    matching = [name for name in inputs if name == wanted] or [
+        name for name in inputs if wanted.casefold() in name.casefold()
+    ]
+    if len(matching) != 1:
+        raise NoDevice("capture.port_unknown", port=wanted, possible=", ".join(matching or inputs))
+    listening.link.open(matching[0])
+    for told in listening.until(time.monotonic() + _WITHIN_S):
+        if isinstance(told, Opened):
+            return told.port
+        if isinstance(told, Refused):
+            raise NoDevice(told.reason.id, **told.reason.arguments)
+    raise NoDevice("capture.port_not_here", port=matching[0])
+
+
+def _begun(listening: Listening) -> None:
+    for told in listening.until(time.monotonic() + _WITHIN_S):
+        if isinstance(told, Written):
+            return
+        if isinstance(told, NotStarted | Refused):
+            raise RecordError(told.reason.id, **told.reason.arguments)
+
+
+def _count_in(listening: Listening, bars: int, tempo: float, begin_ns: int) -> None:
+    beats = bars * _BEATS_IN_BAR
+    for beat in range(beats):
+        _tell_until(listening, _monotonic_s(begin_ns) - (beats - beat) * 60.0 / tempo)
+        number = beat % _BEATS_IN_BAR + 1
+        bell = "\a" if sys.stdout.isatty() else ""
+        print(f"{bell}{number}", end="\n" if number == _BEATS_IN_BAR else " ", flush=True)
+    _tell_until(listening, _monotonic_s(begin_ns))
+
+
+def _tell_until(listening: Listening, end_s: float) -> None:
+    """Say what happens to the device until a moment of `time.monotonic`."""
+    for told in listening.until(end_s):
+        match told:
+            case Lost(port=port):
+                _say(f"{port} is gone; recording goes on when it comes back")
+            case Back(port=port):
+                _say(f"{port} is back")
+            case Refused(reason=reason) | Restarted(reason=reason):
+                _say(text(reason))
+
+
+def _finished(listening: Listening) -> None:
+    for told in listening.until(time.monotonic() + _WITHIN_S):
+        if isinstance(told, Finished):
+            return
+
+
+def _write(target: Path, path: Path, tempo: float) -> None:
+    """Write the file from the journal, which goes once that is done."""
+    journal = read_journal(path)
+    taken = passes(journal)
+    if not taken or not journal.messages:
+        if journal.complete:
+            path.unlink()
+        raise RecordError("record.nothing_heard", port=journal.header.port)
+    take = taken[0]
+    end_us = _end_us(journal)
+    notes = write_take(
+        target,
+        take.times_us,
+        take.messages,
+        name=journal.header.port,
+        beats_per_minute=tempo,
+        gaps_us=take.gaps_us,
+        end_us=end_us,
+    )
+    path.unlink()
+    print(f"{target}: {notes} notes in {max(end_us, take.times_us[-1], 0) / 1e6:.1f} s")
+
+
+def _end_us(journal: Journal) -> int:
+    return round(journal.syncs[-1].position_s * 1e6)
+
+
+def _monotonic_s(ns: int) -> float:
+    """A moment of `time.perf_counter_ns` as one of `time.monotonic`."""
+    return time.monotonic() + (ns - time.perf_counter_ns()) / 1e9
+
+
+def _say(sentence: str) -> None:
+    print(f"suisou: {sentence}", file=sys.stderr, flush=True)
+
+
+def _seconds(text: str) -> float:
+    return _number(text, 0.1, _FOR_EVER_S, "seconds")
+
+
+def _tempo(text: str) -> float:
+    return _number(text, 20.0, 400.0, "beats in a minute")
+
+
+def _bars(text: str) -> int:
+    bars = _number(text, 0.0, 16.0, "bars")
+    if bars != int(bars):
+        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number of bars")
+    return int(bars)
+
+
+def _number(text: str, least: float, most: float, unit: str) -> float:
+    try:
+        number = float(text)
+    except ValueError:
+        number = math.nan
+    if not least <= number <= most:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a number of {unit} from {least:g} to {most:g}")
+    return number

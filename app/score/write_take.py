@@ -1,0 +1,131 @@
+"""A take as a MIDI file of its own: format 1, a track of tempo and metre, a track of what was played."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Final
+
+import mido
+
+from app.formats.atomic import atomic_write
+
+TICKS_PER_QUARTER: Final = 960
+_PLAYED_EARLY_S: Final = 0.25
+"""A note that begins at most so long before the first beat is meant for it."""
+
+
+def write_take(
+    path: Path,
+    times_us: Sequence[int],
+    messages: Sequence[bytes],
+    *,
+    name: str,
+    beats_per_minute: float = 120.0,
+    gaps_us: Iterable[tuple[int, int]] = (),
+    end_us: int | None = None,
+) -> int:
+    """Write what was played from time 0 on; the number of notes.
+
+    Of what was before that stays how the controllers stood, and notes played a little early or still held, which begin
+    at 0. Notes that are held at the end, or whose device went away, end there.
+
+    Parameters
+    ----------
+    path : Path
+    times_us : sequence of int
+        Microseconds, not descending.
+    messages : sequence of bytes
+        Whole messages of channels.
+    name : str
+        Of the track.
+    beats_per_minute : float
+        Quarters.
+    gaps_us : iterable of (int, int)
+        Where the device was away.
+    end_us : int, optional
+        Where the take ends, if not with its last message.
+
+    Raises
+    ------
+    FileError
+        ``file.cannot_write`` (file, reason).
+    """
+    last_us = max(end_us or 0, times_us[-1] if times_us else 0, 0)
+    played = ended(times_us, [mido.Message.from_bytes(data) for data in messages], gaps_us, last_us)
+    played = from_zero(played)
+    ticks_per_us = TICKS_PER_QUARTER * beats_per_minute / 60e6
+    file = mido.MidiFile(type=1, ticks_per_beat=TICKS_PER_QUARTER, charset="utf-8")
+    conductor, track = mido.MidiTrack(), mido.MidiTrack()
+    conductor.append(mido.MetaMessage("set_tempo", tempo=round(60e6 / beats_per_minute)))
+    conductor.append(mido.MetaMessage("time_signature", numerator=4, denominator=4))
+    track.append(mido.MetaMessage("track_name", name=name))
+    before = 0
+    for time_us, message in played:
+        tick = round(time_us * ticks_per_us)
+        track.append(message.copy(time=tick - before))
+        before = tick
+    track.append(mido.MetaMessage("end_of_track", time=max(round(last_us * ticks_per_us) - before, 0)))
+    file.tracks += [conductor, track]
+    data = io.BytesIO()
+    file.save(file=data)
+    with atomic_write(path) as stream:
+        stream.write(data.getvalue())
+    return sum(_begins(message) for _, message in played)
+
+
+def ended(
+    times_us: Sequence[int], messages: Sequence[mido.Message], gaps_us: Iterable[tuple[int, int]], last_us: int
+) -> list[tuple[int, mido.Message]]:
+    """The messages with their times, and an end for every note without: where the device went away, or at last."""
+    events = [(time_us, 0, message) for time_us, message in zip(times_us, messages, strict=True)]
+    events += [(lost_us, 1, None) for lost_us, _ in gaps_us]
+    events.append((last_us, 1, None))
+    found: list[tuple[int, mido.Message]] = []
+    held: dict[tuple[int, int], int] = {}
+    for time_us, _, message in sorted(events, key=lambda event: event[:2]):
+        if message is None:
+            for (channel, note), count in held.items():
+                found += [(time_us, mido.Message("note_off", channel=channel, note=note))] * count
+            held.clear()
+            continue
+        if message.type in ("note_on", "note_off"):
+            key = (message.channel, message.note)
+            count = held.get(key, 0) + (1 if _begins(message) else -1)
+            if count < 0:
+                continue
+            held[key] = count
+        found.append((time_us, message))
+    return found
+
+
+def from_zero(played: Sequence[tuple[int, mido.Message]]) -> list[tuple[int, mido.Message]]:
+    """What is played from time 0 on: see `write_take`."""
+    state: dict[tuple[object, ...], mido.Message] = {}
+    begun: dict[tuple[int, int], tuple[int, mido.Message]] = {}
+    early: list[mido.Message] = []
+    after: list[tuple[int, mido.Message]] = []
+    for time_us, message in played:
+        if time_us >= 0:
+            after.append((time_us, message))
+        elif _begins(message):
+            begun[message.channel, message.note] = time_us, message
+        elif message.type in ("note_on", "note_off"):
+            begin_us, note = begun.pop((message.channel, message.note), (time_us, None))
+            if note is not None and begin_us >= -_PLAYED_EARLY_S * 1e6:
+                # Over before it should have begun.
+                early += [note, message]
+        else:
+            state[_kind(message)] = message
+    at_zero = [*state.values(), *early, *(message for _, message in begun.values())]
+    return [*((0, message) for message in at_zero), *after]
+
+
+def _begins(message: mido.Message) -> bool:
+    return bool(message.type == "note_on" and message.velocity > 0)
+
+
+def _kind(message: mido.Message) -> tuple[object, ...]:
+    """What two messages share of which the later replaces the earlier."""
+    return message.type, message.channel, getattr(message, "control", None), getattr(message, "note", None)
