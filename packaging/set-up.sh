@@ -30,6 +30,16 @@ qt_packages=(
     libxext6 libxkbcommon-x11-0 libxkbcommon0 libxrandr2 libxrender1
 )
 
+# What rtmidi's wheel takes from Linux; Debian gave it another name after 12.
+need_alsa() {
+    [ "$(uname)" = Linux ] || return 0
+    [[ $(PATH=$PATH:/sbin ldconfig -p 2>/dev/null) != *libasound.so.2* ]] || return 0
+    case $(. /etc/os-release && printf '%s' "$ID${VERSION_ID:-}") in
+        debian12) need_packages libasound2 ;;
+        *) need_packages libasound2t64 ;;
+    esac
+}
+
 usable_python() {
     local candidate
     for candidate in python3.11 python3 python3.12 python3.13; do

@@ -48,6 +48,86 @@
             <translation>録音の開始位置は {offset_s:.3f} 秒です（確信度 {percent} %）。楽譜を {tempo_percent:+.1f} % 速く演奏します</translation>
         </message>
         <message>
+            <source>MIDI devices cannot be reached: {detail}; on Linux, install the package libasound2</source>
+            <translation>MIDI機器を利用できません: {detail}。Linuxではパッケージ libasound2 をインストールしてください</translation>
+        </message>
+        <message>
+            <source>no MIDI system answers; on Linux, load the kernel's sequencer (sudo modprobe snd-seq) or start JACK</source>
+            <translation>MIDIシステムが応答しません。Linuxではカーネルのシーケンサーを読み込むか (sudo modprobe snd-seq)、JACKを起動してください</translation>
+        </message>
+        <message>
+            <source>there is no MIDI system {name!r} here; possible: {possible}</source>
+            <translation>MIDIシステム「{name}」はここにはありません。使えるもの: {possible}</translation>
+        </message>
+        <message>
+            <source>no MIDI device is connected; plug one in and switch it on</source>
+            <translation>MIDI機器が接続されていません。接続して電源を入れてください</translation>
+        </message>
+        <message>
+            <source>no MIDI device is called {port!r}; there are: {possible}</source>
+            <translation>「{port}」というMIDI機器はありません。接続中の機器: {possible}</translation>
+        </message>
+        <message>
+            <source>{port} is not connected; it is used as soon as it is</source>
+            <translation>{port} は接続されていません。接続されしだい使用します</translation>
+        </message>
+        <message>
+            <source>{port} cannot be opened ({detail}): another program may be using it; close it there, and it is opened here</source>
+            <translation>{port} を開けません ({detail})。ほかのプログラムが使用している可能性があります。そちらで閉じると、ここで開きます</translation>
+        </message>
+        <message>
+            <source>nothing could be sent to {port} ({detail})</source>
+            <translation>{port} へ送信できませんでした ({detail})</translation>
+        </message>
+        <message>
+            <source>{file} cannot be written: {reason}; recording goes on and is written as soon as there is room</source>
+            <translation>{file} に書き込めません: {reason}。録音は続いており、空きができしだい書き込みます</translation>
+        </message>
+        <message>
+            <source>the recorder ended unexpectedly and was started again; what it had heard is kept</source>
+            <translation>録音プロセスが予期せず終了したため、再起動しました。それまでに録音した内容は残っています</translation>
+        </message>
+        <message>
+            <source>the recorder cannot be started ({detail})</source>
+            <translation>録音プロセスを開始できません ({detail})</translation>
+        </message>
+        <message>
+            <source>say with --port which device to record from; 'suisou ports' lists them</source>
+            <translation>録音する機器を --port で指定してください。「suisou ports」で一覧を表示できます</translation>
+        </message>
+        <message>
+            <source>{file} is there already; choose another name, or delete it</source>
+            <translation>{file} はすでにあります。別の名前を選ぶか、削除してください</translation>
+        </message>
+        <message>
+            <source>another recording into {file} is running; choose another name</source>
+            <translation>{file} への別の録音が進行中です。別の名前を選んでください</translation>
+        </message>
+        <message>
+            <source>{journal} is there already: a recording was not finished; write it with 'suisou record --rescue --to {file}'</source>
+            <translation>{journal} がすでにあります。終了していない録音です。「suisou record --rescue --to {file}」で書き出してください</translation>
+        </message>
+        <message>
+            <source>nothing was heard from {port}: no file was written</source>
+            <translation>{port} から何も受信しませんでした。ファイルは書き出していません</translation>
+        </message>
+        <message>
+            <source>{file} is there already: another recording is running, or one was not finished</source>
+            <translation>{file} はすでにあります。別の録音が進行中か、終了していない録音が残っています</translation>
+        </message>
+        <message>
+            <source>{file} is no journal of a take: its first line does not say what it is</source>
+            <translation>{file} はテイクのジャーナルではありません。1行目に内容を示す記述がありません</translation>
+        </message>
+        <message>
+            <source>{file} was written by a newer version of the program (journal {version}); use that one</source>
+            <translation>{file} は新しいバージョンのプログラムで書かれています (ジャーナル {version})。そのバージョンをお使いください</translation>
+        </message>
+        <message>
+            <source>{file}, line {line}: {detail}</source>
+            <translation>{file}、{line} 行目: {detail}</translation>
+        </message>
+        <message>
             <source>estimated offset of the recording</source>
             <translation>録音のオフセットの推定</translation>
         </message>

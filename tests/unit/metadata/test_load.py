@@ -10,19 +10,28 @@ import pytest
 
 from app.errors import MapError
 from metadata.load import (
+    GENERIC_CONTROLLER,
     ROOT,
     load_body,
+    load_controllers,
     load_expression,
     load_expressions,
     load_skeleton,
     names,
     read_body,
+    read_controller,
     read_expression,
     read_skeleton,
+    recognised_controller,
 )
-from metadata.model import ARKIT_MORPHS, Body, Expression, SkeletonProfile, at_amplitude
+from metadata.model import ARKIT_MORPHS, Body, Controller, Expression, SkeletonProfile, at_amplitude
 
-READERS = {"expressions": read_expression, "bodies": read_body, "skeletons": read_skeleton}
+READERS = {
+    "bodies": read_body,
+    "controllers": read_controller,
+    "expressions": read_expression,
+    "skeletons": read_skeleton,
+}
 
 # What each positive axis does to a point of the T-pose: (joint, axis, point on the bone, direction it goes to).
 ANATOMY = [
@@ -59,7 +68,7 @@ def test_every_bundled_table_loads() -> None:
     assert names("skeleton") == ("vrm1",)
     for folder, reader in READERS.items():
         for path in (ROOT / folder).glob("*.toml"):
-            assert isinstance(reader(path), Expression | Body | SkeletonProfile)
+            assert isinstance(reader(path), Body | Controller | Expression | SkeletonProfile)
 
 
 def test_there_are_52_morph_targets() -> None:
@@ -124,6 +133,33 @@ def test_amplitude_scales_from_residual_to_exaggerated() -> None:
                 assert 0.0 < value[0] < value[1] < value[2], field
 
 
+@pytest.mark.parametrize(
+    ("port", "name"),
+    [
+        ("EWI-USB MIDI 1", "ewi_usb"),
+        ("EWI USB", "ewi_usb"),
+        ("EWIUSB", "ewi_usb"),
+        ("EWI5000", "ewi_5000"),
+        ("Akai EWI 5000 Wind Controller", "ewi_5000"),
+        ("EWI4000s", "ewi_4000s"),
+        ("ewi-4000s via UM-ONE", "ewi_4000s"),
+        ("UM-ONE MIDI 1", "generic"),
+        ("", "generic"),
+    ],
+)
+def test_a_controller_is_recognised_by_its_port(port: str, name: str) -> None:
+    assert recognised_controller(port).name == name
+
+
+def test_every_controller_breathes_and_says_how_that_is_known() -> None:
+    controllers = load_controllers()
+    assert set(controllers) == {"ewi_usb", "ewi_4000s", "ewi_5000", "generic"}
+    for controller in controllers.values():
+        assert set(controller.breath) == {"cc2", "cc7", "cc11", "channel_pressure"}
+        assert controller.source.strip()
+        assert (controller.ports == ()) == (controller.name == GENERIC_CONTROLLER)
+
+
 def changed(tmp_path: Path, source: str, old: str, new: str, name: str | None = None) -> Path:
     text = (ROOT / source).read_text()
     assert old in text
@@ -135,6 +171,13 @@ def changed(tmp_path: Path, source: str, old: str, new: str, name: str | None = 
 @pytest.mark.parametrize(
     ("source", "old", "new", "key", "detail"),
     [
+        ("controllers/generic.toml", "ports = []", "ports = ['(']", "ports[0]", "unterminated"),
+        ("controllers/generic.toml", '"cc2", "cc11"', '"cc2", "cc2"', "breath", "twice"),
+        ("controllers/generic.toml", '"cc2", "cc11"', '"cc2", "cc9"', "breath[1]", "cc9"),
+        ("controllers/generic.toml", "channel = 0", "channel = 17", "channel", "<= 16"),
+        ("controllers/generic.toml", 'bite = "none"', 'bite = "cc120"', "bite", "regex"),
+        ("controllers/generic.toml", 'bite = "none"', 'bite = "cc7"', "bite", "breathes"),
+        ("controllers/generic.toml", 'name = "generic"', 'name = "wx7"', "name", "generic"),
         ("expressions/smile.toml", "mouthSmileLeft = 0.55", "mouthGrin = 0.5", "weights.mouthGrin", "52 ARKit"),
         ("expressions/smile.toml", "mouthSmileLeft = 0.55", "mouthSmileLeft = 1.5", "weights", "<= 1.0"),
         ("expressions/smile.toml", "fade_in_s = 0.50", 'fade_in_s = "soon"', "fade_in_s", "float"),

@@ -1,0 +1,77 @@
+"""Where a player's breath is, found from a few seconds of blowing."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterable, Sequence
+from itertools import pairwise
+from statistics import median
+from typing import Final
+
+import msgspec
+
+from metadata.model import BreathSource
+
+_CONTROLLERS: Final[dict[int, BreathSource]] = {2: "cc2", 7: "cc7", 11: "cc11"}
+_LEAST_VALUES: Final = 6
+_LEAST_RANGE: Final = 16
+_LARGEST_STEP: Final = 24
+"""A breath swells and fades; what jumps further from value to value is a switch."""
+_AS_MUCH: Final = 0.8
+
+
+class Learned(msgspec.Struct, frozen=True):
+    """What breathes, and on which channel, 1..16."""
+
+    source: BreathSource
+    channel: int
+
+
+def learned(events: Iterable[tuple[int, bytes]], trusted: Sequence[BreathSource] = ()) -> Learned | None:
+    """What moves most and without jumps; None where nothing was blown.
+
+    Some instruments send one breath by two messages: of those that move about as much as the most moved, the most
+    trusted is taken.
+
+    Parameters
+    ----------
+    events : iterable of (int, bytes)
+        Moments, any clock, and messages.
+    trusted : sequence of BreathSource
+        The most trusted first, as `metadata.model.Controller.breath`; what is not named comes after.
+    """
+    values: dict[Learned, list[int]] = defaultdict(list)
+    for _, message in events:
+        source = _source(message)
+        if source is not None:
+            values[Learned(source, (message[0] & 0x0F) + 1)].append(message[-1])
+    moved = {found: _movement(own) for found, own in values.items()}
+    most = max(moved.values(), default=0)
+    if most == 0:
+        return None
+    order = [*trusted, *(source for source in ("cc2", "cc11", "channel_pressure", "cc7") if source not in trusted)]
+    return min(
+        (found for found, movement in moved.items() if movement >= _AS_MUCH * most),
+        key=lambda found: (order.index(found.source), -moved[found], found.channel),
+    )
+
+
+def breath_value(message: bytes, source: BreathSource) -> int | None:
+    """The breath that a message tells of, 0..127; None where it tells of something else."""
+    return message[-1] if _source(message) == source else None
+
+
+def _source(message: bytes) -> BreathSource | None:
+    if message[0] >> 4 == 0xB:
+        return _CONTROLLERS.get(message[1])
+    return "channel_pressure" if message[0] >> 4 == 0xD else None
+
+
+def _movement(values: Sequence[int]) -> int:
+    steps = [abs(b - a) for a, b in pairwise(values) if a != b]
+    is_breath = (
+        len(set(values)) >= _LEAST_VALUES
+        and max(values) - min(values) >= _LEAST_RANGE
+        and median(steps) <= _LARGEST_STEP
+    )
+    return sum(steps) if is_breath else 0

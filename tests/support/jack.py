@@ -1,0 +1,101 @@
+"""JACK's dummy server: MIDI ports without hardware, each test module its own server."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Final
+
+import pytest
+
+CLIENT_SYSTEM: Final = "API_UNIX_JACK"
+PERIOD_FRAMES: Final = 64
+RATE_HZ: Final = 48000
+PERIOD_S: Final = PERIOD_FRAMES / RATE_HZ
+_VARIABLE: Final = "JACK_DEFAULT_SERVER"
+
+
+def require_jack() -> None:
+    """Skip where JACK is not installed; where every check must run (CI=true) that fails."""
+    if shutil.which("jackd") is None:
+        if os.environ.get("CI", "").lower() == "true":
+            pytest.fail("jackd is not installed: MIDI transport cannot be tested (apt-get install jackd2)")
+        pytest.skip("jackd is not installed (Debian: apt-get install jackd2)")
+
+
+@contextmanager
+def jack_server(name: str) -> Iterator[None]:
+    """A dummy server that this process and its children use, as long as the block runs."""
+    require_jack()
+    before = os.environ.get(_VARIABLE)
+    server = Server(name)
+    os.environ[_VARIABLE] = name
+    try:
+        server.start()
+        yield
+    finally:
+        server.stop()
+        if before is None:
+            del os.environ[_VARIABLE]
+        else:
+            os.environ[_VARIABLE] = before
+
+
+class Server:
+    """A server that can be started and stopped."""
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+        self._process: subprocess.Popen[bytes] | None = None
+
+    def start(self) -> None:
+        """Start it and wait until it answers."""
+        self._process = subprocess.Popen(
+            [
+                "jackd",
+                "--name",
+                self.name,
+                "--no-realtime",
+                "-d",
+                "dummy",
+                "-p",
+                str(PERIOD_FRAMES),
+                "-r",
+                str(RATE_HZ),
+            ],
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
+        end_s = time.monotonic() + 30.0
+        while not self._answers():
+            if self._process.poll() is not None or time.monotonic() > end_s:
+                pytest.fail(f"JACK's dummy server does not start (status {self._process.poll()})")
+            time.sleep(0.1)
+
+    def stop(self) -> None:
+        """End it."""
+        if self._process is not None:
+            self._process.terminate()
+            try:
+                self._process.wait(5.0)
+            except subprocess.TimeoutExpired:
+                self._process.kill()
+                self._process.wait()
+            self._process = None
+
+    def _answers(self) -> bool:
+        # jack_lsp is another package; a client of our own would print.
+        program = "import rtmidi; rtmidi.MidiIn(rtmidi.API_UNIX_JACK, 'probe').get_ports()"
+        done = subprocess.run(
+            [sys.executable, "-c", program],
+            env={**os.environ, _VARIABLE: self.name},
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+            check=False,
+        )
+        return done.returncode == 0
