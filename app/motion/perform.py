@@ -154,7 +154,7 @@ class Playing:
         """Where the fingers are, and the hands that give way for some of them, at ascending times."""
         hands = self.player.hold.hands
         asked = {table.finger for hand in hands for table in hand.fingers}
-        asked |= {giving_for(lean.finger) for hand in hands for lean in hand.leans}
+        asked |= {giving_for(finger) for hand in hands for lean in hand.leans for finger, _ in lean.places}
         return {name: sampled(curve, times_s) for name, curve in self.stations.items() if name in asked}
 
     def changed_s(self, other: Playing) -> FloatArray:

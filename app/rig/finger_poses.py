@@ -230,8 +230,13 @@ def with_wrist(
     return _brought(table, rotations, tips, station.tip_joint, local)
 
 
+def tip_m(table: FingerTable, station: StationTable, rotations: FloatArray) -> FloatArray:
+    """Where (K, 3) what touches at a station is in the wrist's frame."""
+    return _tip(table, rotations, np.broadcast_to(station.tip_m, (len(rotations), 3)), station.tip_joint)
+
+
 def _is(lean: Lean, table: FingerTable, station: int) -> bool:
-    return lean.finger == table.finger and lean.station == station
+    return lean.places == ((table.finger, station),)
 
 
 def _tip(table: FingerTable, rotations: FloatArray, tip_m: FloatArray, joint: int) -> FloatArray:

@@ -15,6 +15,7 @@ character.landmarks_missing : id, missing
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 import numpy.typing as npt
@@ -23,13 +24,15 @@ from threadpoolctl import threadpool_limits
 from app.errors import UsageError
 from app.rig import quaternion
 from app.rig.carriage import Upright, upright
+from app.rig.grip_beside import leans_beside
 from app.rig.grip_fingers import MOVED_VALUES, STILL_VALUES, Scene, finger_tables, judge, lifted_ways, solve_tables
-from app.rig.grip_lean import Leaning, lean_of, leanings
+from app.rig.grip_lean import Leaning, lean_of, leanings, whole_hand
 from app.rig.grip_problem import Problem, grip_problem, joint_angles, travel, wrist_transform
 from app.rig.grip_search import search, search_knots
 from app.rig.hold import HandHold, Hold, NodeMotion, Reach, StationTable
 from app.rig.lips import fit_lips, needed_landmarks
 from app.rig.model import Character, InstrumentModel
+from app.rig.stations import asked_together
 from instrument_maps.model import Control, HandSeed, InstrumentMap
 from metadata.model import Body
 
@@ -37,7 +40,7 @@ FloatArray = npt.NDArray[np.float64]
 
 FIT_VERSION = 15
 """Part of the digest of stored holds (`app.rig.hold_file`): raise it when a fit comes out differently ..."""
-PLACES_VERSION = 2
+PLACES_VERSION = 3
 """... and this one when it does so only where fingers wait over what they work, or work it at several places."""
 
 
@@ -130,6 +133,10 @@ def _fit_hand(
         penetration_m=depth,
         leans=leans,
     )
+    if leans:
+        whole = [touch.positions[0] for touch in problem.touches if touch.contact.part in whole_hand(hand.side)]
+        more = leans_beside(hold, np.reshape(whole, (-1, 3)), asked_together(instrument_map))
+        hold = replace(hold, leans=leans + more)
     return hold, _reach(problem, values, position, carrier, stand.instrument_rotation)
 
 

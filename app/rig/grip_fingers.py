@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -53,8 +54,10 @@ FOLLOW_RAD = 0.15
 SMOOTH_DEGREE = 3
 SMOOTH_RAD = 0.04
 """How far a sample's angles wander from the smooth path over the control."""
-OPEN_M, OPEN_SPREAD_M = 0.007, 0.0005
-"""A finger at another place keeps so far from a hole that it is to leave open."""
+OPEN_M, OPEN_SPREAD_M = (0.007, 0.0045), (0.0005, 0.0001)
+"""A finger at another place keeps so far from a hole that it is to leave open; the second where it otherwise ..."""
+LEAST_OPEN_M = 0.0032
+"""... comes nearer than this: the hole would not sound open."""
 WAYS = np.array([0.25, 0.5, 0.75])
 LIFTS_M = (0.0, 0.006, 0.012, 0.018, 0.024)
 WAY_CLEAR_M = 0.0025
@@ -140,11 +143,9 @@ def solve_tables(problem: Problem, scene: Scene, angles: FloatArray, elsewhere: 
             last = finger.taken(angles[-1, -1 if number in problem.worked else 0])
             if index:
                 last = others.get((number, station.controls), last)
-            if len(values) > 1:
-                ways = [(first, range(len(values))), (last, range(len(values))[::-1])]
-                found = min((_followed(finger, *way) for way in ways), key=lambda one: one[1])[0]
-            else:
-                found, _ = finger.solve(last[None], last[None], WORKED_RAD, np.arange(1))
+            found = _both_ways(finger, first, last)
+            if finger.shuts(found):
+                found = _both_ways(finger.opening(), first, last)
             solved = pose.copy()
             solved[:, finger.joints, finger.kinds] = found
             result.append(Solved(number, station, values, solved))
@@ -157,6 +158,8 @@ def followed_table(problem: Problem, scene: Scene, number: int, station: Station
     pose = np.repeat(angles[None], len(values), axis=0)
     finger = _Finger(problem, scene.over(values), number, station, values, pose)
     found, _ = _followed(finger, finger.taken(angles), range(len(values))[::-1])
+    if finger.shuts(found):
+        found, _ = _followed(finger.opening(), finger.taken(angles), range(len(values))[::-1])
     pose[:, finger.joints, finger.kinds] = found
     return Solved(number, station, values, pose)
 
@@ -188,6 +191,15 @@ def missed_m(problem: Problem, scene: Scene, one: Solved) -> float:
         if touch.active[-1]:
             far = max(far, float(np.linalg.norm(at[0, 0] - touch.positions[-1])))
     return far
+
+
+def _both_ways(finger: _Finger, first: FloatArray, last: FloatArray) -> FloatArray:
+    """Angles (S, n) of a finger followed from whichever end of its values costs less."""
+    count = len(finger.values)
+    if count == 1:
+        return finger.solve(last[None], last[None], WORKED_RAD, np.arange(1))[0]
+    ways = [(first, range(count)), (last, range(count)[::-1])]
+    return min((_followed(finger, *way) for way in ways), key=lambda one: one[1])[0]
 
 
 def _followed(finger: _Finger, start: FloatArray, order: Sequence[int]) -> tuple[FloatArray, float]:
@@ -229,6 +241,7 @@ class _Finger:
         self.points = np.stack([hand.landmarks[t.contact.part] for t in self.touches], axis=2)
         self.normals = np.stack([hand.landmark_normals[t.contact.part] for t in self.touches], axis=2)
         self.kept_open = _kept_open(problem, scene, number, station)
+        self.open_m, self.open_spread_m = OPEN_M[0], OPEN_SPREAD_M[0]
         carried = hand.all_points[1 + 3 * number : 4 + 3 * number, 3].sum(axis=0) > CARRIED_SHARE
         self.skin = np.ascontiguousarray(hand.all_points[:, :, carried])
         self.balls = np.flatnonzero(hand.ball_finger == number)
@@ -239,6 +252,25 @@ class _Finger:
     def taken(self, angles: FloatArray) -> FloatArray:
         """This finger's angles (..., n) out of those of a hand (..., 16, 3)."""
         return angles[..., self.joints, self.kinds]
+
+    def opening(self) -> _Finger:
+        """The same finger that does more to leave holes open."""
+        result = copy(self)
+        result.open_m, result.open_spread_m = OPEN_M[1], OPEN_SPREAD_M[1]
+        return result
+
+    def shuts(self, x: FloatArray) -> bool:
+        """Whether a finger with angles (S, n) shuts a hole, or nearly, that it is to leave open."""
+        pose = self.pose.copy()
+        pose[:, self.joints, self.kinds] = x
+        matrices = wrist_from_mesh(
+            self.problem.hand, wrist_from_joint(self.problem.hand, joint_rotations(self.problem.hand, pose))
+        )
+        for part, hole in self.kept_open:
+            at = self.scene.placed(skinned(matrices, self.problem.hand.landmarks[part][:, :, None]))[:, 0]
+            if np.linalg.norm(at - hole, axis=1).min() < LEAST_OPEN_M:
+                return True
+        return False
 
     def solve(
         self, start: FloatArray, usual: FloatArray, usual_rad: float, which: IntArray
@@ -331,7 +363,7 @@ class _Finger:
         for part, hole in self.kept_open:
             near = scene.placed(skinned(matrices, hand.landmarks[part][:, :, None]).reshape(shape))[:, :, 0] - hole
             gap = np.sqrt(np.einsum("nsi,nsi->ns", near, near))
-            parts.append((np.maximum(OPEN_M - gap, 0.0) / OPEN_SPREAD_M)[..., None])
+            parts.append((np.maximum(self.open_m - gap, 0.0) / self.open_spread_m)[..., None])
         return np.concatenate(parts, axis=2), scene.placed(flesh.reshape(shape))
 
 

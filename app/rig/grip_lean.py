@@ -39,9 +39,12 @@ LEAN_WORTH_M = 0.0005
 """... and it does where the finger comes nearer by this much."""
 LEAN_SPREAD = (0.07, 0.12, 0.5)
 """How far wrist (in 0.1 m), its turn and fingers (rad) go from home: dearer than between a slide's knots."""
-OWN_EASED, OTHERS_EASED = 1.5, 1.5
+OWN_EASED, OTHERS_EASED = (1.5, 0.5), 1.5
 """Fingers at work keep their places so much less exactly while the wrist is looked for: it does not go far for the last
-millimetre, and most of the others are up anyway. What holds the instrument goes on holding it."""
+millimetre, and most of the others are up anyway. What holds the instrument goes on holding it. The finger that asks
+keeps its own more exactly ..."""
+LEFT_M = 0.0018
+"""... where it would otherwise still miss it by more than this."""
 ROUNDS = 14
 VALUES = np.array([0.0, 1.0])
 """Of the controls of the other fingers, at which they are solved."""
@@ -71,14 +74,28 @@ def leanings(problem: Problem, scene: Scene, x: FloatArray, solved: Sequence[Sol
         missed = missed_m(problem, scene, one)
         if not index or missed <= LEAN_FROM_M:
             continue
-        leant = _leant(problem, scene, x, one, index, homes)
-        if missed_m(problem, leant.scene, leant.solved) < missed - LEAN_WORTH_M:
+        tries: list[tuple[float, Leaning]] = []
+        for eased in OWN_EASED:
+            leant = _leant(problem, scene, x, one, index, homes, eased)
+            tries.append((missed_m(problem, leant.scene, leant.solved), leant))
+            if tries[-1][0] <= LEFT_M:
+                break
+        left, leant = min(tries, key=lambda one: one[0])
+        if left < missed - LEAN_WORTH_M:
             found.append(leant)
     return tuple(found)
 
 
-def _leant(problem: Problem, scene: Scene, x: FloatArray, one: Solved, index: int, homes: dict[int, Solved]) -> Leaning:
-    there = _lean_problem(problem, scene, one.number, one.station, x)
+def _leant(
+    problem: Problem,
+    scene: Scene,
+    x: FloatArray,
+    one: Solved,
+    index: int,
+    homes: dict[int, Solved],
+    eased: float,
+) -> Leaning:
+    there = _lean_problem(problem, scene, one.number, one.station, x, eased)
     assert there.anchor is not None
     best = np.asarray(solve(Residuals(there, 1.0), there.anchor, ROUNDS).x)[None]
     position, turn = wrist_transform(there, best)
@@ -93,15 +110,20 @@ def _leant(problem: Problem, scene: Scene, x: FloatArray, one: Solved, index: in
     return Leaning(index, moved, solved, others)
 
 
-def _lean_problem(problem: Problem, scene: Scene, number: int, station: Station, x: FloatArray) -> Problem:
+def _lean_problem(
+    problem: Problem, scene: Scene, number: int, station: Station, x: FloatArray, eased: float
+) -> Problem:
     """All fingers at work at once: one at its station, the others at home, the wrist near where it was."""
     instrument, hand = scene.instrument_map, problem.hand
     chosen = [station if n == number else places[0] for n, places in enumerate(problem.stations) if places]
     worked = home_controls([[place] for place in chosen])
     of_fingers = {index for place in chosen for index in place.contacts}
-    whole = [f"{hand.side}.palm", f"{hand.side}.thumb_web"]
+    whole = whole_hand(hand.side)
     touches = tuple(
-        _eased(touch_at(scene.model, instrument, contact, worked, None, np.ones(1)), index in station.contacts)
+        _eased(
+            touch_at(scene.model, instrument, contact, worked, None, np.ones(1)),
+            eased if index in station.contacts else OTHERS_EASED,
+        )
         for index, contact in enumerate(instrument.contacts)
         if index in of_fingers or contact.part in whole
     )
@@ -130,10 +152,13 @@ def _lean_problem(problem: Problem, scene: Scene, number: int, station: Station,
     )
 
 
-def _eased(touch: Touch, own: bool) -> Touch:
-    if touch.contact.control is None:
-        return touch
-    return replace(touch, spread_m=touch.spread_m * (OWN_EASED if own else OTHERS_EASED))
+def _eased(touch: Touch, by: float) -> Touch:
+    return touch if touch.contact.control is None else replace(touch, spread_m=touch.spread_m * by)
+
+
+def whole_hand(side: str) -> tuple[str, ...]:
+    """The parts of a hand that touch without a finger."""
+    return f"{side}.palm", f"{side}.thumb_web"
 
 
 def lean_of(problem: Problem, scene: Scene, leaning: Leaning) -> Lean:

@@ -161,12 +161,21 @@ class Lean:
     moved_m, turned : (3,) float64
         What is added to the wrist's place in the instrument's frame, and the rotation vector it is turned by there. The
         other fingers stay where they are (`app.rig.finger_poses`).
+    beside : tuple of (str, int)
+        Of other fingers the stations that they must be at as well. Such a lean comes on top of those of the single
+        fingers: what gives way for each of them alone need not do for both.
     """
 
     finger: str
     station: int
     moved_m: FloatArray
     turned: FloatArray
+    beside: tuple[tuple[str, int], ...] = ()
+
+    @property
+    def places(self) -> tuple[tuple[str, int], ...]:
+        """The fingers it is for, and their stations."""
+        return (self.finger, self.station), *self.beside
 
 
 @dataclass(frozen=True)
@@ -382,24 +391,28 @@ def giving_for(finger: str) -> str:
 
 def given_way(lean: Lean, placed: Mapping[str, Placed] | None) -> FloatArray | None:
     """How far (F,) a hand gives way, 0..1; None where it never does."""
-    return _share_at(lean, placed, giving_for(lean.finger)) if _has(placed, lean) else come_to(lean, placed)
+    return _all_at(lean, placed, [giving_for(finger) for finger, _ in lean.places])
 
 
 def come_to(lean: Lean, placed: Mapping[str, Placed] | None) -> FloatArray | None:
-    """How far (F,) a finger has come to where its hand gives way for it, 0..1; None where it never does."""
-    return _share_at(lean, placed, lean.finger)
+    """How far (F,) fingers have come to where their hand gives way for them, 0..1; None where they never do."""
+    return _all_at(lean, placed, [finger for finger, _ in lean.places])
 
 
-def _has(placed: Mapping[str, Placed] | None, lean: Lean) -> bool:
-    return placed is not None and giving_for(lean.finger) in placed
+def _all_at(lean: Lean, placed: Mapping[str, Placed] | None, names: Sequence[str]) -> FloatArray | None:
+    weight: FloatArray | None = None
+    for (finger, station), name in zip(lean.places, names, strict=True):
+        where = None if placed is None else placed.get(name, placed.get(finger))
+        share = None if where is None else _share_at(where, station)
+        if share is None:
+            return None
+        weight = share if weight is None else weight * share
+    return weight
 
 
-def _share_at(lean: Lean, placed: Mapping[str, Placed] | None, name: str) -> FloatArray | None:
-    where = None if placed is None else placed.get(name)
-    if where is None:
-        return None
-    going = (where.after == lean.station) * where.share
-    weight: FloatArray = going + (where.before == lean.station) * (1.0 - where.share)
+def _share_at(where: Placed, station: int) -> FloatArray | None:
+    """How far (F,) a finger is at one of its stations, 0..1; None where it never is."""
+    weight: FloatArray = (where.after == station) * where.share + (where.before == station) * (1.0 - where.share)
     return weight if np.any(weight) else None
 
 

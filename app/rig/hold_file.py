@@ -25,7 +25,7 @@ from app.rig.fit import FIT_VERSION, PLACES_VERSION, fit_hold, require_landmarks
 from app.rig.hold import HandHold, Hold, Lips, Reach
 from app.rig.lips import fit_lips
 from app.rig.model import Character, InstrumentModel
-from app.rig.stations import only_at
+from app.rig.stations import asked_together, only_at
 from instrument_maps.model import InstrumentMap
 from metadata.model import Body
 
@@ -57,12 +57,12 @@ def digest_of(character: Character, model: InstrumentModel, instrument: Instrume
         digest.update(f"{name} {landmark.mesh}\n".encode())
         arrays.append(landmark.vertices)
     if any(place is not None for place in only_at(instrument)):
-        digest.update(f"{PLACES_VERSION}\n".encode())
+        digest.update(f"{PLACES_VERSION}\n{asked_together(instrument)}\n".encode())
     for array in arrays:
         digest.update(str((array.dtype.str, array.shape)).encode())
         digest.update(np.ascontiguousarray(array).tobytes())
-    # Fingerings and names do not touch the hands; nor does how it is carried in a posture that is not the usual one, or
-    # in a rest.
+    # Names do not touch the hands, nor fingerings but for what they ask of several fingers at once; nor does how it is
+    # carried in a posture that is not the usual one, or in a rest.
     usual = usual_posture(instrument)
     hands = (
         instrument.mouthpiece,

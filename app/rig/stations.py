@@ -7,6 +7,7 @@ it is a place of its own, where the finger rests.
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -143,6 +144,21 @@ def kinds_of_notes(
     return np.array(kinds, np.intp), at_work
 
 
+def asked_together(instrument: InstrumentMap) -> tuple[tuple[tuple[str, int], tuple[str, int]], ...]:
+    """Pairs of stations of one hand's fingers, neither of them at home, that some fingering of the map asks for at
+    once; sorted."""
+    working = stations_of_notes(instrument, ((one.controls, one.fingers) for one in instrument.fingerings))
+    away = [
+        (finger, number) for finger, numbers in working.items() for number in range(1, int(numbers.max(initial=0)) + 1)
+    ]
+    return tuple(
+        (first, second)
+        for first, second in itertools.combinations(sorted(away), 2)
+        if first[0] != second[0] and first[0].split(".")[0] == second[0].split(".")[0]
+        if np.any((working[first[0]] == first[1]) & (working[second[0]] == second[1]))
+    )
+
+
 def only_at(instrument: InstrumentMap) -> tuple[tuple[str, int] | None, ...]:
     """Of every contact the finger and the station at which alone it counts; None for one that is kept all the time.
 
@@ -180,7 +196,7 @@ def height_share(control: Control, values: npt.ArrayLike) -> FloatArray:
 def aside_m(contact: Contact, instrument: InstrumentMap, values: npt.ArrayLike) -> FloatArray:
     """How far (F, 3) a finger lies off its touch point in the instrument's frame: aside on a hole that is half closed.
 
-    Aside is towards the wrist, along the surface.
+    Aside is towards wrist or palm, along the surface.
     """
     values = np.asarray(values, dtype=np.float64)
     control = None if contact.control is None else instrument.control(contact.control)
@@ -188,12 +204,14 @@ def aside_m(contact: Contact, instrument: InstrumentMap, values: npt.ArrayLike) 
         return np.zeros((*values.shape, 3))
     half = control.half_value
     share = np.where(values < half, values / half, (1.0 - values) / (1.0 - half))
-    return np.multiply.outer(np.clip(share, 0.0, 1.0) * HALF_ASIDE_M, _aside(contact, instrument))
+    return np.multiply.outer(np.clip(share, 0.0, 1.0) * HALF_ASIDE_M, _aside(contact, control, instrument))
 
 
-def _aside(contact: Contact, instrument: InstrumentMap) -> FloatArray:
+def _aside(contact: Contact, control: Control, instrument: InstrumentMap) -> FloatArray:
     hand = contact.part.split(".")[0]
-    back = np.array(next(seed.finger_direction for seed in instrument.hands if seed.hand == hand)) * -1.0
+    seed = next(seed for seed in instrument.hands if seed.hand == hand)
+    # Half of a hole, or one of two that lie side by side, is opened towards the palm; that of a plate along the finger.
+    back = np.asarray(seed.palm_normal if control.node is None else seed.finger_direction) * -1.0
     normal = np.asarray(contact.normal)
     along = back - normal * float(back @ normal)
     length = float(np.linalg.norm(along))

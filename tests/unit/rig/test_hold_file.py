@@ -17,6 +17,7 @@ from app.rig.hold import Hold, Lips
 from app.rig.hold_file import bundled_path, digest_of, hold_for, read_hold, write_hold
 from app.rig.instrument import load_instrument
 from app.rig.lips import fit_lips
+from app.rig.stations import asked_together
 from instrument_maps.load import bundled_maps, model_path
 from metadata.load import load_body
 
@@ -98,6 +99,17 @@ def test_the_digest_knows_what_the_hands_touch() -> None:
     carriage = msgspec.structs.replace(instrument.hold.standing, pitch_down_deg=(0.0, 20.0, 25.0))
     carried = msgspec.structs.replace(instrument.hold, standing=carriage)
     assert digest_of(character, model, msgspec.structs.replace(instrument, hold=carried), body) != digest
+
+
+def test_the_digest_knows_what_fingerings_ask_of_two_fingers_at_once() -> None:
+    character, model, instrument, body = inputs("man_adult", "clarinet_Bb")
+    digest = digest_of(character, model, instrument, body)
+    first = tuple(one for one in instrument.fingerings if one.written_pitch != 60)
+    fewer = msgspec.structs.replace(instrument, fingerings=first)
+    assert asked_together(fewer) == asked_together(instrument)
+    assert digest_of(character, model, fewer, body) == digest
+    none = msgspec.structs.replace(instrument, fingerings=())
+    assert digest_of(character, model, none, body) != digest
 
 
 def test_a_new_pair_is_fitted_once(tmp_path: Path, shipped: tuple[str, Hold], monkeypatch: pytest.MonkeyPatch) -> None:

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import msgspec
 import numpy as np
 import pytest
 
 from app.rig.stations import (
     HALF_ASIDE_M,
     aside_m,
+    asked_together,
     fingers_at_work,
     height_share,
     only_at,
@@ -52,6 +54,12 @@ def test_a_note_says_where_each_finger_is(made_up: InstrumentMap) -> None:
     assert stations_of_notes(made_up, notes)["left.thumb"].tolist() == [0, 2, -1]
 
 
+def test_what_fingerings_ask_of_two_fingers_away_from_home(made_up: InstrumentMap) -> None:
+    # Thumb on hole and register key, and the left little finger on its second lever, for one note.
+    assert asked_together(made_up) == ((("left.little", 1), ("left.thumb", 2)),)
+    assert asked_together(bundled_maps()["trumpet_Bb"]) == ()
+
+
 def test_touches_of_keys_count_while_they_are_worked(made_up: InstrumentMap) -> None:
     by_contact = dict(zip(((c.part, c.control) for c in made_up.contacts), only_at(made_up), strict=True))
     assert by_contact["right.little.pad", "key_F"] == ("right.little", 1)
@@ -67,3 +75,18 @@ def test_a_finger_comes_down_ahead_of_its_key_and_rolls_aside_for_half_a_hole(ma
     aside = aside_m(first, made_up, values)
     np.testing.assert_allclose(np.linalg.norm(aside, axis=1), HALF_ASIDE_M * np.array([0.0, 0.5, 1.0, 0.5, 0.0]))
     np.testing.assert_allclose(aside @ np.asarray(first.normal), 0.0, atol=1e-12)
+
+
+def test_half_of_a_bare_hole_is_opened_towards_the_palm_and_of_a_plate_along_the_finger(made_up: InstrumentMap) -> None:
+    first = next(contact for contact in made_up.contacts if contact.control == "hole_L1")
+    seed = next(seed for seed in made_up.hands if seed.hand == "left")
+    half = np.array([0.5])
+    assert aside_m(first, made_up, half)[0] @ np.asarray(seed.palm_normal) < -0.5 * HALF_ASIDE_M
+    plated = tuple(
+        msgspec.structs.replace(control, node="ring_R3") if control.name == "hole_L1" else control
+        for control in made_up.controls
+    )
+    plate = msgspec.structs.replace(made_up, controls=plated)
+    along = aside_m(first, plate, half)[0]
+    assert along @ np.asarray(seed.finger_direction) < 0.0
+    assert not np.allclose(along, aside_m(first, made_up, half)[0])
