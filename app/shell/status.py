@@ -174,7 +174,9 @@ class StatusLine(QStatusBar):
 
     def tell(self, message: Message, severity: Severity) -> None:
         """Say something."""
-        self._log.append((message, severity))
+        # A drag to where nothing can go says so with every move of the mouse.
+        if not self._log or self._log[-1] != (message, severity):
+            self._log.append((message, severity))
         self._show_notice()
         self._fade.stop()
         if severity is Severity.INFORMATION:

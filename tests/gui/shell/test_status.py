@@ -1,12 +1,16 @@
-"""What the status line tells while work is done costs no picture of its own."""
+"""What the status line tells: it costs no picture of its own, and nothing is listed twice in a row."""
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent, QObject
-from PySide6.QtWidgets import QProgressBar
+from PySide6.QtCore import QEvent, QObject, Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QFrame, QLabel, QProgressBar, QPushButton
 from pytestqt.qtbot import QtBot
 
+from app.errors import Message
 from app.shell.app import Program
+from widgets.common.session import Severity
+from widgets.common.text import sentence
 
 
 class Painted(QObject):
@@ -36,3 +40,20 @@ def test_the_bar_of_motion_waits_for_the_next_picture(program: Program, qtbot: Q
     status.set_ready(0.6)
     qtbot.wait(50)
     assert painted.count == 1, "nothing is new"
+
+
+def test_what_is_said_again_and_again_is_listed_once(program: Program) -> None:
+    status, session = program.window.status, program.session
+    for _ in range(5):
+        session.notice(Message("tempo.first_stays"), Severity.WARNING)
+    session.notice(Message("problems.none"))
+    session.notice(Message("tempo.first_stays"), Severity.WARNING)
+    notice = status.findChild(QPushButton, "notice")
+    assert notice is not None
+    QTest.mouseClick(notice, Qt.MouseButton.LeftButton)
+    listed = program.window.findChild(QFrame, "notices")
+    assert listed is not None
+    told = [label.text() for label in listed.findChildren(QLabel) if label.text()]
+    again, said = sentence(Message("tempo.first_stays")), sentence(Message("problems.none"))
+    assert [text for text in told if text in (again, said)] == [again, said, again]
+    listed.hide()
