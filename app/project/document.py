@@ -125,6 +125,15 @@ class Document:
         if self._done and self._done[-1].gesture is not None:
             self._done[-1] = replace(self._done[-1], gesture=None)
 
+    def cancel_gesture(self, gesture: object) -> bool:
+        """Return to where a drag began, as if it had not been; whether the last step was its."""
+        last = self._done[-1] if self._done else None
+        if last is None or last.gesture is not gesture:
+            return False
+        self._done.pop()
+        self._become(last.before, None)
+        return True
+
     def undo(self) -> Message | None:
         """Take the last step back; its name, None where there was none."""
         if not self._done:

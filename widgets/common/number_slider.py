@@ -119,7 +119,7 @@ class NumberSlider(QWidget):
         self._reads: Callable[[str], float | None] | None = None
         self._token: object | None = None
         self._press: QPointF | None = None
-        self._press_value = 0.0
+        self._press_value, self._press_mixed = 0.0, False
         self._drag_x, self._drag_value = 0.0, 0.0
         self._dragging = False
         self._after_drag: tuple[float, bool] | None = None
@@ -306,7 +306,12 @@ class NumberSlider(QWidget):
     def _cancel_drag(self) -> None:
         if self._dragging:
             self._dragging, self._after_drag = False, None
-            self._want(self._press_value, self._token)
+            # Of several things each has its own value again, and what was nobody's is nobody's: a value cannot say that.
+            if self._token is not None and self._session.document.cancel_gesture(self._token):
+                self._value, self._mixed = self._press_value, self._press_mixed
+                self.update()
+            else:
+                self._want(self._press_value, self._token)
         self._press = None
         self._end()
 
@@ -459,7 +464,7 @@ class NumberSlider(QWidget):
             return
         self._end()
         self._press = event.position()
-        self._press_value = self._value
+        self._press_value, self._press_mixed = self._value, self._mixed
         self._drag_x, self._drag_value = event.position().x(), self._value
         self._dragging = False
 

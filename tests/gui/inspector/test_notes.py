@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLabel
 
@@ -136,6 +136,24 @@ def test_the_embouchure_is_set_and_reset_value_by_value(panel: InspectorPanel, p
     assert number(panel, "embouchure_tension").value == pytest.approx(generated)
     click(child(panel, ByHandLine, "embouchure_by_hand"), "revert")
     assert corrections(planned, player) == ()
+
+
+def test_escape_from_a_drag_leaves_no_correction(panel: InspectorPanel, planned: Session) -> None:
+    player = planned.project.players[0]
+    select(planned, planned.project.part(player).notes[2])
+    control, before = number(panel, "embouchure_tension"), planned.project
+    generated = control.value
+    start = QPoint(20, control.height() // 2)
+    QTest.mousePress(control, Qt.MouseButton.LeftButton, pos=start)
+    for x in (24, 60, 90):
+        QTest.mouseMove(control, QPoint(x, start.y()))
+    assert corrections(planned, player) != ()
+    QTest.keyClick(control, Qt.Key.Key_Escape)
+    QTest.mouseRelease(control, Qt.MouseButton.LeftButton, pos=QPoint(90, start.y()))
+    assert planned.project is before
+    assert not planned.document.done
+    assert control.value == pytest.approx(generated)
+    assert not control.by_hand
 
 
 def test_a_pin_of_somebody_else_is_left_alone(panel: InspectorPanel, planned: Session) -> None:

@@ -203,6 +203,23 @@ def test_several_players_at_once(panel: PlayersPanel, session: Session) -> None:
         assert session.project.player(id).parameters.amplitude == cast_parameters(session.project, id).amplitude
 
 
+def test_escape_gives_everybody_their_own_value_back(panel: PlayersPanel, session: Session) -> None:
+    first, second = ids(session)[:2]
+    session.set_players((second, first))
+    control = slider(panel, "parameter_amplitude")
+    assert control.mixed
+    before = session.project
+    QTest.mousePress(control, Qt.MouseButton.LeftButton, pos=QPoint(60, 10))
+    for x in (64, 90, 120):
+        QTest.mouseMove(control, QPoint(x, 10))
+    assert session.project.player(first).parameters.amplitude == session.project.player(second).parameters.amplitude
+    QTest.keyClick(control, Qt.Key.Key_Escape)
+    QTest.mouseRelease(control, Qt.MouseButton.LeftButton, pos=QPoint(120, 10))
+    assert session.project is before
+    assert not session.document.done
+    assert control.mixed
+
+
 @pytest.mark.parametrize(
     ("name", "text", "value"),
     [

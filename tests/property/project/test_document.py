@@ -360,6 +360,23 @@ class Day(RuleBasedStateMachine):
         if any(amount != start.player(chosen[0]).parameters.amplitude for amount in amounts):
             self.future.clear()
 
+    @precondition(lambda self: self.document.project.players)
+    @rule(data=st.data(), steps=st.integers(1, 4))
+    def a_drag_that_is_cancelled(self, data: st.DataObject, steps: int) -> None:
+        """No step in the history, and the very project of before; a drag of somebody else stays."""
+        start, done, token = self.document.project, self.document.done, object()
+        chosen = [player.id for player in start.players]
+        for amount in data.draw(st.lists(st.floats(0.0, 1.0), min_size=steps, max_size=steps)):
+            after = players.set_parameters(start, chosen, amplitude=amount)
+            self.document.apply(NAME, after, gesture=token)
+            if after is not start:
+                self.future.clear()
+        assert not self.document.cancel_gesture(object())
+        moved = self.document.project is not start
+        assert self.document.cancel_gesture(token) is moved
+        assert self.document.project is start
+        assert self.document.done == done
+
     @rule()
     def undo(self) -> None:
         before = self.document.project
