@@ -306,7 +306,7 @@ class NumberSlider(QWidget):
     def _cancel_drag(self) -> None:
         if self._dragging:
             self._dragging, self._after_drag = False, None
-            # Of several things each has its own value again, and what was nobody's is nobody's: a value cannot say that.
+            # Each of several things has its own value again, and what nobody had set is not set: no value says that.
             if self._token is not None and self._session.document.cancel_gesture(self._token):
                 self._value, self._mixed = self._press_value, self._press_mixed
                 self.update()
