@@ -48,10 +48,13 @@ class _Visit:
     """A finger at work at one station.
 
     ``down`` is while what it works there goes down, ``up`` while that comes up again; None where the finger already
-    worked all of it at the station before, or goes on working it at the next. ``start_s`` and ``end_s`` are the notes'.
+    worked all of it at the station before, or goes on working it at the next. ``start_s`` and ``end_s`` are the notes',
+    which are those from ``first`` to before ``end``.
     """
 
     station: int
+    first: int
+    end: int
     start_s: float
     end_s: float
     down: Span | None
@@ -88,8 +91,20 @@ def station_curves(
         found = np.array([sets.index(one) for one in worked], np.intp)[kinds]
         visits = _visits(fingerings, found, sets, follows, places, controls)
         result[finger] = moves(_ways(visits), 0.0)
-        result[giving_for(finger)] = moves(_givings(visits), 0.0)
+        result[giving_for(finger)] = moves(_givings(visits, kinds, _others_away(finger, travelled, at_work)), 0.0)
     return result
+
+
+def _others_away(
+    finger: str, travelled: Mapping[str, Sequence[Station]], at_work: Sequence[Mapping[str, frozenset[str]]]
+) -> list[frozenset[tuple[str, int]]]:
+    """The stations away from home of the same hand's other fingers, for every kind of note."""
+    hand = finger.split(".")[0]
+    others = {name: places for name, places in travelled.items() if name != finger and name.split(".")[0] == hand}
+    found = [
+        {(name, station_for(places, work[name])) for name, places in others.items() if name in work} for work in at_work
+    ]
+    return [frozenset(place for place in places if place[1]) for places in found]
 
 
 def _silences_s(fingerings: Sequence[FingeringEvent]) -> FloatArray:
@@ -148,7 +163,7 @@ def _visits(
         onset_s, last_onset_s, end_s = fingerings[first].start_s, fingerings[end - 1].start_s, fingerings[end - 1].end_s
         down = [_down(controls[name], onset_s) for name in sorted(work - before)]
         up = [_up(controls[name], last_onset_s, end_s) for name in sorted(work - after)]
-        found.append(_Visit(station_for(places, work), onset_s, end_s, _hull(down), _hull(up)))
+        found.append(_Visit(station_for(places, work), first, end, onset_s, end_s, _hull(down), _hull(up)))
     return found
 
 
@@ -202,8 +217,14 @@ def _ways(visits: Sequence[_Visit]) -> list[tuple[float, float, float]]:
     return ways
 
 
-def _givings(visits: Sequence[_Visit]) -> list[tuple[float, float, float]]:
-    """Moves (start_s, end_s, station) of a hand that gives way: with the keys, and kept where a trill comes back."""
+def _givings(
+    visits: Sequence[_Visit], kinds: npt.NDArray[np.intp], others: Sequence[frozenset[tuple[str, int]]]
+) -> list[tuple[float, float, float]]:
+    """Moves (start_s, end_s, station) of a hand that gives way: with the keys, and kept where a trill comes back.
+
+    Not where its other fingers go away from home meanwhile: ``others`` has their stations for all ``kinds`` (N,) of
+    notes.
+    """
     ways: list[tuple[float, float, float]] = []
 
     def go(start_s: float, end_s: float, station: int) -> None:
@@ -217,7 +238,9 @@ def _givings(visits: Sequence[_Visit]) -> list[tuple[float, float, float]]:
             up = last.up or (last.end_s, last.end_s)
             start_s = visit.start_s if visit.down is None else visit.down[0]
             goes_on = visit.down is None or last.up is None or start_s < up[1]
-            if start_s - up[1] > TRAVEL_S or (here != visit.station and not goes_on):
+            known = others[kinds[last.end - 1]] | others[kinds[visit.first]]
+            apart = any(others[kind] - known for kind in kinds[last.end : visit.first].tolist())
+            if start_s - up[1] > TRAVEL_S or apart or (here != visit.station and not goes_on):
                 go(*up, 0)
                 here = 0
         if here != visit.station:

@@ -121,6 +121,17 @@ def test_a_hand_stays_where_the_next_note_needs_it_again(made_up: InstrumentMap)
     assert values["key_G"].min() == 0.0
 
 
+@pytest.mark.parametrize(("between", "kept"), [({"hole_T": 1.0}, True), ({"key_Reg": 1.0}, False)])
+def test_a_hand_does_not_stay_where_another_finger_goes_away_from_home_meanwhile(
+    made_up: InstrumentMap, between: dict[str, float], kept: bool
+) -> None:
+    lever = {"hole_T": 1.0, "key_D": 1.0}
+    events = fingerings([(0.0, 0.12, lever), (0.12, 0.24, between), (0.24, 0.36, lever)])
+    controls = control_curves(events, made_up.controls, TICKS)
+    curve = station_curves(events, made_up, controls)[giving_for("left.little")]
+    assert share_at(sampled(curve, np.array([0.06, 0.14, 0.30])), 1).round(3).tolist() == [1.0, float(kept), 1.0]
+
+
 def test_a_part_of_the_curves_is_that_of_the_whole(made_up: InstrumentMap) -> None:
     rows = [(0.25 * step, 0.25 * step + 0.25, {f"key_{'EFG'[step % 3]}": 1.0}) for step in range(12)]
     times_s = np.arange(-0.5, 4.0, 0.01)
