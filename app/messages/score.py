@@ -77,8 +77,8 @@ TEMPLATES: Final[dict[str, str]] = {
         "lie outside its range"
     ),
     "score.looks_written": (
-        "{part}: {outside} of {total} notes lie outside the range of {map}, and all of them within it as written "
-        "pitches: this looks like an untransposed part; import its pitches as written ones"
+        "{part}: {outside} of {total} notes lie outside the range of {map}, but all fit as written pitches: the part "
+        "looks untransposed; import its pitches as written"
     ),
     "score.voices": "{part}: up to {voices} notes sound together, so {voices} players share it",
 }

@@ -26,7 +26,8 @@ score.chosen_by_range_partly : part, map, outside, total
     "{part}: neither its name nor its program says what it is; {map} plays it, though {outside} of {total} notes lie
     outside its range"
 score.looks_written : part, map, outside, total
-    "{part}: {outside} of {total} notes lie outside the range of {map}, and all within it as written pitches: ..."
+    "{part}: {outside} of {total} notes lie outside the range of {map}, but all fit as written pitches: the part looks
+    untransposed; import its pitches as written"
 score.left_out : (a reason)
     "left out on import"
 score.voices : part, voices

@@ -193,11 +193,11 @@
         <translation>自動: {name}</translation>
     </message>
     <message>
-        <source>As they sound</source>
+        <source>Sounding</source>
         <translation>実音</translation>
     </message>
     <message>
-        <source>As written</source>
+        <source>Written</source>
         <translation>記譜音</translation>
     </message>
     <message>

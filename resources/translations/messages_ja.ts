@@ -1144,7 +1144,7 @@
             <translation>{part}: 名前からもプログラム番号からも楽器が分かりません。{map} で演奏しますが、{total} 音中 {outside} 音が音域外です</translation>
         </message>
         <message>
-            <source>{part}: {outside} of {total} notes lie outside the range of {map}, and all of them within it as written pitches: this looks like an untransposed part; import its pitches as written ones</source>
+            <source>{part}: {outside} of {total} notes lie outside the range of {map}, but all fit as written pitches: the part looks untransposed; import its pitches as written</source>
             <translation>{part}: {total} 音のうち {outside} 音が{map}の音域から外れていますが、記譜音と見なすとすべて収まります。記譜音のまま書き出されたパートのようです。「記譜音」として読み込んでください</translation>
         </message>
         <message>

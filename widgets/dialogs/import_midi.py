@@ -38,6 +38,9 @@ from widgets.common.tokens import LEAST_TARGET_PX, Tokens
 
 _USE, _NAME, _PREVIEW, _NOTES, _SPLIT, _INSTRUMENT, _PITCHES, _CHARACTER = range(8)
 _ROW_PX = 40
+_SIZE = QSize(1180, 580)
+_INSTRUMENT_LETTERS = 22
+"""Width of the column of instruments: the longest names would leave the notes no room."""
 
 
 class ImportDialog(QDialog):
@@ -120,7 +123,7 @@ class ImportDialog(QDialog):
         layout.addWidget(self._buttons)
         self._table.itemSelectionChanged.connect(self._show_tools)
         self.retranslate()
-        self.resize(1080, 560)
+        self.resize(_SIZE)
 
     @property
     def rows(self) -> tuple[ImportRow, ...]:
@@ -225,6 +228,8 @@ class ImportDialog(QDialog):
 
         instrument = QComboBox()
         instrument.setObjectName(f"instrument_{place}")
+        instrument.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+        instrument.setMinimumContentsLength(_INSTRUMENT_LETTERS)
         instrument.addItem(self.tr("Automatic: {name}").format(name=self._automatic(row)), None)
         for id_, table in self._maps.items():
             instrument.addItem(instrument_name(table), id_)
@@ -236,8 +241,8 @@ class ImportDialog(QDialog):
 
         pitches = QComboBox()
         pitches.setObjectName(f"pitches_{place}")
-        pitches.addItem(self.tr("As they sound"), False)
-        pitches.addItem(self.tr("As written"), True)
+        pitches.addItem(self.tr("Sounding"), False)
+        pitches.addItem(self.tr("Written"), True)
         pitches.setCurrentIndex(1 if row.wish.written else 0)
         pitches.currentIndexChanged.connect(lambda _, box=pitches: self._wish(place, written=bool(box.currentData())))
         pitches.setToolTip(
@@ -315,7 +320,7 @@ class ImportDialog(QDialog):
         self._warnings.setVisible(self._warnings.count() > 0)
 
     def sizeHint(self) -> QSize:
-        return QSize(1080, 560)
+        return _SIZE
 
     def changeEvent(self, event: QEvent) -> None:
         if event.type() == QEvent.Type.LanguageChange:
