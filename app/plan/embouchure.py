@@ -36,6 +36,17 @@ def tension_of(pitch: FloatArray, instrument: InstrumentMap) -> FloatArray:
     return np.interp(pitch, knots, [0.0, EASY_TENSION[0], EASY_TENSION[1], 1.0])
 
 
+def strain_of(register: FloatArray, loudness: FloatArray, length_s: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Tension (not yet the player's) and effort 0..1 of notes, by `tension_of`, loudness 0..1 and how long they are
+    held."""
+    loud = np.clip((loudness - MEZZOFORTE) / (1.0 - MEZZOFORTE), 0.0, 1.0)
+    high = np.clip((register - EASY_TENSION[1]) / (1.0 - EASY_TENSION[1]), 0.0, 1.0)
+    long = np.clip(length_s / LONG_S, 0.0, 1.0)
+    # Independent strains: each takes its part of what the others leave.
+    effort = 1.0 - (1.0 - 0.75 * high) * (1.0 - 0.5 * loud) * (1.0 - 0.35 * long)
+    return register + LOUD_TENSION * loud, np.clip(effort + 0.05 * register, 0.0, 1.0)
+
+
 def plan_embouchures(
     notes: tuple[Note, ...],
     times: LineTimes,
@@ -55,15 +66,9 @@ def plan_embouchures(
     """
     if not notes:
         return ()
-    pitch = times.pitch.astype(np.float64)
-    register = tension_of(pitch, instrument)
-    loud = np.clip((times.loudness - MEZZOFORTE) / (1.0 - MEZZOFORTE), -1.0, 1.0)
-    tension = np.clip((register + LOUD_TENSION * np.maximum(loud, 0.0)) * parameters.embouchure_tension, 0.0, 1.0)
-    high = np.clip((register - EASY_TENSION[1]) / (1.0 - EASY_TENSION[1]), 0.0, 1.0)
-    long = np.clip(times.duration_s / LONG_S, 0.0, 1.0)
-    # Independent strains: each takes its part of what the others leave.
-    effort = 1.0 - (1.0 - 0.75 * high) * (1.0 - 0.5 * np.maximum(loud, 0.0)) * (1.0 - 0.35 * long)
-    effort = np.clip(effort + 0.05 * register, 0.0, 1.0)
+    register = tension_of(times.pitch.astype(np.float64), instrument)
+    tension, effort = strain_of(register, times.loudness, times.duration_s)
+    tension = np.clip(tension * parameters.embouchure_tension, 0.0, 1.0)
     low, top = instrument.range.low, instrument.range.high
     reasons: dict[tuple[int, float], Message] = {}
     events = []

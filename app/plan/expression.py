@@ -72,19 +72,17 @@ def plan_expressions(
         faces["strained"],
         notes,
         times,
-        np.clip((effort - EFFORT) / (1.0 - EFFORT), 0.0, 1.0),
+        strained(effort),
         clock,
         lambda peak: Message("expression.effort", {"effort": round(float(effort[peak]), 2), "threshold": EFFORT}),
     )
     easy_low = instrument.range.easy_low
-    low = np.clip((easy_low - times.pitch + 1) / PUFF_SEMITONES, 0.0, 1.0)
-    loud = np.clip((times.loudness - LOUD) / (1.0 - LOUD), 0.0, 1.0)
     events += _moments(
         "puffed",
         faces["puffed"],
         notes,
         times,
-        np.sqrt(low * loud),
+        puffed(times.pitch.astype(np.float64), times.loudness, instrument),
         clock,
         lambda peak: Message(
             "expression.low_loud",
@@ -103,6 +101,17 @@ def plan_expressions(
                    Message("expression.end"))
         )  # fmt: skip
     return tuple(sorted(events, key=lambda event: (event.start_s, event.id)))
+
+
+def strained(effort: FloatArray) -> FloatArray:
+    """How much of an effort the face shows."""
+    return np.clip((effort - EFFORT) / (1.0 - EFFORT), 0.0, 1.0)
+
+
+def puffed(pitch: FloatArray, loudness: FloatArray, instrument: InstrumentMap) -> FloatArray:
+    """How much air low and loud notes let into the cheeks."""
+    low = np.clip((instrument.range.easy_low - pitch + 1) / PUFF_SEMITONES, 0.0, 1.0)
+    return np.asarray(np.sqrt(low * np.clip((loudness - LOUD) / (1.0 - LOUD), 0.0, 1.0)))
 
 
 def _moments(

@@ -7,10 +7,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Protocol
 
 import numpy as np
-import numpy.typing as npt
 
 from app.plan.line import IntArray
 from app.plan.model import FloatArray
@@ -27,16 +25,6 @@ KEY_TO_KEY_COST = {"little": 4.0, "ring": 3.0}
 KEY_TO_KEY_USUAL_COST = 1.5
 """A finger that goes from one key to another without being free between smears the notes; most of all the little
 finger, which is why its keys are there twice."""
-
-
-class FingeringTable(Protocol):
-    """Fingerings by pitch, padded to the same number."""
-
-    @property
-    def choices(self) -> tuple[tuple[Fingering, ...], ...]: ...
-
-    @property
-    def valid(self) -> npt.NDArray[np.bool_]: ...
 
 
 @dataclass(frozen=True)
@@ -105,17 +93,19 @@ class FingerPlaces:
         return Ways(moves, weighted, key_to_key, rolls, (flips & (others > 0.0)).astype(np.float64))
 
 
-def finger_ways(table: FingeringTable, controls: Sequence[Control]) -> FingerPlaces:
-    """Work out where the fingers are; slides are no fingers' matter."""
-    shape = (table.valid.shape[0], table.valid.shape[1])
+def finger_places(
+    choices: Sequence[Sequence[Fingering]], shape: tuple[int, int], controls: Sequence[Control]
+) -> FingerPlaces:
+    """Work out where the fingers are in the fingerings of every pitch, padded to ``shape`` (P, K); slides are no
+    fingers' matter."""
     names = sorted(
         {control.finger for control in controls}
-        | {finger for ranked in table.choices for fingering in ranked for finger in fingering.fingers.values()}
+        | {finger for ranked in choices for fingering in ranked for finger in fingering.fingers.values()}
     )
     bits = {control.name: 1 << place for place, control in enumerate(controls)}
     holds = {name: np.zeros(shape, dtype=np.int64) for name in names}
     half = {name: np.zeros(shape, dtype=np.int64) for name in names}
-    for row, ranked in enumerate(table.choices):
+    for row, ranked in enumerate(choices):
         for column, fingering in enumerate(ranked):
             for control in controls:
                 value = fingering.controls.get(control.name, control.rest_value)

@@ -14,7 +14,7 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
-from app.plan.finger_ways import finger_ways
+from app.plan.finger_ways import FingerPlaces, finger_places
 from app.plan.line import IntArray, LineTimes
 from app.plan.model import FloatArray, Note
 from instrument_maps.model import Control, Fingering, InstrumentMap
@@ -100,6 +100,8 @@ class Table:
         Which are meant for a trill, for fast, loud or soft notes.
     register : (P,) int64
         How many breaks lie below the pitch.
+    places : FingerPlaces
+        Where every finger is in each of them.
     """
 
     choices: tuple[tuple[Fingering, ...], ...]
@@ -109,6 +111,7 @@ class Table:
     valid: BoolArray
     meant_for: dict[str, BoolArray]
     register: IntArray
+    places: FingerPlaces
 
 
 @dataclass(frozen=True)
@@ -203,8 +206,7 @@ class FingeringProblem:
         step = np.maximum(times.onset_s[1:] - times.onset_s[:-1], 1e-3)
         pairs, pair = np.unique(index[:-1] * count + index[1:], return_inverse=True)
         before, after = pairs // count, pairs % count
-        ways = finger_ways(self.table, self.controls)
-        fingers = ways.between(before, after)
+        fingers = self.table.places.between(before, after)
         crossing = self.table.register[before] != self.table.register[after]
         crossed = np.where(crossing[:, None, None], np.maximum(fingers.moves - BREAK_FINGERS, 0.0), 0.0)
         awkward = ROLL_COST * fingers.rolls + TOGETHER_COST * fingers.together + BREAK_COST * crossed
@@ -304,7 +306,7 @@ def fingering_problem(
     """Set up the search. ``pins`` maps note ids to labels that a correction demands; a label that is no fingering of
     its note is passed over (see `plan_fingerings`)."""
     pitches, pitch_index = np.unique(times.pitch, return_inverse=True)
-    table = _table(tuple(int(pitch) for pitch in pitches), instrument)
+    table = table_of(tuple(int(pitch) for pitch in pitches), instrument)
     allowed = table.valid[pitch_index]
     if pins:
         for index, note in enumerate(notes):
@@ -312,16 +314,18 @@ def fingering_problem(
             if pinned is not None:
                 allowed[index] = False
                 allowed[index, pinned] = True
-    return FingeringProblem(times, table, pitch_index.astype(np.int64), _pitch_controls(instrument), allowed)
+    return FingeringProblem(times, table, pitch_index.astype(np.int64), pitch_controls(instrument), allowed)
 
 
-def _pitch_controls(instrument: InstrumentMap) -> tuple[Control, ...]:
+def pitch_controls(instrument: InstrumentMap) -> tuple[Control, ...]:
+    """The controls that fingerings name."""
     return tuple(control for control in instrument.controls if control.role == "pitch")
 
 
-def _table(pitches: tuple[int, ...], instrument: InstrumentMap) -> Table:
+def table_of(pitches: tuple[int, ...], instrument: InstrumentMap) -> Table:
+    """The fingerings of these concert pitches, in their order."""
     choices = tuple(instrument.fingerings_for(pitch) for pitch in pitches)
-    controls = _pitch_controls(instrument)
+    controls = pitch_controls(instrument)
     shape = (len(choices), max((len(ranked) for ranked in choices), default=1))
     values = np.zeros((*shape, len(controls)))
     cost, cents, valid = np.zeros(shape), np.zeros(shape), np.zeros(shape, dtype=bool)
@@ -338,7 +342,8 @@ def _table(pitches: tuple[int, ...], instrument: InstrumentMap) -> Table:
                     meant_for.setdefault(tag, np.zeros(shape, dtype=bool))[row, column] = True
     written = np.array([ranked[0].written_pitch for ranked in choices], dtype=np.int64)
     register = np.searchsorted(np.sort(np.array(instrument.breaks, dtype=np.int64)), written, side="right")
-    return Table(choices, values, cost, cents, valid, meant_for, register.astype(np.int64))
+    places = finger_places(choices, shape, controls)
+    return Table(choices, values, cost, cents, valid, meant_for, register.astype(np.int64), places)
 
 
 def _either_side(steps: BoolArray, count: int) -> BoolArray:
