@@ -133,7 +133,7 @@ def _curve(fingerings: Sequence[FingeringEvent], control: Control, rests: npt.ND
             earliest_s = last.start_s + max(SLOWEST_FRAME_S, LEAST_HELD_SHARE * (event.start_s - last.start_s))
             segments.append((min(max(start_s, earliest_s), event.start_s - window), event.start_s, target))
     last_s = fingerings[-1].end_s
-    segments.append((last_s, last_s + _back_s(control, float(targets[-1])), rest))
+    segments.append((last_s, last_s + release_s(control, float(targets[-1])), rest))
     return moves(segments, rest)
 
 
@@ -142,7 +142,7 @@ def _free_window_s(control: Control, distance: float) -> float:
     return window + unseen_s(control, distance, window) if distance else window
 
 
-def _back_s(control: Control, value: float) -> float:
+def release_s(control: Control, value: float) -> float:
     """Unhurried time of the way back to rest."""
     need = need_s(control, value - control.rest_value)
     return max(CARRY_BACK_S, need / CARRY_BACK_SHARE) if need > 0.0 else RELEASE_S
@@ -155,7 +155,7 @@ def _through_rest(
     rest = control.rest_value
     gap_s = onset_s - end_s
     back, out = abs(value - rest), abs(target - rest)
-    back_s = _back_s(control, value) if back else 0.0
+    back_s = release_s(control, value) if back else 0.0
     out_s = _free_window_s(control, out) if out else 0.0
     if back_s + out_s > gap_s:  # a fast beat: hurry both ways, each by its share of the distance
         back_s = max(gap_s - out_s, gap_s * back / (back + out))

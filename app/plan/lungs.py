@@ -54,13 +54,16 @@ EPSILON = 1e-6
 
 def air_used_s(times: LineTimes, air: Air | None = None) -> FloatArray:
     """(N + 1,): air taken by all notes before each, and by all, in seconds of playing at mezzoforte."""
+    return np.concatenate(([0.0], np.cumsum(times.duration_s * air_rate(times.loudness, air))))
+
+
+def air_rate(loudness: FloatArray, air: Air | None = None) -> FloatArray:
+    """How much more air a loudness takes than mezzoforte does."""
     if air is None:
         low, high = LOUDNESS_RANGE
-        rate = np.interp(times.loudness, [0.0, MEZZOFORTE, 1.0], [low, 1.0, high])
-    else:
-        rates = [air.mezzoforte_s / lasts_s for lasts_s in (air.piano_s, air.mezzoforte_s, air.forte_s)]
-        rate = np.interp(times.loudness, [PIANO, MEZZOFORTE, FORTE], rates)
-    return np.concatenate(([0.0], np.cumsum(times.duration_s * rate)))
+        return np.interp(loudness, [0.0, MEZZOFORTE, 1.0], [low, 1.0, high])
+    rates = [air.mezzoforte_s / lasts_s for lasts_s in (air.piano_s, air.mezzoforte_s, air.forte_s)]
+    return np.interp(loudness, [PIANO, MEZZOFORTE, FORTE], rates)
 
 
 def lungful_s(parameters: PlayerParameters, air: Air | None = None) -> float:

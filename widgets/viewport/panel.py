@@ -94,6 +94,9 @@ class ViewportPanel(QWidget):
         self._waiter = QTimer(self)
         self._waiter.setInterval(WAIT_MS)
         self._waiter.timeout.connect(self.poses_changed)
+        self._live = QTimer(self)
+        self._live.setInterval(FRAME_MS)
+        self._live.timeout.connect(self._show_live)
         self._listen()
         self._dress()
         self.retranslate()
@@ -111,6 +114,7 @@ class ViewportPanel(QWidget):
         session.playing_changed.connect(self._update)
         session.preview_changed.connect(self.refresh)
         session.theme_changed.connect(self._dress)
+        session.live_players.changed.connect(self._live_changed)
         session.viewport.changed.connect(self._state_changed)
         session.viewport.viewed.connect(self._view_asked)
         session.viewport.framed.connect(self._frame_asked)
@@ -274,8 +278,8 @@ class ViewportPanel(QWidget):
 
     def _give_up(self) -> None:
         self._canvas = self._layer = self._pointer = None
-        self._ticker.stop()
-        self._waiter.stop()
+        for timer in (self._ticker, self._waiter, self._live):
+            timer.stop()
         self._stack.setCurrentWidget(self._reason)
         self.retranslate()
 
@@ -284,7 +288,9 @@ class ViewportPanel(QWidget):
         stage, pointer, session = self.scene.stage, self._pointer, self._session
         camera, view = self._elsewhere or (self._eye.camera, self._eye.view)
         here = self._elsewhere is None
-        moving = session.playing or self._eye.flying or (pointer is not None and pointer.dragging)
+        moving = (
+            session.playing or self._live.isActive() or self._eye.flying or (pointer is not None and pointer.dragging)
+        )
         emphasis = Emphasis(
             rings=self.scene.rings(),
             hovered=pointer.hovered if pointer is not None and here else None,
@@ -399,6 +405,19 @@ class ViewportPanel(QWidget):
     def _performance_changed(self) -> None:
         self._settle_until_s = perf_counter() + SETTLED_S
         self.refresh()
+
+    def _live_changed(self) -> None:
+        """Draw all the time while somebody is played now."""
+        if self._session.live_players.playing and self._canvas is not None:
+            self._live.start()
+        else:
+            self._live.stop()
+        self.refresh()
+
+    def _show_live(self) -> None:
+        # While the performance is heard the playhead's changes draw already.
+        if not self._session.playing:
+            self.refresh()
 
     def _players_changed(self) -> None:
         if self._eye.view != "ensemble":

@@ -18,6 +18,7 @@ from widgets.viewport.contacts import touches
 from widgets.viewport.figures import Loaded, cast_key, load, moved, same_figures
 from widgets.viewport.handles import TARGETS, Handle, handles
 from widgets.viewport.limbs import Limbs, hit
+from widgets.viewport.live_poses import LivePoses
 from widgets.viewport.look import Color, rgb
 from widgets.viewport.overlay import Marks, Name, over_heads_m
 from widgets.viewport.pose_tool import PoseTool
@@ -50,7 +51,7 @@ class Scene(QObject):
     def __init__(self, session: Session, poses: Poses, tool: PoseTool, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._session = session
-        self._poses: Poses = WornFaces(session, poses)
+        self._poses: Poses = WornFaces(session, LivePoses(session, poses))
         self._tool = tool
         self._loaded: Loaded | None = None
         self.missing = False
@@ -68,7 +69,7 @@ class Scene(QObject):
 
     def set_poses(self, poses: Poses) -> None:
         """Take poses from there from now on."""
-        self._poses = WornFaces(self._session, poses)
+        self._poses = WornFaces(self._session, LivePoses(self._session, poses))
 
     # Figures
 

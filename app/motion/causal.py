@@ -1,0 +1,142 @@
+"""Values that follow what is only known once it happens: they start from wherever they are, and never jump.
+
+A `Reach` is a minimum-jerk move from a moving state (Flash & Hogan 1985), a `Spring` follows a value that changes all
+the time, and a `Journey` goes from place to place. All of them keep their state only, so an hour takes no more memory
+than a second.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+LEAST_MOVE_S = 1e-3
+"""No move is shorter."""
+SETTLED = 5.83
+"""A critically damped spring is within 2 % of its target after so many of its time constants."""
+HURRIES = 0.6
+"""A way that has to be finished or turned back from before another one takes this share of the time, and the other as
+long as it takes."""
+
+
+@dataclass(frozen=True)
+class Reach:
+    """A move to ``target``, where it comes to rest at ``end_s``; ``value``, ``speed`` and ``push`` (the second
+    derivative) are those at ``start_s``."""
+
+    start_s: float
+    end_s: float
+    value: float
+    speed: float
+    push: float
+    target: float
+
+    @classmethod
+    def at_rest(cls, value: float) -> Reach:
+        """Nothing moves."""
+        return cls(0.0, LEAST_MOVE_S, value, 0.0, 0.0, value)
+
+    def at(self, now_s: float) -> float:
+        """The value at a time; one that is turned back at speed goes a little beyond its ends."""
+        return self._state(now_s)[0]
+
+    def speed_at(self, now_s: float) -> float:
+        """How fast the value changes at a time."""
+        return self._state(now_s)[1]
+
+    def toward(self, now_s: float, target: float, length_s: float) -> Reach:
+        """Turn to another target from wherever the value is, with the speed it has."""
+        value, speed, push = self._state(now_s)
+        return Reach(now_s, now_s + max(length_s, LEAST_MOVE_S), value, speed, push, target)
+
+    def ended(self, now_s: float) -> bool:
+        """Whether it has come to rest."""
+        return now_s >= self.end_s
+
+    def _state(self, now_s: float) -> tuple[float, float, float]:
+        if now_s >= self.end_s:
+            return self.target, 0.0, 0.0
+        if now_s <= self.start_s:
+            return self.value, self.speed, self.push
+        length_s = self.end_s - self.start_s
+        way, v, a = self.target - self.value, self.speed * length_s, self.push * length_s * length_s
+        third, fourth = 10.0 * way - 6.0 * v - 1.5 * a, -15.0 * way + 8.0 * v + 1.5 * a
+        fifth = 6.0 * way - 3.0 * v - 0.5 * a
+        u = (now_s - self.start_s) / length_s
+        value = self.value + u * (v + u * (0.5 * a + u * (third + u * (fourth + u * fifth))))
+        speed = v + u * (a + u * (3.0 * third + u * (4.0 * fourth + u * 5.0 * fifth)))
+        push = a + u * (6.0 * third + u * (12.0 * fourth + u * 20.0 * fifth))
+        return value, speed / length_s, push / (length_s * length_s)
+
+
+class Spring:
+    """A value that follows another one, critically damped: it neither jumps nor swings.
+
+    Parameters
+    ----------
+    value : float
+    settles_s : float
+        After this long it is as good as there.
+    """
+
+    def __init__(self, value: float, settles_s: float) -> None:
+        self.value, self.speed = value, 0.0
+        self._rate = SETTLED / settles_s
+
+    def follow(self, target: float, elapsed_s: float) -> float:
+        """Go on for a while towards a target that rests meanwhile."""
+        off = self.value - target
+        drive = self.speed + self._rate * off
+        left = math.exp(-self._rate * elapsed_s)
+        self.value = target + (off + drive * elapsed_s) * left
+        self.speed = (self.speed - self._rate * drive * elapsed_s) * left
+        return self.value
+
+
+class Journey:
+    """Which of its places something is at, or between which two of them.
+
+    Whoever is on the way to one place when another is asked for goes on to the nearer end first: ways lead from place
+    to place only.
+    """
+
+    def __init__(self, place: int = 0) -> None:
+        self.before = self.after = self.goal = place
+        self._share = Reach.at_rest(1.0)
+        self._length_s = LEAST_MOVE_S
+
+    def go(self, now_s: float, goal: int, length_s: float) -> None:
+        """Set out for a place; a way there takes so long."""
+        self._arrive(now_s)
+        if goal == self.goal:
+            return
+        self.goal, self._length_s = goal, length_s
+        if self.before == self.after:
+            self._depart(now_s)
+            return
+        if goal in (self.before, self.after):
+            end, hurried = float(goal == self.after), False
+        else:
+            end, hurried, length_s = float(self._share.at(now_s) >= 0.5), True, HURRIES * length_s
+        if end != self._share.target or (hurried and self._share.end_s > now_s + length_s):
+            self._share = self._share.toward(now_s, end, length_s)
+
+    def at(self, now_s: float) -> tuple[int, int, float]:
+        """The place before, the one after, and how far it is on its way between them, 0..1."""
+        self._arrive(now_s)
+        if self.before == self.after:
+            return self.after, self.after, 1.0
+        return self.before, self.after, min(max(self._share.at(now_s), 0.0), 1.0)
+
+    def _arrive(self, now_s: float) -> None:
+        while self.before != self.after and self._share.ended(now_s):
+            here, ended_s = (self.after if self._share.target else self.before), self._share.end_s
+            self.before = self.after = here
+            if here != self.goal:
+                self._depart(ended_s)
+
+    def _depart(self, now_s: float) -> None:
+        self.after = self.goal
+        if self.after == self.before:
+            return
+        self._share = Reach.at_rest(0.0).toward(now_s, 1.0, self._length_s)

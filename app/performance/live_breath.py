@@ -1,0 +1,279 @@
+"""Lungs, lips and eyes of somebody who plays now: they follow breath, bite and bend, and breathe in when the breath
+pauses."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from app.motion.body import EXHALE_S, Levels
+from app.motion.causal import Reach, Spring
+from app.motion.face import FORM_S, HOLD_S, SHALLOWEST, Drivers
+from app.motion.gaze import BLINK_DOWN_S, BLINK_SHUT_S, BLINK_UP_S, HEAD_TURN_S, MUSIC_PITCH_RAD, SACCADE_S, Look
+from app.motion.perform import Playing
+from app.motion.seed import generator
+from app.performance.live_hands import FRAMES
+from app.plan.embouchure import strain_of, tension_of
+from app.plan.expression import puffed, strained
+from app.plan.line import MEZZOFORTE
+from app.plan.lungs import FULL_BREATH_S, air_rate, lungful_s
+from metadata.model import Expression
+
+FloatArray = npt.NDArray[np.float64]
+
+SILENT = 0.02
+"""A breath sensor that says no more than this says nothing."""
+FORMS_S = 0.06
+"""The lips have to be there at once: the note has begun."""
+SHUTS_S = 0.06
+"""A mouth that is open for a breath shuts in this time when a note begins."""
+OPENS_S = 0.16
+"""The mouth opens for a breath."""
+EMPTY_PAUSE_S, FULL_PAUSE_S = 0.12, 0.45
+"""With empty lungs somebody breathes in as soon as the breath pauses; with full ones only where it pauses longer."""
+LEAST_SPENT = 0.08
+"""Nobody breathes in who has hardly breathed out."""
+RELAXES_S = 2.0
+"""Full lungs are held for so long; then the body lets go."""
+TENSION_S, AIR_S, EFFORT_S, RAISES_S = 0.06, 0.10, 0.50, 1.6
+"""How quickly lips, cheeks, the strain and the bell follow what the sensors say; they settle in this time."""
+BITES, BENDS = 0.35, 0.20
+"""What a full bite, and a full bend, add to the tension of the lips."""
+TONGUE_UP_S, TONGUE_DOWN_S = 0.015, 0.06
+"""The tongue's stroke: it is seen as it leaves the reed or the teeth."""
+BELL_RISES = 0.5
+"""The bell rises by this share of its range from mezzoforte to the loudest, and sinks as much."""
+
+
+@dataclass(frozen=True)
+class Breathing:
+    """Body and face at a moment: members as of `app.motion.perform.Frames`, of `FRAMES` equal frames."""
+
+    levels: Levels
+    face: Drivers
+
+
+class LiveBreath:
+    """What breath and lips of one player do.
+
+    Parameters
+    ----------
+    playing : Playing
+    expressions : dict of str to Expression
+        What ``neutral``, ``strained`` and ``puffed`` look like is seen.
+    """
+
+    def __init__(self, playing: Playing, expressions: dict[str, Expression]) -> None:
+        self._instrument, self._parameters = playing.instrument_map, playing.parameters
+        self._lung_s = lungful_s(playing.parameters, playing.instrument_map.air)
+        self._breath: float | None = None
+        self._bite = self._bend = 0.0
+        self._pitch: float | None = None
+        self._struck = MEZZOFORTE
+        self._sounding = False
+        self._onset_s = self._now_s = -math.inf
+        self._paused_s = -math.inf
+        """Since when nothing is blown; inf while something is."""
+        self._spent = 0.0
+        """How much of the lungs' air is used up."""
+        self._inhaled_s = math.inf
+        """When the breath that is being drawn in is complete; inf where none is."""
+        self._rested = True
+        self._at_lips, self._mouth, self._full, self._tongue = (Reach.at_rest(0.0) for _ in range(4))
+        self._tongue_falls_s = math.inf
+        self._tension = Spring(float(tension_of(np.array([float(self._middle)]), self._instrument)[0]), TENSION_S)
+        self._air, self._effort = Spring(0.0, AIR_S), Spring(0.0, EFFORT_S)
+        self._bell = Spring(0.0, RAISES_S)
+        self._shown = {
+            name: Spring(0.0, expressions[name].fade_in_s) for name in ("strained", "puffed") if name in expressions
+        }
+        self._neutral = "neutral" in expressions
+
+    @property
+    def _middle(self) -> float:
+        limits = self._instrument.range
+        return 0.5 * (limits.easy_low + limits.easy_high)
+
+    @property
+    def loudness(self) -> float:
+        """What the breath says, or how the note was struck where nothing tells the breath."""
+        return self._struck if self._breath is None else self._breath
+
+    def play(self, now_s: float, pitch: int, velocity: int, attacked: bool) -> None:
+        """A note begins; ``attacked`` is one that is tongued."""
+        self.advance(now_s)
+        self._pitch, self._struck = float(pitch), velocity / 127.0
+        self._onset_s, self._sounding = now_s, True
+        if attacked:
+            self._tongue = self._tongue.toward(now_s, 1.0, TONGUE_UP_S)
+            self._tongue_falls_s = now_s + TONGUE_UP_S
+        self._turn(now_s)
+
+    def rest(self, now_s: float) -> None:
+        """No note sounds any more."""
+        self.advance(now_s)
+        self._sounding = False
+        self._turn(now_s)
+
+    def blow(self, now_s: float, breath: float) -> None:
+        """How strongly is blown, 0..1."""
+        self.advance(now_s)
+        self._breath = breath
+        self._turn(now_s)
+
+    def bite(self, bite: float) -> None:
+        """How strongly is bitten, 0..1."""
+        self._bite = bite
+
+    def bend(self, bend: float) -> None:
+        """How the pitch is bent, -1..1."""
+        self._bend = bend
+
+    @property
+    def _blown(self) -> bool:
+        return self._sounding or (self._breath is not None and self._breath > SILENT)
+
+    def _turn(self, now_s: float) -> None:
+        """From blowing to a pause, or back."""
+        if self._blown and self._paused_s < math.inf:
+            self._begin(now_s)
+        elif not self._blown and self._paused_s == math.inf:
+            self._paused_s, self._rested = now_s, False
+
+    def _begin(self, now_s: float) -> None:
+        self._paused_s = math.inf
+        self._at_lips = self._at_lips.toward(now_s, 1.0, FORMS_S)
+        if self._mouth.target or not self._mouth.ended(now_s):
+            self._mouth = self._mouth.toward(now_s, 0.0, SHUTS_S)
+        if not math.isinf(self._inhaled_s):
+            # A breath that was cut short has brought as much air as there was time for.
+            left = max(self._inhaled_s - now_s, 0.0) / FULL_BREATH_S
+            self._spent *= min(left, 1.0)
+            self._inhaled_s = math.inf
+        self._full = self._full.toward(now_s, 0.0, EXHALE_S)
+
+    def advance(self, now_s: float) -> None:
+        """Do what time brings."""
+        elapsed_s = max(now_s - self._now_s, 0.0)
+        if math.isinf(elapsed_s):
+            elapsed_s = 0.0
+        self._now_s = max(now_s, self._now_s)
+        if now_s >= self._tongue_falls_s:
+            self._tongue = self._tongue.toward(self._tongue_falls_s, 0.0, TONGUE_DOWN_S)
+            self._tongue_falls_s = math.inf
+        if self._blown:
+            rate = float(air_rate(np.array([self.loudness]), self._instrument.air)[0])
+            self._spent = min(self._spent + elapsed_s * rate / self._lung_s, 1.0)
+        elif math.isfinite(self._paused_s):
+            self._pause(now_s)
+        self._follow(now_s, elapsed_s)
+
+    def _pause(self, now_s: float) -> None:
+        """Breathe in, hold the breath, let go."""
+        waits_s = FULL_PAUSE_S + (EMPTY_PAUSE_S - FULL_PAUSE_S) * self._spent
+        paused_s = now_s - self._paused_s
+        if now_s >= self._inhaled_s:
+            self._mouth = self._mouth.toward(self._inhaled_s, 0.0, OPENS_S)
+            self._spent, self._inhaled_s = 0.0, math.inf
+        elif math.isinf(self._inhaled_s) and self._spent > LEAST_SPENT and paused_s >= waits_s:
+            depth = min(1.0, 0.4 + 0.6 * self._spent)
+            self._mouth = self._mouth.toward(now_s, SHALLOWEST + (1.0 - SHALLOWEST) * depth, OPENS_S)
+            self._full = self._full.toward(now_s, 0.5 + 0.5 * depth, FULL_BREATH_S)
+            self._inhaled_s = now_s + FULL_BREATH_S
+        if not self._rested and paused_s >= HOLD_S + RELAXES_S and math.isinf(self._inhaled_s):
+            self._rested = True
+            self._at_lips = self._at_lips.toward(now_s, 0.0, 2.0 * FORM_S)
+            self._full = self._full.toward(now_s, 0.0, EXHALE_S)
+
+    def _follow(self, now_s: float, elapsed_s: float) -> None:
+        """Bring lips, cheeks and face towards what is played."""
+        loud = np.array([self.loudness if self._blown else 0.0])
+        pitch = np.array([self._middle if self._pitch is None else self._pitch])
+        held_s = np.array([now_s - self._onset_s if self._sounding else 0.0])
+        tension, effort = strain_of(tension_of(pitch, self._instrument), loud, held_s)
+        tight = float(tension[0]) + BITES * self._bite + BENDS * self._bend
+        self._tension.follow(min(max(tight * self._parameters.embouchure_tension, 0.0), 1.0), elapsed_s)
+        if not self._blown:
+            effort = np.zeros(1)
+        self._air.follow(float(loud[0]), elapsed_s)
+        self._effort.follow(float(effort[0]), elapsed_s)
+        height = float(np.clip((loud[0] - MEZZOFORTE) / (1.0 - MEZZOFORTE), -1.0, 1.0)) if self._blown else 0.0
+        self._bell.follow(BELL_RISES * height, elapsed_s)
+        strengths = {"strained": strained(effort), "puffed": puffed(pitch, loud, self._instrument)}
+        for name, spring in self._shown.items():
+            spring.follow(float(strengths[name][0]), elapsed_s)
+
+    def at(self, now_s: float) -> Breathing:
+        """Body and face now."""
+        self.advance(now_s)
+        nothing = np.zeros(FRAMES)
+
+        def pair(value: float) -> FloatArray:
+            return np.full(FRAMES, min(max(value, 0.0), 1.0))
+
+        expressions: dict[str, FloatArray] = {name: pair(spring.value) for name, spring in self._shown.items()}
+        if self._neutral:
+            expressions["neutral"] = np.ones(FRAMES)
+        face = Drivers(
+            at_lips=pair(self._at_lips.at(now_s)),
+            tension=pair(self._tension.value),
+            effort=pair(self._effort.value),
+            air=pair(self._air.value),
+            tongue=pair(self._tongue.at(now_s)),
+            mouth_open=pair(self._mouth.at(now_s)),
+            expressions=dict(sorted(expressions.items())),
+        )
+        levels = Levels(
+            full=np.full(FRAMES, max(self._full.at(now_s), 0.0)),
+            leaning=nothing,
+            dip=nothing,
+            lift=nothing,
+            sway=nothing,
+            weight=nothing,
+            height=np.full(FRAMES, self._bell.value),
+            bobbing=nothing,
+            lowered=nothing,
+            held={},
+        )
+        return Breathing(levels, face)
+
+
+class LiveLook:
+    """Eyes that rest on the music, and lids that close now and then, but not on an entry."""
+
+    def __init__(self, playing: Playing) -> None:
+        self._random = generator(playing.player_id, playing.parameters.seed, "look")
+        self._yaw, self._head_yaw, self._head_pitch = (Reach.at_rest(0.0) for _ in range(3))
+        self._pitch = Reach.at_rest(MUSIC_PITCH_RAD)
+        self._lids = Reach.at_rest(0.0)
+        self._moves_s = self._blinks_s = self._opens_s = math.inf
+
+    def at(self, now_s: float) -> Look:
+        """Eyes and lids now, `FRAMES` equal frames."""
+        random = self._random
+        if math.isinf(self._moves_s):
+            self._moves_s, self._blinks_s = now_s + random.uniform(0.4, 1.5), now_s + random.uniform(0.5, 2.5)
+        if now_s >= self._moves_s:
+            yaw, pitch = float(random.normal(0.0, 0.035)), MUSIC_PITCH_RAD + float(random.normal(0.0, 0.03))
+            self._yaw, self._pitch = (
+                self._yaw.toward(now_s, yaw, SACCADE_S),
+                self._pitch.toward(now_s, pitch, SACCADE_S),
+            )
+            self._head_yaw = self._head_yaw.toward(now_s, 0.3 * yaw, HEAD_TURN_S)
+            self._head_pitch = self._head_pitch.toward(now_s, 0.075 * (pitch - MUSIC_PITCH_RAD), HEAD_TURN_S)
+            self._moves_s = now_s + random.uniform(0.9, 3.0)
+        if now_s >= self._opens_s:
+            self._lids = self._lids.toward(now_s, 0.0, BLINK_UP_S)
+            self._opens_s = math.inf
+        if now_s >= self._blinks_s:
+            self._lids = self._lids.toward(now_s, 1.0, BLINK_DOWN_S)
+            self._opens_s = now_s + BLINK_DOWN_S + BLINK_SHUT_S
+            self._blinks_s = now_s + min(max(float(random.lognormal(np.log(4.2), 0.5)), 0.7), 12.0)
+        lids = min(max(self._lids.at(now_s), 0.0), 1.0)
+        yaw, pitch, head_yaw, head_pitch = (
+            np.full(FRAMES, reach.at(now_s)) for reach in (self._yaw, self._pitch, self._head_yaw, self._head_pitch)
+        )
+        return Look(yaw, pitch, head_yaw, head_pitch, np.full(FRAMES, lids))

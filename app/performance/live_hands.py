@@ -1,0 +1,240 @@
+"""Fingers and slide of somebody who plays now: the fingering of every note as it begins, and the way there.
+
+Nothing is known beforehand: a control leaves its place with the onset and is in place as soon as a hand is there. A
+finger goes to its key with it and stays where it is until it is needed elsewhere, or home once it was not for a while
+(`app.motion.stations` says what of this is seen where the notes are known).
+"""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from app.motion.causal import Journey, Reach
+from app.motion.controls import RELEASE_S, need_s, release_s
+from app.motion.perform import Playing
+from app.motion.stations import FAST_NOTE_S, HOME_S, LEAST_TRAVEL_S, NEIGHBOURS, SLOW_NOTE_S, TRAVEL_S
+from app.plan.next_fingering import REMEMBERED, Fingered, NextFingering
+from app.rig.hold import Placed, giving_for
+from app.rig.stations import fingers_at_work, station_for, stations
+from instrument_maps.model import Control, Fingering
+
+FloatArray = npt.NDArray[np.float64]
+
+LET_GO_S = 0.5
+"""Controls stay where they are in a silence this long: as in a rest of less than a beat."""
+RAISES_S = 0.4
+"""How high fingers wait changes no faster."""
+
+
+FRAMES = 8
+"""Frames of what is given for a moment: the first is the moment, the others are evenly spaced on the way from there to
+where the hands are going."""
+_ON_WAY = np.linspace(0.0, 1.0, FRAMES)
+
+
+@dataclass(frozen=True)
+class Hands:
+    """What hands and fingers do at a moment, and (other frames) on their way; members as of
+    `app.motion.perform.Frames`, of `FRAMES` frames."""
+
+    controls: dict[str, FloatArray]
+    placed: dict[str, Placed]
+    raised: FloatArray
+    arrived_s: float
+    """When they are there."""
+
+
+@dataclass(frozen=True)
+class _Grip:
+    """A fingering, and what it asks: values of all controls, those of a held note that are others, and the station of
+    each finger that is at work."""
+
+    fingering: Fingering
+    values: dict[str, float]
+    held: dict[str, float]
+    at_work: dict[str, int]
+
+
+class LiveHands:
+    """The hands of one player.
+
+    Parameters
+    ----------
+    playing : Playing
+        Whose instrument and hold; its notes are not looked at.
+    """
+
+    def __init__(self, playing: Playing) -> None:
+        instrument = self._instrument = playing.instrument_map
+        self._choice = NextFingering(instrument)
+        self._before: deque[Fingered] = deque(maxlen=REMEMBERED)
+        self._grips: dict[tuple[int, int], _Grip] = {}
+        self._reaches = {control.name: Reach.at_rest(control.rest_value) for control in instrument.controls}
+        self._controls = {control.name: control for control in instrument.controls}
+        hands = playing.player.hold.hands
+        self._carrying = [hand.motion.control for hand in hands if hand.motion is not None]
+        leaning = {lean.finger for hand in hands for lean in hand.leans}
+        posed = {table.finger for hand in hands for table in hand.fingers}
+        places = stations(instrument)
+        self._places = {name: own for name, own in places.items() if len(own) > 1 and name in posed | leaning}
+        self._fingers = {name: Journey() for name in self._places}
+        self._givings = {name: Journey() for name in self._places if name in leaning}
+        self._free_s: dict[str, float] = {}
+        """Since when fingers that are away from home work nothing."""
+        self._grip: _Grip | None = None
+        self._onset_s = self._silent_s = math.inf
+        self._corrected = False
+        hovers = any(control.hover_m for control in instrument.controls)
+        self._raised = Reach.at_rest(0.0) if hovers else None
+
+    @property
+    def fingering(self) -> Fingering | None:
+        """What was taken last; None before any note and once it was let go."""
+        return None if self._grip is None else self._grip.fingering
+
+    @property
+    def carries(self) -> bool:
+        """Whether some control carries a hand."""
+        return bool(self._carrying)
+
+    def play(self, now_s: float, pitch: int, loudness: float) -> None:
+        """A note begins; out of the instrument's range the fingers stay as they are."""
+        self.advance(now_s)
+        self._silent_s = math.inf
+        if not self._instrument.in_range(pitch):
+            return
+        column = self._choice.column(tuple(self._before), pitch, now_s, loudness)
+        if self._before:
+            self._end_last(now_s)
+        self._before.append(Fingered(pitch, now_s, math.inf, loudness, column))
+        self._raise(now_s)
+        self._onset_s, self._corrected = now_s, False
+        self._take(now_s, self._grip_of(pitch, column))
+
+    def rest(self, now_s: float) -> None:
+        """No note sounds any more."""
+        self.advance(now_s)
+        if self._before:
+            self._end_last(now_s)
+        self._silent_s = min(self._silent_s, now_s)
+
+    def advance(self, now_s: float) -> None:
+        """Do what time brings: correct a held note, let go in a silence, go home."""
+        grip = self._grip
+        if grip is not None and now_s >= self._silent_s + LET_GO_S:
+            self._let_go(self._silent_s + LET_GO_S)
+        elif grip is not None and not self._corrected and math.isinf(self._silent_s):
+            held_s = now_s - self._onset_s
+            due = {
+                name: value for name, value in grip.held.items() if held_s >= (self._controls[name].held_min_s or 0.0)
+            }
+            for name, value in due.items():
+                self._move(now_s, self._controls[name], value)
+            self._corrected = len(due) == len(grip.held)
+        for name, free_s in list(self._free_s.items()):
+            giving = self._givings.get(name)
+            if giving is not None and giving.goal and now_s >= free_s + TRAVEL_S:
+                giving.go(free_s + TRAVEL_S, 0, RELEASE_S)
+            if now_s >= free_s + HOME_S:
+                self._fingers[name].go(free_s + HOME_S, 0, TRAVEL_S)
+                del self._free_s[name]
+
+    def at(self, now_s: float) -> Hands:
+        """The hands now, and where they are going."""
+        self.advance(now_s)
+        controls = {}
+        for name, reach in self._reaches.items():
+            value = min(max(reach.at(now_s), 0.0), 1.0)
+            controls[name] = value + (reach.target - value) * _ON_WAY
+        placed = {name: _placed(journey, now_s) for name, journey in self._fingers.items()}
+        placed |= {giving_for(name): _placed(journey, now_s) for name, journey in self._givings.items()}
+        raised = 0.0 if self._raised is None else min(max(self._raised.at(now_s), 0.0), 1.0)
+        arrived_s = max((reach.end_s for reach in self._reaches.values()), default=now_s)
+        return Hands(controls, placed, np.full(FRAMES, raised), arrived_s)
+
+    def carry(self, now_s: float, length_s: float) -> None:
+        """Let controls that carry a hand take at least so long from now on."""
+        for name in self._carrying if length_s > 0.0 else ():
+            reach = self._reaches[name]
+            if not reach.ended(now_s) and reach.end_s < now_s + length_s:
+                self._reaches[name] = reach.toward(now_s, reach.target, length_s)
+
+    def _end_last(self, now_s: float) -> None:
+        last = self._before[-1]
+        if math.isinf(last.end_s):
+            self._before[-1] = Fingered(last.pitch, last.onset_s, now_s, last.loudness, last.column)
+
+    def _grip_of(self, pitch: int, column: int) -> _Grip:
+        grip = self._grips.get((pitch, column))
+        if grip is None:
+            fingering = self._choice.fingering(pitch, column)
+            working = fingers_at_work(self._instrument, fingering.controls, fingering.fingers)
+            grip = self._grips[pitch, column] = _Grip(
+                fingering,
+                self._instrument.values(fingering),
+                dict(fingering.correction),
+                {name: station_for(own, working[name]) for name, own in self._places.items() if name in working},
+            )
+        return grip
+
+    def _take(self, now_s: float, grip: _Grip) -> None:
+        """Take a grip: fingers go with the keys they go to."""
+        self._grip = grip
+        goes = [name for name, station in grip.at_work.items() if self._fingers[name].goal != station]
+        least_s = LEAST_TRAVEL_S if goes else 0.0
+        longest_s = least_s
+        for name, value in grip.values.items():
+            longest_s = max(longest_s, self._move(now_s, self._controls[name], value, least_s))
+        for name in self._places:
+            station = grip.at_work.get(name)
+            if station is None:
+                if self._fingers[name].goal or (name in self._givings and self._givings[name].goal):
+                    self._free_s.setdefault(name, now_s)
+                continue
+            self._free_s.pop(name, None)
+            self._fingers[name].go(now_s, station, longest_s)
+            if name in self._givings:
+                self._givings[name].go(now_s, station, longest_s)
+
+    def _move(self, now_s: float, control: Control, value: float, least_s: float = 0.0) -> float:
+        """Bring a control to a value; how long that takes, 0 where it is there or on its way."""
+        reach = self._reaches[control.name]
+        if reach.target == value:
+            return 0.0
+        length_s = max(control.move_window_s, need_s(control, value - reach.at(now_s)), least_s)
+        self._reaches[control.name] = reach.toward(now_s, value, length_s)
+        return length_s
+
+    def _let_go(self, now_s: float) -> None:
+        """Back to rest, unhurried."""
+        self._grip = None
+        for name, reach in self._reaches.items():
+            control = self._controls[name]
+            if reach.target != control.rest_value:
+                length_s = release_s(control, reach.at(now_s))
+                self._reaches[name] = reach.toward(now_s, control.rest_value, length_s)
+        for name, finger in self._fingers.items():
+            if finger.goal or (name in self._givings and self._givings[name].goal):
+                self._free_s.setdefault(name, now_s)
+
+    def _raise(self, now_s: float) -> None:
+        """Fingers wait the higher the faster the last notes followed one another."""
+        if self._raised is None or len(self._before) < 2:
+            return
+        onsets_s = np.array([note.onset_s for note in self._before])
+        steps_s = np.clip(np.diff(onsets_s)[-NEIGHBOURS:], FAST_NOTE_S, SLOW_NOTE_S)
+        pace = np.log(SLOW_NOTE_S / steps_s) / np.log(SLOW_NOTE_S / FAST_NOTE_S)
+        self._raised = self._raised.toward(now_s, float(np.mean(pace)), RAISES_S)
+
+
+def _placed(journey: Journey, now_s: float) -> Placed:
+    before, after, share = journey.at(now_s)
+    places = np.full((3, FRAMES), float(journey.goal))
+    places[2] = 1.0
+    places[:, 0] = before, after, share
+    return Placed(*places)

@@ -1,0 +1,103 @@
+"""How trunk and shoulders help the far hands of somebody who plays now.
+
+Where the notes are known a body begins to turn before its hand goes far (`app.motion.solve`). Here it turns as the hand
+goes: it has to be there before the hand needs it, so a hand that a control carries waits for it.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import numpy.typing as npt
+
+from app.motion.causal import Reach
+from app.motion.curve import minimum_jerk
+from app.motion.reach import Help
+
+FloatArray = npt.NDArray[np.float64]
+
+PEAK = 10.0 / math.sqrt(3.0)
+"""Peak acceleration of a minimum-jerk move over 1 in 1 s."""
+TURNS_RAD_S2, SHOULDER_RAD_S2, DRAWS_M_S2 = 180.0, 200.0, 12.0
+"""How quickly the turn of all the trunk, a shoulder, and what is still short after them may change: what then is left
+for each joint is within what it does."""
+STOPS = 4.0
+"""Help that is on its way already takes so much longer: its speed over the acceleration, times this."""
+LEAST_S = 0.08
+"""Help that is nearly none takes this long."""
+STAYS_S = 0.30
+"""Help that is not needed any more goes in so much more time than the hand takes to come back."""
+CHANGES = 0.004
+"""Radians and metres: less than this is no other help."""
+_PHASES = np.linspace(0.0, 1.0, 65)
+_SHARES = minimum_jerk(_PHASES)
+
+
+class LiveHelp:
+    """The help given to one player's hands.
+
+    Attributes
+    ----------
+    carries_s : float
+        How long a control that carries a hand has to take from now on, so that the body is there before its hand; 0
+        where it may be as quick as it is.
+    """
+
+    def __init__(self) -> None:
+        self._reaches: dict[str, Reach] = {}
+        self.carries_s = 0.0
+
+    def at(self, now_s: float, arrived_s: float, needed: Help) -> Help:
+        """The help given now, in one frame.
+
+        Parameters
+        ----------
+        now_s : float
+        arrived_s : float
+            When the hands are where they are going.
+        needed : Help
+            On the way from where the hands are now (first frame) to where they are going (last frame).
+        """
+        self.carries_s = 0.0
+
+        def given(name: str, values: FloatArray, most: float) -> FloatArray:
+            return self._given(name, values, most, now_s, arrived_s)
+
+        return Help(
+            turn_rad=given("turn", needed.turn_rad, TURNS_RAD_S2),
+            short_m=given("short", needed.short_m, DRAWS_M_S2),
+            protraction_rad={
+                side: given(side, values, SHOULDER_RAD_S2) for side, values in needed.protraction_rad.items()
+            },
+            most_turn_rad={side: values[:1] for side, values in needed.most_turn_rad.items()},
+            most_protraction_rad={side: values[:1] for side, values in needed.most_protraction_rad.items()},
+        )
+
+    def _given(self, name: str, values: FloatArray, most: float, now_s: float, arrived_s: float) -> FloatArray:
+        now, goal = float(values[0]), float(values[-1])
+        reach = self._reaches.get(name)
+        if reach is None:
+            reach = self._reaches[name] = Reach.at_rest(now)
+        if abs(goal - reach.target) > CHANGES or (goal == 0.0 and reach.target != 0.0):
+            here = reach.at(now_s)
+            length_s = max(
+                math.sqrt(PEAK * abs(goal - here) / most) + STOPS * abs(reach.speed_at(now_s)) / most, LEAST_S
+            )
+            if abs(goal) > abs(reach.target):
+                self.carries_s = max(self.carries_s, _waits_s(values, here, length_s))
+            else:
+                length_s = max(arrived_s - now_s, 0.0) + STAYS_S
+            reach = self._reaches[name] = reach.toward(now_s, goal, length_s)
+        ahead = reach.at(now_s)
+        short = max(now - max(ahead, 0.0), 0.0) - max(min(ahead, 0.0) - now, 0.0)
+        return np.array([ahead + short])
+
+
+def _waits_s(values: FloatArray, here: float, length_s: float) -> float:
+    """How long a way of the hand must take that needs ``values`` of help, evenly spaced along it, so that a move of
+    help from ``here`` to the last of them, which takes ``length_s``, is never behind."""
+    gone = np.linspace(0.0, 1.0, len(values))[1:]
+    shares = np.clip((values[1:] - here) / (values[-1] - here), 0.0, 1.0)
+    helped_s = length_s * np.interp(shares, _SHARES, _PHASES)
+    return float(np.max(helped_s / np.interp(gone, _SHARES, _PHASES)))

@@ -1,0 +1,151 @@
+"""The pose of now of somebody who plays: the chosen character fingers, breathes and moves its lips as one plays.
+
+`PlayAlong` takes what a controller says, as it says it, and gives the pose at any later moment. What is seen of a note
+begins with its onset; nothing is known beforehand. The layers of the body, the face and the contacts are those of
+`app.motion`, made for one frame. Only the state of now is kept, so an hour takes no more memory than a second.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+
+from app.motion.perform import Frames, Playing
+from app.motion.reach import Help
+from app.motion.solve import Curves, helped, needs, poses
+from app.performance.live import Pose
+from app.performance.live_breath import LiveBreath, LiveLook
+from app.performance.live_hands import FRAMES, LiveHands
+from app.performance.live_help import LiveHelp
+from instrument_maps.model import Fingering
+from metadata.load import load_expressions
+from metadata.model import Expression
+
+LEGATO_S = 0.012
+"""A note that begins so soon after the last one ended is not tongued: controllers send both at once."""
+ONE_FRAME = Fraction(1)
+"""A pose has no rate."""
+
+
+class PlayAlong:
+    """One player, played now.
+
+    Times are seconds of any clock that runs on (``time.perf_counter_ns() / 1e9``); one that lies before what was told
+    or asked last counts as that. Values out of their range are taken for its end.
+
+    Parameters
+    ----------
+    playing : Playing
+        Who plays, on what and in which posture (`app.performance.motion.playing_of`); its notes are not looked at.
+    expressions : mapping of str to Expression, optional
+        What the faces look like; the bundled ones without it.
+    """
+
+    def __init__(self, playing: Playing, expressions: Mapping[str, Expression] | None = None) -> None:
+        known = dict(load_expressions() if expressions is None else expressions)
+        self._playing = replace(playing, expressions=known)
+        self._hands = LiveHands(playing)
+        self._breath = LiveBreath(playing, known)
+        self._look = LiveLook(playing)
+        self._help = LiveHelp()
+        self._held: dict[int, int] = {}
+        """Notes that are held with their velocities, in the order they began."""
+        self._ended_s = -math.inf
+        self._now_s = -math.inf
+
+    @property
+    def player_id(self) -> str:
+        """Who plays."""
+        return self._playing.player_id
+
+    @property
+    def fingering(self) -> Fingering | None:
+        """What the fingers have taken last; None before any note and once they have let go."""
+        return self._hands.fingering
+
+    def note_on(self, time_s: float, pitch: int, velocity: int = 80) -> None:
+        """A note begins; of several that are held the last one sounds."""
+        now_s, velocity = self._time(time_s), min(max(velocity, 1), 127)
+        attacked = not self._held and now_s - self._ended_s > LEGATO_S
+        self._held.pop(pitch, None)
+        self._held[pitch] = velocity
+        self._sound(now_s, pitch, velocity, attacked)
+
+    def note_off(self, time_s: float, pitch: int) -> None:
+        """A note ends; the one that was held before it sounds again, if there is any."""
+        now_s = self._time(time_s)
+        if pitch not in self._held:
+            return
+        sounded = next(reversed(self._held)) == pitch
+        del self._held[pitch]
+        if not self._held:
+            self._ended_s = now_s
+            self._hands.rest(now_s)
+            self._breath.rest(now_s)
+        elif sounded:
+            before = next(reversed(self._held))
+            self._sound(now_s, before, self._held[before], attacked=False)
+
+    def all_off(self, time_s: float) -> None:
+        """Nothing is played any more: the controller was taken away, or asks for silence."""
+        now_s = self._time(time_s)
+        self._held.clear()
+        self._ended_s = now_s
+        self._hands.rest(now_s)
+        self._breath.rest(now_s)
+        self._breath.blow(now_s, 0.0)
+
+    def breath(self, time_s: float, value: float) -> None:
+        """How strongly is blown, 0..1."""
+        self._breath.blow(self._time(time_s), min(max(value, 0.0), 1.0))
+
+    def bite(self, time_s: float, value: float) -> None:
+        """How strongly the mouthpiece is bitten, 0..1."""
+        self._time(time_s)
+        self._breath.bite(min(max(value, 0.0), 1.0))
+
+    def bend(self, time_s: float, value: float) -> None:
+        """How far the pitch is bent, -1 (down) .. 1 (up)."""
+        self._time(time_s)
+        self._breath.bend(min(max(value, -1.0), 1.0))
+
+    def pose(self, time_s: float) -> Pose:
+        """How the player stands now."""
+        now_s = self._time(time_s)
+        curves, given = self._solved(now_s)
+        player, now = self._playing.player, curves[:1]
+        motion = poses(player, replace(now, body=helped(player, now.body, given)), ONE_FRAME, now_s)
+        return Pose(
+            rotations=motion.rotations[0],
+            hips_m=motion.hips_m[0],
+            morphs={name: float(values[0]) for name, values in motion.morphs.items()},
+            controls={name: float(values[0]) for name, values in motion.controls.items()},
+            instrument_position_m=motion.instrument_position_m[0],
+            instrument_rotation=motion.instrument_rotation[0],
+        )
+
+    def _sound(self, now_s: float, pitch: int, velocity: int, attacked: bool) -> None:
+        self._hands.play(now_s, pitch, self._breath.loudness)
+        self._breath.play(now_s, pitch, velocity, attacked)
+        if self._hands.carries:
+            # Before the hand is on its way: what moves cannot be slowed down without going too far.
+            self._solved(now_s)
+            self._hands.carry(now_s, self._help.carries_s)
+
+    def _solved(self, now_s: float) -> tuple[Curves, Help]:
+        """What contacts are solved from, now and (further frames) on the way to where the hands are going, and the help
+        that far hands are given now."""
+        hands, breathing, look = self._hands.at(now_s), self._breath.at(now_s), self._look.at(now_s)
+        times_s = np.full(FRAMES, now_s)
+        curves = self._playing.curves(
+            Frames(times_s, breathing.levels, look, breathing.face, hands.controls, hands.placed, hands.raised)
+        )
+        return curves, self._help.at(now_s, hands.arrived_s, needs(self._playing.player, curves))
+
+    def _time(self, time_s: float) -> float:
+        self._now_s = max(time_s, self._now_s)
+        return self._now_s

@@ -1,0 +1,33 @@
+"""Poses, in which who is played now stands as it plays."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from widgets.common.session import Session
+from widgets.viewport.poses import Posed, Poses
+
+
+class LivePoses:
+    """Poses of the performance, but of who is played now (`session.live_players`) those of now.
+
+    Parameters
+    ----------
+    session : Session
+    poses : Poses
+    """
+
+    def __init__(self, session: Session, poses: Poses) -> None:
+        self._session, self._poses = session, poses
+
+    def poses(self, player_ids: Sequence[str], time_s: float) -> Sequence[Posed | None]:
+        """See `Poses.poses`."""
+        found = self._poses.poses(player_ids, time_s)
+        live = self._session.live_players
+        if not live.playing:
+            return found
+        return [live.pose(player_id) or pose for player_id, pose in zip(player_ids, found, strict=True)]
+
+    def pose_now(self, player_id: str, time_s: float) -> Posed | None:
+        """See `Poses.pose_now`: pictures of the performance show the performance."""
+        return self._poses.pose_now(player_id, time_s)
