@@ -273,7 +273,10 @@ class LiveLook:
             self._opens_s = now_s + BLINK_DOWN_S + BLINK_SHUT_S
             self._blinks_s = now_s + min(max(float(random.lognormal(np.log(4.2), 0.5)), 0.7), 12.0)
         lids = min(max(self._lids.at(now_s), 0.0), 1.0)
-        yaw, pitch, head_yaw, head_pitch = (
-            np.full(FRAMES, reach.at(now_s)) for reach in (self._yaw, self._pitch, self._head_yaw, self._head_pitch)
+        return Look(
+            yaw_rad=np.full(FRAMES, self._yaw.at(now_s)),
+            pitch_rad=np.full(FRAMES, self._pitch.at(now_s)),
+            head_yaw_rad=np.full(FRAMES, self._head_yaw.at(now_s)),
+            head_pitch_rad=np.full(FRAMES, self._head_pitch.at(now_s)),
+            blinks=np.full(FRAMES, lids),
         )
-        return Look(yaw, pitch, head_yaw, head_pitch, np.full(FRAMES, lids))

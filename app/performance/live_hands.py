@@ -78,7 +78,7 @@ class LiveHands:
         self._controls = {control.name: control for control in instrument.controls}
         hands = playing.player.hold.hands
         self._carrying = [hand.motion.control for hand in hands if hand.motion is not None]
-        leaning = {lean.finger for hand in hands for lean in hand.leans}
+        leaning = {finger for hand in hands for lean in hand.leans for finger, _ in lean.places}
         posed = {table.finger for hand in hands for table in hand.fingers}
         places = stations(instrument)
         self._places = {name: own for name, own in places.items() if len(own) > 1 and name in posed | leaning}

@@ -17,7 +17,7 @@ import numpy as np
 from app.motion.perform import Frames, Playing
 from app.motion.reach import Help
 from app.motion.solve import Curves, helped, needs, poses
-from app.performance.live import Pose
+from app.performance.chunks import Pose
 from app.performance.live_breath import LiveBreath, LiveLook
 from app.performance.live_hands import FRAMES, LiveHands
 from app.performance.live_help import LiveHelp

@@ -12,8 +12,8 @@ import numpy.typing as npt
 
 from app.motion.model import Motion
 from app.motion.perform import Playing
+from app.performance.chunks import Pose
 from app.performance.ensemble import Performance
-from app.performance.live import Pose
 from app.performance.motion import playing_of
 from app.performance.play_along import PlayAlong
 from app.plan.model import PlayerPlan

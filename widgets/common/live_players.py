@@ -8,7 +8,7 @@ from types import MappingProxyType
 
 from PySide6.QtCore import QObject, Signal
 
-from app.performance.live import Pose
+from app.performance.chunks import Pose
 from app.performance.play_along import PlayAlong
 
 

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from time import perf_counter
+
 from pytestqt.qtbot import QtBot
 
+from app.performance.chunks import Pose
 from app.performance.ensemble import Performance
-from app.performance.live import Pose
 from app.performance.motion import playing_of
 from app.performance.play_along import PlayAlong
 from widgets.common.session import Session

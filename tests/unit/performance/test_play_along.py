@@ -12,8 +12,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from app.performance.bodies import character_of, model_of
+from app.performance.chunks import Pose
 from app.performance.contacts import Break, ContactJudge, joined
-from app.performance.live import Pose
 from app.performance.play_along import PlayAlong
 from app.project.model import Player
 from app.rig import quaternion
