@@ -103,13 +103,11 @@ def _spacing(row: Sequence[Footprint]) -> float:
 
 
 def stage_arc(count: int, spacing_m: float = SPACING_M) -> tuple[StagePosition, ...]:
-    """Places of an ensemble on an arc open to the audience, in the order of the score from the audience's left (-X).
+    """Places of a few players on an arc open to the audience, in the order of the score from the audience's left (-X).
 
     Everyone stands ``spacing_m`` from the next and faces the middle of the arc's opening, half way between a
-    colleague across and the audience. More players than one arc holds stand in rows, the first of the score in front.
+    colleague across and the audience.
     """
-    if count > MOST_IN_ARC:
-        return stage_seats((Footprint(),) * count)
     if count < 2:
         return (StagePosition(0.0, 0.0, 0.0),) * count
     # The arc grows with its players: first in angle at the least radius, then in radius.

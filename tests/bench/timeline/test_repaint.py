@@ -15,7 +15,7 @@ from pytestqt.qtbot import QtBot
 from app.errors import Message
 from app.performance.ensemble import Performance
 from app.plan.model import PlayerParameters
-from app.project.casting import stage_arc
+from app.project.casting import Footprint, stage_seats
 from app.project.edit import notes
 from app.project.model import Player, Project
 from app.score.model import Note, Part, Score
@@ -52,7 +52,7 @@ def crowd() -> Project:
         parts.append(Part(f"{number + 1}.1.1", f"Player {number}", number, 0, 0, None, None, "trumpet_Bb", line))
     players = tuple(
         Player(part.id, part.name, part.id, "trumpet_Bb", "maria", PlayerParameters(), place)
-        for part, place in zip(parts, stage_arc(PLAYERS), strict=True)
+        for part, place in zip(parts, stage_seats((Footprint(),) * PLAYERS), strict=True)
     )
     return Project(Score("Crowd", TPQ, TempoMap(TPQ), parts=tuple(parts)), players)
 

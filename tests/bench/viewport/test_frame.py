@@ -13,7 +13,7 @@ from pytestqt.qtbot import QtBot
 from vispy.gloo.gl import use_gl
 
 from app.performance.chunks import Pose
-from app.project.casting import stage_arc
+from app.project.casting import Footprint, stage_seats
 from app.project.model import Project
 from tests.support.tasks import ImmediateTasks
 from tests.unit.viewport.poses import live, quartet
@@ -36,7 +36,7 @@ def calibration_s() -> float:
 def crowd(count: int) -> Project:
     """The quartet's players again and again, each at a place of their own."""
     project = quartet()
-    places = stage_arc(count)
+    places = stage_seats((Footprint(),) * count)
     players = tuple(
         msgspec.structs.replace(
             project.players[index % 4], id=f"player_{index}", name=f"Player {index + 1}", stage=places[index]

@@ -7,7 +7,15 @@ import math
 
 import pytest
 
-from app.project.casting import SPACING_M, amplitude, choose_characters, player_seed, stage_arc
+from app.project.casting import (
+    SPACING_M,
+    Footprint,
+    amplitude,
+    choose_characters,
+    player_seed,
+    stage_arc,
+    stage_seats,
+)
 
 
 @pytest.mark.parametrize("count", [1, 2, 3, 4, 5, 10, 12])
@@ -26,8 +34,8 @@ def test_the_arc_is_open_to_the_audience(count: int) -> None:
 
 
 @pytest.mark.parametrize("count", [13, 20, 50, 200])
-def test_a_band_stands_in_rows(count: int) -> None:
-    places = stage_arc(count)
+def test_a_band_sits_in_rows(count: int) -> None:
+    places = stage_seats((Footprint(),) * count)
     assert len(places) == count
     for one, other in itertools.combinations(places, 2):
         assert math.hypot(one.x_m - other.x_m, one.z_m - other.z_m) >= SPACING_M * 0.999
