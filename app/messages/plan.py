@@ -52,6 +52,9 @@ TEMPLATES: Final[dict[str, str]] = {
     "breath.rest_whole": (
         "a rest of {rest_beats:g} beats (from {min_beats:g} to below {last_beat_beats:g}): the breath takes all of it"
     ),
+    "breath.heard": "heard in the breath: {gap_s:g} s without blowing",
+    "breath.heard_preparation": "heard in the breath: {gap_s:g} s without blowing; getting ready to breathe",
+    "breath.heard_short": "heard in the breath: {gap_s:g} s without blowing, taken because air was needed",
     "breath.last_beat": (
         "a rest of {rest_beats:g} beats (from {last_beat_beats:g} to below {prepare_beats:g}): "
         "the breath takes its last beat"
@@ -80,6 +83,7 @@ TEMPLATES: Final[dict[str, str]] = {
     "gesture.lower_at_end": "{after_s:g} s after the last note the instrument comes down",
     "gesture.lower_at_start": "the entry is {rest_s:g} s away: the instrument is still down",
     "embouchure.register": "{pitch} in a range of {low} to {high}, loudness {loudness:g}",
+    "embouchure.heard": "{pitch} in a range of {low} to {high}; heard in the breath: loudness {loudness:g} on average",
     "expression.default": "the face at rest",
     "expression.effort": "effort {effort:g} (from {threshold:g}): high, loud or long",
     "expression.low_loud": "{pitch} lies below {easy_low} and is loud ({loudness:g})",

@@ -101,8 +101,10 @@ class Curve:
         """Whether the value never changes."""
         return len(self.start_s) == 0
 
-    def changed_s(self, other: Curve) -> FloatArray:
+    def changed_s(self, other: Curve | Trace) -> FloatArray:
         """Spans (K, 2) outside of which both curves have the very same values."""
+        if isinstance(other, Trace):
+            return EVERYWHERE
         mine = (self.start_s, self.end_s, self.before, self.after)
         others = (other.start_s, other.end_s, other.before, other.after)
         if self.initial == other.initial and all(map(np.array_equal, mine, others)):
@@ -128,6 +130,50 @@ class Curve:
         rows[resting] = 0.0
         rows[resting, 3] = value[resting]
         return rows
+
+
+@dataclass(frozen=True, eq=False)
+class Trace:
+    """A value that was recorded: samples at equal steps, straight lines between them, the ends hold.
+
+    Attributes
+    ----------
+    start_s, step_s : float
+        Sample k is at ``start_s + k * step_s``; ``start_s`` is a multiple of the step.
+    values : (K,) float64
+        At least two.
+    """
+
+    start_s: float
+    step_s: float
+    values: FloatArray
+
+    def sample(self, times_s: FloatArray) -> FloatArray:
+        """Values at any times, (F,) float64."""
+        last = len(self.values) - 1
+        place = np.clip((times_s - self.start_s) / self.step_s, 0.0, float(last))
+        before = np.minimum(place.astype(np.int64), last - 1)
+        low = self.values[before]
+        result: FloatArray = low + (self.values[before + 1] - low) * (place - before)
+        return result
+
+    def changed_s(self, other: Curve | Trace) -> FloatArray:
+        """Spans (K, 2) outside of which both have the very same values."""
+        if isinstance(other, Curve) or other.step_s != self.step_s:
+            return EVERYWHERE
+        mine, others = (round(trace.start_s / self.step_s) for trace in (self, other))
+        first = min(mine, others)
+        count = max(mine + len(self.values), others + len(other.values)) - first
+        place = first + np.arange(count)
+        here = self.values[np.clip(place - mine, 0, len(self.values) - 1)]
+        there = other.values[np.clip(place - others, 0, len(other.values) - 1)]
+        differ = np.concatenate(([False], here != there, [False]))
+        edges = np.flatnonzero(np.diff(differ.astype(np.int8))).reshape(-1, 2)
+        # From the sample before the first that differs to the one after the last; a held end differs for ever.
+        spans: FloatArray = (first + edges + np.array([-1.0, 0.0])) * self.step_s
+        spans[edges[:, 0] == 0, 0] = -np.inf
+        spans[edges[:, 1] == count, 1] = np.inf
+        return spans
 
 
 def moves(segments: Sequence[tuple[float, float, float]], initial: float = 0.0) -> Curve:

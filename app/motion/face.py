@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from app.motion.curve import Curve, Envelopes, FloatArray, moves, moves_to
+from app.motion.curve import Curve, Envelopes, FloatArray, Trace, moves, moves_to
 from app.plan.model import EmbouchureEvent, PlayerPlan, same_events
 from app.rig.hold import Lips
 from metadata.model import Embouchure, Expression
@@ -64,6 +64,21 @@ def _tracked(
     if rest_value is not None:
         table = np.append(table, [[lasts_s[-1], lasts_s[-1] + 2.0 * FORM_S, rest_value]], axis=0)
     return moves_to(table[:, 0], table[:, 1], table[:, 2], initial)
+
+
+def _strains(plan: PlayerPlan, embouchure_tension: float) -> tuple[Curve | Trace, Curve | Trace, Curve | Trace]:
+    """Tension, effort and air: as they were recorded where they were, else from note to note."""
+    events, traces = plan.embouchures, plan.traces
+    if traces is None:
+        tensions = [min(1.0, embouchure_tension * event.tension) for event in events]
+        tension: Curve | Trace = _tracked(events, tensions, SHIFT_S, None)
+    else:
+        tension = Trace(traces.start_s, traces.step_s, np.minimum(embouchure_tension * traces.tension, 1.0))
+    if traces is None or traces.air is None or traces.effort is None:
+        effort = _tracked(events, [event.effort for event in events], SWELL_S, 0.0)
+        return tension, effort, _tracked(events, [event.air for event in events], SWELL_S, 0.0)
+    recorded = [Trace(traces.start_s, traces.step_s, values) for values in (traces.effort, traces.air)]
+    return tension, recorded[0], recorded[1]
 
 
 def breath_opening(plan: PlayerPlan) -> Envelopes:
@@ -118,16 +133,16 @@ class Face:
     ----------
     at_lips : Curve
         1 while the lips are formed.
-    tension, effort, air : Curve
+    tension, effort, air : Curve or Trace
     tongue, mouth_open : Envelopes
     expressions : dict of str to Envelopes
         By name.
     """
 
     at_lips: Curve
-    tension: Curve
-    effort: Curve
-    air: Curve
+    tension: Curve | Trace
+    effort: Curve | Trace
+    air: Curve | Trace
     tongue: Envelopes
     mouth_open: Envelopes
     expressions: dict[str, Envelopes]
@@ -139,7 +154,8 @@ class Face:
         """From a whole plan, or from what is the same as in the plan ``before``. ``embouchure_tension`` scales the
         tension; 1 is as planned."""
         events = plan.embouchures
-        if before is not None and before[2] == embouchure_tension and same_events(plan, before[1], "embouchures"):
+        embouchures = ("embouchures", "traces")
+        if before is not None and before[2] == embouchure_tension and same_events(plan, before[1], *embouchures):
             face, other, _ = before
             return replace(
                 face,
@@ -147,12 +163,12 @@ class Face:
                 mouth_open=face.mouth_open if same_events(plan, other, "breaths") else breath_opening(plan),
                 expressions=face.expressions if same_events(plan, other, "expressions") else _shown(plan),
             )
-        tensions = [min(1.0, embouchure_tension * event.tension) for event in events]
+        tension, effort, air = _strains(plan, embouchure_tension)
         return cls(
             at_lips=_tracked(events, [1.0] * len(events), FORM_S, 0.0),
-            tension=_tracked(events, tensions, SHIFT_S, None),
-            effort=_tracked(events, [event.effort for event in events], SWELL_S, 0.0),
-            air=_tracked(events, [event.air for event in events], SWELL_S, 0.0),
+            tension=tension,
+            effort=effort,
+            air=air,
             tongue=_tongue(plan),
             mouth_open=breath_opening(plan),
             expressions=_shown(plan),

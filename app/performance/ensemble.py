@@ -13,7 +13,7 @@ from threading import RLock
 import msgspec
 
 from app.errors import AppError, MapError, Message
-from app.performance.loudness import note_loudness
+from app.performance.loudness import heard, note_loudness
 from app.performance.reach import Reached, reached
 from app.plan.corrections import RemoveEvent, SetBreath, SetCue, Vary
 from app.plan.generate import BREATH_PARAMETERS, EnsemblePlan, Line, Piece, frame_around, plan_ensemble
@@ -102,15 +102,17 @@ class Performance:
         part = self.project.part(player)
         corrections = self.project.corrections.get(player.id, ())
         loudness = self._memo.step(f"loudness:{player.id}", lambda: note_loudness(part), part.notes, part.curves)
+        blown = self._memo.step(f"heard:{player.id}", lambda: heard(part), part.notes, part.curves)
         return self._memo.step(
             f"line:{player.id}",
-            lambda: Line(player.id, part.notes, instrument, player.parameters, corrections, loudness),
+            lambda: Line(player.id, part.notes, instrument, player.parameters, corrections, loudness, blown),
             player.id,
             part.notes,
             instrument,
             player.parameters,
             corrections,
             loudness,
+            blown,
         )
 
     @cached_property

@@ -19,17 +19,24 @@ breath.preparation(rest_beats, prepare_beats): "A rest of {rest_beats} beats (fr
     breathe."
 breath.catch(after_note, phrase_s, lung_s, from_note_ms): "A catch breath after note {after_note}: {phrase_s} s
     without a rest ask for more than the {lung_s} s of air there are; {from_note_ms} ms come out of that note's tail."
+breath.heard(gap_s): "Heard in the breath: {gap_s} s without blowing."
+breath.heard_preparation(gap_s): "Heard in the breath: {gap_s} s without blowing; getting ready to breathe."
+breath.heard_short(gap_s): "Heard in the breath: {gap_s} s without blowing, where air was needed."
 breath.too_long(note, phrase_s, air_s, lung_s): "From note {note} on, {phrase_s} s must be played on one breath; it
     takes {air_s} s of air, and there are {lung_s}."
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import NamedTuple
+
 import msgspec
 import numpy as np
 
-from app.errors import Argument, Message
+from app.errors import Message
 from app.plan.corrections import BY_HAND, Correction, SetBreath, removed_ids, without_removed
+from app.plan.heard import BREATH_S, Blown, Silences, silences
 from app.plan.line import IntArray, LineTimes, Piece, Seeds
 from app.plan.lungs import EPSILON, air_used_s, catch_lengths_s, catch_places, drawn, levels, lungful_s
 from app.plan.model import BreathEvent, FloatArray, Note, PlayerParameters, Problem, TimeFrame
@@ -69,6 +76,7 @@ def plan_breaths(
     taken: frozenset[str] = frozenset(),
     seeds: Seeds = NOBODY,
     air: Air | None = None,
+    heard: Blown | None = None,
 ) -> BreathPlan:
     """Place every breath of a line.
 
@@ -80,6 +88,8 @@ def plan_breaths(
         Notes before which other players of the same part take catch breaths.
     seeds : Seeds
         What tells this player from others where places are equally good.
+    heard : Blown or None
+        The breath that was blown. Where it tells of breaths, they are where it has gaps and nowhere else.
     """
     if not notes:
         return BreathPlan((), (), frozenset(), {}, frozenset())
@@ -87,7 +97,11 @@ def plan_breaths(
     index_of = {note.id: index for index, note in enumerate(notes)}
     placed = {(item.kind, item.note_id): item for item in corrections
               if isinstance(item, SetBreath) and item.note_id in index_of}  # fmt: skip
-    generated = rest_breaths(notes, times, piece, parameters, frame)
+    gaps = None if heard is None or not heard.tells_breaths(times) else silences(heard, times)
+    if gaps is None:
+        generated = rest_breaths(notes, times, piece, parameters, frame)
+    else:
+        generated = heard_breaths(notes, times, piece, parameters, frame, gaps)
     by_hand = [_by_hand(item, times, index_of[item.note_id], piece) for item in placed.values()]
     hand_ids = {event.id for event in by_hand}
     kept = [event for event in without_removed(generated, removed) if event.id not in hand_ids]
@@ -95,12 +109,19 @@ def plan_breaths(
     for event in [*kept, *by_hand]:
         if event.kind == "breath":
             refill[index_of[_note_id(event)]] = max(0.0, drawn(event.end_s - event.start_s) * _full(event))
-    used, lung_s = air_used_s(times, air), lungful_s(parameters, air)
+    used, lung_s = air_used_s(times, air, None if gaps is None else heard), lungful_s(parameters, air)
     level = levels(used, lung_s, refill)
-    catches = catch_places(notes, times, used, piece, lung_s, refill, level, removed | hand_ids, taken, seeds)
     length_s = catch_lengths_s(times)
-    breaths = np.flatnonzero(refill > 0.0)
-    caught = [_catch(notes, times, piece, level * lung_s, breaths, float(length_s[index]), index) for index in catches]
+    if gaps is not None:
+        length_s = np.where(gaps.played, gaps.length_s, length_s)
+    catches = catch_places(notes, times, used, piece, lung_s, refill, level, removed | hand_ids, taken, seeds, length_s)
+    breaths, air_s = np.flatnonzero(refill > 0.0), level * lung_s
+    caught = [
+        _catch(notes, times, piece, air_s, breaths, float(length_s[index]), index)
+        if gaps is None or not gaps.played[index]
+        else _heard_catch(notes[index], piece, gaps, index)
+        for index in catches
+    ]
     for event, index in zip(caught, catches, strict=True):
         refill[index] = drawn(event.end_s - event.start_s)
     events = tuple(sorted([*kept, *by_hand, *caught], key=lambda event: (event.start_s, event.end_s)))
@@ -131,29 +152,103 @@ def rest_breaths(
     notes: tuple[Note, ...], times: LineTimes, piece: Piece, parameters: PlayerParameters, frame: TimeFrame
 ) -> tuple[BreathEvent, ...]:
     """The breaths that the rests give, by the thresholds."""
-    beat = piece.beat_ticks
-    frame_tick = round(piece.clock.ticks(frame.first_frame_s), 3)
     silence = times.silence_tick.astype(np.float64)
-    silence[0] = max(float(times.onset_tick[0]) - frame_tick, 0.0)
+    silence[0] = _before_first(times, piece, frame)
+    serving = np.flatnonzero((silence / piece.beat_ticks >= parameters.breath_min_beats) & (silence > 0))
+    told = _Told(
+        lambda index, rest, long, prepared: _rest_reason(index, rest, long, prepared, parameters),
+        lambda index, rest: _preparation_reason(rest, parameters),
+    )
+    return _in_silences(notes, serving, silence, times.onset_tick, times.onset_s, piece, parameters, told)
+
+
+def heard_breaths(
+    notes: tuple[Note, ...],
+    times: LineTimes,
+    piece: Piece,
+    parameters: PlayerParameters,
+    frame: TimeFrame,
+    gaps: Silences,
+) -> tuple[BreathEvent, ...]:
+    """The breaths of somebody who was heard to blow: in the gaps, each shaped by its length as in a rest.
+
+    What the rests of the score say counts only before the first note and before notes that were not blown.
+    """
+    known = np.flatnonzero(gaps.length_s >= BREATH_S - EPSILON)
+    end_tick, end_s = times.onset_tick.copy(), times.onset_s.copy()
+    silence = np.where(gaps.played, 0.0, times.silence_tick)
+    end_tick[known] = np.round(piece.clock.ticks(gaps.end_s[known]))
+    end_s[known] = piece.clock.seconds(end_tick[known].astype(np.float64))
+    silence[known] = np.maximum(end_tick[known] - np.round(piece.clock.ticks(gaps.start_s[known])), 1.0)
+    silence[0] = _before_first(times, piece, frame)
+    guessed = ~gaps.played & (silence > 0) & (silence / piece.beat_ticks >= parameters.breath_min_beats)
+    guessed[0] = silence[0] > 0 and silence[0] / piece.beat_ticks >= parameters.breath_min_beats
+    heard = np.zeros(len(notes), dtype=bool)
+    heard[known] = True
+    heard[0] = False
+    serving = np.flatnonzero(guessed | heard)
+
+    def reason(index: int, rest: float, long: bool, prepared: bool) -> Message:
+        if heard[index]:
+            return _heard_reason("breath.heard", gaps, index)
+        return _rest_reason(index, rest, long, prepared, parameters)
+
+    def preparation(index: int, rest: float) -> Message:
+        if heard[index]:
+            return _heard_reason("breath.heard_preparation", gaps, index)
+        return _preparation_reason(rest, parameters)
+
+    told = _Told(reason, preparation)
+    return _in_silences(notes, serving, silence, end_tick, end_s, piece, parameters, told)
+
+
+class _Told(NamedTuple):
+    """Why a breath, and the preparation for one, are there: by note, length in beats, and which thresholds it has."""
+
+    breath: Callable[[int, float, bool, bool], Message]
+    preparation: Callable[[int, float], Message]
+
+
+def _before_first(times: LineTimes, piece: Piece, frame: TimeFrame) -> float:
+    """Ticks of silence before the first note."""
+    frame_tick = round(piece.clock.ticks(frame.first_frame_s), 3)
+    return max(float(times.onset_tick[0]) - frame_tick, 0.0)
+
+
+def _in_silences(
+    notes: tuple[Note, ...],
+    serving: IntArray,
+    silence: FloatArray,
+    end_tick: IntArray,
+    end_s: FloatArray,
+    piece: Piece,
+    parameters: PlayerParameters,
+    told: _Told,
+) -> tuple[BreathEvent, ...]:
+    """Breaths in silences, by the thresholds.
+
+    Parameters
+    ----------
+    serving : (K,) int64
+        The notes before which a breath is taken.
+    silence : (N,) float64
+        Ticks of silence before each note ...
+    end_tick, end_s : (N,)
+        ... and where it ends.
+    """
+    beat = piece.beat_ticks
     rests = silence / beat
-    serving = np.flatnonzero((rests >= parameters.breath_min_beats) & (silence > 0))
-    onsets = times.onset_tick[serving].astype(np.float64)
+    onsets = end_tick[serving].astype(np.float64)
     long = rests[serving] >= parameters.breath_last_beat_beats
     # A threshold below one beat lets a rest shorter than a beat count as "last beat": then it is all there is.
     starts = np.where(long, onsets - np.minimum(silence[serving], beat), onsets - silence[serving])
     prepared = rests[serving] >= parameters.breath_prepare_beats
     preparations = np.maximum(onsets - np.minimum(silence[serving], 2 * beat), onsets - silence[serving])
-    seconds = piece.clock.seconds
-    start_s, preparation_s = seconds(starts), seconds(preparations)
+    start_s, preparation_s = piece.clock.seconds(starts), piece.clock.seconds(preparations)
     events: list[BreathEvent] = []
     for place, index in enumerate(serving.tolist()):
         note_id, rest = notes[index].id, round(float(rests[index]), 3)
-        onset_tick, onset_s = int(times.onset_tick[index]), float(times.onset_s[index])
         if prepared[place] and preparations[place] < starts[place]:
-            arguments: dict[str, Argument] = {
-                "rest_beats": rest,
-                "prepare_beats": parameters.breath_prepare_beats,
-            }
             events.append(
                 BreathEvent(
                     id=f"preparation:{note_id}",
@@ -163,7 +258,7 @@ def rest_breaths(
                     start_s=float(preparation_s[place]),
                     end_s=float(start_s[place]),
                     depth=1.0,
-                    reason=Message("breath.preparation", arguments),
+                    reason=told.preparation(index, rest),
                 )
             )
         events.append(
@@ -171,14 +266,22 @@ def rest_breaths(
                 id=f"breath:{note_id}",
                 kind="breath",
                 start_tick=round(starts[place]),
-                end_tick=onset_tick,
+                end_tick=int(end_tick[index]),
                 start_s=float(start_s[place]),
-                end_s=onset_s,
+                end_s=float(end_s[index]),
                 depth=1.0,
-                reason=_rest_reason(index, rest, bool(long[place]), bool(prepared[place]), parameters),
+                reason=told.breath(index, rest, bool(long[place]), bool(prepared[place])),
             )
         )
     return tuple(events)
+
+
+def _heard_reason(id: str, gaps: Silences, index: int) -> Message:
+    return Message(id, {"gap_s": round(float(gaps.length_s[index]), 2)})
+
+
+def _preparation_reason(rest: float, parameters: PlayerParameters) -> Message:
+    return Message("breath.preparation", {"rest_beats": rest, "prepare_beats": parameters.breath_prepare_beats})
 
 
 def _rest_reason(index: int, rest: float, long: bool, prepared: bool, parameters: PlayerParameters) -> Message:
@@ -231,6 +334,20 @@ def _catch(
                 "from_note_ms": round(from_note_s * 1000.0),
             },
         ),
+    )
+
+
+def _heard_catch(note: Note, piece: Piece, gaps: Silences, index: int) -> BreathEvent:
+    start_s, end_s = float(gaps.start_s[index]), float(gaps.end_s[index])
+    return BreathEvent(
+        id=f"breath:{note.id}",
+        kind="breath",
+        start_tick=round(piece.clock.ticks(start_s)),
+        end_tick=round(piece.clock.ticks(end_s)),
+        start_s=start_s,
+        end_s=end_s,
+        depth=1.0,
+        reason=_heard_reason("breath.heard_short", gaps, index),
     )
 
 

@@ -4,6 +4,8 @@ tongue's stroke before each attack.
 Messages
 --------
 embouchure.register(pitch, low, high, loudness): "MIDI {pitch} in a range of {low}-{high}, loudness {loudness}."
+embouchure.heard(pitch, low, high, loudness): "MIDI {pitch} in a range of {low}-{high}; loudness, heard in the breath,
+    {loudness} on average."
 """
 
 from __future__ import annotations
@@ -53,6 +55,7 @@ def plan_embouchures(
     instrument: InstrumentMap,
     parameters: PlayerParameters,
     early_end_s: dict[int, float],
+    heard: bool = False,
 ) -> tuple[EmbouchureEvent, ...]:
     """An embouchure for every note.
 
@@ -63,6 +66,9 @@ def plan_embouchures(
     ----------
     early_end_s : dict of int to float
         Notes whose lips leave early for a catch breath.
+    heard : bool
+        Whether the loudness is the mean of a recorded curve, which the lips follow within the note
+        (`app.plan.traces`).
     """
     if not notes:
         return ()
@@ -70,6 +76,7 @@ def plan_embouchures(
     tension, effort = strain_of(register, times.loudness, times.duration_s)
     tension = np.clip(tension * parameters.embouchure_tension, 0.0, 1.0)
     low, top = instrument.range.low, instrument.range.high
+    told = "embouchure.heard" if heard else "embouchure.register"
     reasons: dict[tuple[int, float], Message] = {}
     events = []
     rows = zip(
@@ -81,7 +88,7 @@ def plan_embouchures(
         reason = reasons.get((midi, loudness))
         if reason is None:
             arguments = {"pitch": midi, "low": low, "high": top, "loudness": loudness}
-            reason = reasons[midi, loudness] = Message("embouchure.register", arguments)
+            reason = reasons[midi, loudness] = Message(told, arguments)
         end_s = early_end_s.get(index, end_s)
         events.append(EmbouchureEvent(f"embouchure:{note.id}", note.id, start_s, end_s, tight, strain, air, reason))
     return tuple(events)

@@ -34,11 +34,13 @@ from app.plan.embouchure import plan_embouchures, plan_tongues
 from app.plan.expression import plan_expressions
 from app.plan.fingering import plan_fingerings
 from app.plan.gesture import plan_gestures
+from app.plan.heard import blown
 from app.plan.line import Line, LineTimes, Piece, Seeds, line_times
 from app.plan.memo import Memo
 from app.plan.model import Clock, CueEvent, PlayerPlan, Problem, TimeFrame
 from app.plan.pose import plan_poses
 from app.plan.together import one_at_a_time
+from app.plan.traces import plan_traces
 from metadata.load import load_expressions
 from metadata.model import Expression
 
@@ -243,10 +245,12 @@ def _plan_line(given: _Given, memo: Memo) -> tuple[PlayerPlan, frozenset[tuple[i
     fingerings, fingering_problems = memo.step(
         "fingerings", lambda: plan_fingerings(notes, times, instrument, pins), *sound, instrument, pins
     )
+    steps = None if line.heard is None else line.heard.breath
+    heard = None if steps is None else memo.step("blown", lambda: blown(steps, clock), steps, clock)
     taken = frozenset(note.id for note in notes if (note.onset_tick, note.pitch) in given.taken)
     breaths = memo.step(
         "breaths",
-        lambda: plan_breaths(notes, times, piece, parameters, frame, corrections, taken, seeds, instrument.air),
+        lambda: plan_breaths(notes, times, piece, parameters, frame, corrections, taken, seeds, instrument.air, heard),
         *breath_inputs(notes, times),
         piece,
         instrument.air,
@@ -255,15 +259,30 @@ def _plan_line(given: _Given, memo: Memo) -> tuple[PlayerPlan, frozenset[tuple[i
         of(SetBreath, RemoveEvent, SetCue),
         taken,
         seeds,
+        heard,
     )
     events, early_end_s = breaths.events, breaths.early_end_s
     embouchures = memo.step(
         "embouchures",
-        lambda: correct_embouchures(plan_embouchures(notes, times, instrument, parameters, early_end_s), corrections),
+        lambda: correct_embouchures(
+            plan_embouchures(notes, times, instrument, parameters, early_end_s, steps is not None), corrections
+        ),
         *sound,
         instrument,
         parameters.embouchure_tension,
         early_end_s,
+        of(SetEmbouchure),
+        steps is not None,
+    )
+    traces = memo.step(
+        "traces",
+        lambda: plan_traces(notes, times, clock, instrument, parameters, line.heard, heard, corrections),
+        *sound,
+        clock,
+        instrument,
+        parameters.embouchure_tension,
+        line.heard,
+        heard,
         of(SetEmbouchure),
     )
     made_gestures = plan_gestures(notes, times, piece, frame, events, given.cues, seeds, given.swing_at_s, memo)
@@ -341,6 +360,7 @@ def _plan_line(given: _Given, memo: Memo) -> tuple[PlayerPlan, frozenset[tuple[i
         expressions=expressions,
         problems=tuple(sorted(problems, key=lambda problem: problem.start_s)),
         poses=poses,
+        traces=traces,
     )
     caught = frozenset(
         (note.onset_tick, note.pitch) for note in notes if breaths.catch_notes and note.id in breaths.catch_notes

@@ -21,6 +21,39 @@ MEZZOFORTE = 0.63
 """Loudness 0..1 of mezzoforte: MIDI velocity 80 of 127."""
 
 
+@dataclass(frozen=True, eq=False)
+class Steps:
+    """A controller over time: a step function, each value holds until the next tick.
+
+    Attributes
+    ----------
+    ticks, values : (K,) float64
+        At least one; ticks ascend.
+    """
+
+    ticks: FloatArray
+    values: FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class Heard:
+    """What a wind controller, or whoever drew the curves, says about how a line is played; None: nothing.
+
+    Attributes
+    ----------
+    breath : Steps or None
+        How strongly it is blown, 0..1.
+    bite : Steps or None
+        How hard the teeth press, 0..1.
+    bend : Steps or None
+        Pitch bend, -1..1.
+    """
+
+    breath: Steps | None = None
+    bite: Steps | None = None
+    bend: Steps | None = None
+
+
 class Line(msgspec.Struct, frozen=True):
     """What one player plays, on what, and what the animator said about it.
 
@@ -30,6 +63,8 @@ class Line(msgspec.Struct, frozen=True):
         Monophonic, ordered by onset; neighbours may overlap a little (legato).
     loudness : tuple of float
         Mean loudness 0..1 of every note where a breath, volume or expression curve says it; empty: the velocities do.
+    heard : Heard or None
+        Those curves, and what else tells about the lips.
     """
 
     player_id: str
@@ -38,6 +73,7 @@ class Line(msgspec.Struct, frozen=True):
     parameters: PlayerParameters = PlayerParameters()
     corrections: tuple[Correction, ...] = ()
     loudness: tuple[float, ...] = ()
+    heard: Heard | None = None
 
 
 class Piece(msgspec.Struct, frozen=True):
@@ -163,6 +199,14 @@ LEAP_SEMITONES = 5
 """A leap may divide phrases."""
 
 
+def velocity_loudness(velocity: IntArray) -> FloatArray:
+    """Loudness 0..1 by velocities (N,) alone."""
+    if len(velocity) and np.ptp(velocity) == 0:
+        # One velocity throughout is a file that says nothing about dynamics (engraved scores, most wind controllers).
+        return np.full(len(velocity), MEZZOFORTE)
+    return np.clip(velocity / 127.0, 0.0, 1.0)
+
+
 def line_times(line: Line, clock: Clock) -> LineTimes:
     """The times of a line's notes. A line without notes gives empty arrays."""
     notes = line.notes
@@ -178,11 +222,8 @@ def line_times(line: Line, clock: Clock) -> LineTimes:
     silence = np.maximum(onset - np.insert(reach[:-1], 0, -BEFORE_FIRST_TICK)[:count], 0)
     if line.loudness:
         loudness = np.clip(np.asarray(line.loudness, dtype=np.float64), 0.0, 1.0)
-    elif count and np.ptp(velocity) == 0:
-        # One velocity throughout is a file that says nothing about dynamics (engraved scores, most wind controllers).
-        loudness = np.full(count, MEZZOFORTE)
     else:
-        loudness = np.clip(velocity / 127.0, 0.0, 1.0)
+        loudness = velocity_loudness(velocity)
     return LineTimes(
         onset_tick=onset,
         played_end_tick=played_end,

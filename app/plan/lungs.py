@@ -6,6 +6,7 @@ from functools import lru_cache
 
 import numpy as np
 
+from app.plan.heard import STOPS_AT, Blown, step_means
 from app.plan.line import MEZZOFORTE, IntArray, LineTimes, Piece, Seeds
 from app.plan.model import FloatArray, Note, PlayerParameters
 from instrument_maps.model import Air
@@ -52,9 +53,23 @@ EPSILON = 1e-6
 """Rounding of air summed over an hour of notes, seconds."""
 
 
-def air_used_s(times: LineTimes, air: Air | None = None) -> FloatArray:
-    """(N + 1,): air taken by all notes before each, and by all, in seconds of playing at mezzoforte."""
-    return np.concatenate(([0.0], np.cumsum(times.duration_s * air_rate(times.loudness, air))))
+def air_used_s(times: LineTimes, air: Air | None = None, heard: Blown | None = None) -> FloatArray:
+    """(N + 1,): air taken by all notes before each, and by all, in seconds of playing at mezzoforte.
+
+    Parameters
+    ----------
+    heard : Blown or None
+        The breath, where it tells when air is blown: then all of it counts, also between the notes.
+    """
+    if heard is None:
+        return np.concatenate(([0.0], np.cumsum(times.duration_s * air_rate(times.loudness, air))))
+    rate = np.where(heard.values > STOPS_AT, air_rate(heard.values, air), 0.0)
+    ends_s = np.append(times.onset_s[1:], times.played_end_s[-1])
+    lasts_s = np.maximum(ends_s - times.onset_s, EPSILON)
+    taken = step_means(heard.at_s, rate, times.onset_s, times.onset_s + lasts_s) * lasts_s
+    # Notes that were not blown take what their loudness says.
+    taken = np.where(heard.plays(times), taken, times.duration_s * air_rate(times.loudness, air))
+    return np.concatenate(([0.0], np.cumsum(taken)))
 
 
 def air_rate(loudness: FloatArray, air: Air | None = None) -> FloatArray:
@@ -99,6 +114,7 @@ def catch_places(
     removed: frozenset[str],
     taken: frozenset[str],
     seeds: Seeds,
+    length_s: FloatArray | None = None,
 ) -> list[int]:
     """Indices of the notes before which a catch breath is needed.
 
@@ -116,8 +132,10 @@ def catch_places(
         Part of the lungs that the breath before each note fills; 0 where there is none.
     level : (N,) float
         How full the lungs are at each note.
+    length_s : (N,) float, optional
+        How long a catch breath before each note may be, where that was heard; `catch_lengths_s` otherwise.
     """
-    length_s = catch_lengths_s(times)
+    length_s = catch_lengths_s(times) if length_s is None else length_s
     open_ = (length_s >= CATCH_MIN_S - EPSILON) & (refill == 0.0)
     open_[0] = False
     breaths = np.flatnonzero(refill > 0.0)

@@ -6,6 +6,7 @@ float64 seconds of the performance, which may be negative before the first tick.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Literal, Protocol, TypeAlias, overload
 
 import msgspec
@@ -230,8 +231,30 @@ class TimeFrame(msgspec.Struct, frozen=True):
     end_s: float
 
 
+@dataclass(frozen=True, eq=False)
+class Traces:
+    """What the lips do within the notes too, 0..1, sampled; the ends hold.
+
+    Fields as of `EmbouchureEvent`, which has the mean of each note.
+
+    Attributes
+    ----------
+    start_s, step_s : float
+        Sample k is at ``start_s + k * step_s``; ``start_s`` is a multiple of the step.
+    tension : (K,) float64
+    air, effort : (K,) float64 or None
+        None where no breath was recorded.
+    """
+
+    start_s: float
+    step_s: float
+    tension: FloatArray
+    air: FloatArray | None = None
+    effort: FloatArray | None = None
+
+
 class PlayerPlan(msgspec.Struct, frozen=True):
-    """Everything one player does. Each tuple is ordered by start."""
+    """Everything one player does. Each tuple is ordered by start; ``traces`` are there where controllers tell."""
 
     player_id: str
     time_frame: TimeFrame
@@ -244,8 +267,9 @@ class PlayerPlan(msgspec.Struct, frozen=True):
     expressions: tuple[ExpressionEvent, ...]
     problems: tuple[Problem, ...]
     poses: tuple[PoseEvent, ...] = ()
+    traces: Traces | None = None
 
 
 def same_events(plan: PlayerPlan, other: PlayerPlan, *kinds: str) -> bool:
-    """Whether the events of these kinds (names of the tuples) are the very same objects in both plans."""
+    """Whether the events of these kinds (names of the fields) are the very same objects in both plans."""
     return all(getattr(plan, kind) is getattr(other, kind) for kind in kinds)

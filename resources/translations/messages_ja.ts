@@ -696,6 +696,18 @@
             <translation>{rest_beats:g} 拍の休符（{min_beats:g} 以上 {last_beat_beats:g} 未満）: 休符全体でブレスします</translation>
         </message>
         <message>
+            <source>heard in the breath: {gap_s:g} s without blowing</source>
+            <translation>ブレスの記録から：{gap_s:g} 秒間息が止まっています</translation>
+        </message>
+        <message>
+            <source>heard in the breath: {gap_s:g} s without blowing; getting ready to breathe</source>
+            <translation>ブレスの記録から：{gap_s:g} 秒間息が止まっています。ブレスの準備です</translation>
+        </message>
+        <message>
+            <source>heard in the breath: {gap_s:g} s without blowing, taken because air was needed</source>
+            <translation>ブレスの記録から：{gap_s:g} 秒間息が止まっています。息が足りないためここで吸います</translation>
+        </message>
+        <message>
             <source>a rest of {rest_beats:g} beats (from {last_beat_beats:g} to below {prepare_beats:g}): the breath takes its last beat</source>
             <translation>{rest_beats:g} 拍の休符（{last_beat_beats:g} 以上 {prepare_beats:g} 未満）: 最後の拍でブレスします</translation>
         </message>
@@ -754,6 +766,10 @@
         <message>
             <source>{pitch} in a range of {low} to {high}, loudness {loudness:g}</source>
             <translation>音域 {low}～{high} の中の {pitch}、音量 {loudness:g}</translation>
+        </message>
+        <message>
+            <source>{pitch} in a range of {low} to {high}; heard in the breath: loudness {loudness:g} on average</source>
+            <translation>{pitch}（音域 {low}～{high}）、ブレスの記録から：音量は平均 {loudness:g}</translation>
         </message>
         <message>
             <source>the face at rest</source>
