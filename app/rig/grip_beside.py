@@ -42,6 +42,11 @@ class _Pair:
     stations: dict[str, int]
     whole_m: FloatArray
 
+    @property
+    def tables(self) -> list[FingerTable]:
+        """Of the fingers that touch something."""
+        return [table for table in self.hand.fingers if table.stations and table.stations[0].tip_joint >= 0]
+
     def wrist(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Places (B, 3) and turns (B, 4) of the wrist for parameters (B, 6)."""
         ones = np.ones(len(x))
@@ -52,11 +57,7 @@ class _Pair:
     def missed_m(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
         """How far (B, fingers, 3) fingers, and (B, N, 3) palm and web, are from their places."""
         wrist = self.wrist(x)
-        fingers = [
-            _missed(self.hand, table, self.stations.get(table.finger, 0), wrist)
-            for table in self.hand.fingers
-            if table.stations and table.stations[0].tip_joint >= 0
-        ]
+        fingers = [_missed(self.hand, table, self.stations.get(table.finger, 0), wrist) for table in self.tables]
         home_m, home = wrist_given(self.hand, [])
         local = quaternion.rotate(quaternion.conjugate(home), self.whole_m - home_m)
         whole = wrist[0][:, None] + quaternion.rotate(wrist[1][:, None], local[None]) - self.whole_m
@@ -65,8 +66,7 @@ class _Pair:
     def residuals(self, x: FloatArray) -> FloatArray:
         """(B, m)."""
         fingers, whole = self.missed_m(x)
-        tables = [table for table in self.hand.fingers if table.stations and table.stations[0].tip_joint >= 0]
-        spread = np.array([PLACE_M if table.finger in self.stations else HOME_M for table in tables])
+        spread = np.array([PLACE_M if table.finger in self.stations else HOME_M for table in self.tables])
         parts = [fingers / spread[:, None], whole / WHOLE_M]
         gone = np.concatenate([x[:, :3] * METRES / MOVED_M, x[:, 3:] / TURNED_RAD], axis=1)
         return np.concatenate([*(part.reshape(len(x), -1) for part in parts), gone], axis=1)

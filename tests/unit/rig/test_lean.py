@@ -1,0 +1,56 @@
+"""How a hand gives way for two fingers at once."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from app.rig.character import bundled_character
+from app.rig.grip_beside import leans_beside
+from app.rig.grip_lean import whole_hand
+from app.rig.hold import HandHold
+from app.rig.hold_file import hold_for
+from app.rig.instrument import bundled_instrument
+from app.rig.stations import asked_together
+from instrument_maps.load import bundled_maps
+from instrument_maps.model import InstrumentMap
+from metadata.load import load_body
+
+
+@pytest.fixture(scope="module")
+def instrument() -> InstrumentMap:
+    return bundled_maps()["clarinet_bass_Bb"]
+
+
+@pytest.fixture(scope="module")
+def left(instrument: InstrumentMap) -> HandHold:
+    """A small hand whose thumb is on hole and register key while its little finger goes far for levers."""
+    character = bundled_character("woman_adult")
+    hold = hold_for(character, bundled_instrument(instrument), instrument, load_body())
+    return next(hand for hand in hold.hands if hand.side == "left")
+
+
+def test_what_two_fingers_ask_beyond_each_alone_is_found_again(instrument: InstrumentMap, left: HandHold) -> None:
+    model = bundled_instrument(instrument)
+    whole_m = [
+        model.node_positions_m[model.node_names.index(contact.node)] + np.asarray(contact.position_m)
+        for contact in instrument.contacts
+        if contact.part in whole_hand("left")
+    ]
+    alone = replace(left, leans=tuple(lean for lean in left.leans if not lean.beside))
+    stored = next(lean for lean in left.leans if lean.beside)
+    pair = next(pair for pair in asked_together(instrument) if set(pair) == set(stored.places))
+    (found,) = leans_beside(alone, np.reshape(whole_m, (-1, 3)), [pair])
+    assert found.places == stored.places
+    assert 0.0001 < np.linalg.norm(found.moved_m) < 0.010
+    np.testing.assert_allclose(found.moved_m, stored.moved_m, atol=0.0005)
+    np.testing.assert_allclose(found.turned, stored.turned, atol=0.02)
+
+
+def test_a_hand_that_nobody_asks_or_that_gives_way_for_nobody_keeps_its_leans(
+    instrument: InstrumentMap, left: HandHold
+) -> None:
+    assert leans_beside(left, np.zeros((0, 3)), ()) == ()
+    assert leans_beside(replace(left, leans=()), np.zeros((0, 3)), asked_together(instrument)) == ()
