@@ -38,8 +38,8 @@ from widgets.common.tokens import LEAST_TARGET_PX, Tokens
 
 _USE, _NAME, _PREVIEW, _NOTES, _SPLIT, _INSTRUMENT, _PITCHES, _CHARACTER = range(8)
 _ROW_PX = 40
-_SIZE = QSize(1180, 580)
-_INSTRUMENT_LETTERS = 22
+_SIZE = QSize(1280, 580)
+_INSTRUMENT_LETTERS = 31
 """Width of the column of instruments: the longest names would leave the notes no room."""
 
 
@@ -123,7 +123,7 @@ class ImportDialog(QDialog):
         layout.addWidget(self._buttons)
         self._table.itemSelectionChanged.connect(self._show_tools)
         self.retranslate()
-        self.resize(_SIZE)
+        self.resize(_SIZE.boundedTo(self.screen().availableSize()))
 
     @property
     def rows(self) -> tuple[ImportRow, ...]:
