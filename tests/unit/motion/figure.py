@@ -116,7 +116,7 @@ def instrument_map(*controls: maps.Control) -> InstrumentMap:
         transposition_semitones=0,
         range=maps.Range(40, 80, 45, 75),
         model="thing.glb",
-        embouchure=maps.Embouchure("cup", 0.5),
+        embouchure=maps.Embouchure("cup"),
         mouthpiece=maps.Mouthpiece((0, 0, 0), (0, 0, 1), (0, 1, 0), 0.008, 0.013),
         controls=controls,
         contacts=(),

@@ -85,7 +85,7 @@ def instrument_of(name: str) -> InstrumentMap:
     carriage = Carriage((pitch_deg - 6.0, pitch_deg, pitch_deg + 6.0), (-5.0, 0.0, 5.0), (-5.0, 0.0, 5.0))
     return msgspec.structs.replace(
         trumpet,
-        embouchure=Embouchure(kind, 0.5, apart_m),  # type: ignore[arg-type]
+        embouchure=Embouchure(kind, apart_m),  # type: ignore[arg-type]
         hold=msgspec.structs.replace(trumpet.hold, standing=carriage, seated=carriage),
     )
 
