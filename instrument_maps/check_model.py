@@ -39,6 +39,8 @@ def model_problems(instrument: InstrumentMap, path: Path) -> Iterator[Problem]:
     places = root_from_node(model, names[ROOT])
     moving = [(f"controls[{index}].node", control.node) for index, control in enumerate(instrument.controls)]
     moving += [(f"links[{index}].node", link.node) for index, link in enumerate(instrument.links)]
+    if instrument.endpin is not None:
+        moving.append(("endpin.node", instrument.endpin.node))
     for key, node in moving:
         if node is None:
             continue
@@ -47,11 +49,17 @@ def model_problems(instrument: InstrumentMap, path: Path) -> Iterator[Problem]:
             yield key, f"'{instrument.model}' has no node named '{node}'"
         elif not np.allclose(places[names[node]][:3, :3], np.eye(3), atol=1e-4):
             yield key, f"'{node}' must rest unturned and unscaled in '{instrument.model}'"
-    yield from _touches(instrument, model, missing)
-
-
-def _touches(instrument: InstrumentMap, model: GltfModel, missing: set[str]) -> Iterator[Problem]:
     surfaces = node_triangles(instrument, model)
+    yield from _touches(instrument, surfaces, missing)
+    pin = instrument.endpin
+    if pin is not None and pin.node not in missing and len(surfaces[pin.node]):
+        tip_m = np.array(pin.tip_m) - places[names[pin.node]][:3, 3]
+        distance_m, _ = nearest_point(surfaces[pin.node], tip_m)
+        if distance_m > SURFACE_M:
+            yield "endpin.tip_m", f"is {distance_m * 1000:.1f} mm off the surface of '{pin.node}'"
+
+
+def _touches(instrument: InstrumentMap, surfaces: dict[str, FloatArray], missing: set[str]) -> Iterator[Problem]:
     for index, contact in enumerate(instrument.contacts):
         if contact.node in missing or contact.node not in surfaces:
             continue

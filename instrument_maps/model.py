@@ -206,10 +206,32 @@ class Link(_Table, frozen=True):
     when: Literal["any", "all"] = "any"
 
 
+class Endpin(_Table, frozen=True):
+    """The pin an instrument stands on the floor with, as long as its player needs it.
+
+    Attributes
+    ----------
+    node : str
+        The model's node that slides, pushed in at rest.
+    axis : vector
+        The way out, in the root frame.
+    tip_m : vector
+        Its tip at rest, in the root frame.
+    most_m : float
+        How far it can be drawn out.
+    """
+
+    node: str
+    axis: Vector
+    tip_m: Vector
+    most_m: float
+
+
 class MovingPart(NamedTuple):
     """A node of the model that moves, whatever moves it.
 
-    ``name`` is its bone's in a file: the control's that moves it, or the node's own for a link.
+    ``name`` is its bone's in a file: the control's that moves it, or the node's own for a link and an endpin, which
+    moves by a value of its own name.
     """
 
     name: str
@@ -515,6 +537,7 @@ class InstrumentMap(_Table, frozen=True):
     substitutes_for: tuple[str, ...] = ()
     clef: Literal["treble", "bass", "alto", "tenor"] = "treble"
     links: tuple[Link, ...] = ()
+    endpin: Endpin | None = None
     breaks: tuple[int, ...] = ()
     air: Air | None = None
     acoustics: Acoustics | None = None
@@ -529,14 +552,17 @@ class InstrumentMap(_Table, frozen=True):
 
     @property
     def moving_parts(self) -> tuple[MovingPart, ...]:
-        """What moves in the model: the parts of the controls, then the linked ones."""
+        """What moves in the model: the parts of the controls, then the linked ones, then the endpin."""
         own = [
             MovingPart(control.name, control.node, control.motion, (control.name,))
             for control in self.controls
             if control.node is not None and control.motion is not None
         ]
         along = [MovingPart(link.node, link.node, link.motion, link.controls, link.when) for link in self.links]
-        return (*own, *along)
+        pin = self.endpin
+        if pin is None:
+            return (*own, *along)
+        return (*own, *along, MovingPart(pin.node, pin.node, Motion(pin.axis, travel_m=pin.most_m), (pin.node,)))
 
     @property
     def nodes(self) -> tuple[str, ...]:

@@ -50,6 +50,7 @@ def problems(instrument: InstrumentMap) -> Iterator[Problem]:
     yield from _mouthpiece(instrument)
     yield from _controls(instrument)
     yield from _links(instrument)
+    yield from _endpin(instrument)
     yield from _contacts(instrument)
     yield from _proxies(instrument)
     yield from _hold(instrument)
@@ -166,6 +167,19 @@ def _links(instrument: InstrumentMap) -> Iterator[Problem]:
         for place, name in enumerate(link.controls):
             if name not in names:
                 yield f"{path}.controls[{place}]", f"there is no control named '{name}'"
+
+
+def _endpin(instrument: InstrumentMap) -> Iterator[Problem]:
+    pin = instrument.endpin
+    if pin is None:
+        return
+    # Its node is also the name of its bone, and of how far it is drawn out.
+    taken = {ROOT, *(control.node for control in instrument.controls), *(link.node for link in instrument.links)}
+    if pin.node in taken or pin.node in {control.name for control in instrument.controls}:
+        yield "endpin.node", f"'{pin.node}' is moved by something else already"
+    yield from _unit("endpin.axis", pin.axis)
+    yield from _point("endpin.tip_m", pin.tip_m)
+    yield from _within("endpin.most_m", pin.most_m, 0.001, 1)
 
 
 def _timing(path: str, control: Control) -> Iterator[Problem]:

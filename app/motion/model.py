@@ -26,7 +26,7 @@ class Motion:
     morphs : dict of str to (F,) float32
         Weights 0..1 of the ARKit morph targets that move.
     controls : dict of str to (F,) float32
-        Value 0..1 of every control of the instrument.
+        Value 0..1 of every control of the instrument, and of how far its endpin is drawn out, by the pin's node.
     instrument_position_m : (F, 3) float32
         Origin of the instrument (``world_from_instrument``), metres.
     instrument_rotation : (F, 4) float32

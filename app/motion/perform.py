@@ -186,7 +186,8 @@ class Playing:
         """What every frame depends on: values first, the others by identity."""
         parameters = {name: value for name, value in _fields(self.parameters).items() if name not in PLANNED_WITH}
         still = self.player
-        values = (self.player_id, self.start_s, parameters, self.posture, still.carriage, still.lowered)
+        endpin = None if still.stand is None else still.stand.endpin
+        values = (self.player_id, self.start_s, parameters, self.posture, still.carriage, still.lowered, endpin)
         return (values, still.skeleton, still.hold, self.body)
 
 
@@ -238,6 +239,16 @@ def prepare(
     skeleton = character.skeleton
     place = stance(skeleton, posture)
     still = BodyMotion.still(posture)
+    player = Player(
+        skeleton=skeleton,
+        hold=hold,
+        place=place,
+        carriage=carriage,
+        lowered=instrument_map.hold.lowered(parameters.posture),
+        still=still,
+        base=trunk(skeleton, *hips_path(place, skeleton, still), still),
+        grip_of_lips_m=_grip_of_lips(hold.lips, body.embouchure[instrument_map.embouchure.kind]),
+    )
     return Playing(
         plan=plan,
         instrument_map=instrument_map,
@@ -246,16 +257,7 @@ def prepare(
         posture=posture,
         body=body,
         expressions={name: known[name] for name in face.expressions},
-        player=Player(
-            skeleton=skeleton,
-            hold=hold,
-            place=place,
-            carriage=carriage,
-            lowered=instrument_map.hold.lowered(parameters.posture),
-            still=still,
-            base=trunk(skeleton, *hips_path(place, skeleton, still), still),
-            grip_of_lips_m=_grip_of_lips(hold.lips, body.embouchure[instrument_map.embouchure.kind]),
-        ),
+        player=player.standing_on(instrument_map.endpin),
         layers=layers,
         face=face,
         gaze=gaze,

@@ -14,6 +14,7 @@ from app.motion.arms import solve_arms
 from app.motion.body import BodyMotion
 from app.motion.contact import Carried, carry
 from app.motion.curve import FloatArray
+from app.motion.endpin import Stand
 from app.motion.model import Motion
 from app.motion.posture import Stance, Trunk, hips_path, solve_legs, trunk
 from app.motion.reach import TURN_RAD, Help, needed_help, shoulder_distance_m, softly_capped
@@ -21,7 +22,7 @@ from app.rig import quaternion
 from app.rig.finger_poses import finger_rotations
 from app.rig.hold import Hold, Placed, hand_targets
 from app.rig.model import Skeleton
-from instrument_maps.model import Carriage, Lowered
+from instrument_maps.model import Carriage, Endpin, Lowered
 
 CHUNK = 4096
 """Frames solved at once: few enough to stay in the processor's cache."""
@@ -51,7 +52,8 @@ class Player:
     """Everything about a player that does not change with time.
 
     ``still`` is the posture before any motion and ``base`` its trunk, one frame; ``grip_of_lips_m`` (3,) is how far
-    playing lips bring the mouthpiece from where one lip alone would carry it, in the head's frame.
+    playing lips bring the mouthpiece from where one lip alone would carry it, in the head's frame. ``stand`` is there
+    where the instrument stands on the floor.
     """
 
     skeleton: Skeleton
@@ -62,6 +64,12 @@ class Player:
     still: BodyMotion
     base: Trunk
     grip_of_lips_m: FloatArray
+    stand: Stand | None = None
+
+    def standing_on(self, endpin: Endpin | None) -> Player:
+        """The player with the instrument on its endpin, where it usually is low enough for that."""
+        _, _, _, usual = _upper(self, Curves(self.still, {}, {}, np.zeros(1)))
+        return replace(self, stand=Stand.of(endpin, self.carriage, usual))
 
     @cached_property
     def drawn_m(self) -> float:
@@ -145,13 +153,16 @@ def poses(player: Player, curves: Curves, fps: Fraction, first_frame_s: float) -
         for joint, values in local.items():
             rotations[part, joint] = values
         rotations[part, fingers] = finger_rotations(player.hold, chunk.controls, len(chunk), chunk.placed, chunk.raised)
+    controls = curves.controls
+    if player.stand is not None:
+        controls = controls | {player.stand.endpin.node: player.stand.drawn_out(instrument_m, instrument)}
     return Motion(
         fps=fps,
         first_frame_s=first_frame_s,
         rotations=rotations,
         hips_m=hips_m,
         morphs={name: values.astype(np.float32) for name, values in curves.morphs.items()},
-        controls={name: values.astype(np.float32) for name, values in curves.controls.items()},
+        controls={name: values.astype(np.float32) for name, values in controls.items()},
         instrument_position_m=instrument_m,
         instrument_rotation=instrument,
     )
@@ -176,6 +187,8 @@ def _upper(player: Player, curves: Curves) -> tuple[FloatArray, FloatArray, Trun
         curves.mouth_open,
         player.grip_of_lips_m,
     )
+    if player.stand is not None:
+        carried = player.stand.stood(carried, curves.body)
     return hips_m, hips, upper, carried
 
 

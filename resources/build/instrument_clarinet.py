@@ -17,6 +17,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from resources.build.instrument_endpin import Pin, stand
 from resources.build.instrument_keys import (
     Cup,
     Keywork,
@@ -313,6 +314,12 @@ def bell(body: Wall, along: float, length: float, radius: float) -> Pieces:
     ]  # fmt: skip
 
 
+PEG = Pin(
+    tube=(0.000, 0.090), tip=0.104, most_m=0.148, tip_profile=((0.016, 0.0062), (0.004, 0.0076), (0.0, 0.0060)),
+    tip_material="rubber",
+)  # fmt: skip
+
+
 class Bass(Clarinet):
     """Builds the bass clarinet to low E flat: plates over all holes, a curved neck, the bell turned up, a peg.
 
@@ -377,10 +384,10 @@ class Bass(Clarinet):
         work.model.add("silver", turned(bow[-1], out, [*inside, (0.0, 0.0)], sides=48, proxy=False))
         rim = [(-0.0010, 0.0745), (0.0, 0.0768), (0.0012, 0.0760), (0.0012, 0.0745)]
         work.model.add("silver", turned(line[-1], out, rim, sides=48, proxy=False))
-        foot = end + 0.082 * self.down + 0.030 * self.ahead
-        peg = [(-0.012, 0), (-0.012, 0.0085), (0.030, 0.0085), (0.032, 0.0050), (0.165, 0.0040), (0.170, 0.0075),
-               (0.182, 0.0075), (0.186, 0.0050), (0.186, 0)]  # fmt: skip
-        work.model.add("nickel_silver", turned(foot, self.down, peg, sides=18))
+        foot = end + 0.082 * self.down + 0.012 * self.ahead
+        flange = [(-0.004, 0), (-0.004, 0.0140), (0.022, 0.0120), (0.026, 0.0090), (0.026, 0)]
+        work.model.add("silver", turned(foot, self.down, flange, sides=24))
+        stand(work, foot, self.down, PEG, -X)
         rest = thumb_rest(body, 0.3615, 180.0, reach=0.020, width=0.020)
         work.add(rest.pieces)
         work.contact("right.thumb.side", rest.point, rest.normal)

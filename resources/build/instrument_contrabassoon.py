@@ -17,6 +17,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from resources.build.instrument_endpin import Pin, stand
 from resources.build.instrument_keys import Cup, Keywork, Rod, Touch, Wall, bodied, cylinder, entry, oval, slab
 from resources.build.instrument_mesh import Array, bend, half_circle, joined, lengths, tube, turned, unit
 from resources.build.instrument_reeds import DoubleReed
@@ -33,10 +34,12 @@ NARROW, SECOND, THIRD, BELL = 0.0, 0.040, -0.052, 0.156
 """Where the joints' bores lie from right to left."""
 BEHIND = -0.004
 """How far the second joint stands behind the others, out of the little finger's way."""
-TOP, END, BOW = 0.050, 0.960, 1.045
+TOP, END, BOW = 0.050, 0.930, 1.015
 """Where second and third joint begin, where all end, and the lowest point of the wide bow."""
-FLOOR_Y = -1.212
-"""The floor under a tall player's lips; the pin of a smaller one is pushed in."""
+PIN = Pin(
+    tube=(-0.140, 0.032), tip=0.036, most_m=0.152, tip_profile=((0.012, 0.0048), (0.0, 0.0016)), kept_m=0.014
+)
+"""Its tube goes through the wide bow and up between second joint and bell joint."""
 
 REED = DoubleReed(
     tip_m=0.011, blade=0.036, width=0.0180, gap=0.0020, throat=0.0050, thread=0.016, staple=0.004, staple_radius=0.0040,
@@ -74,10 +77,10 @@ class Contrabassoon:
         self.narrow = wall(NARROW, 0.0, [(0.0, 0.0168), (0.30, 0.0178), (END, 0.0178)])
         self.second = wall(SECOND, BEHIND, [(TOP, 0.0174), (END, 0.0174)])
         self.third = wall(THIRD, 0.0, [(TOP, 0.0243), (TOP + 0.024, 0.0243), (TOP + 0.028, 0.0233), (0.38, 0.0236),
-                                       (0.52, 0.0240), (0.60, 0.0250), (END - 0.030, 0.0275), (END - 0.026, 0.0285),
+                                       (0.52, 0.0240), (0.60, 0.0250), (END - 0.030, 0.02727), (END - 0.026, 0.0285),
                                        (END, 0.0285)])  # fmt: skip
         self.bell = wall(BELL, 0.0, [(-0.130, 0.0384), (-0.104, 0.0384), (-0.100, 0.0374), (0.40, 0.0350),
-                                     (END - 0.030, 0.0336), (END - 0.026, 0.0345), (END, 0.0345)])  # fmt: skip
+                                     (END - 0.030, 0.03368), (END - 0.026, 0.0345), (END, 0.0345)])  # fmt: skip
 
     def make(self) -> Keywork:
         """The whole instrument."""
@@ -153,12 +156,7 @@ class Contrabassoon:
         add("lacquered_brass", turned(end, -UP, rim, sides=44))
         inside = [(0.0035, r - 0.001), (0.0038, 0.90 * r), (0.0038, 0.0)]
         add("inner_brass", turned(end, -UP, inside, sides=36, proxy=False))
-        foot = place(0.053, 0.0, BOW)
-        length = float((foot[1] - FLOOR_Y) / UP[1])
-        sleeve = [(0.012, 0), (0.012, 0.0110), (0.046, 0.0110), (0.050, 0.0080), (0.050, 0)]
-        add("silver", turned(foot, -UP, sleeve, sides=24))
-        pin = [(0.048, 0), (0.048, 0.0048), (length - 0.012, 0.0048), (length, 0.0016), (length, 0)]
-        add("nickel_silver", turned(foot, -UP, pin, sides=16))
+        stand(self.work, place(0.085, 0.0, BOW), -UP, PIN, -LEFT)
 
     def touch(self, left: float, front: float, along: float, normal: Array, length: float, width: float) -> Touch:
         """A spatula at a place of the body's own axes, its length along the body."""

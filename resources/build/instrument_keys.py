@@ -462,6 +462,8 @@ class Keywork:
         What is drawn.
     contacts, controls, links : list of tables
         What the map says, in order.
+    endpin : table or None
+        What the map says of the pin it stands on (`instrument_endpin`).
     hover_m : float
         How high a finger waits over what it does not play.
     metal : str
@@ -472,6 +474,7 @@ class Keywork:
     contacts: list[dict[str, object]] = field(default_factory=list)
     controls: list[dict[str, object]] = field(default_factory=list)
     links: list[dict[str, object]] = field(default_factory=list)
+    endpin: dict[str, object] | None = None
     hover_m: float = 0.008
     metal: str = METAL
 
@@ -659,11 +662,12 @@ class Keywork:
         self.controls.append(row)
 
     def tables(self) -> str:
-        """The tables ``[[controls]]`` and ``[[links]]`` of the map."""
-        blocks = [("controls", row) for row in self.controls] + [("links", row) for row in self.links]
+        """The tables ``[[controls]]``, ``[[links]]`` and ``[endpin]`` of the map."""
+        blocks = [("[[controls]]", row) for row in self.controls] + [("[[links]]", row) for row in self.links]
+        blocks += [] if self.endpin is None else [("[endpin]", self.endpin)]
         return "".join(
-            f"\n[[{kind}]]\n" + "".join(f"{key} = {_toml(value)}\n" for key, value in row.items())
-            for kind, row in blocks
+            f"\n{heading}\n" + "".join(f"{key} = {_toml(value)}\n" for key, value in row.items())
+            for heading, row in blocks
         )
 
 

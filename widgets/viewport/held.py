@@ -38,7 +38,10 @@ class Instruments:
 
     def __init__(self, kits: Sequence[tuple[InstrumentModel, InstrumentMap]]) -> None:
         self.nodes = max((len(model.node_names) for model, _ in kits), default=0)
-        self._names = [tuple(control.name for control in instrument.controls) for _, instrument in kits]
+        self._names = [
+            tuple(dict.fromkeys(name for part in instrument.moving_parts for name in part.controls))
+            for _, instrument in kits
+        ]
         starts = np.cumsum([0, *(len(names) for names in self._names)])
         self._own = [slice(int(start), int(end)) for start, end in pairwise(starts)]
         self._values = np.zeros(int(starts[-1]))
@@ -65,7 +68,7 @@ class Instruments:
         self._travels_m = self._axes * np.array([motion.travel_m or 0.0 for motion in motions])[:, None]
 
     def work(self, row: int, controls: Mapping[str, float]) -> None:
-        """Set the controls of an instrument, 0..1; one that is not named is at 0."""
+        """Set what moves the parts of an instrument, 0..1; one that is not named is at 0."""
         self._values[self._own[row]] = [controls.get(name, 0.0) for name in self._names[row]]
 
     def matrices(self, held: Floats) -> Floats:

@@ -135,9 +135,13 @@ def test_the_instrument_goes_down_outside_of_the_body(rest: Case) -> None:
 def test_no_instrument_sinks_into_the_floor(rest: Case) -> None:
     place_m, turn = rest.placed
     points_m = _points(rest.instrument.id)
+    pin = rest.instrument.endpin
+    if pin is not None and pin.node in rest.motion.controls:
+        drawn_m = pin.most_m * rest.motion.controls[pin.node][rest.frames].astype(np.float64)
+        tips_m = place_m + quaternion.rotate(turn, np.asarray(pin.tip_m) + np.outer(drawn_m, pin.axis))
+        assert np.abs(tips_m[:, 1]).max() < 0.0005
     lowest_m = [float((place_m[f] + quaternion.rotate(turn[f][None], points_m))[:, 1].min()) for f in range(len(turn))]
-    # A small body's peg is in the floor while it plays.
-    assert min(lowest_m) >= min(0.0, lowest_m[0]) - 0.005
+    assert min(lowest_m) >= 0.0
 
 
 @lru_cache(maxsize=2)
