@@ -7,23 +7,45 @@ from typing import Any
 
 BASE = "extends"
 """Key of the id of the map that is extended."""
+WITHOUT = "without"
+"""Key of the names of its controls that the own instrument has not."""
 
 
 def extended(base: Mapping[str, Any], own: Mapping[str, Any]) -> dict[str, Any]:
     """Lay a map's own tables over those of the map it extends.
 
     Tables are merged key by key and lists of named tables (controls) name by name. Own fingerings replace all that the
-    base has for the same written pitch, and what the base has outside the own range is left out. Everything else that
-    the map says replaces what the base says.
+    base has for the same written pitch, and what the base has outside the own range is left out, as are controls that
+    the own instrument is without. Everything else that the map says replaces what the base says.
 
     Parameters
     ----------
     base, own : mapping
         As TOML gives them; ``base`` is itself extended already. Neither is changed.
     """
-    merged = _merged(base, {key: value for key, value in own.items() if key not in (BASE, "fingerings")})
+    if WITHOUT in own:
+        base = {**base, "controls": [row for row in _controls(base) if _name(row) not in own[WITHOUT]]}
+    merged = _merged(base, {key: value for key, value in own.items() if key not in (BASE, WITHOUT, "fingerings")})
     merged["fingerings"] = _fingerings(merged, base.get("fingerings", []), own.get("fingerings", []))
     return merged
+
+
+def not_there(base: Mapping[str, Any], own: Mapping[str, Any]) -> str | None:
+    """What is wrong with what a map says it is without; None where nothing is."""
+    names = own.get(WITHOUT, [])
+    if not isinstance(names, list):
+        return "is not a list of names of controls"
+    known = [_name(row) for row in _controls(base)]
+    return next((f"there is no control {name!r} in '{own[BASE]}'" for name in names if name not in known), None)
+
+
+def _controls(table: Mapping[str, Any]) -> list[Any]:
+    rows = table.get("controls", [])
+    return rows if isinstance(rows, list) else []
+
+
+def _name(row: object) -> object:
+    return row.get("name") if isinstance(row, Mapping) else None
 
 
 def _merged(base: Mapping[str, Any], own: Mapping[str, Any]) -> dict[str, Any]:

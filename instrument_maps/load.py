@@ -27,7 +27,7 @@ from app.errors import FileError, MapError, Message
 from app.formats.atomic import atomic_write
 from app.formats.cache import cache_folder
 from app.version import program_version
-from instrument_maps.extend import BASE, extended
+from instrument_maps.extend import BASE, WITHOUT, extended, not_there
 from instrument_maps.fingering_label import controls_of
 from instrument_maps.model import InstrumentMap
 from instrument_maps.validate import problems
@@ -207,7 +207,14 @@ def _extended(table: dict[str, Any], file: str, above: tuple[Path, ...]) -> dict
         raise MapError("map.invalid", file=file, path=BASE, detail=f"'{base}' extends itself")
     if path is None:
         raise MapError("map.invalid", file=file, path=BASE, detail=f"there is no map named '{base}'")
+<<<<<<< Updated upstream
     below = _extended(parse_table(_text(path), str(path)), str(path), (*above, own))
+=======
+    below = _extended(_parsed(_text(path), str(path)), str(path), (*above, own))
+    wrong = not_there(below, table)
+    if wrong is not None:
+        raise MapError("map.invalid", file=file, path=WITHOUT, detail=wrong)
+>>>>>>> Stashed changes
     return extended(below, table)
 
 

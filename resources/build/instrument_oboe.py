@@ -53,6 +53,7 @@ class Sizes:
     mouth_radius : the dark opening of the bell
     rest_along : the thumb rest, a real distance
     little : how far from the third finger's plate the right little finger's keys are, over the oboe's
+    lowest : the keys of the left little finger for the notes below C, each of which closes those before it as well
     """
 
     reed: DoubleReed
@@ -63,6 +64,7 @@ class Sizes:
     mouth_radius: float = 0.021
     rest_along: float = 0.278
     little: float = 1.0
+    lowest: tuple[str, ...] = ("key_B", "key_B_flat")
 
 
 UPPER, LOWER = 0.233, 0.480
@@ -230,10 +232,13 @@ class Oboe:
             ("key_E_flat_left", "ees", 0.0135, 58.0, 0.0085, 0.0115),
             ("key_F_left", "f", 0.0020, 62.0, 0.0075, 0.0130),
         ):
+            lowest = label in ("b", "bes")
+            if lowest and name not in self.sizes.lowest:
+                continue
             middle = self.at(0.2140) + off
             touch = slab(body.point(middle, angle, 0.0092), body.normal(angle), -unit(body.axis), oval(length, wide),
-                         foot=-0.42 if label in ("b", "bes") else 0.0)  # fmt: skip
-            if label in ("b", "bes"):
+                         foot=-0.42 if lowest else 0.0)  # fmt: skip
+            if lowest:
                 rod = body.cross_rod(middle + length / 2 + 0.0035, angle, 0.0080, 0.0062)
                 touch = self.lever(touch, rod, 0.2660, 52.0)
             else:
@@ -288,14 +293,14 @@ class Oboe:
     def long_keys(self) -> None:
         """The cups down the lower joint and the bell that the little fingers open or close."""
         work = self.work
-        low = ("key_C", "key_B", "key_B_flat")
+        low = ("key_C", *self.sizes.lowest)
         work.linked("cup_E_flat", ("key_E_flat", "key_E_flat_left"), self.rod(0.3520, 0.3880, 26.0, 0.0050),
                     cups=[self.cup(0.3800, -8.0, 0.0076)], drop_m=-0.0030)  # fmt: skip
         work.linked("cup_C_sharp", ("key_C_sharp", *low), self.rod(0.3860, 0.4140, -60.0, 0.0046),
                     cups=[self.cup(0.4050, -12.0, 0.0082)], drop_m=0.0030)  # fmt: skip
         work.linked("cup_C_low", low, self.rod(0.3800, 0.4420, -76.0, 0.0046), cups=[self.cup(0.4330, -30.0, 0.0086)],
                     drop_m=0.0032)  # fmt: skip
-        work.linked("cup_B", ("key_B", "key_B_flat"), self.rod(0.2660, 0.4660, 52.0, 0.0050),
+        work.linked("cup_B", self.sizes.lowest, self.rod(0.2660, 0.4660, 52.0, 0.0050),
                     cups=[self.cup(0.4590, 14.0, 0.0084)], drop_m=0.0032)  # fmt: skip
 
 
@@ -323,6 +328,7 @@ ENGLISH_HORN = Sizes(
     mouth_radius=0.0165,
     rest_along=0.3215,
     little=0.86,
+    lowest=("key_B",),
 )  # fmt: skip
 
 INSTRUMENTS = {

@@ -42,6 +42,26 @@ def test_its_fingerings_of_a_note_replace_the_others_and_the_range_cuts() -> Non
     assert min(fingering.written_pitch for fingering in cornet.fingerings) == 56
 
 
+def test_controls_it_is_without_are_left_out() -> None:
+    oboe, horn = bundled_maps()["oboe"], bundled_maps()["english_horn"]
+    assert {control.name for control in oboe.controls} - {control.name for control in horn.controls} == {"key_B_flat"}
+    assert min(fingering.written_pitch for fingering in horn.fingerings) == 59
+
+
+@pytest.mark.parametrize(
+    ("without", "told"),
+    [
+        ('["valve_9"]', "there is no control 'valve_9' in 'trumpet_Bb'"),
+        ("[3]", "there is no control 3 in 'trumpet_Bb'"),
+        ('"valve_3"', "is not a list of names of controls"),
+    ],
+)
+def test_what_it_is_without_must_be_there(without: str, told: str) -> None:
+    with pytest.raises(MapError) as caught:
+        parse_map(CORNET.replace("id =", f"without = {without}\nid =", 1), "my_cornet.toml")
+    assert caught.value.message.arguments == {"file": "my_cornet.toml", "path": "without", "detail": told}
+
+
 @pytest.mark.parametrize(
     ("text", "told"),
     [
