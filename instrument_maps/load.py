@@ -207,14 +207,10 @@ def _extended(table: dict[str, Any], file: str, above: tuple[Path, ...]) -> dict
         raise MapError("map.invalid", file=file, path=BASE, detail=f"'{base}' extends itself")
     if path is None:
         raise MapError("map.invalid", file=file, path=BASE, detail=f"there is no map named '{base}'")
-<<<<<<< Updated upstream
     below = _extended(parse_table(_text(path), str(path)), str(path), (*above, own))
-=======
-    below = _extended(_parsed(_text(path), str(path)), str(path), (*above, own))
     wrong = not_there(below, table)
     if wrong is not None:
         raise MapError("map.invalid", file=file, path=WITHOUT, detail=wrong)
->>>>>>> Stashed changes
     return extended(below, table)
 
 

@@ -33,10 +33,8 @@ class Stand:
     lips_m: FloatArray
 
     @classmethod
-    def of(cls, endpin: Endpin | None, carriage: Carriage, usual: Carried) -> Stand | None:
+    def of(cls, endpin: Endpin, carriage: Carriage, usual: Carried) -> Stand | None:
         """An instrument that is usually carried there on its pin; None where that does not reach the floor."""
-        if endpin is None:
-            return None
         needed_m, down = _needed(endpin, usual.position_m, usual.rotation)
         stands = down[0] > UPRIGHT and needed_m[0] <= endpin.most_m
         return cls(endpin, carriage, usual.position_m) if stands else None
@@ -44,7 +42,8 @@ class Stand:
     def stood(self, carried: Carried, motion: BodyMotion) -> Carried:
         """The instrument where it is carried, swung about the mouthpiece until its pin is over the tip's place."""
         # Where an animator turns the instrument, its tip goes: melody and cues move nobody's pin.
-        still = attitude(*held_angles(self.carriage, replace(motion, bell_rad=np.zeros_like(motion.bell_rad))))
+        pitch, yaw, roll = held_angles(self.carriage, replace(motion, bell_rad=np.zeros_like(motion.bell_rad)))
+        still = attitude(pitch, np.asarray(yaw), roll)
         drawn_m, _ = _needed(self.endpin, self.lips_m, still)
         place_m = self.lips_m + quaternion.rotate(still, self._tip_m(drawn_m))
         wanted_m = place_m - carried.position_m
@@ -56,9 +55,7 @@ class Stand:
         swung = quaternion.between(_unit(pointing_m), _unit(wanted_m))
         return Carried(carried.position_m, quaternion.multiply(swung, carried.rotation))
 
-    def drawn_out(
-        self, position_m: npt.NDArray[np.floating], rotation: npt.NDArray[np.floating]
-    ) -> FloatArray:
+    def drawn_out(self, position_m: npt.NDArray[np.floating], rotation: npt.NDArray[np.floating]) -> FloatArray:
         """How far the pin is drawn out, (F,) of 0..1, so that its tip is on the floor, or as near to it as it can be.
 
         Parameters

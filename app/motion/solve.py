@@ -68,6 +68,8 @@ class Player:
 
     def standing_on(self, endpin: Endpin | None) -> Player:
         """The player with the instrument on its endpin, where it usually is low enough for that."""
+        if endpin is None:
+            return self
         _, _, _, usual = _upper(self, Curves(self.still, {}, {}, np.zeros(1)))
         return replace(self, stand=Stand.of(endpin, self.carriage, usual))
 

@@ -34,11 +34,9 @@ NARROW, SECOND, THIRD, BELL = 0.0, 0.040, -0.052, 0.156
 """Where the joints' bores lie from right to left."""
 BEHIND = -0.004
 """How far the second joint stands behind the others, out of the little finger's way."""
-TOP, END, BOW = 0.050, 0.930, 1.015
+TOP, END, BOW = 0.050, 0.912, 0.997
 """Where second and third joint begin, where all end, and the lowest point of the wide bow."""
-PIN = Pin(
-    tube=(-0.140, 0.032), tip=0.036, most_m=0.152, tip_profile=((0.012, 0.0048), (0.0, 0.0016)), kept_m=0.014
-)
+PIN = Pin(tube=(-0.156, 0.032), tip=0.036, most_m=0.170, tip_profile=((0.012, 0.0048), (0.0, 0.0016)), kept_m=0.014)
 """Its tube goes through the wide bow and up between second joint and bell joint."""
 
 REED = DoubleReed(
@@ -77,10 +75,10 @@ class Contrabassoon:
         self.narrow = wall(NARROW, 0.0, [(0.0, 0.0168), (0.30, 0.0178), (END, 0.0178)])
         self.second = wall(SECOND, BEHIND, [(TOP, 0.0174), (END, 0.0174)])
         self.third = wall(THIRD, 0.0, [(TOP, 0.0243), (TOP + 0.024, 0.0243), (TOP + 0.028, 0.0233), (0.38, 0.0236),
-                                       (0.52, 0.0240), (0.60, 0.0250), (END - 0.030, 0.02727), (END - 0.026, 0.0285),
+                                       (0.52, 0.0240), (0.60, 0.0250), (END - 0.030, 0.02714), (END - 0.026, 0.0285),
                                        (END, 0.0285)])  # fmt: skip
         self.bell = wall(BELL, 0.0, [(-0.130, 0.0384), (-0.104, 0.0384), (-0.100, 0.0374), (0.40, 0.0350),
-                                     (END - 0.030, 0.03368), (END - 0.026, 0.0345), (END, 0.0345)])  # fmt: skip
+                                     (END - 0.030, 0.03373), (END - 0.026, 0.0345), (END, 0.0345)])  # fmt: skip
 
     def make(self) -> Keywork:
         """The whole instrument."""

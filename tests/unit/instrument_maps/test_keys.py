@@ -8,10 +8,10 @@ import msgspec
 import numpy as np
 import pytest
 
-from app.rig.instrument import part_values
+from app.rig.instrument import part_transform, part_values
 from instrument_maps.fingering_label import controls_of, words_of
 from instrument_maps.load import bundled_maps
-from instrument_maps.model import Control, Fingering, InstrumentMap, Link
+from instrument_maps.model import Control, Endpin, Fingering, InstrumentMap, Link
 from instrument_maps.validate import problems
 
 TRUMPET = bundled_maps()["trumpet_Bb"]
@@ -90,6 +90,32 @@ def test_a_linked_part_goes_with_its_controls() -> None:
     told = found(msgspec.structs.replace(TRUMPET, links=(wrong,)))
     assert any("is moved by something else already" in line for line in told)
     assert any("there is no control named 'nothing'" in line for line in told)
+
+
+def test_an_endpin_slides_by_a_value_of_its_own_name() -> None:
+    pin = Endpin(node="pin", axis=(0.0, -1.0, 0.0), tip_m=(0.0, -1.0, 0.3), most_m=0.2)
+    standing = msgspec.structs.replace(TRUMPET, endpin=pin)
+    assert found(standing) == set()
+    part = standing.moving_parts[-1]
+    assert (part.name, part.node, part.motion.travel_m) == ("pin", "pin", 0.2)
+    moved_m, _ = part_transform(part.motion, part_values(part, {"pin": np.array([0.0, 0.5])}, 2))
+    assert moved_m.tolist() == [[0.0, 0.0, 0.0], [0.0, -0.1, 0.0]]
+
+
+@pytest.mark.parametrize(
+    ("change", "told"),
+    [
+        ({"node": "valve_1"}, "endpin.node: 'valve_1' is moved by something else already"),
+        ({"node": "root"}, "endpin.node: 'root' is moved by something else already"),
+        ({"axis": (0.0, -2.0, 0.0)}, "endpin.axis: [0.0, -2.0, 0.0] has the length 2, not 1"),
+        ({"tip_m": (0.0, -9.0, 0.0)}, "endpin.tip_m: [0.0, -9.0, 0.0] is not a point in metres near the instrument"),
+        ({"most_m": 0.0}, "endpin.most_m: 0 is not between 0.001 and 1"),
+    ],
+)
+def test_what_an_endpin_must_say(change: dict[str, Any], told: str) -> None:
+    pin = Endpin(node="pin", axis=(0.0, -1.0, 0.0), tip_m=(0.0, -1.0, 0.3), most_m=0.2)
+    wrong = msgspec.structs.replace(TRUMPET, endpin=msgspec.structs.replace(pin, **change))
+    assert found(wrong) == {told}
 
 
 def test_fingerings_without_controls_read_them_from_their_label() -> None:

@@ -36,7 +36,8 @@ def test_nodes_of_every_kind_are_where_the_map_moves_them() -> None:
     held[..., 3] = random.normal(size=(len(everything), 3))
     worked = []
     for row, (_, instrument) in enumerate(everything):
-        values = {control.name: float(random.random()) for control in instrument.controls}
+        names = dict.fromkeys(name for part in instrument.moving_parts for name in part.controls)
+        values = {name: float(random.random()) for name in names}
         instruments.work(row, values)
         worked.append(values)
     matrices = instruments.matrices(held)
