@@ -86,8 +86,10 @@ def test_the_map_holds_what_the_script_prints() -> None:
     assert sorted(table.ROWS) == list(range(34, 73))
 
 
-def test_the_contrabassoon_is_135_cm_high_and_stands_on_the_floor() -> None:
+def test_the_contrabassoon_is_135_cm_high_with_its_pin_out() -> None:
     build, *_ = model.INSTRUMENTS["contrabassoon"]
     points = np.vstack([part.shape.points for part in build().parts])
-    assert points[:, 1].max() - points[:, 1].min() == pytest.approx(1.37, abs=0.03)
-    assert points[:, 1].min() == pytest.approx(model.FLOOR_Y, abs=0.002)
+    high_m = points[:, 1].max() - points[:, 1].min()
+    assert CONTRA.endpin is not None
+    assert 1.25 < high_m < 1.35 < high_m + CONTRA.endpin.most_m < 1.45
+    assert points[:, 1].min() == pytest.approx(CONTRA.endpin.tip_m[1], abs=0.001)
