@@ -15,8 +15,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from resources.build.instrument_keys import Cup, Keywork, Rod, Touch, Wall, bodied, cylinder, entry, oval, slab
-from resources.build.instrument_mesh import Array, Shape, bend, lengths, tube, turned, unit
+from resources.build.instrument_joints import Joints
+from resources.build.instrument_keys import Cup, Keywork, bodied, cylinder, entry, oval, slab
+from resources.build.instrument_mesh import Shape, bend, lengths, tube, turned, unit
 from resources.build.instrument_reeds import DoubleReed, loft
 
 X, Y, Z = np.eye(3)
@@ -37,14 +38,8 @@ REED = DoubleReed(
 )  # fmt: skip
 
 
-def place(left: float, front: float, along: float) -> Array:
-    """A point of the body's own axes."""
-    return SOCKET + left * LEFT + front * FRONT - along * UP
-
-
-def wall(left: float, front: float, profile: list[tuple[float, float]]) -> Wall:
-    """A round piece of body along the instrument: angle 0 is the front, 90 degrees the left."""
-    return Wall(place(left, front, 0.0), -UP, FRONT, profile)
+JOINTS = Joints(SOCKET, UP, FRONT)
+place, wall, touch = JOINTS.place, JOINTS.wall, JOINTS.touch
 
 
 class Bassoon:
@@ -119,15 +114,6 @@ class Bassoon:
             turned(start, UP, [(0.004, 0.02), (0.004, 0.0235), (0.012, 0.0237), (0.012, 0.02)], sides=40, proxy=False),
         )
 
-    def touch(
-        self, left: float, front: float, along: float, normal: Array, length: float, width: float, foot: float = 0.0
-    ) -> Touch:
-        """A spatula at a place of the body's own axes, its length along the body."""
-        return slab(place(left, front, along), normal, -UP, oval(length, width), foot=foot)
-
-    def rod(self, on: Wall, start: float, end: float, angle: float, height: float = 0.0045) -> Rod:
-        return on.rod(start, end, angle, height)
-
     def left_hand(self) -> None:
         """Holes of the left fingers and the two keys of the little finger."""
         work = self.work
@@ -139,12 +125,12 @@ class Bassoon:
                       rim_m=0.0016, half_value=half, material="silver")  # fmt: skip
         normal = unit(np.cos(np.radians(18.0)) * FRONT + np.sin(np.radians(18.0)) * LEFT)
         for name, label, left, front, along, rod, cup in (
-            ("key_E_flat", "Lp_es", 0.0199, 0.0350, 0.2540, self.rod(self.wing, 0.246, 0.420, -40.0, 0.0140),
+            ("key_E_flat", "Lp_es", 0.0199, 0.0350, 0.2540, self.wing.rod(0.246, 0.420, -40.0, 0.0140),
              Cup(self.wing, 0.4080, -20.0, 0.0100)),
-            ("key_D_flat_low", "Lp_des", 0.0320, 0.0325, 0.2525, self.rod(self.long, 0.258, 0.400, 40.0, 0.0060),
+            ("key_D_flat_low", "Lp_des", 0.0320, 0.0325, 0.2525, self.long.rod(0.258, 0.400, 40.0, 0.0060),
              Cup(self.long, 0.3860, 70.0, 0.0125)),
         ):  # fmt: skip
-            work.key(name, label, "left.little.pad", rod, self.touch(left, front, along, normal, 0.0115, 0.0100), [cup],
+            work.key(name, label, "left.little.pad", rod, touch(left, front, along, normal, 0.0115, 0.0100), [cup],
                      travel_m=0.0040)  # fmt: skip
 
     def left_thumb(self) -> None:
@@ -159,47 +145,28 @@ class Bassoon:
             ("key_D_high", "Lt_d2", 0.1576, Cup(self.wing, 0.0620, 212.0, 0.0054), 252.0),
         )
         lefts = {"Lt_a": 0.0126, "Lt_c2": 0.0166, "Lt_d2": 0.0206, "Lt_bes": 0.0345}
-        for name, label, along, cup, angle in wing_row:
-            low, high = sorted((cup.along, along))
-            rod = self.rod(self.wing, low - 0.006, high + 0.006, angle)
-            work.key(
-                name,
-                label,
-                "left.thumb.pad",
-                rod,
-                self.touch(lefts.get(label, 0.0100), -0.0325, along, back, 0.0064, 0.0090),
-                [cup],
-                travel_m=0.0035,
-            )
         long_row = (
             ("key_D", "Lt_d", 0.1722, Cup(self.long, 0.3300, 168.0, 0.0135), 140.0),
             ("key_C", "Lt_c", 0.1632, Cup(self.long, 0.2500, 160.0, 0.0140), 126.0),
             ("key_B", "Lt_b", 0.1546, Cup(self.long, 0.0350, 176.0, 0.0140), 112.0),
             ("key_B_flat_low", "Lt_bes", 0.1470, Cup(self.bell, -0.1900, 176.0, 0.0150), 98.0),
         )
-        for name, label, along, cup, angle in long_row:
-            low, high = sorted((cup.along, along))
-            rod = self.rod(self.long, low - 0.006, high + 0.006, angle)
-            work.key(
-                name,
-                label,
-                "left.thumb.pad",
-                rod,
-                self.touch(lefts.get(label, 0.0320), -0.0265, along, back, 0.0074, 0.0105),
-                [cup],
-                travel_m=0.0038,
-            )
-        # Low notes: the thumb lies over several keys of the lower row; on two of the upper row for C sharp.
-        at = {str(row["control"]): np.asarray(row["point"]) for row in work.contacts}
-        low_keys = ("key_D", "key_C", "key_B", "key_B_flat_low")
-        work.contacts[:] = [row for row in work.contacts if row["control"] not in low_keys[1:]]
-        for count in (2, 3, 4):
-            together = low_keys[:count]
-            middle = 0.70 * at[together[-1]] + 0.30 * at[together[-2]]
-            work.contact(
-                "left.thumb.pad", middle, back, node=together[-1], control=together[-1], together=together[:-1]
-            )
-        work.also("left.thumb.pad", "key_C_sharp", ("whisper",), point=0.78 * at["key_C_sharp"] + 0.22 * at["whisper"])
+        for joint, row, left, front, size, travel_m in (
+            (self.wing, wing_row, 0.0100, -0.0325, (0.0064, 0.0090), 0.0035),
+            (self.long, long_row, 0.0320, -0.0265, (0.0074, 0.0105), 0.0038),
+        ):
+            for name, label, along, cup, angle in row:
+                low, high = sorted((cup.along, along))
+                work.key(
+                    name,
+                    label,
+                    "left.thumb.pad",
+                    joint.rod(low - 0.006, high + 0.006, angle, 0.0045),
+                    touch(lefts.get(label, left), front, along, back, *size),
+                    [cup],
+                    travel_m=travel_m,
+                )
+        JOINTS.thumb_over_low_keys(work, "whisper")
 
     def right_hand(self) -> None:
         """Two holes, the plate of the third finger, and three keys of the little finger."""
@@ -211,7 +178,7 @@ class Bassoon:
             "key_G",
             "R3",
             "right.ring.pad",
-            self.rod(self.small, 0.575, 0.640, 30.0, 0.0050),
+            self.small.rod(0.575, 0.640, 30.0, 0.0050),
             Cup(self.small, 0.592, -10.0, 0.0095),
             [Cup(self.small, 0.626, 4.0, 0.0110)],
             opening_m=0.0035,
@@ -223,7 +190,7 @@ class Bassoon:
                 -28.0,
                 0.6088,
                 0.0120,
-                self.rod(self.small, 0.600, 0.735, 12.0, 0.0050),
+                self.small.rod(0.600, 0.735, 12.0, 0.0050),
                 [Cup(self.small, 0.7200, -14.0, 0.0150)],
             ),
             (
@@ -232,7 +199,7 @@ class Bassoon:
                 -52.0,
                 0.6125,
                 0.0110,
-                self.rod(self.small, 0.604, 0.668, -86.0, 0.0050),
+                self.small.rod(0.604, 0.668, -86.0, 0.0050),
                 [Cup(self.small, 0.6580, -50.0, 0.0110)],
             ),
             (
@@ -241,7 +208,7 @@ class Bassoon:
                 -36.0,
                 0.6168,
                 0.0110,
-                self.rod(self.small, 0.6150, 0.690, -72.0, 0.0060),
+                self.small.rod(0.6150, 0.690, -72.0, 0.0060),
                 [],
             ),
         ):
@@ -261,7 +228,7 @@ class Bassoon:
                 0.0115,
                 0.5352,
                 (0.0115, 0.0125),
-                self.rod(self.large, 0.530, 0.840, 196.0, 0.0050),
+                self.large.rod(0.530, 0.840, 196.0, 0.0050),
                 [Cup(self.large, 0.8200, 172.0, 0.0150)],
             ),
             (
@@ -270,7 +237,7 @@ class Bassoon:
                 -0.0020,
                 0.5270,
                 (0.0115, 0.0125),
-                self.rod(self.small, 0.488, 0.532, 206.0, 0.0050),
+                self.small.rod(0.488, 0.532, 206.0, 0.0050),
                 [Cup(self.small, 0.4980, 186.0, 0.0085)],
             ),
             (
@@ -279,7 +246,7 @@ class Bassoon:
                 0.0010,
                 0.5535,
                 (0.0115, 0.0130),
-                self.rod(self.small, 0.548, 0.760, 206.0, 0.0050),
+                self.small.rod(0.548, 0.760, 206.0, 0.0050),
                 [],
             ),
             (
@@ -288,13 +255,13 @@ class Bassoon:
                 0.0135,
                 0.5506,
                 (0.0095, 0.0090),
-                self.rod(self.large, 0.545, 0.680, 176.0, 0.0050),
+                self.large.rod(0.545, 0.680, 176.0, 0.0050),
                 [],
             ),
         ):
-            touch = self.touch(left, -0.0412, along, back, *size)
-            work.key(name, label, "right.thumb.pad", rod, touch, cups, travel_m=0.0038)
-        work.linked("cup_F_sharp", ("key_F_sharp", "key_F_sharp_little"), self.rod(self.small, 0.700, 0.775, 226.0),
+            spatula = touch(left, -0.0412, along, back, *size)
+            work.key(name, label, "right.thumb.pad", rod, spatula, cups, travel_m=0.0038)
+        work.linked("cup_F_sharp", ("key_F_sharp", "key_F_sharp_little"), self.small.rod(0.700, 0.775, 226.0, 0.0045),
                     cups=[Cup(self.small, 0.7620, 196.0, 0.0120)], drop_m=-0.0030)  # fmt: skip
 
 

@@ -18,7 +18,8 @@ from __future__ import annotations
 import numpy as np
 
 from resources.build.instrument_endpin import Pin, stand
-from resources.build.instrument_keys import Cup, Keywork, Rod, Touch, Wall, bodied, cylinder, entry, oval, slab
+from resources.build.instrument_joints import Joints
+from resources.build.instrument_keys import Cup, Keywork, Wall, bodied, cylinder, entry, oval, slab
 from resources.build.instrument_mesh import Array, bend, half_circle, joined, lengths, tube, turned, unit
 from resources.build.instrument_reeds import DoubleReed
 
@@ -45,14 +46,8 @@ REED = DoubleReed(
 )  # fmt: skip
 
 
-def place(left: float, front: float, along: float) -> Array:
-    """A point of the body's own axes."""
-    return SOCKET + left * LEFT + front * FRONT - along * UP
-
-
-def wall(left: float, front: float, profile: list[tuple[float, float]]) -> Wall:
-    """A round piece of body along the instrument: angle 0 is the front, 90 degrees the left."""
-    return Wall(place(left, front, 0.0), -UP, FRONT, profile)
+JOINTS = Joints(SOCKET, UP, FRONT)
+place, wall, touch = JOINTS.place, JOINTS.wall, JOINTS.touch
 
 
 def pad(on: Wall, along: float, angle_deg: float, radius: float, rim_m: float = 0.0015) -> Cup:
@@ -156,13 +151,6 @@ class Contrabassoon:
         add("inner_brass", turned(end, -UP, inside, sides=36, proxy=False))
         stand(self.work, place(0.085, 0.0, BOW), -UP, PIN, -LEFT)
 
-    def touch(self, left: float, front: float, along: float, normal: Array, length: float, width: float) -> Touch:
-        """A spatula at a place of the body's own axes, its length along the body."""
-        return slab(place(left, front, along), normal, -UP, oval(length, width), foot=0.0)
-
-    def rod(self, on: Wall, start: float, end: float, angle: float, height: float = 0.0045) -> Rod:
-        return on.rod(start, end, angle, height)
-
     def left_hand(self) -> None:
         """Three plates on the narrow joint, between the last two the E flat key, and two keys of the little finger."""
         work = self.work
@@ -170,21 +158,21 @@ class Contrabassoon:
             ("key_L1", "L1", "index", 0.188, -40.0, 0.3200), ("key_L2", "L2", "middle", 0.218, -54.0, 0.3520),
             ("key_L3", "L3", "ring", 0.248, -68.0, 0.3840),
         ):  # fmt: skip
-            rod = self.rod(self.narrow, along - 0.008, far + 0.008, angle, 0.0050)
+            rod = self.narrow.rod(along - 0.008, far + 0.008, angle, 0.0050)
             work.plateau(name, label, f"left.{finger}.pad", rod, pad(self.narrow, along, 25.0, 0.0078, rim_m=0.0075),
                          [pad(self.narrow, far, -8.0, 0.0105)], opening_m=0.0035)  # fmt: skip
         normal = self.narrow.normal(25.0)
-        touch = slab(self.narrow.point(0.233, 25.0, 0.0142), normal, -UP, oval(0.0078, 0.0120), foot=0.0)
-        work.key("key_E_flat_third", "Lr_es", "left.ring.pad", self.rod(self.narrow, 0.227, 0.302, 62.0, 0.0060), touch,
+        third = slab(self.narrow.point(0.233, 25.0, 0.0142), normal, -UP, oval(0.0078, 0.0120), foot=0.0)
+        work.key("key_E_flat_third", "Lr_es", "left.ring.pad", self.narrow.rod(0.227, 0.302, 62.0, 0.0060), third,
                  [pad(self.narrow, 0.2960, 34.0, 0.0070)], travel_m=0.0035)  # fmt: skip
         normal = unit(np.cos(np.radians(18.0)) * FRONT + np.sin(np.radians(18.0)) * LEFT)
         for name, label, left, front, along, rod, cup in (
-            ("key_E_flat", "Lp_es", 0.0205, 0.0410, 0.2720, self.rod(self.narrow, 0.312, 0.436, 70.0, 0.0120),
+            ("key_E_flat", "Lp_es", 0.0205, 0.0410, 0.2720, self.narrow.rod(0.312, 0.436, 70.0, 0.0120),
              pad(self.narrow, 0.4250, 24.0, 0.0105)),
-            ("key_D_flat_low", "Lp_des", 0.0335, 0.0390, 0.2730, self.rod(self.second, 0.277, 0.420, 40.0, 0.0060),
+            ("key_D_flat_low", "Lp_des", 0.0335, 0.0390, 0.2730, self.second.rod(0.277, 0.420, 40.0, 0.0060),
              pad(self.second, 0.4060, 70.0, 0.0125)),
         ):  # fmt: skip
-            work.key(name, label, "left.little.pad", rod, self.touch(left, front, along, normal, 0.0115, 0.0100), [cup],
+            work.key(name, label, "left.little.pad", rod, touch(left, front, along, normal, 0.0115, 0.0100), [cup],
                      travel_m=0.0040)  # fmt: skip
 
     def left_thumb(self) -> None:
@@ -196,8 +184,8 @@ class Contrabassoon:
             ("vent_D", "Lt_d2", 0.0110, 0.1912, pad(self.narrow, 0.0750, 200.0, 0.0056), 227.0),
         ):
             low, high = sorted((cup.along, along))
-            work.key(name, label, "left.thumb.pad", self.rod(self.narrow, low - 0.006, high + 0.006, angle),
-                     self.touch(left, -0.0315, along, back, 0.0072, 0.0092), [cup], travel_m=0.0035)  # fmt: skip
+            work.key(name, label, "left.thumb.pad", self.narrow.rod(low - 0.006, high + 0.006, angle, 0.0045),
+                     touch(left, -0.0315, along, back, 0.0072, 0.0092), [cup], travel_m=0.0035)  # fmt: skip
         for name, label, left, along, cup, angle in (
             ("key_D", "Lt_d", 0.0330, 0.1902, pad(self.second, 0.3300, 168.0, 0.0135), 140.0),
             ("key_C", "Lt_c", 0.0330, 0.1812, pad(self.second, 0.2700, 160.0, 0.0140), 126.0),
@@ -205,19 +193,10 @@ class Contrabassoon:
             ("key_B_flat_low", "Lt_bes", 0.0355, 0.1650, pad(self.second, 0.0850, 150.0, 0.0130), 98.0),
         ):
             low, high = sorted((cup.along, along))
-            work.key(name, label, "left.thumb.pad", self.rod(self.second, low - 0.006, high + 0.006, angle),
-                     self.touch(left, -0.0300, along, back, 0.0074, 0.0105), [cup], travel_m=0.0038)  # fmt: skip
-        # As on the bassoon the thumb lies over several low keys at once; for A 4 on C sharp and the vent above it.
-        at = {str(row["control"]): np.asarray(row["point"]) for row in work.contacts}
-        low_keys = ("key_D", "key_C", "key_B", "key_B_flat_low")
-        work.contacts[:] = [row for row in work.contacts if row["control"] not in low_keys[1:]]
-        for count in (2, 3, 4):
-            together = low_keys[:count]
-            middle = 0.70 * at[together[-1]] + 0.30 * at[together[-2]]
-            work.contact(
-                "left.thumb.pad", middle, back, node=together[-1], control=together[-1], together=together[:-1]
-            )
-        work.also("left.thumb.pad", "key_C_sharp", ("vent_B",), point=0.78 * at["key_C_sharp"] + 0.22 * at["vent_B"])
+            work.key(name, label, "left.thumb.pad", self.second.rod(low - 0.006, high + 0.006, angle, 0.0045),
+                     touch(left, -0.0300, along, back, 0.0074, 0.0105), [cup], travel_m=0.0038)  # fmt: skip
+        # As on the bassoon; for A 4 it lies on C sharp and the vent above it.
+        JOINTS.thumb_over_low_keys(work, "vent_B")
 
     def right_hand(self) -> None:
         """Three plates on the third joint, between the last two the B flat key, and three keys of the little finger."""
@@ -226,19 +205,19 @@ class Contrabassoon:
             ("key_R1", "R1", "index", 0.414, 42.0, 0.5500), ("key_R2", "R2", "middle", 0.445, 56.0, 0.5900),
             ("key_G", "R3", "ring", 0.476, 70.0, 0.6320),
         ):  # fmt: skip
-            rod = self.rod(self.third, along - 0.008, far + 0.008, angle, 0.0050)
+            rod = self.third.rod(along - 0.008, far + 0.008, angle, 0.0050)
             work.plateau(name, label, f"right.{finger}.pad", rod, pad(self.third, along, -10.0, 0.0080),
                          [pad(self.third, far, 2.0, 0.0150)], opening_m=0.0035)  # fmt: skip
         touch = slab(self.third.point(0.4605, -10.0, 0.0085), self.third.normal(-10.0), -UP, oval(0.0078, 0.0120),
                      foot=0.0)  # fmt: skip
-        work.key("key_B_flat_third", "Rr_bes", "right.ring.pad", self.rod(self.third, 0.455, 0.530, -52.0, 0.0060),
+        work.key("key_B_flat_third", "Rr_bes", "right.ring.pad", self.third.rod(0.455, 0.530, -52.0, 0.0060),
                  touch, [pad(self.third, 0.5230, -34.0, 0.0070)], travel_m=0.0035)  # fmt: skip
         for name, label, angle, along, wide, rod, cups in (
-            ("key_F", "Rp_f", -28.0, 0.4930, 0.0120, self.rod(self.third, 0.488, 0.706, 12.0, 0.0110),
+            ("key_F", "Rp_f", -28.0, 0.4930, 0.0120, self.third.rod(0.488, 0.706, 12.0, 0.0110),
              [pad(self.third, 0.6900, -14.0, 0.0170)]),
-            ("key_A_flat", "Rp_gis", -54.0, 0.4970, 0.0110, self.rod(self.third, 0.490, 0.600, -86.0, 0.0050),
+            ("key_A_flat", "Rp_gis", -54.0, 0.4970, 0.0110, self.third.rod(0.490, 0.600, -86.0, 0.0050),
              [pad(self.third, 0.5880, -52.0, 0.0115)]),
-            ("key_F_sharp_little", "Rp_fis", -40.0, 0.5010, 0.0110, self.rod(self.third, 0.500, 0.660, -72.0, 0.0060),
+            ("key_F_sharp_little", "Rp_fis", -40.0, 0.5010, 0.0110, self.third.rod(0.500, 0.660, -72.0, 0.0060),
              []),
         ):  # fmt: skip
             touch = slab(
@@ -250,18 +229,18 @@ class Contrabassoon:
         """Three keys at the back of the third joint."""
         work, back = self.work, -FRONT
         for name, label, left, along, size, rod, cups in (
-            ("key_E", "Rt_e", THIRD - 0.0075, 0.4185, (0.0115, 0.0125), self.rod(self.third, 0.413, 0.790, 130.0),
+            ("key_E", "Rt_e", THIRD - 0.0075, 0.4185, (0.0115, 0.0125), self.third.rod(0.413, 0.790, 130.0, 0.0045),
              [pad(self.third, 0.7700, 176.0, 0.0170)]),
             ("key_B_flat", "Rt_bes", THIRD - 0.0040, 0.4055, (0.0115, 0.0125),
-             self.rod(self.third, 0.370, 0.411, 146.0),
+             self.third.rod(0.370, 0.411, 146.0, 0.0045),
              [pad(self.third, 0.3830, 112.0, 0.0090)]),
             ("key_F_sharp", "Rt_fis", THIRD + 0.0050, 0.4310, (0.0115, 0.0130),
-             self.rod(self.third, 0.426, 0.680, 148.0),
+             self.third.rod(0.426, 0.680, 148.0, 0.0045),
              []),
         ):  # fmt: skip
-            touch = self.touch(left, -0.0395, along, back, *size)
-            work.key(name, label, "right.thumb.pad", rod, touch, cups, travel_m=0.0030)
-        work.linked("cup_F_sharp", ("key_F_sharp", "key_F_sharp_little"), self.rod(self.third, 0.650, 0.745, 226.0),
+            spatula = touch(left, -0.0395, along, back, *size)
+            work.key(name, label, "right.thumb.pad", rod, spatula, cups, travel_m=0.0030)
+        work.linked("cup_F_sharp", ("key_F_sharp", "key_F_sharp_little"), self.third.rod(0.650, 0.745, 226.0, 0.0045),
                     cups=[pad(self.third, 0.7300, 198.0, 0.0130)], drop_m=-0.0030, proxy_rod=False)  # fmt: skip
 
     def large_pads(self) -> None:
@@ -269,7 +248,7 @@ class Contrabassoon:
         for node, controls, along in (
             ("pad_C", ("key_C",), 0.700), ("pad_B", ("key_B",), 0.480), ("pad_B_flat", ("key_B_flat_low",), 0.200),
         ):  # fmt: skip
-            rod = self.rod(self.bell, along - 0.060, along + 0.060, -42.0, 0.0060)
+            rod = self.bell.rod(along - 0.060, along + 0.060, -42.0, 0.0060)
             self.work.linked(node, controls, rod, cups=[pad(self.bell, along, 0.0, 0.0200)], drop_m=0.0060,
                              proxy_rod=False)  # fmt: skip
 
