@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-import csv
 from collections import defaultdict
-from pathlib import Path
 
 import pytest
 
 from instrument_maps.load import bundled_maps
 from resources.build import instrument_fingerings_clarinet as table
+from tests.support.charts import Charts
 
 MAPS = bundled_maps()
 CLARINET = MAPS["clarinet_Bb"]
-CHARTS = Path(__file__).parents[2] / "data" / "fingerings" / "clarinet_Bb.csv"
-"""First choices (rank 1) and alternates (2 to 100; 0: no order) of four charts, contemporary techniques left out."""
+CHARTS = Charts("clarinet_Bb")
 
 EXCEPTIONS = {
     53: "the charts are two to two; methods for beginners teach the right little finger (F beside E of the left)",
@@ -37,23 +35,6 @@ FINGER = {
 TOGETHER = ({"T", "R"}, {"S3", "S4"}, {"S1", "S2"})
 
 
-def charts() -> dict[int, dict[str, dict[str, int]]]:
-    """Written pitch -> fingering -> chart -> rank."""
-    found: dict[int, dict[str, dict[str, int]]] = defaultdict(lambda: defaultdict(dict))
-    with CHARTS.open(encoding="utf-8") as file:
-        for row in csv.DictReader(file):
-            found[int(row["written_pitch"])][row["fingering"]][row["source"]] = int(row["rank"])
-    return found
-
-
-def majority(written: int) -> str | None:
-    """What more charts than of any other give first; None where two are alike."""
-    votes = {label: sum(rank == 1 for rank in by.values()) for label, by in charts()[written].items()}
-    most = max(votes.values())
-    first = [label for label, count in votes.items() if count == most]
-    return first[0] if len(first) == 1 else None
-
-
 def possible(label: str) -> bool:
     """Whether ten fingers can do it."""
     asked: dict[str, set[str]] = defaultdict(set)
@@ -70,16 +51,16 @@ def test_first_choices_are_the_charts_majority(written: int) -> None:
     label = CLARINET.fingerings_for(written - shift)[0].label
     assert possible(label)
     if written in EXCEPTIONS:
-        assert label != majority(written), "an exception that is none"
-        assert label in charts()[written]
+        assert label != CHARTS.majority(written), "an exception that is none"
+        assert label in CHARTS.notes[written]
     else:
-        assert label == majority(written)
+        assert label == CHARTS.majority(written)
 
 
 def test_alternates_are_in_a_chart_and_have_a_reason() -> None:
     for fingering in CLARINET.fingerings:
         assert possible(fingering.label), fingering
-        assert fingering.label in charts()[fingering.written_pitch], fingering
+        assert fingering.label in CHARTS.notes[fingering.written_pitch], fingering
         assert bool(fingering.tags) == (fingering.rank > 1), fingering
 
 

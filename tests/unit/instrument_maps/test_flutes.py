@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-from collections import defaultdict
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -13,11 +9,11 @@ from instrument_maps.load import bundled_maps
 from instrument_maps.model import InstrumentMap
 from resources.build import instrument_fingerings_flute as table
 from resources.build.instrument_flute import INSTRUMENTS
+from tests.support.charts import Charts
 
 MAPS = bundled_maps()
 FLUTE, PICCOLO = MAPS["flute"], MAPS["piccolo"]
-CHARTS = Path(__file__).parents[2] / "data" / "fingerings" / "flute.csv"
-"""First choices (rank 1) and alternates (2 to 100; 0: no order) of three charts, contemporary techniques left out."""
+CHARTS = Charts("flute")
 
 EXCEPTIONS = {
     94: "every chart has its own; one of them, which leaves the E flat key up, as methods for high notes do",
@@ -26,23 +22,6 @@ EXCEPTIONS = {
     97: "two charts, each with its own",
 }
 """Written pitch -> why the map cannot follow the charts' majority."""
-
-
-def charts() -> dict[int, dict[str, dict[str, int]]]:
-    """Written pitch -> fingering -> chart -> rank."""
-    found: dict[int, dict[str, dict[str, int]]] = defaultdict(lambda: defaultdict(dict))
-    with CHARTS.open(encoding="utf-8") as file:
-        for row in csv.DictReader(file):
-            found[int(row["written_pitch"])][row["fingering"]][row["source"]] = int(row["rank"])
-    return found
-
-
-def majority(written: int) -> str | None:
-    """What more charts than any other's give first; None where two are alike."""
-    votes = {label: sum(rank == 1 for rank in by.values()) for label, by in charts()[written].items()}
-    most = max(votes.values())
-    first = [label for label, count in votes.items() if count == most]
-    return first[0] if len(first) == 1 else None
 
 
 def twice(instrument: InstrumentMap, label: str) -> set[str]:
@@ -56,15 +35,15 @@ def twice(instrument: InstrumentMap, label: str) -> set[str]:
 def test_first_choices_are_the_charts_majority(written: int) -> None:
     label = FLUTE.fingerings_for(written)[0].label
     if written in EXCEPTIONS:
-        assert majority(written) is None, "an exception that is none"
-        assert label in charts()[written]
+        assert CHARTS.majority(written) is None, "an exception that is none"
+        assert label in CHARTS.notes[written]
     else:
-        assert label == majority(written)
+        assert label == CHARTS.majority(written)
 
 
 def test_every_fingering_is_in_a_chart_possible_and_has_a_reason() -> None:
     for fingering in FLUTE.fingerings:
-        assert fingering.label in charts()[fingering.written_pitch], fingering
+        assert fingering.label in CHARTS.notes[fingering.written_pitch], fingering
         assert not twice(FLUTE, fingering.label), fingering
         assert bool(fingering.tags) == (fingering.rank > 1), fingering
 
@@ -92,7 +71,7 @@ def test_the_piccolo_is_fingered_as_the_flute_without_a_foot_and_sounds_an_octav
         found = [(one.label, one.tags) for one in PICCOLO.fingerings_for(written + 12)]
         assert found == table.rows({**table.FLUTE, **table.PICCOLO}, written), written
         assert not any(twice(PICCOLO, label) for label, _ in found)
-        assert all(label in charts()[written] for label, _ in found)
+        assert all(label in CHARTS.notes[written] for label, _ in found)
 
 
 @pytest.mark.parametrize(("name", "length_m", "tolerance_m"), [("flute", 0.670, 0.012), ("piccolo", 0.320, 0.012)])

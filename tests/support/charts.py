@@ -1,0 +1,37 @@
+"""Public fingering charts as tables: what each gives first for a note, and what beside it."""
+
+from __future__ import annotations
+
+import csv
+from collections import defaultdict
+from functools import cached_property
+from pathlib import Path
+from typing import TypeAlias
+
+FOLDER = Path(__file__).parents[1] / "data" / "fingerings"
+
+ByChart: TypeAlias = dict[str, dict[str, int]]
+"""Fingering -> chart -> rank: 1 the first choice, 2 to 100 alternates, 0 without an order."""
+
+
+class Charts:
+    """The charts of one instrument, contemporary techniques left out."""
+
+    def __init__(self, name: str) -> None:
+        self.path = FOLDER / f"{name}.csv"
+
+    @cached_property
+    def notes(self) -> dict[int, ByChart]:
+        """By written pitch."""
+        found: dict[int, ByChart] = defaultdict(lambda: defaultdict(dict))
+        with self.path.open(encoding="utf-8") as file:
+            for row in csv.DictReader(file):
+                found[int(row["written_pitch"])][row["fingering"]][row["source"]] = int(row["rank"])
+        return found
+
+    def majority(self, written: int) -> str | None:
+        """What more charts than of any other give first; None where two are alike."""
+        votes = {label: sum(rank == 1 for rank in by.values()) for label, by in self.notes[written].items()}
+        most = max(votes.values())
+        first = [label for label, count in votes.items() if count == most]
+        return first[0] if len(first) == 1 else None
