@@ -26,13 +26,12 @@ from resources.build.instrument_keys import (
     Rod,
     Touch,
     Wall,
-    arm,
     bodied,
     entry,
     oval,
     slab,
     teardrop,
-    with_pieces,
+    with_tail,
 )
 from resources.build.instrument_mesh import bend, lengths, tube, turned, unit
 from resources.build.instrument_reeds import SingleReed, thumb_rest
@@ -121,11 +120,24 @@ class Clarinet:
 
     def tail(self, touch: Touch, rod: Rod, along: float, angle: float, height: float = 0.0045) -> Touch:
         """A lever's other end beyond its axle, where it meets another key."""
-        start = rod.nearest(touch.foot)
         end = self.body.point(self.at(along), angle, height)
-        profile = [(-0.001, 0), (-0.001, 0.0016), (0.002, 0.0016), (0.002, 0)]
-        pin = turned(end, -self.body.normal(angle), profile, sides=8, proxy=False)
-        return with_pieces(touch, [("silver", arm(self.body, start, end)), ("silver", pin)])
+        return with_tail(touch, rod, end, self.body.normal(angle), 0.0016)
+
+    def levers(
+        self, rows: tuple[tuple[str, str, float, float, float], ...], blade: tuple[float, float, float],
+        axle: tuple[float, float, float], beyond: float, travel_m: float,
+    ) -> None:  # fmt: skip
+        """The left little finger's levers side by side, which turn about one axle and reach ``beyond`` it.
+
+        A row is name, label, place and angle, and where its other end is; ``blade`` is height, length and width,
+        ``axle`` place, width and height.
+        """
+        for name, label, along, angle, end in rows:
+            rod = self.cross(axle[0], angle + 1.0, *axle[1:])
+            touch = self.blade(along, angle, *blade, ahead=-1.0, foot=-0.42)
+            self.work.key(
+                name, label, "left.little.pad", rod, self.tail(touch, rod, end, angle + beyond), travel_m=travel_m
+            )
 
 
 class Straight(Clarinet):
@@ -222,14 +234,12 @@ class Straight(Clarinet):
         c_sharp = self.blade(0.1845, 24.0, 0.0085, 0.0125, 0.0090)
         work.key("key_C_sharp", "LC#", "left.little.pad", self.rod(0.168, 0.190, 58.0, 0.0055), c_sharp,
                  [self.cup(0.1760, 92.0, 0.0064)], travel_m=0.0035)  # fmt: skip
-        for name, label, along, angle, tail in (
+        rows = (
             ("key_F_sharp_left", "LF#", 0.2005, 26.0, 0.247),
             ("key_E_left", "LE", 0.1988, 44.0, 0.253),
             ("key_F_left", "LF", 0.1958, 62.0, 0.260),
-        ):
-            rod = self.cross(0.2260, angle + 1.0, 0.0085, 0.0060)
-            touch = self.blade(along, angle, 0.0100, 0.0175, 0.0060, ahead=-1.0, foot=-0.42)
-            work.key(name, label, "left.little.pad", rod, self.tail(touch, rod, tail, angle + 3.0), travel_m=0.0030)
+        )
+        self.levers(rows, (0.0100, 0.0175, 0.0060), (0.2260, 0.0085, 0.0060), 3.0, 0.0030)
 
     def right_hand(self) -> None:
         """Holes and rings of the right hand, and what the left little finger's levers close."""
@@ -422,14 +432,12 @@ class Bass(Clarinet):
         c_sharp = self.blade(0.2545, 21.0, 0.0110, 0.0118, 0.0086)
         work.key("key_C_sharp", "LC#", "left.little.pad", body.rod(0.242, 0.264, 54.0, 0.0060), c_sharp,
                  [self.cup(0.2500, 84.0, 0.0090)])  # fmt: skip
-        for name, label, along, angle, tail in (
+        rows = (
             ("key_F_sharp_left", "LF#", 0.2685, 22.0, 0.350),
             ("key_E_left", "LE", 0.2677, 33.5, 0.362),
             ("key_F_left", "LF", 0.2661, 47.0, 0.374),
-        ):
-            rod = self.cross(0.3180, angle + 1.0, 0.0070, 0.0065)
-            touch = self.blade(along, angle, 0.0115, 0.0135, 0.0056, ahead=-1.0, foot=-0.42)
-            work.key(name, label, "left.little.pad", rod, self.tail(touch, rod, tail, angle + 2.0), travel_m=0.0032)
+        )
+        self.levers(rows, (0.0115, 0.0135, 0.0056), (0.3180, 0.0070, 0.0065), 2.0, 0.0032)
 
     def right_hand(self) -> None:
         """Plates of the right hand, trill keys, sliver key and the five keys of the little finger."""

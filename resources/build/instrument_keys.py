@@ -296,6 +296,13 @@ def with_pieces(touch: Touch, pieces: Pieces) -> Touch:
     return replace(touch, pieces=[*touch.pieces, *pieces])
 
 
+def with_tail(touch: Touch, rod: Rod, end: ArrayLike, normal: Array, radius: float) -> Touch:
+    """A lever's other end beyond its axle, where a pin meets another key."""
+    profile = [(-0.001, 0), (-0.001, radius), (0.002, radius), (0.002, 0)]
+    pin = turned(end, -normal, profile, sides=8, proxy=False)
+    return with_pieces(touch, [("silver", arm(rod.wall, rod.nearest(touch.foot), end)), ("silver", pin)])
+
+
 @dataclass(frozen=True)
 class Cup:
     """A padded cup over a tone hole.

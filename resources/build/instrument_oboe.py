@@ -25,13 +25,12 @@ from resources.build.instrument_keys import (
     Rod,
     Touch,
     Wall,
-    arm,
     bodied,
     entry,
     oval,
     slab,
     teardrop,
-    with_pieces,
+    with_tail,
 )
 from resources.build.instrument_mesh import bend, lengths, tube, turned, unit
 from resources.build.instrument_reeds import DoubleReed, thumb_rest
@@ -126,11 +125,8 @@ class Oboe:
 
     def lever(self, touch: Touch, rod: Rod, along: float, angle: float, height: float = 0.0045) -> Touch:
         """A lever's other end beyond its axle, where it meets another key."""
-        start = rod.nearest(touch.foot)
         end = self.body.point(self.at(along), angle, height)
-        profile = [(-0.001, 0), (-0.001, 0.0015), (0.002, 0.0015), (0.002, 0)]
-        pin = turned(end, -self.body.normal(angle), profile, sides=8, proxy=False)
-        return with_pieces(touch, [("silver", arm(self.body, start, end)), ("silver", pin)])
+        return with_tail(touch, rod, end, self.body.normal(angle), 0.0015)
 
     def make(self) -> Keywork:
         """The whole instrument."""
