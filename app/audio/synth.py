@@ -20,7 +20,7 @@ import numpy.typing as npt
 
 from app.audio.rendering import rendered, soundfont
 from app.audio.track import RATE_HZ, Piece, Samples
-from app.performance.loudness import speaking_curve
+from app.performance.loudness import sounding_curve
 from app.score.model import CurveKind, Note, Part
 from app.score.tempo import TempoMap
 from instrument_maps.model import InstrumentMap
@@ -162,7 +162,7 @@ def programs() -> frozenset[int]:
 
 def _controls(part: Part, tempo_map: TempoMap) -> tuple[tuple[Integers, tuple[bytes, ...]], ...]:
     """The curves that are heard, as samples and messages: the player's loudness as expression, volume, pitch bend."""
-    loudness = speaking_curve(part)
+    loudness = sounding_curve(part)
     heard = [curve for curve in part.curves if curve.kind in ("volume", "pitch_bend")]
     if loudness is not None and loudness.kind != "volume":
         heard.append(loudness)

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TypeAlias
+from typing import Final, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
+from app.identity_cache import IdentityCache
 from app.plan.heard import STOPS_AT, step_means
 from app.plan.line import Heard, Steps, velocity_loudness
 from app.score.model import ControllerCurve, Part
@@ -18,6 +19,10 @@ _SPEAKING = ("breath", "expression", "aftertouch", "volume")
 sequencers draw the second or the last."""
 
 
+_STEPS: Final[IdentityCache[Steps]] = IdentityCache(64)
+"""A minute of a wind controller has ten thousand steps, and an edit of a note changes none of them."""
+
+
 def note_loudness(part: Part) -> tuple[float, ...]:
     """Mean loudness 0..1 of every note, by the first controller that moves while notes sound; by its velocity where it
     was not blown at all (drawn beside the recorded bars).
@@ -25,23 +30,17 @@ def note_loudness(part: Part) -> tuple[float, ...]:
     A controller that is set once is a mixer's level and says nothing about playing; empty if no controller speaks.
     """
     curve = speaking_curve(part)
-    if curve is None:
-        return ()
-    onsets, ends = _spans(part)
-    means = np.clip(_means(curve, onsets, ends), 0.0, 1.0)
-    silent = means <= STOPS_AT
-    if silent.any():
-        means[silent] = velocity_loudness(np.array([note.velocity for note in part.notes]))[silent]
-    return tuple(means.tolist())
+    return () if curve is None else tuple(_loudness(part, _steps(curve)).tolist())
 
 
 def heard(part: Part) -> Heard | None:
     """The curves that tell how a part was blown and what the lips did; None if none of them moves."""
     breath = speaking_curve(part)
-    lips = {curve.kind: curve for curve in part.curves if curve.kind in ("bite", "pitch_bend")}
-    onsets, ends = _spans(part)
+    span = _span(part)
     moving = {
-        kind: _steps(curve) for kind, curve in lips.items() if len(onsets) and _moves(curve, onsets[0], ends.max())
+        curve.kind: _steps(curve)
+        for curve in part.curves
+        if curve.kind in ("bite", "pitch_bend") and span is not None and _moves(_steps(curve), *span)
     }
     if breath is None and not moving:
         return None
@@ -50,23 +49,61 @@ def heard(part: Part) -> Heard | None:
     )
 
 
-def _steps(curve: ControllerCurve) -> Steps:
-    return Steps(np.asarray(curve.ticks, np.float64), np.asarray(curve.values, np.float64))
-
-
 def speaking_curve(part: Part) -> ControllerCurve | None:
     """The controller that carries a part's dynamics; None if none does."""
-    onsets, ends = _spans(part)
+    span = _span(part)
+    if span is None:
+        return None
     for kind in _SPEAKING:
         for curve in part.curves:
-            if (
-                curve.kind == kind
-                and len(onsets)
-                and _moves(curve, onsets[0], ends[-1])
-                and _means(curve, onsets, ends).max() > 0.0
-            ):
+            if curve.kind == kind and _moves(_steps(curve), *span) and _means(part, _steps(curve)).max() > 0.0:
                 return curve
     return None
+
+
+def sounding_curve(part: Part) -> ControllerCurve | None:
+    """The same as it is heard: a note that was not blown at all sounds as loud as its velocity says."""
+    curve = speaking_curve(part)
+    if curve is None:
+        return None
+    steps = _steps(curve)
+    means = _means(part, steps)
+    silent = np.flatnonzero(means <= STOPS_AT).tolist()
+    if not silent:
+        return curve
+    loudness = _loudness(part, steps)
+    onsets, ends = (array.astype(np.int64) for array in _spans(part))
+    levels = dict(zip(curve.ticks, curve.values, strict=True))
+    for index in silent:
+        place = int(np.searchsorted(steps.ticks, ends[index], side="right")) - 1
+        levels[int(ends[index])] = curve.values[max(place, 0)]
+    for index in silent:
+        first, last = np.searchsorted(steps.ticks, (onsets[index], ends[index])).tolist()
+        for tick in curve.ticks[first:last]:
+            levels.pop(tick, None)
+    for index in silent:
+        levels[int(onsets[index])] = float(loudness[index])
+    ticks = sorted(levels)
+    return ControllerCurve(curve.kind, tuple(ticks), tuple(levels[tick] for tick in ticks))
+
+
+def _loudness(part: Part, steps: Steps) -> Floats:
+    means: Floats = np.clip(_means(part, steps), 0.0, 1.0)
+    silent = means <= STOPS_AT
+    if silent.any():
+        means[silent] = velocity_loudness(np.array([note.velocity for note in part.notes]))[silent]
+    return means
+
+
+def _steps(curve: ControllerCurve) -> Steps:
+    return _STEPS.get(
+        (curve,), lambda: Steps(np.asarray(curve.ticks, np.float64), np.asarray(curve.values, np.float64))
+    )
+
+
+def _span(part: Part) -> tuple[float, float] | None:
+    """From the first onset to the last note's end, ticks; None without notes."""
+    return (float(part.notes[0].onset_tick), float(part.notes[-1].end_tick)) if part.notes else None
 
 
 def _spans(part: Part) -> tuple[Floats, Floats]:
@@ -75,13 +112,13 @@ def _spans(part: Part) -> tuple[Floats, Floats]:
     return onsets, np.array([note.end_tick for note in part.notes], np.float64)
 
 
-def _moves(curve: ControllerCurve, first: float, last: float) -> bool:
+def _moves(steps: Steps, first: float, last: float) -> bool:
     """Whether it takes more than one value between two ticks."""
-    ticks = np.asarray(curve.ticks)
-    start = max(int(np.searchsorted(ticks, first, side="right")) - 1, 0)
-    return len(set(curve.values[start : int(np.searchsorted(ticks, last))])) > 1
+    start = max(int(np.searchsorted(steps.ticks, first, side="right")) - 1, 0)
+    values = steps.values[start : int(np.searchsorted(steps.ticks, last))]
+    return len(values) > 0 and bool(np.ptp(values) > 0.0)
 
 
-def _means(curve: ControllerCurve, starts: Floats, ends: Floats) -> Floats:
-    """Mean of a step function over spans; before its first tick it has its first value."""
-    return step_means(np.asarray(curve.ticks, np.float64), np.asarray(curve.values, np.float64), starts, ends)
+def _means(part: Part, steps: Steps) -> Floats:
+    """Mean over each note."""
+    return step_means(steps.ticks, steps.values, *_spans(part))

@@ -23,7 +23,7 @@ GASP_S = 0.12
 """A shorter gap brings no air: the tongue, or a finger between two keys."""
 BREATH_S = 0.3
 """A gap this long is a breath. A shorter one may be a detached note's end: breathed in only where air is needed."""
-LATE_S = 0.1
+LATE_S = 0.15
 """Who plays a note may blow this much after its onset in the score."""
 SILENT_SHARE = 0.5
 """A curve tells of breaths if it is at zero in at least this part of the rests."""

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.performance.loudness import note_loudness
+from app.performance.loudness import note_loudness, sounding_curve
 from app.score.model import ControllerCurve, Note, Part
 
 
@@ -42,3 +42,16 @@ def test_breath_speaks_before_volume() -> None:
     breath = ControllerCurve("breath", (0, 10), (0.2, 0.6))
     volume = ControllerCurve("volume", (0, 5), (1.0, 0.9))
     assert note_loudness(part([(0, 20)], volume, breath)) == pytest.approx((0.4,))
+
+
+def test_what_was_not_blown_sounds_by_its_velocity_and_the_rest_as_it_was_blown() -> None:
+    breath = ControllerCurve("breath", (0, 10, 20, 45, 60), (0.4, 0.6, 0.0, 0.01, 0.5))
+    made = part([(0, 20), (20, 10), (30, 10), (40, 10), (60, 10)], breath)
+    heard_as = sounding_curve(made)
+    assert heard_as is not None
+    ticks, values = np.array(heard_as.ticks), np.array(heard_as.values)
+    each = [values[max(int(np.searchsorted(ticks, tick, side="right")) - 1, 0)] for tick in range(70)]
+    assert each == [0.4] * 10 + [0.6] * 10 + [0.63] * 30 + [0.01] * 10 + [0.5] * 10
+    assert note_loudness(made) == pytest.approx((0.5, 0.63, 0.63, 0.63, 0.5))
+    blown = part([(0, 20), (60, 10)], breath)
+    assert sounding_curve(blown) is breath
