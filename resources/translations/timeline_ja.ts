@@ -113,6 +113,10 @@
         <translation>ブレス (CC2)</translation>
     </message>
     <message>
+        <source>Bite</source>
+        <translation>バイト</translation>
+    </message>
+    <message>
         <source>Volume</source>
         <translation>ボリューム</translation>
     </message>

@@ -26,7 +26,7 @@ from widgets.timeline.lanes.geometry import Floats, Spans, Steps, step_path
 from widgets.timeline.lanes.number_field import NumberField
 
 LIPS = ("tension", "effort", "air")
-CONTROLLERS = ("breath", "expression", "volume", "aftertouch", "pitch_bend")
+CONTROLLERS = ("breath", "bite", "expression", "volume", "aftertouch", "pitch_bend")
 MARGIN_PX = 4.0
 DRAG_PX = 3.0
 REACH_PX = 8.0
@@ -34,11 +34,12 @@ REACH_PX = 8.0
 
 @dataclass(frozen=True)
 class Lips:
-    """A plan's embouchures as arrays (N,)."""
+    """A plan's embouchures as arrays (N,), and what was recorded within the notes (``traces``)."""
 
     events: tuple[EmbouchureEvent, ...]
     spans: Spans
     steps: Mapping[str, Steps]
+    traces: Mapping[str, Steps]
 
 
 def lips(plan: PlayerPlan) -> Lips:
@@ -47,7 +48,22 @@ def lips(plan: PlayerPlan) -> Lips:
     start_s = np.array([event.start_s for event in events], np.float64)
     end_s = np.array([event.end_s for event in events], np.float64)
     values = {name: np.array([getattr(event, name) for event in events], np.float64) for name in LIPS}
-    return Lips(events, Spans(start_s, end_s), {name: Steps(start_s, value) for name, value in values.items()})
+    steps = {name: Steps(start_s, value) for name, value in values.items()}
+    return Lips(events, Spans(start_s, end_s), steps, _traces(plan, start_s, end_s))
+
+
+def _traces(plan: PlayerPlan, start_s: Floats, end_s: Floats) -> dict[str, Steps]:
+    """What was recorded, while notes sound; nothing in between."""
+    traces = plan.traces
+    if traces is None:
+        return {}
+    time_s: Floats = traces.start_s + traces.step_s * np.arange(len(traces.tension), dtype=np.float64)
+    note = np.searchsorted(start_s, time_s, side="right") - 1
+    sounds = (note >= 0) & (time_s < end_s[np.maximum(note, 0)])
+    recorded = {"tension": traces.tension, "effort": traces.effort, "air": traces.air}
+    return {
+        name: Steps(time_s, np.where(sounds, values, np.nan)) for name, values in recorded.items() if values is not None
+    }
 
 
 def controller_steps(part: Part, project: Project) -> dict[str, Steps]:
@@ -96,6 +112,9 @@ class _Curves(LaneItem):
             if name != lane.curve:
                 self._paint_notes(painter, exposed, name, shade(tokens.text_dim, 90), None)
         self._paint_notes(painter, exposed, lane.curve, QColor(colour), shade(colour, 50))
+        trace = lane.lips.traces.get(lane.curve)
+        if trace is not None:
+            self._paint_steps(painter, exposed, trace, shade(tokens.text, 200), 1.2)
 
     def _paint_steps(self, painter: QPainter, exposed: QRectF, steps: Steps, colour: QColor, width: float) -> None:
         axis = self._lane.axis
@@ -187,6 +206,7 @@ class CurvesLane(Lane):
             "effort": self.tr("Effort"),
             "air": self.tr("Air"),
             "breath": self.tr("Breath controller"),
+            "bite": self.tr("Bite"),
             "volume": self.tr("Volume"),
             "expression": self.tr("Expression"),
             "aftertouch": self.tr("Aftertouch"),
