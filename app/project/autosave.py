@@ -91,6 +91,10 @@ class Autosave:
         """When the next autosave is to be made; None: everything is written down."""
         return None if self._changed_s is None else self._changed_s + self.delay_s
 
+    def has(self, project: Project) -> bool:
+        """Whether this project is written down."""
+        return project is self._written
+
     def opened(self, document: Path | None) -> None:
         """Another project is open now, from this file or without one; the one before was saved or given up.
 

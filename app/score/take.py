@@ -6,10 +6,10 @@ otherwise.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache, cached_property
-from typing import Final, Literal, TypeAlias
+from typing import Final, TypeAlias
 
 import mido
 import msgspec
@@ -18,14 +18,11 @@ import numpy.typing as npt
 
 from app.score.model import CurveKind
 from app.score.tempo import TempoMap
+from metadata.model import BiteSource, BreathSource
 
 Floats: TypeAlias = npt.NDArray[np.float64]
 Ints: TypeAlias = npt.NDArray[np.int64]
 
-Source: TypeAlias = Literal["", "cc2", "cc7", "cc11", "channel_pressure", "pitch_bend", "cc1"]
-"""What a controller sends something with; empty: it does not send it."""
-
-_CONTROLLERS: Final[Mapping[int, Source]] = {1: "cc1", 2: "cc2", 7: "cc7", 11: "cc11"}
 _ALL_SOUND_OFF, _ALL_NOTES_OFF = 120, 123
 _BEND_RANGE = 8192
 
@@ -37,13 +34,13 @@ class Wiring(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     ----------
     channel : int
         1..16; 0: any.
-    breath, bite : str
-        A `Source`.
+    breath : BreathSource
+    bite : BiteSource
     """
 
     channel: int = 0
-    breath: Source = "cc2"
-    bite: Source = ""
+    breath: BreathSource = "cc2"
+    bite: BiteSource = "none"
 
 
 class Cleaning(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -238,33 +235,31 @@ def is_message(raw: str) -> bool:
     return True
 
 
-def _values(message: mido.Message, wiring: Wiring) -> Iterable[tuple[CurveKind, float]]:
+def _values(message: mido.Message, wiring: Wiring) -> Iterator[tuple[CurveKind, float]]:
     """What a message says, by the kinds of curves."""
     source, value = _source(message)
-    if not source:
-        return
     if source == wiring.bite:
-        yield "bite", abs(value) if source == "pitch_bend" else value
+        yield "bite", abs(value)
     if source == wiring.breath:
         yield "breath", value
-    elif source != wiring.bite or source == "pitch_bend":
-        kind = _USUAL.get(source)
-        if kind is not None:
-            yield kind, value
+    # Who bites to bend does both.
+    elif source in _USUAL and (source != wiring.bite or source == "pitch_bend"):
+        yield _USUAL[source], value
 
 
-_USUAL: Final[Mapping[Source, CurveKind]] = {
+_USUAL: Final[Mapping[str, CurveKind]] = {
     "cc7": "volume",
     "cc11": "expression",
     "channel_pressure": "aftertouch",
     "pitch_bend": "pitch_bend",
 }
-"""What the others are, that neither breathe nor bite."""
+"""What carries what where nobody says otherwise."""
 
 
-def _source(message: mido.Message) -> tuple[Source, float]:
+def _source(message: mido.Message) -> tuple[str, float]:
+    """What a message is sent with, as a `BreathSource` or `BiteSource`, and its value 0..1, a bend's -1..1."""
     if message.type == "control_change":
-        return _CONTROLLERS.get(message.control, ""), message.value / 127.0
+        return f"cc{message.control}", message.value / 127.0
     if message.type == "aftertouch":
         return "channel_pressure", message.value / 127.0
     if message.type == "pitchwheel":

@@ -29,6 +29,7 @@ SUBJECTS: Final = (
     "timeline",
     "viewport",
     "playback",
+    "record",
     "generate",
     "problems",
     "application",
@@ -40,6 +41,8 @@ MENUS: Final = {
     "Edit": QT_TRANSLATE_NOOP("Menu", "&Edit"),
     "View": QT_TRANSLATE_NOOP("Menu", "&View"),
     "Play": QT_TRANSLATE_NOOP("Menu", "&Play"),
+    "Record": QT_TRANSLATE_NOOP("Menu", "&Record"),
+    "Counting": QT_TRANSLATE_NOOP("Menu", "Count-in"),
     "Generate": QT_TRANSLATE_NOOP("Menu", "&Generate"),
     "Export": QT_TRANSLATE_NOOP("Menu", "E&xport"),
     "Help": QT_TRANSLATE_NOOP("Menu", "&Help"),
@@ -160,6 +163,7 @@ class ActionTable(QObject):
             session.follow_changed,
             session.pitch_display.changed,
             session.listening.changed,
+            session.recording.changed,
             session.viewport.changed,
         ):
             signal.connect(self.refresh_soon)

@@ -14,6 +14,7 @@ from PySide6.QtCore import QCoreApplication, QEventLoop, QObject, Qt, QTimer
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QApplication
 
+from app.audio.playback import Playback
 from app.errors import AppError
 from app.project.autosave import Autosave
 from app.project.edit.piece import new_piece
@@ -27,6 +28,7 @@ from app.shell.generator import Generator
 from app.shell.instruments import InstrumentWatch
 from app.shell.language import Language
 from app.shell.questions import Dialogs, Questions
+from app.shell.recording import Recorder
 from app.shell.settings import Settings, settings_path
 from app.shell.sound import Sound
 from app.shell.tasks import ThreadTasks
@@ -92,6 +94,10 @@ class Program(QObject):
     autosave : Autosave or None
     heard : bool
         Whether the performance can be played.
+    playback : Playback, optional
+        One on the system's device, if None.
+    recorder : callable, optional
+        Makes another recorder than the system's.
     """
 
     def __init__(
@@ -101,6 +107,8 @@ class Program(QObject):
         questions: Questions | None = None,
         autosave: Autosave | None = None,
         heard: bool = True,
+        playback: Playback | None = None,
+        recorder: Callable[[Session, Files], Recorder] | None = None,
     ) -> None:
         super().__init__()
         application = QApplication.instance()
@@ -117,8 +125,13 @@ class Program(QObject):
         self._dress()
         self.generator = Generator(self.session, self.tasks)
         # Children of the session: they stay.
-        Sound(self.session, heard=heard)
+        Sound(self.session, playback, heard)
         InstrumentWatch(self.session)
+        self.recorder = (
+            Recorder(self.session, self.editor.files, settings)
+            if recorder is None
+            else recorder(self.session, self.editor.files)
+        )
         self.editor.table = ActionTable(self.session, settings, rows())
         self.language.changed.connect(self.editor.table.retranslate)
         self.window = Window(self.editor, self.generator)
@@ -129,6 +142,7 @@ class Program(QObject):
 
     def end(self) -> None:
         """Stop everything that works beside the window."""
+        self.recorder.close()
         self.generator.close()
         if isinstance(self.tasks, ThreadTasks):
             self.tasks.cancel_all(STOP_S)
@@ -158,6 +172,7 @@ def run(start: Start) -> int:
     if start.theme or start.language:
         _wish(program, start)
     program.window.show()
+    QTimer.singleShot(0, program.recorder, program.recorder.begin_where_remembered)
     if trouble is not None:
         program.session.notice(trouble.message, Severity.WARNING)
     if start.file is not None:

@@ -80,6 +80,8 @@ class Files(QObject):
         """When the project, or unsaved work on it, was written last; of `time.monotonic`."""
         self.autosaved = False
         """Whether that was an autosave."""
+        self._recovered: tuple[str, ...] = ()
+        """Editors that are gone whose work this is."""
         session.changed.connect(self._project_changed)
         self._timer = QTimer(self)
         self._timer.setInterval(TICK_MS)
@@ -108,6 +110,21 @@ class Files(QObject):
         if self.path is not None:
             return str(self.path.parent)
         return self.settings.folder or str(Path.home())
+
+    @property
+    def recovery_stems(self) -> tuple[Path, ...]:
+        """What unsaved work on this project is called in the folder of unsaved work, without a suffix: this editor's,
+        and that of editors whose work was taken over."""
+        if self.autosave is None:
+            return ()
+        presence = self.autosave.presence
+        return tuple(presence.folder / token for token in (presence.token, *self._recovered))
+
+    @property
+    def unwritten(self) -> bool:
+        """Whether the project as it is is in no file, not even in that of unsaved work."""
+        project = self.session.project
+        return not self.session.document.is_saved and (self.autosave is None or not self.autosave.has(project))
 
     # Opening
 
@@ -215,8 +232,9 @@ class Files(QObject):
 
         return failed
 
-    def _become(self, project: Project, path: Path | None, saved: bool = True) -> None:
+    def _become(self, project: Project, path: Path | None, saved: bool = True, recovered: str = "") -> None:
         self.path = path
+        self._recovered = (recovered,) if recovered else ()
         self._stamp = stamp_of(path) if path is not None else None
         self.is_open = True
         self.saved_s = None
@@ -349,6 +367,15 @@ class Files(QObject):
             writing.run()
             self.autosave.written(writing)
 
+    def write_soon(self) -> None:
+        """Write unsaved work down now, beside the window."""
+        if self.autosave is None or not self.is_open or self.session.document.is_saved:
+            return
+        self.autosave.changed(self.session.project, time.monotonic())
+        writing = self.autosave.take()
+        if writing is not None:
+            self._write(writing)
+
     def _write(self, writing: Writing) -> None:
         def work(progress: Callable[[float], None], stop_wanted: Callable[[], bool]) -> None:
             writing.run()
@@ -391,7 +418,7 @@ class Files(QObject):
             except AppError as error:
                 self.session.notice(error.message, Severity.ERROR)
                 return
-            self._become(project, item.document, saved=False)
+            self._become(project, item.document, saved=False, recovered=item.token)
 
         self.let_go(go_on)
 

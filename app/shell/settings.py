@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Final, TypeVar
+from urllib.parse import quote
 
 import platformdirs
 from PySide6.QtCore import QByteArray, QSettings
@@ -157,6 +158,33 @@ class Settings:
     @source.setter
     def source(self, value: str) -> None:
         self._set("sound/source", value)
+
+    @property
+    def midi_port(self) -> str:
+        """The device that is recorded from; empty: none was chosen."""
+        return self._get("midi/port", "")
+
+    @midi_port.setter
+    def midi_port(self, value: str) -> None:
+        self._set("midi/port", value)
+
+    @property
+    def count_in_bars(self) -> int:
+        """0..4."""
+        return min(max(self._get("midi/count_in_bars", 1), 0), 4)
+
+    @count_in_bars.setter
+    def count_in_bars(self, value: int) -> None:
+        self._set("midi/count_in_bars", value)
+
+    def midi_device(self, port: str, name: str) -> str:
+        """What is remembered of a device; empty: nothing."""
+        return self._get(f"midi_devices/{quote(port, safe='')}/{name}", "") if port else ""
+
+    def set_midi_device(self, port: str, name: str, value: str) -> None:
+        """Remember something of a device."""
+        if port:
+            self._set(f"midi_devices/{quote(port, safe='')}/{name}", value)
 
     @property
     def geometry(self) -> QByteArray:

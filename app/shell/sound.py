@@ -34,6 +34,10 @@ SAME_TEMPO = 0.002
 """Tempi that differ by less are the same: it is 6 ms in 3 s."""
 
 
+_CLICKS_ON_S = 1800.0
+"""Clicks beyond the end of the piece, while somebody records there."""
+
+
 class Sound(QObject):
     """The editor's sound.
 
@@ -66,6 +70,8 @@ class Sound(QObject):
         self._click: tuple[tuple[object, ...], Track] | None = None
         self._chosen: tuple[object, ...] = ()
         """Source and metronome of the mix that was made last."""
+        self._counted_s: tuple[float, float] | None = None
+        """While a take is recorded: where counting in begins, and where the take does."""
         self._own_move = False
         self._told_silent = False
         self._frame_timer = QTimer(self, interval=_FRAME_MS, timerType=Qt.TimerType.PreciseTimer)
@@ -148,15 +154,25 @@ class Sound(QObject):
 
     def _take(self, project: Project) -> None:
         """Let this project be heard."""
-        frame, score = span_of(project), project.score
-        end_s = max(score.tempo_map.seconds(float(score.sounding_end_tick)), frame.end_s)
-        self.playback.set_span(frame.first_frame_s, end_s)
+        self._set_span(project)
         path = project.audio.path if project.audio is not None else ""
         if path != self._path:
             self._read(path)
         if self._synthesiser_heard(project):
             self._stems.follow(project, self._session.playhead_s)
         self._set_mix()
+
+    def set_recording(self, counted_s: tuple[float, float] | None) -> None:
+        """A take is recorded: it is counted in from a moment to another, and the performance goes on without an end.
+        None: no more."""
+        self._counted_s = counted_s
+        self._set_span(self._session.project)
+        self._set_mix()
+
+    def _set_span(self, project: Project) -> None:
+        frame, score = span_of(project), project.score
+        end_s = max(score.tempo_map.seconds(float(score.sounding_end_tick)), frame.end_s)
+        self.playback.set_span(frame.first_frame_s, end_s if self._counted_s is None else float("inf"))
 
     def _stems_changed(self) -> None:
         self._session.listening.set(ready=self._stems.ready)
@@ -175,14 +191,19 @@ class Sound(QObject):
             tracks.extend(self._stems.tracks(project))
         if listening.click:
             tracks.append(self._clicks(project))
+        elif self._counted_s is not None:
+            tracks.append(click_track(project, *self._counted_s))
         self.playback.set_mix(Mix(tracks))
 
     def _clicks(self, project: Project) -> Track:
         score, frame = project.score, span_of(project)
         sources = (score.tempo_map, score.metres, score.pickup_ticks, project.felt_beat_ticks)
-        key = (*sources, frame.first_frame_s, frame.end_s)
+        start_s, end_s = frame.first_frame_s, frame.end_s
+        if self._counted_s is not None:
+            start_s, end_s = min(start_s, self._counted_s[0]), max(end_s, self._counted_s[1]) + _CLICKS_ON_S
+        key = (*sources, start_s, end_s)
         if self._click is None or self._click[0] != key:
-            self._click = (key, click_track(project, frame.first_frame_s, frame.end_s))
+            self._click = (key, click_track(project, start_s, end_s))
         return self._click[1]
 
     # The recording

@@ -956,6 +956,46 @@
             <translation>{file}: {place}: {detail}</translation>
         </message>
         <message>
+            <source>record {count} {count:take|takes}</source>
+            <translation>テイクを録音 ({count})</translation>
+        </message>
+        <message>
+            <source>There is no player to record: add one first.</source>
+            <translation>録音する奏者がいません。先に奏者を追加してください。</translation>
+        </message>
+        <message>
+            <source>No MIDI device is listened to: choose one in Record &gt; Devices.</source>
+            <translation>MIDI機器が選ばれていません。「録音 &gt; 機器」で選んでください。</translation>
+        </message>
+        <message>
+            <source>There is nowhere to write a take to: save the project first.</source>
+            <translation>テイクの書き込み先がありません。先にプロジェクトを保存してください。</translation>
+        </message>
+        <message>
+            <source>No note was played: nothing was recorded.</source>
+            <translation>音が演奏されなかったため、何も録音されませんでした。</translation>
+        </message>
+        <message>
+            <source>The player who was recorded is no longer there; what was played is kept in {file}.</source>
+            <translation>録音した奏者はもういません。演奏は{file}に残してあります。</translation>
+        </message>
+        <message>
+            <source>{device} was unplugged; it is listened to again when it comes back.</source>
+            <translation>{device}が抜かれました。つなぎ直すと再び使えます。</translation>
+        </message>
+        <message>
+            <source>{device} was unplugged; what was played is kept, and recording goes on when it comes back.</source>
+            <translation>{device}が抜かれました。演奏済みの分は残り、つなぎ直すと録音が続きます。</translation>
+        </message>
+        <message>
+            <source>{device} is back.</source>
+            <translation>{device}が再びつながりました。</translation>
+        </message>
+        <message>
+            <source>{count} {count:take|takes} of a recording that was cut short {count:was|were} recovered.</source>
+            <translation>中断された録音からテイクを{count}個復元しました。</translation>
+        </message>
+        <message>
             <source>--set {text}: expected PLAYER.parameter=value</source>
             <translation>--set {text}: 「プレイヤー.パラメーター=値」の形で指定してください</translation>
         </message>

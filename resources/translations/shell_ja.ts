@@ -610,6 +610,30 @@
         <source>Selected Bars as at First</source>
         <translation>選択した小節を最初の演奏に戻す</translation>
     </message>
+    <message>
+        <source>Record</source>
+        <translation>録音</translation>
+    </message>
+    <message>
+        <source>Always Record This Player</source>
+        <translation>常にこの奏者を録音</translation>
+    </message>
+    <message>
+        <source>Punch In and Out</source>
+        <translation>パンチイン／アウト</translation>
+    </message>
+    <message>
+        <source>No Count-in</source>
+        <translation>カウントインなし</translation>
+    </message>
+    <message>
+        <source>Count In One Bar</source>
+        <translation>1小節カウントイン</translation>
+    </message>
+    <message>
+        <source>Count In Two Bars</source>
+        <translation>2小節カウントイン</translation>
+    </message>
 </context>
 <context>
     <name>ActionTable</name>
@@ -727,6 +751,14 @@
     <message>
         <source>&amp;Play</source>
         <translation>再生(&amp;P)</translation>
+    </message>
+    <message>
+        <source>&amp;Record</source>
+        <translation>録音(&amp;R)</translation>
+    </message>
+    <message>
+        <source>Count-in</source>
+        <translation>カウントイン</translation>
     </message>
     <message>
         <source>&amp;Generate</source>
@@ -857,6 +889,17 @@
     <message>
         <source>Cancel</source>
         <translation>キャンセル</translation>
+    </message>
+</context>
+<context>
+    <name>Recorder</name>
+    <message>
+        <source>Take {number}</source>
+        <translation>テイク {number}</translation>
+    </message>
+    <message>
+        <source>Recovered take {number}</source>
+        <translation>復元したテイク {number}</translation>
     </message>
 </context>
 <context>

@@ -4,6 +4,14 @@
 <context>
     <name>TransportBar</name>
     <message>
+        <source>REC</source>
+        <translation>録音中</translation>
+    </message>
+    <message>
+        <source>REC {number}</source>
+        <translation>録音中 {number}</translation>
+    </message>
+    <message>
         <source>To the start</source>
         <translation>先頭へ</translation>
     </message>
@@ -18,6 +26,10 @@
     <message>
         <source>Loop the selection, else the bar</source>
         <translation>選択範囲をループ（選択がなければ小節）</translation>
+    </message>
+    <message>
+        <source>Record the player in front, or the armed one, from the playhead on</source>
+        <translation>手前の奏者（または指定した奏者）を再生位置から録音</translation>
     </message>
     <message>
         <source>Metronome</source>

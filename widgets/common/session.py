@@ -20,6 +20,7 @@ from app.project.grid import Grid
 from app.project.model import Player, Project
 from widgets.common.listening import Listening
 from widgets.common.live_players import LivePlayers
+from widgets.common.recording import Recording
 from widgets.common.selection import Selection
 from widgets.common.tasks import Tasks
 from widgets.common.timeline_view import TimelineView
@@ -118,6 +119,7 @@ class Session(QObject):
         self.viewport = ViewportState()
         self.listening = Listening()
         self.live_players = LivePlayers()
+        self.recording = Recording()
         self.playback: Playback | None = None
         """Plays the performance; None where nothing is heard, as in a picture made without a window."""
         self.actions: Mapping[str, QAction] = {}

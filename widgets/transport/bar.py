@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from math import floor
+from math import ceil, floor
 
 from PySide6.QtCore import QEvent, QSize, Qt
 from PySide6.QtGui import QAction, QResizeEvent, QShowEvent
@@ -18,6 +18,7 @@ from widgets.common.musical_time import metre_at
 from widgets.common.number_slider import NumberSlider
 from widgets.common.session import Session
 from widgets.common.tokens import LEAST_TARGET_PX
+from widgets.transport.beat_light import BeatLight
 from widgets.transport.fields import BarsField, ClockField, FramesField
 
 BUTTONS = (
@@ -25,6 +26,7 @@ BUTTONS = (
     ("play.toggle", "play"),
     ("play.stop", "stop"),
     ("play.loop", "loop"),
+    ("record.toggle", "record"),
 )
 """Actions by id, and their icons."""
 TOGGLES = (("play.click", "metronome"), ("play.follow", "follow"))
@@ -64,6 +66,9 @@ class TransportBar(QWidget):
         self.volume = NumberSlider(session, 0.0, 100.0, default=80.0, step=5.0, decimals=0, parent=self)
         self.source, self.snap = Combo(), Combo()
         self.silent_sign, self.silent_text = QLabel(), QLabel()
+        self.beat = BeatLight(session)
+        self.take_text = QLabel()
+        self.take_text.setObjectName("take_text")
         self._name()
         self._build()
         self._connect()
@@ -93,7 +98,10 @@ class TransportBar(QWidget):
         names |= {self.snap: "snap", self.silent_sign: "silent_sign", self.silent_text: "silent_text"}
         for widget, name in names.items():
             widget.setObjectName(name)
-        for button in (*(self.buttons[id] for id in ("play.loop", "play.click", "play.follow")), self.snap_button):
+        for button in (
+            *(self.buttons[id] for id in ("play.loop", "play.click", "play.follow", "record.toggle")),
+            self.snap_button,
+        ):
             button.setCheckable(True)
 
     def _build(self) -> None:
@@ -112,6 +120,8 @@ class TransportBar(QWidget):
         row.addWidget(self.tempo)
         row.addSpacing(6)
         row.addWidget(self.buttons["play.click"])
+        row.addWidget(self.beat)
+        row.addWidget(self.take_text)
         for slider, least_px, most_px in ((self.volume, 92, 150), (self.speed, 92, 150)):
             slider.setMinimumWidth(least_px)
             slider.setMaximumWidth(most_px)
@@ -141,6 +151,7 @@ class TransportBar(QWidget):
         session.follow_changed.connect(self._show_state)
         session.theme_changed.connect(self._dress)
         listening.changed.connect(self._show_state)
+        session.recording.changed.connect(self._show_state)
         self.bars.changed.connect(lambda tick, _: self._go(session.project.score.tempo_map.seconds(tick)))
         self.clock.changed.connect(lambda time_s, _: self._go(time_s))
         self.frames.changed.connect(lambda frame, _: self._go(frame / float(session.project.fps)))
@@ -192,11 +203,26 @@ class TransportBar(QWidget):
         self.clock.show_value(playhead_s, by_hand=False)
         # The frame that is on the screen: the one that began last.
         self.frames.show_value(float(floor(frames + 1e-6)), by_hand=False)
+        self.beat.show_time(playhead_s)
+        self._show_take(playhead_s)
         metre = metre_at(score, max(tick, 0))
         bpm = next((bpm for at, bpm in reversed(score.tempo_map.bpm) if at <= tick), score.tempo_map.bpm[0][1])
         text = f"♩= {bpm:.1f}".removesuffix(".0") + f"   {metre.numerator}/{metre.denominator}"
         if text != self.tempo.text():
             self.tempo.setText(text)
+
+    def _show_take(self, playhead_s: float) -> None:
+        """How many beats are counted still, or which pass of a loop is recorded."""
+        recording, text = self._session.recording, ""
+        if recording.running and playhead_s < recording.start_s - 1e-6:
+            project = self._session.project
+            ticks = project.score.tempo_map.ticks
+            beats = (ticks(recording.start_s) - ticks(playhead_s)) / project.felt_beat_ticks
+            text = f"−{ceil(beats - 1e-6)}"
+        elif recording.running:
+            text = self.tr("REC") if recording.passes < 2 else self.tr("REC {number}").format(number=recording.passes)
+        if text != self.take_text.text():
+            self.take_text.setText(text)
 
     def _show_state(self) -> None:
         session, listening = self._session, self._session.listening
@@ -204,6 +230,8 @@ class TransportBar(QWidget):
         self.buttons["play.loop"].setChecked(session.loop_s is not None)
         self.buttons["play.click"].setChecked(listening.click)
         self.buttons["play.follow"].setChecked(session.follow)
+        self.buttons["record.toggle"].setChecked(session.recording.running)
+        self._show_take(session.playhead_s)
         self.buttons["play.toggle"].setIcon(icon("pause" if session.playing else "play", tokens))
         self.speed.show_value(round(100 * listening.speed, 3), by_hand=listening.speed != 1.0)
         self.volume.show_value(round(100 * listening.volume, 3), by_hand=False)
@@ -219,6 +247,8 @@ class TransportBar(QWidget):
         tokens = self._session.tokens
         for id, name in (*BUTTONS, *TOGGLES):
             self.buttons[id].setIcon(icon(name, tokens))
+        self.buttons["record.toggle"].setIcon(icon("record", tokens, tokens.error))
+        self.take_text.setStyleSheet(f"color: {tokens.error}; font-weight: bold;")
         self.snap_button.setIcon(icon("snap", tokens))
         ratio = self.devicePixelRatioF()
         self.silent_sign.setPixmap(pixmap("mute", 18, tokens.warning, ratio))
@@ -233,6 +263,7 @@ class TransportBar(QWidget):
             "play.toggle": self.tr("Play, or stop here"),
             "play.stop": self.tr("Stop; once more: to the start of the loop or the piece"),
             "play.loop": self.tr("Loop the selection, else the bar"),
+            "record.toggle": self.tr("Record the player in front, or the armed one, from the playhead on"),
             "play.click": self.tr("Metronome"),
             "play.follow": self.tr("The timeline follows the playhead"),
         }

@@ -1,0 +1,73 @@
+"""A journal becomes takes of a project."""
+
+from __future__ import annotations
+
+from app.capture.journal import Journal, Pass, passes
+from app.score.take import Cleaning, Take, Wiring
+from app.score.tempo import TempoMap
+
+_ALL_NOTES_OFF = 0x7B
+
+
+def takes_of(
+    journal: Journal,
+    tempo_map: TempoMap,
+    wiring: Wiring,
+    name: str,
+    start_s: float | None = None,
+    cleaning: Cleaning | None = None,
+) -> tuple[Take, ...]:
+    """A take for every pass in which a note was played, in order; their ids are given by the project.
+
+    Parameters
+    ----------
+    journal : Journal
+    tempo_map : TempoMap
+        What was heard.
+    wiring : Wiring
+        With what the device sends breath and bite.
+    name : str
+        What a take is called, ``{number}`` for its number in this recording.
+    start_s : float, optional
+        Where the recording was wanted from: what was played before, while it was counted in, stays in the take, which
+        begins there. By default the first moment that is known.
+    """
+    result: list[Take] = []
+    syncs = {number: [point for point in journal.syncs if point.pass_ == number] for number in _numbers(journal)}
+    for played in passes(journal):
+        if not any(message[0] >> 4 == 0x9 and message[2] for message in played.messages):
+            continue
+        points = syncs[played.number]
+        first_us, last_us = round(points[0].position_s * 1e6), round(points[-1].position_s * 1e6)
+        if start_s is not None and not result:
+            first_us = round(start_s * 1e6)
+        events = _with_gaps(played, wiring)
+        result.append(
+            Take(
+                id="",
+                name=name.format(number=len(result) + 1),
+                colour="",
+                device=journal.header.port,
+                recorded=journal.header.started,
+                wiring=wiring,
+                cleaning=cleaning or Cleaning(),
+                tempo_map=tempo_map,
+                start_us=first_us,
+                end_us=max(last_us, first_us, *(time_us for time_us, _ in events[-1:])),
+                times_us=tuple(time_us for time_us, _ in events),
+                messages=tuple(message for _, message in events),
+            )
+        )
+    return tuple(result)
+
+
+def _numbers(journal: Journal) -> set[int]:
+    return {point.pass_ for point in journal.syncs}
+
+
+def _with_gaps(played: Pass, wiring: Wiring) -> list[tuple[int, str]]:
+    """The events as a take has them; where the device went away, what sounded ends."""
+    events = [(time_us, message.hex()) for time_us, message in zip(played.times_us, played.messages, strict=True)]
+    off = bytes((0xB0 + max(wiring.channel - 1, 0), _ALL_NOTES_OFF, 0)).hex()
+    events += [(lost_us, off) for lost_us, _ in played.gaps_us]
+    return sorted(events, key=lambda event: event[0])

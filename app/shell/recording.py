@@ -1,0 +1,479 @@
+"""Recording in the editor: the device, the running take, and what becomes of it.
+
+The events are stamped and written by a process of their own (`app.capture.recorder`), which is told all the while what
+is heard. When it has finished its journal, the passes of it become takes of the project, in one edit; the journal
+stays until they are in a file.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Final
+
+from PySide6.QtCore import QCoreApplication, QObject, Qt, QTimer
+
+from app.capture.adopt import takes_of
+from app.capture.journal import Header, Journal, read_journal
+from app.capture.learn import breath_value
+from app.capture.link import RecorderLink
+from app.capture.protocol import (
+    Back,
+    Events,
+    Finished,
+    Lost,
+    News,
+    NotStarted,
+    Opened,
+    Ports,
+    Refused,
+    Restarted,
+    Written,
+)
+from app.errors import AppError, Message
+from app.project.edit.takes import add_takes, comp
+from app.project.journals import journal_path, journals_of
+from app.project.model import Project
+from app.score.take import Take, Wiring
+from app.shell.calls import window_calls
+from app.shell.files import Files
+from app.shell.settings import Settings
+from app.shell.sound import sound_of
+from metadata.load import load_controllers, recognised_controller
+from widgets.common.session import Session, Severity
+
+SYNC_MS: Final = 40
+"""How often the recorder is told what is heard."""
+_STILL_S: Final = 1e-6
+
+_JUMP_S: Final = 0.25
+"""The sound is elsewhere than it would be by now: it was sent there, or the loop returned."""
+
+MakeLink = Callable[[Callable[[], None]], RecorderLink]
+
+
+@dataclass
+class _Running:
+    """A take that is being recorded."""
+
+    path: Path
+    player_id: str
+    start_s: float
+    loop_s: tuple[float, float] | None
+    wiring: Wiring
+    project: Project
+    passes: int = 1
+    first_s: float | None = None
+    last_s: float = 0.0
+    last_ns: int = 0
+
+
+class Recorder(QObject):
+    """The editor's recorder. The process behind it is started when a device is first wanted.
+
+    Parameters
+    ----------
+    session : Session
+        Its `recording` is kept up to date; becomes the parent.
+    files : Files
+        Beside the project's file lie the journals.
+    settings : Settings
+        Remember the device, and what is known of each.
+    make_link : callable
+    now_ns : callable
+        The clock of the events.
+    """
+
+    def __init__(
+        self,
+        session: Session,
+        files: Files,
+        settings: Settings,
+        make_link: MakeLink | None = None,
+        now_ns: Callable[[], int] = time.perf_counter_ns,
+    ) -> None:
+        super().__init__(session)
+        self.setObjectName("recorder")
+        self._session, self._files, self._settings = session, files, settings
+        self._state = session.recording
+        self._make_link: MakeLink = make_link if make_link is not None else RecorderLink
+        self._now_ns = now_ns
+        self._link: RecorderLink | None = None
+        self._running: _Running | None = None
+        self._adopting: dict[str, _Running] = {}
+        self._adopted: dict[Path, Take] = {}
+        """Journals whose takes are in the project, and not known to be in a file yet."""
+        self._sync_timer = QTimer(self, interval=SYNC_MS, timerType=Qt.TimerType.PreciseTimer)
+        self._sync_timer.timeout.connect(self._sync)
+        self._state.set(
+            port=settings.midi_port,
+            count_in_bars=settings.count_in_bars,
+            connection="waiting" if settings.midi_port else "none",
+        )
+        self._know(settings.midi_port)
+        files.changed.connect(self._files_changed)
+        files.opened.connect(self._project_opened)
+        session.playing_changed.connect(self._playing_changed)
+
+    # The device
+
+    def begin(self) -> None:
+        """Look for devices, if not done yet."""
+        if self._link is not None:
+            return
+        ask = window_calls().ask
+        self._link = self._make_link(lambda: ask(self.poll))
+        if self._state.port:
+            self._link.open(self._state.port)
+
+    def begin_where_remembered(self) -> None:
+        """Look for the device of last time; without one nothing is started."""
+        if self._state.port:
+            self.begin()
+
+    def choose(self, port: str) -> None:
+        """Record from this device from now on, also whenever it comes back; empty: from none."""
+        self.begin()
+        assert self._link is not None
+        self._settings.midi_port = port
+        self._state.set(port=port, connection="waiting" if port else "none")
+        self._know(port)
+        self._link.open(port or None)
+
+    def set_count_in(self, bars: int) -> None:
+        """Count so many bars before a take, from now on."""
+        self._settings.count_in_bars = bars
+        self._state.set(count_in_bars=bars)
+
+    def set_controller(self, controller: str) -> None:
+        """Say what kind of controller the device is."""
+        self._settings.set_midi_device(self._state.port, "controller", controller)
+        self._settings.set_midi_device(self._state.port, "breath", "")
+        self._know(self._state.port)
+
+    def set_wiring(self, wiring: Wiring) -> None:
+        """Say with what the device sends breath and bite, as it was learned or chosen."""
+        for name, value in (("channel", str(wiring.channel)), ("breath", wiring.breath), ("bite", wiring.bite)):
+            self._settings.set_midi_device(self._state.port, name, value)
+        self._state.changed.emit()
+
+    def set_latency(self, latency_s: float) -> None:
+        """Say how late events of the device come."""
+        self._settings.set_midi_device(self._state.port, "latency_s", repr(float(latency_s)))
+        self._know(self._state.port)
+
+    def wiring(self) -> Wiring:
+        """With what the device sends breath and bite: as was said, else as its kind does."""
+        controller = load_controllers()[self._state.controller]
+        said = {name: self._settings.midi_device(self._state.port, name) for name in ("channel", "breath", "bite")}
+        if not said["breath"]:
+            return Wiring(controller.channel, controller.breath[0], controller.bite)
+        return Wiring(int(said["channel"] or 0), said["breath"], said["bite"] or "none")  # type: ignore[arg-type]
+
+    def _know(self, port: str) -> None:
+        """What is remembered of a device."""
+        controllers = load_controllers()
+        controller = self._settings.midi_device(port, "controller")
+        if controller not in controllers:
+            controller = recognised_controller(port).name
+        try:
+            latency_s = float(self._settings.midi_device(port, "latency_s") or 0.0)
+        except ValueError:
+            latency_s = 0.0
+        self._state.set(controller=controller, latency_s=latency_s)
+
+    def send_to(self, output: str | None) -> None:
+        """Send to a port."""
+        self.begin()
+        assert self._link is not None
+        self._link.open_output(output)
+
+    # News
+
+    def poll(self) -> None:
+        """Take what the recorder tells."""
+        if self._link is None:
+            return
+        for told in self._link.poll():
+            self._take(told)
+
+    def _take(self, told: News) -> None:
+        state = self._state
+        match told:
+            case Ports():
+                gone = state.connection == "refused" and state.port not in told.inputs
+                state.set(ports=told.inputs, connection="waiting" if gone else state.connection)
+            case Opened() | Back():
+                state.set(connection="open")
+                if isinstance(told, Back):
+                    self._session.notice(Message("record.device_back", {"device": told.port}))
+            case Lost():
+                state.set(connection="lost")
+                state.set_played(0.0, None)
+                id = "record.device_lost_running" if state.running else "record.device_lost"
+                self._session.notice(Message(id, {"device": told.port}), Severity.WARNING)
+            case Refused():
+                if state.connection != "open":
+                    state.set(connection="refused")
+                self._session.notice(told.reason, Severity.ERROR)
+            case NotStarted():
+                self._session.notice(told.reason, Severity.ERROR)
+                self._running = None
+                self._ended()
+            case Restarted():
+                self._session.notice(told.reason, Severity.WARNING)
+            case Events():
+                self._hear(told)
+            case Written():
+                state.set(events=told.count)
+            case Finished():
+                self._finished(Path(told.path))
+
+    def _hear(self, events: Events) -> None:
+        wiring = self.wiring()
+        breath, pitch = self._state.breath, self._state.pitch
+        for message in events.messages:
+            if wiring.channel and (message[0] & 0x0F) + 1 != wiring.channel:
+                continue
+            kind = message[0] >> 4
+            if kind == 0x9 and message[2]:
+                pitch = message[1]
+            elif kind in (0x8, 0x9) and message[1] == pitch:
+                pitch = None
+            blown = breath_value(message, wiring.breath)
+            breath = breath if blown is None else blown / 127.0
+        self._state.set_played(breath, pitch)
+        self._state.heard.emit(events)
+
+    # A take
+
+    def toggle(self) -> None:
+        """Record, or end the take."""
+        if self._state.running:
+            self.stop()
+        else:
+            self.record()
+
+    def record(self) -> None:
+        """Count in and record the armed player from the playhead on, in the loop where there is one."""
+        session, state = self._session, self._state
+        player_id = self.recorded_player()
+        playback, sound = session.playback, sound_of(session)
+        if player_id is None:
+            session.notice(Message("record.no_player"), Severity.WARNING)
+            return
+        if playback is None or sound is None:
+            return
+        self.begin()
+        if state.connection != "open" or self._link is None:
+            session.notice(Message("record.no_device"), Severity.WARNING)
+            return
+        start_s = session.playhead_s
+        if session.loop_s is not None and not session.loop_s[0] <= start_s < session.loop_s[1]:
+            start_s = session.loop_s[0]
+        lead_s = self.count_in_from_s(start_s)
+        try:
+            path = journal_path(self._files.path, *self._files.recovery_stems)
+        except AppError as error:
+            session.notice(error.message, Severity.ERROR)
+            return
+        # After a crash the take is looked for beside the project: it must be there too.
+        self._files.write_soon()
+        header = Header(
+            project=str(self._files.path or ""),
+            player=player_id,
+            port=state.port,
+            controller=state.controller,
+            latency_s=state.latency_s,
+            started=datetime.now(UTC).isoformat(timespec="milliseconds"),
+        )
+        self._running = _Running(path, player_id, start_s, session.loop_s, self.wiring(), session.project)
+        self._link.start(path, header)
+        sound.set_recording((lead_s, start_s))
+        state.set(running=True, start_s=start_s, counted_from_s=lead_s, passes=1, events=0)
+        playback.play(lead_s)
+        self._sync_timer.start()
+
+    def recorded_player(self) -> str | None:
+        """Who is recorded: the armed player, else the one in front."""
+        ids = {player.id for player in self._session.project.players}
+        if self._state.armed in ids:
+            return self._state.armed
+        return self._session.player.id if self._session.player is not None else None
+
+    def count_in_from_s(self, start_s: float) -> float:
+        """Where counting in begins for a take from some moment: whole bars before the bar it lies in, so that the first
+        click is a bar's."""
+        if self._state.count_in_bars == 0:
+            return start_s
+        score = self._session.project.score
+        bar = score.bar_of_tick(round(score.tempo_map.ticks(start_s)))
+        first = score.tick_of_bar(bar)
+        length = score.tick_of_bar(bar + 1) - first
+        return score.tempo_map.seconds(float(first - self._state.count_in_bars * length))
+
+    def stop(self) -> None:
+        """End the take; the performance stops."""
+        if self._session.playback is not None and self._session.playback.is_playing:
+            # Told of it, `_playing_changed` ends the take.
+            self._session.playback.stop()
+        else:
+            self._end_take()
+
+    def _playing_changed(self, playing: bool) -> None:
+        if not playing and self._running is not None:
+            self._end_take()
+
+    def _sync(self) -> None:
+        running, playback = self._running, self._session.playback
+        if running is None or playback is None or self._link is None or not playback.is_playing:
+            return
+        ns, position_s = self._now_ns(), playback.position_s()
+        if running.first_s is None:
+            running.first_s = running.last_s = position_s
+            return
+        # The device plays nothing for a while at first: nothing is heard then.
+        if running.passes == 1 and abs(position_s - running.first_s) < _STILL_S:
+            return
+        speed = self._session.listening.speed
+        expected_s = running.last_s + speed * (ns - running.last_ns) / 1e9
+        if running.last_ns and abs(position_s - expected_s) > _JUMP_S:
+            self._turn(running, ns, position_s, speed)
+        self._link.sync(ns, position_s, running.passes - 1)
+        running.last_ns, running.last_s = ns, position_s
+
+    def _turn(self, running: _Running, ns: int, position_s: float, speed: float) -> None:
+        """The loop has returned, or somebody went elsewhere: a new pass begins."""
+        assert self._link is not None
+        if running.loop_s is not None and position_s < running.last_s:
+            begin_s, end_s = running.loop_s
+            turn_ns = max(ns - round((position_s - begin_s) / speed * 1e9), running.last_ns)
+            self._link.sync(turn_ns, end_s, running.passes - 1)
+            self._link.sync(turn_ns, begin_s, running.passes)
+        running.passes += 1
+        self._state.set(passes=running.passes)
+
+    def _end_take(self) -> None:
+        running, self._running = self._running, None
+        if running is not None and self._link is not None:
+            if not running.last_ns and self._session.playback is not None:
+                # It was over before anybody asked where it was: the take must be somewhere.
+                self._link.sync(self._now_ns(), self._session.playback.position_s(), 0)
+            self._adopting[str(running.path)] = running
+            self._link.stop()
+        self._ended()
+
+    def _ended(self) -> None:
+        self._sync_timer.stop()
+        self._state.set(running=False)
+        sound = sound_of(self._session)
+        if sound is not None:
+            sound.set_recording(None)
+
+    # What becomes of it
+
+    def _finished(self, path: Path) -> None:
+        running = self._adopting.pop(str(path), None)
+        if running is None:
+            return
+        try:
+            journal = read_journal(path)
+        except AppError as error:
+            self._session.notice(error.message, Severity.ERROR)
+            return
+        takes = takes_of(
+            journal,
+            running.project.score.tempo_map,
+            running.wiring,
+            QCoreApplication.translate("Recorder", "Take {number}"),
+            running.start_s,
+        )
+        if not takes:
+            path.unlink(missing_ok=True)
+            self._session.notice(Message("record.nothing_played"), Severity.WARNING)
+            return
+        self._adopt(path, running.player_id, takes, self._state.punch_ticks if self._state.punch else None)
+
+    def _adopt(
+        self, path: Path, player_id: str, takes: tuple[Take, ...], punch: tuple[int, int] | None, brought: bool = True
+    ) -> None:
+        """Takes into the project, the last one into the part."""
+        if player_id not in {player.id for player in self._session.project.players}:
+            self._session.notice(Message("record.player_gone", {"file": str(path)}), Severity.ERROR)
+            return
+
+        def recorded(project: Project) -> Project:
+            project, ids = add_takes(project, player_id, takes)
+            if not brought:
+                return project
+            chosen = _whole(takes)
+            start_tick, end_tick = round(takes[chosen].start_tick), round(takes[chosen].end_tick) + 1
+            if punch is not None:
+                start_tick, end_tick = max(start_tick, punch[0]), min(end_tick, punch[1])
+            return comp(project, player_id, ids[chosen], start_tick, end_tick)
+
+        if self._session.attempt(Message("edit.record", {"count": len(takes)}), recorded):
+            self._adopted[path] = takes[0]
+            # What was played is in a file within a second, not in half a minute.
+            self._files.write_soon()
+
+    def _files_changed(self) -> None:
+        """Journals whose takes are in a file are not needed any more."""
+        if not self._adopted or self._files.unwritten:
+            return
+        document = self._session.document
+        known = {take.recorded for recorded in document.project.takes.values() for take in recorded.takes}
+        # Where another project was opened meanwhile the takes are in no file: their journal waits for theirs.
+        is_this = bool(document.done or document.undone)
+        for path, take in self._adopted.items():
+            if take.recorded in known or is_this:
+                path.unlink(missing_ok=True)
+        self._adopted.clear()
+
+    def _project_opened(self) -> None:
+        """Takes that a crash tore off are brought in, beside the others; nothing else changes."""
+        if self._state.running:
+            self.stop()
+        self._state.set(armed="", punch=False, punch_ticks=None)
+        if self._files.is_open:
+            for path in journals_of(self._files.path, *self._files.recovery_stems):
+                try:
+                    self._recover(path, read_journal(path))
+                except AppError as error:
+                    self._session.notice(error.message, Severity.WARNING)
+
+    def _recover(self, path: Path, journal: Journal) -> None:
+        project = self._session.project
+        known = {take.recorded for recorded in project.takes.values() for take in recorded.takes}
+        controller = load_controllers().get(journal.header.controller) or recognised_controller(journal.header.port)
+        wiring = Wiring(controller.channel, controller.breath[0], controller.bite)
+        name = QCoreApplication.translate("Recorder", "Recovered take {number}")
+        takes = takes_of(journal, project.score.tempo_map, wiring, name)
+        if not takes or journal.header.started in known:
+            path.unlink(missing_ok=True)
+            return
+        self._adopt(path, journal.header.player, takes, None, brought=False)
+        self._session.notice(Message("record.recovered", {"count": len(takes)}))
+
+    def close(self) -> None:
+        """The editor ends: a running take is finished on the disk."""
+        self._sync_timer.stop()
+        if self._link is not None:
+            link, self._link = self._link, None
+            link.stop()
+            link.close()
+
+
+def _whole(takes: tuple[Take, ...]) -> int:
+    """The take that the part is given: the last one that was played to the end of the loop, else the last."""
+    longest_us = max(take.end_us - take.start_us for take in takes)
+    whole = [index for index, take in enumerate(takes) if take.end_us - take.start_us > 0.9 * longest_us]
+    return whole[-1]
+
+
+def recorder_of(session: Session) -> Recorder | None:
+    """The recorder of a session; None where nothing is recorded."""
+    return session.findChild(Recorder, "recorder", Qt.FindChildOption.FindDirectChildrenOnly)

@@ -1,0 +1,307 @@
+"""Recording, driven by the keys, with a recorder that a test speaks for."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication, QLabel
+from pytestqt.qtbot import QtBot
+
+from app.audio.playback import Playback
+from app.capture.journal import Header, JournalWriter
+from app.capture.link import RecorderLink
+from app.capture.protocol import Back, Events, Finished, Lost, News, Opened, Ports, Written
+from app.project.autosave import Autosave
+from app.project.presence import Presence
+from app.shell.app import Program
+from app.shell.files import Files
+from app.shell.recording import Recorder, recorder_of
+from app.shell.settings import Settings
+from app.shell.sound import sound_of
+from tests.gui.shell.conftest import Answers
+from tests.support.tasks import ImmediateTasks
+from widgets.common.session import Session
+
+EWI = "EWI5000 MIDI 1"
+
+
+class Clock:
+    """Time that passes when the test waits."""
+
+    def __init__(self) -> None:
+        self.ns = 10**12
+
+    def now_ns(self) -> int:
+        return self.ns
+
+    def now_s(self) -> float:
+        return self.ns / 1e9
+
+
+class SpokenFor(RecorderLink):
+    """A link without a process: the test says what the recorder tells; journals are real."""
+
+    def __init__(self, on_news: Callable[[], None], clock: Clock) -> None:
+        self.on_news, self.clock = on_news, clock
+        self.told: list[News] = [Ports((EWI,), (), "test")]
+        self.wanted: list[str | None] = []
+        self.writer: JournalWriter | None = None
+        self.syncs: list[tuple[int, float, int]] = []
+        self.closed = False
+
+    def open(self, port: str | None) -> None:
+        self.wanted.append(port)
+        if port == EWI:
+            self.say(Opened(EWI, 0))
+
+    def start(self, path: object, header: Header) -> None:
+        self.writer = JournalWriter(str(path), header)
+
+    def sync(self, ns: int, position_s: float, pass_: int = 0) -> None:
+        self.syncs.append((ns, position_s, pass_))
+        if self.writer is not None:
+            self.writer.sync(ns, position_s, pass_)
+
+    def stop(self) -> None:
+        writer, self.writer = self.writer, None
+        if writer is not None:
+            writer.mark("end", self.clock.ns)
+            writer.close()
+            self.say(Finished(writer.path, writer.count))
+
+    def play(self, message: bytes) -> None:
+        ns = self.clock.ns
+        if self.writer is not None:
+            self.writer.event(ns, message)
+        self.say(Events((ns,), (message,)))
+
+    def say(self, *told: News) -> None:
+        self.told += told
+        self.on_news()
+
+    def poll(self) -> list[News]:
+        told, self.told = self.told, []
+        return told
+
+    def close(self) -> None:
+        self.closed = True
+
+
+class Studio:
+    def __init__(self, program: Program, folder: Path, clock: Clock) -> None:
+        self.program, self.folder, self.clock = program, folder, clock
+        self.session = program.session
+        self.links: list[SpokenFor] = []
+
+    @property
+    def link(self) -> SpokenFor:
+        return self.links[-1]
+
+    def wait(self, until: Callable[[], bool], most_s: float = 60.0) -> None:
+        end = time.monotonic() + most_s
+        while not until():
+            assert time.monotonic() < end
+            QApplication.processEvents()
+            time.sleep(0.001)
+            self.clock.ns += 10_000_000
+
+    def press(self, key: Qt.Key) -> None:
+        window = self.program.window
+        window.activateWindow()
+        assert QTest.qWaitForWindowActive(window, 10_000)
+        QTest.keyClick(window.palette_field, key, Qt.KeyboardModifier.ControlModifier)
+
+    def blow(self, pitch: int, at_s: float, length_s: float = 0.1) -> None:
+        """Play a note when the performance is there."""
+        self.wait(lambda: self.session.playhead_s >= at_s)
+        self.link.play(bytes((0xB0, 2, 100)))
+        self.link.play(bytes((0x90, pitch, 90)))
+        self.wait(lambda: self.session.playhead_s >= at_s + length_s or not self.session.playing)
+        self.link.play(bytes((0x80, pitch, 0)))
+        self.link.play(bytes((0xB0, 2, 0)))
+
+
+@pytest.fixture
+def studio(
+    qtbot: QtBot, qt_app: QApplication, settings: Settings, answers: Answers, tmp_path: Path
+) -> Iterator[Studio]:
+    """The editor on an empty piece with a trumpet, beside a wind controller."""
+    made: list[SpokenFor] = []
+    clock = Clock()
+
+    def make_link(on_news: Callable[[], None]) -> SpokenFor:
+        made.append(SpokenFor(on_news, clock))
+        return made[-1]
+
+    def recorder(session: Session, files: Files) -> Recorder:
+        return Recorder(session, files, settings, make_link, clock.now_ns)
+
+    settings.midi_port = EWI
+    settings.count_in_bars = 0
+    program = Program(
+        settings,
+        ImmediateTasks(),
+        answers,
+        Autosave(Presence(tmp_path / "recovery")),
+        heard=False,
+        playback=Playback(now=clock.now_s),
+        recorder=recorder,
+    )
+    sound = sound_of(program.session)
+    assert sound is not None
+    program.session.playback = sound.playback
+    answers.answer = "discard"
+    program.window.show()
+    result = Studio(program, tmp_path, clock)
+    result.links = made
+    program.editor.files.begin()
+    program.session.actions["players.add"].trigger()
+    program.recorder.begin_where_remembered()
+    result.wait(lambda: program.session.recording.connection == "open")
+    yield result
+    program.window.hide()
+    program.end()
+    program.generator.deleteLater()
+    program.editor.files.end()
+    program.window.deleteLater()
+    program.session.deleteLater()
+
+
+def take_text(studio: Studio) -> QLabel:
+    label = studio.program.window.findChild(QLabel, "take_text")
+    assert isinstance(label, QLabel)
+    return label
+
+
+def notes(studio: Studio):  # type: ignore[no-untyped-def]
+    project = studio.session.project
+    return project.part(project.players[0]).notes
+
+
+def test_what_is_played_becomes_a_take_and_the_part(studio: Studio) -> None:
+    studio.press(Qt.Key.Key_R)
+    assert studio.session.recording.running
+    studio.blow(60, 0.3)
+    studio.blow(62, 0.6)
+    studio.wait(lambda: studio.session.recording.breath == 0.0)
+    studio.press(Qt.Key.Key_R)
+    studio.wait(lambda: bool(studio.session.project.takes))
+    assert not studio.session.recording.running
+    assert [note.pitch for note in notes(studio)] == [60, 62]
+    seconds = [studio.session.project.score.tempo_map.seconds(note.onset_tick) for note in notes(studio)]
+    # Where it was heard, but for how long a test takes to notice.
+    assert seconds == pytest.approx([0.3, 0.6], abs=0.15)
+    assert len(studio.session.document.done) == 2
+    studio.session.document.undo()
+    assert not studio.session.project.takes
+    assert not notes(studio)
+
+
+def test_a_take_is_counted_in(studio: Studio) -> None:
+    studio.session.actions["record.count_in_1"].trigger()
+    studio.session.recording.set(count_in_bars=1)
+    studio.press(Qt.Key.Key_R)
+    assert studio.session.recording.counted_from_s == -2.0
+    studio.wait(lambda: studio.session.playhead_s > -1.9)
+    assert take_text(studio).text() == "−4"
+    studio.press(Qt.Key.Key_R)
+    assert take_text(studio).text() == ""
+
+
+def test_each_pass_of_a_loop_is_a_take(studio: Studio) -> None:
+    studio.session.set_loop((0.0, 0.8))
+    studio.press(Qt.Key.Key_R)
+    studio.blow(60, 0.3)
+    studio.wait(lambda: studio.session.recording.passes == 2)
+    studio.blow(64, 0.3)
+    studio.wait(lambda: studio.session.recording.passes == 3)
+    studio.press(Qt.Key.Key_R)
+    studio.wait(lambda: bool(studio.session.project.takes))
+    takes = studio.session.project.takes[studio.session.project.players[0].id].takes
+    assert [take.played.pitches.tolist() for take in takes] == [[60], [64]]
+    assert all(0.2 < take.played.onsets_s[0] < 0.5 for take in takes)
+    assert [note.pitch for note in notes(studio)] == [64]
+
+
+def test_only_the_punch_range_is_taken_into_the_part(studio: Studio) -> None:
+    studio.session.recording.set(punch=True, punch_ticks=(480, 960))
+    studio.press(Qt.Key.Key_R)
+    for pitch, at_s in ((60, 0.2), (61, 0.6), (62, 1.2)):
+        studio.blow(pitch, at_s)
+    studio.press(Qt.Key.Key_R)
+    studio.wait(lambda: bool(studio.session.project.takes))
+    assert [note.pitch for note in notes(studio)] == [61]
+    take = studio.session.project.takes[studio.session.project.players[0].id].takes[0]
+    assert len(take.played) == 3
+
+
+def test_stopping_the_transport_ends_the_take(studio: Studio) -> None:
+    studio.press(Qt.Key.Key_R)
+    studio.blow(60, 0.2)
+    studio.session.actions["play.stop"].trigger()
+    studio.wait(lambda: bool(studio.session.project.takes))
+
+
+def test_nothing_played_is_no_take_and_leaves_no_file(studio: Studio) -> None:
+    studio.press(Qt.Key.Key_R)
+    studio.wait(lambda: studio.session.playhead_s > 0.2)
+    studio.press(Qt.Key.Key_R)
+    studio.wait(lambda: not list(studio.folder.rglob("*.take-journal")))
+    assert not studio.session.project.takes
+
+
+def test_an_unplugged_device_leaves_what_was_played(studio: Studio) -> None:
+    studio.press(Qt.Key.Key_R)
+    studio.blow(60, 0.2)
+    studio.link.say(Lost(EWI, studio.clock.ns))
+    studio.wait(lambda: studio.session.recording.connection == "lost")
+    assert studio.session.recording.running
+    studio.link.say(Back(EWI, studio.clock.ns))
+    studio.wait(lambda: studio.session.recording.connection == "open")
+    studio.press(Qt.Key.Key_R)
+    studio.wait(lambda: bool(studio.session.project.takes))
+
+
+def test_a_take_that_a_crash_tore_off_is_brought_in_when_its_project_is_opened(studio: Studio) -> None:
+    path = studio.folder / "piece.suisou"
+    studio.program.editor.questions.path = path  # type: ignore[attr-defined]
+    studio.program.editor.files.save_as()
+    player = studio.session.project.players[0].id
+    header = Header(str(path), player, EWI, "ewi_5000", 0.0, "2026-11-21T10:00:00.000+00:00")
+    journal = path.with_name(f"{path.name}.1.take-journal")
+    writer = JournalWriter(str(journal), header)
+    writer.sync(10**9, 0.0, 0)
+    writer.event(15 * 10**8, bytes((0x90, 64, 90)))
+    writer.event(17 * 10**8, bytes((0x80, 64, 0)))
+    writer.sync(2 * 10**9, 1.0, 0)
+    writer.close()
+    studio.program.editor.files.open(path)
+    takes = studio.session.project.takes[player].takes
+    assert [take.played.onsets_s.tolist() for take in takes] == [[0.5]]
+    assert not notes(studio)
+    # It is in the file of unsaved work by now.
+    assert not journal.exists()
+    studio.program.editor.files.save()
+    studio.program.editor.files.open(path)
+    assert len(studio.session.project.takes[player].takes) == 1
+
+
+def test_without_a_device_it_is_said(studio: Studio) -> None:
+    recorder = recorder_of(studio.session)
+    assert recorder is not None
+    recorder.choose("")
+    said: list[str] = []
+    studio.session.noticed.connect(lambda message, severity: said.append(message.id))
+    studio.press(Qt.Key.Key_R)
+    assert said == ["record.no_device"]
+    assert not studio.session.recording.running
+
+
+def test_events_on_the_disk_are_counted(studio: Studio) -> None:
+    studio.link.say(Written(7))
+    studio.wait(lambda: studio.session.recording.events == 7)

@@ -1,0 +1,94 @@
+"""Who is recorded, from what, and how it stands: state of the editor that the transport, the panels and the recorder
+share."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from PySide6.QtCore import QObject, Signal
+
+Connection = Literal["none", "waiting", "open", "lost", "refused"]
+"""Of the chosen device: none is chosen; it is not there (yet); it is listened to; it has gone; it cannot be had."""
+
+
+class Recording(QObject):
+    """How recording stands.
+
+    Attributes
+    ----------
+    ports : tuple of str
+        Devices that are there.
+    port : str
+        The chosen one, there or not; empty: none.
+    connection : Connection
+    controller : str
+        Id of the preset in ``metadata/controllers``.
+    armed : str
+        Id of the player who is recorded; empty: the one in front.
+    running : bool
+        A take is being recorded, or counted in.
+    start_s, counted_from_s : float
+        Where the take begins, and where counting in did; seconds of the performance, while `running`.
+    passes : int
+        Of the loop, while `running`; from 1.
+    events : int
+        That are safe on the disk, of the running take.
+    count_in_bars : int
+        0..4.
+    punch : bool
+        The part only takes what lies in the punch range.
+    punch_ticks : (int, int) or None
+        That range, half-open.
+    breath : float
+        What is blown now, 0..1.
+    pitch : int or None
+        The note that is played now; concert pitch.
+    latency_s : float
+        Of the device, taken off every event.
+
+    Signals
+    -------
+    changed()
+        One of these is another, `breath` and `pitch` excepted.
+    played()
+        `breath` or `pitch` is another.
+    heard(object)
+        An `app.capture.protocol.Events` came in; for the monitor and the live pose.
+    """
+
+    changed = Signal()
+    played = Signal()
+    heard = Signal(object)
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.ports: tuple[str, ...] = ()
+        self.port = ""
+        self.connection: Connection = "none"
+        self.controller = ""
+        self.armed = ""
+        self.running = False
+        self.start_s = 0.0
+        self.counted_from_s = 0.0
+        self.passes = 0
+        self.events = 0
+        self.count_in_bars = 1
+        self.punch = False
+        self.punch_ticks: tuple[int, int] | None = None
+        self.breath = 0.0
+        self.pitch: int | None = None
+        self.latency_s = 0.0
+
+    def set(self, **values: object) -> None:
+        """Change some attributes; `changed` once if any is another."""
+        different = [name for name, value in values.items() if getattr(self, name) != value]
+        for name in different:
+            setattr(self, name, values[name])
+        if different:
+            self.changed.emit()
+
+    def set_played(self, breath: float, pitch: int | None) -> None:
+        """What is played now."""
+        if (breath, pitch) != (self.breath, self.pitch):
+            self.breath, self.pitch = breath, pitch
+            self.played.emit()

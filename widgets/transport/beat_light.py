@@ -1,0 +1,63 @@
+"""A light that flashes with the metronome, for whoever plays along and must not hear it."""
+
+from __future__ import annotations
+
+from math import floor
+
+from PySide6.QtCore import QSize
+from PySide6.QtGui import QColor, QPainter, QPaintEvent
+from PySide6.QtWidgets import QSizePolicy, QWidget
+
+from widgets.common.session import Session
+
+FLASH_S = 0.11
+"""How long it shines."""
+_BAR, _BEAT, _OFF = "bar", "beat", "off"
+
+
+class BeatLight(QWidget):
+    """Shines on every felt beat while it plays and the metronome is on, or a take is recorded; brighter on a bar's."""
+
+    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setObjectName("beat_light")
+        self.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
+        self._session = session
+        self.state = _OFF
+        session.playing_changed.connect(lambda: self.show_time(session.playhead_s))
+        session.theme_changed.connect(self.update)
+
+    def show_time(self, playhead_s: float) -> None:
+        """The performance is here now."""
+        state = self._at(playhead_s)
+        if state != self.state:
+            self.state = state
+            self.update()
+
+    def _at(self, playhead_s: float) -> str:
+        session = self._session
+        if not session.playing or not (session.listening.click or session.recording.running):
+            return _OFF
+        project = session.project
+        score, felt = project.score, project.felt_beat_ticks
+        tick = score.tempo_map.ticks(playhead_s)
+        first = score.tick_of_bar(score.bar_of_tick(floor(tick)))
+        beat = floor((tick - first) / felt + 1e-6)
+        since_s = playhead_s - score.tempo_map.seconds(float(first + beat * felt))
+        if since_s > FLASH_S * session.listening.speed:
+            return _OFF
+        return _BEAT if beat else _BAR
+
+    # Qt's own names
+
+    def sizeHint(self) -> QSize:
+        return QSize(16, 16)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        tokens = self._session.tokens
+        colour = {_BAR: tokens.accent, _BEAT: tokens.text, _OFF: tokens.sunken}[self.state]
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.setPen(QColor(tokens.line_strong))
+        painter.setBrush(QColor(colour))
+        painter.drawEllipse(self.rect().adjusted(3, 3, -3, -3))
