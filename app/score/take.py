@@ -23,7 +23,8 @@ from metadata.model import BiteSource, BreathSource
 Floats: TypeAlias = npt.NDArray[np.float64]
 Ints: TypeAlias = npt.NDArray[np.int64]
 
-_ALL_SOUND_OFF, _ALL_NOTES_OFF = 120, 123
+SILENCING: Final = (120, 123)
+"""Controllers that end all notes: all sound off, all notes off."""
 _BEND_RANGE = 8192
 
 
@@ -183,7 +184,7 @@ def played(take: Take) -> Played:
     sent: dict[CurveKind, tuple[list[float], list[float]]] = {}
     for time_us, raw in zip(take.times_us, take.messages, strict=True):
         message = decoded(raw)
-        if message is None or (take.wiring.channel and message.channel + 1 != take.wiring.channel):
+        if message is None or not is_wired(message, take.wiring):
             continue
         time_s = time_us / 1e6
         kind = message.type
@@ -193,10 +194,10 @@ def played(take: Take) -> Played:
                 notes.append((onset_s, time_s, message.note, velocity))
             if kind == "note_on" and message.velocity:
                 sounding[message.note] = (time_s, message.velocity)
-        elif kind == "control_change" and message.control in (_ALL_SOUND_OFF, _ALL_NOTES_OFF):
+        elif kind == "control_change" and message.control in SILENCING:
             notes += [(onset_s, time_s, pitch, velocity) for pitch, (onset_s, velocity) in sounding.items()]
             sounding.clear()
-        for curve, value in _values(message, take.wiring):
+        for curve, value in said(message, take.wiring):
             times, values = sent.setdefault(curve, ([], []))
             if times and times[-1] == time_s:
                 values[-1] = value
@@ -214,6 +215,11 @@ def played(take: Take) -> Played:
         columns[:, 3].astype(np.int64),
         {kind: Controlled(np.array(times), np.array(values)) for kind, (times, values) in sent.items()},
     )
+
+
+def is_wired(message: mido.Message, wiring: Wiring) -> bool:
+    """Whether a message comes on the wired channel."""
+    return not wiring.channel or bool(message.channel + 1 == wiring.channel)
 
 
 @cache
@@ -235,8 +241,8 @@ def is_message(raw: str) -> bool:
     return True
 
 
-def _values(message: mido.Message, wiring: Wiring) -> Iterator[tuple[CurveKind, float]]:
-    """What a message says, by the kinds of curves."""
+def said(message: mido.Message, wiring: Wiring) -> Iterator[tuple[CurveKind, float]]:
+    """What a message says of breath, bite and bend, as values of a part's curves."""
     source, value = _source(message)
     if source == wiring.bite:
         yield "bite", abs(value)

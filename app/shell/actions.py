@@ -41,7 +41,7 @@ MENUS: Final = {
     "Edit": QT_TRANSLATE_NOOP("Menu", "&Edit"),
     "View": QT_TRANSLATE_NOOP("Menu", "&View"),
     "Play": QT_TRANSLATE_NOOP("Menu", "&Play"),
-    "Record": QT_TRANSLATE_NOOP("Menu", "&Record"),
+    "Record": QT_TRANSLATE_NOOP("Menu", "Re&cord"),
     "Counting": QT_TRANSLATE_NOOP("Menu", "Count-in"),
     "Generate": QT_TRANSLATE_NOOP("Menu", "&Generate"),
     "Export": QT_TRANSLATE_NOOP("Menu", "E&xport"),

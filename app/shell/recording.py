@@ -18,7 +18,6 @@ from PySide6.QtCore import QCoreApplication, QObject, Qt, QTimer
 
 from app.capture.adopt import takes_of
 from app.capture.journal import Header, Journal, read_journal
-from app.capture.learn import breath_value
 from app.capture.link import RecorderLink
 from app.capture.protocol import (
     Back,
@@ -37,9 +36,10 @@ from app.errors import AppError, Message
 from app.project.edit.takes import add_takes, comp
 from app.project.journals import journal_path, journals_of
 from app.project.model import Project
-from app.score.take import Take, Wiring
+from app.score.take import Take, Wiring, decoded, is_wired, said
 from app.shell.calls import window_calls
 from app.shell.files import Files
+from app.shell.live_player import LivePlayer
 from app.shell.settings import Settings
 from app.shell.sound import sound_of
 from metadata.load import load_controllers, recognised_controller
@@ -102,6 +102,7 @@ class Recorder(QObject):
         self._make_link: MakeLink = make_link if make_link is not None else RecorderLink
         self._now_ns = now_ns
         self._link: RecorderLink | None = None
+        self._live = LivePlayer(session, self.recorded_player, self)
         self._running: _Running | None = None
         self._adopting: dict[str, _Running] = {}
         self._adopted: dict[Path, Take] = {}
@@ -213,6 +214,7 @@ class Recorder(QObject):
             case Lost():
                 state.set(connection="lost")
                 state.set_played(0.0, None)
+                self._live.rest()
                 id = "record.device_lost_running" if state.running else "record.device_lost"
                 self._session.notice(Message(id, {"device": told.port}), Severity.WARNING)
             case Refused():
@@ -235,16 +237,16 @@ class Recorder(QObject):
     def _hear(self, events: Events) -> None:
         wiring = self.wiring()
         breath, pitch = self._state.breath, self._state.pitch
-        for message in events.messages:
-            if wiring.channel and (message[0] & 0x0F) + 1 != wiring.channel:
+        for ns, raw in zip(events.times_ns, events.messages, strict=True):
+            message = decoded(raw.hex())
+            if message is None or not is_wired(message, wiring):
                 continue
-            kind = message[0] >> 4
-            if kind == 0x9 and message[2]:
-                pitch = message[1]
-            elif kind in (0x8, 0x9) and message[1] == pitch:
+            if message.type == "note_on" and message.velocity:
+                pitch = message.note
+            elif message.type in ("note_on", "note_off") and message.note == pitch:
                 pitch = None
-            blown = breath_value(message, wiring.breath)
-            breath = breath if blown is None else blown / 127.0
+            breath = next((value for kind, value in said(message, wiring) if kind == "breath"), breath)
+            self._live.tell(ns / 1e9, message, wiring)
         self._state.set_played(breath, pitch)
         self._state.heard.emit(events)
 

@@ -14,8 +14,7 @@ from pytestqt.qtbot import QtBot
 
 from app.audio.playback import Playback
 from app.capture.journal import Header, JournalWriter
-from app.capture.link import RecorderLink
-from app.capture.protocol import Back, Events, Finished, Lost, News, Opened, Ports, Written
+from app.capture.protocol import Back, Lost, Written
 from app.project.autosave import Autosave
 from app.project.presence import Presence
 from app.shell.app import Program
@@ -24,72 +23,9 @@ from app.shell.recording import Recorder, recorder_of
 from app.shell.settings import Settings
 from app.shell.sound import sound_of
 from tests.gui.shell.conftest import Answers
+from tests.support.recorder import EWI, Clock, SpokenFor
 from tests.support.tasks import ImmediateTasks
 from widgets.common.session import Session
-
-EWI = "EWI5000 MIDI 1"
-
-
-class Clock:
-    """Time that passes when the test waits."""
-
-    def __init__(self) -> None:
-        self.ns = 10**12
-
-    def now_ns(self) -> int:
-        return self.ns
-
-    def now_s(self) -> float:
-        return self.ns / 1e9
-
-
-class SpokenFor(RecorderLink):
-    """A link without a process: the test says what the recorder tells; journals are real."""
-
-    def __init__(self, on_news: Callable[[], None], clock: Clock) -> None:
-        self.on_news, self.clock = on_news, clock
-        self.told: list[News] = [Ports((EWI,), (), "test")]
-        self.wanted: list[str | None] = []
-        self.writer: JournalWriter | None = None
-        self.syncs: list[tuple[int, float, int]] = []
-        self.closed = False
-
-    def open(self, port: str | None) -> None:
-        self.wanted.append(port)
-        if port == EWI:
-            self.say(Opened(EWI, 0))
-
-    def start(self, path: object, header: Header) -> None:
-        self.writer = JournalWriter(str(path), header)
-
-    def sync(self, ns: int, position_s: float, pass_: int = 0) -> None:
-        self.syncs.append((ns, position_s, pass_))
-        if self.writer is not None:
-            self.writer.sync(ns, position_s, pass_)
-
-    def stop(self) -> None:
-        writer, self.writer = self.writer, None
-        if writer is not None:
-            writer.mark("end", self.clock.ns)
-            writer.close()
-            self.say(Finished(writer.path, writer.count))
-
-    def play(self, message: bytes) -> None:
-        ns = self.clock.ns
-        if self.writer is not None:
-            self.writer.event(ns, message)
-        self.say(Events((ns,), (message,)))
-
-    def say(self, *told: News) -> None:
-        self.told += told
-        self.on_news()
-
-    def poll(self) -> list[News]:
-        told, self.told = self.told, []
-        return told
-
-    def close(self) -> None:
-        self.closed = True
 
 
 class Studio:

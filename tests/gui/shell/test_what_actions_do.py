@@ -30,11 +30,13 @@ from app.score.model import Note
 from app.score.read import read_midi
 from app.shell.actions import rows
 from app.shell.app import Program
+from app.shell.recording import Recorder
 from app.shell.settings import Settings
 from app.shell.sound import sound_of
 from instrument_maps.load import bundled_maps
 from tests.gui.conftest import QUARTET, delete_now
 from tests.gui.shell.conftest import Answers
+from tests.support.recorder import EWI, RunningClock, SpokenFor
 from tests.support.tasks import ImmediateTasks
 from widgets.common.selection import EventKey, Selection
 from widgets.common.tokens import DARK
@@ -633,10 +635,23 @@ CASES: dict[str, Case] = {
     "application.instruments": Case(lambda d: d.dialog("instruments")),
     "application.preferences": Case(lambda d: d.dialog("preferences")),
     "application.shortcuts": Case(lambda d: d.dialog("preferences")),
+    "record.toggle": Case(lambda d: d.session.recording.running and d.session.playing),
+    "record.arm": Case(lambda d: d.session.recording.armed == d.project.players[0].id),
+    "record.punch": Case(lambda d: d.session.recording.punch and d.session.recording.punch_ticks == span_of_chosen(d)),
+    "record.count_in_0": Case(lambda d: d.session.recording.count_in_bars == 0),
+    "record.count_in_1": Case(
+        lambda d: d.session.recording.count_in_bars == 1, lambda d: d.session.recording.set(count_in_bars=0)
+    ),
+    "record.count_in_2": Case(lambda d: d.session.recording.count_in_bars == 2),
     "application.about": Case(lambda d: d.dialog("about")),
     # Last: it ends the editor.
     "file.quit": Case(lambda d: not d.program.window.isVisible()),
 }
+
+
+def span_of_chosen(desk: Desk) -> tuple[int, int]:
+    chosen = [note for note in desk.notes() if note.id in desk.session.selection.notes]
+    return min(note.onset_tick for note in chosen), max(note.end_tick for note in chosen)
 
 
 def louder(desk: Desk) -> None:
@@ -692,7 +707,18 @@ def quantise_asked(desk: Desk) -> bool:
 @pytest.fixture
 def desk(qtbot: QtBot, qt_app: QApplication, settings: Settings, answers: Answers, tmp_path: Path) -> Iterator[Desk]:
     """The whole editor, which plays without a sound."""
-    program = Program(settings, ImmediateTasks(), answers, Autosave(Presence(tmp_path / "recovery")), heard=False)
+    settings.midi_port = EWI
+    program = Program(
+        settings,
+        ImmediateTasks(),
+        answers,
+        Autosave(Presence(tmp_path / "recovery")),
+        heard=False,
+        recorder=lambda session, files: Recorder(
+            session, files, settings, lambda on_news: SpokenFor(on_news, RunningClock())
+        ),
+    )
+    program.recorder.begin_where_remembered()
     sound = sound_of(program.session)
     assert sound is not None
     # It plays in time, but no synthesiser works for it.

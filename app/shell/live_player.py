@@ -1,0 +1,98 @@
+"""Whoever is recorded plays along in the viewport while somebody plays the controller."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import Any, Final
+
+from PySide6.QtCore import QObject, QTimer
+
+from app.errors import AppError
+from app.performance.motion import playing_of
+from app.performance.play_along import PlayAlong
+from app.score.take import SILENCING, Wiring, said
+from widgets.common.session import Session
+
+REST_S: Final = 4.0
+"""So long after the last event the player is shown as the performance has them again."""
+
+
+class LivePlayer(QObject):
+    """Hands what is played to the pose of the player who is recorded.
+
+    Parameters
+    ----------
+    session : Session
+    chosen : callable
+        Id of that player; None: nobody.
+    parent : QObject
+    """
+
+    def __init__(self, session: Session, chosen: Callable[[], str | None], parent: QObject) -> None:
+        super().__init__(parent)
+        self._session, self._chosen = session, chosen
+        self._play_along: PlayAlong | None = None
+        self._of: tuple[object, ...] = ()
+        """What the one that plays along was made from."""
+        self._rest = QTimer(self, singleShot=True, interval=round(1000 * REST_S))
+        self._rest.timeout.connect(self.rest)
+
+    def tell(self, time_s: float, message: Any, wiring: Wiring) -> None:
+        """Something was played.
+
+        Parameters
+        ----------
+        time_s : float
+            Of `time.perf_counter`.
+        message : mido.Message
+            Of a channel.
+        wiring : Wiring
+        """
+        playing = self._ready()
+        if playing is None:
+            return
+        if message.type == "note_on" and message.velocity:
+            playing.note_on(time_s, message.note, message.velocity)
+        elif message.type in ("note_on", "note_off"):
+            playing.note_off(time_s, message.note)
+        elif message.type == "control_change" and message.control in SILENCING:
+            playing.all_off(time_s)
+        for kind, value in said(message, wiring):
+            if kind == "breath":
+                playing.breath(time_s, value)
+            elif kind == "bite":
+                playing.bite(time_s, value)
+            elif kind == "pitch_bend":
+                playing.bend(time_s, value)
+        self._rest.start()
+
+    def rest(self) -> None:
+        """Nobody plays any more."""
+        if self._play_along is None:
+            return
+        if self._session.recording.running:
+            self._play_along.all_off(time.perf_counter())
+            return
+        self._session.live_players.end(self._play_along.player_id)
+        self._play_along, self._of = None, ()
+
+    def _ready(self) -> PlayAlong | None:
+        """Whoever plays along; made anew where the player, the instrument or the body is another."""
+        player_id, performance = self._chosen(), self._session.performance
+        player = next((player for player in performance.project.players if player.id == player_id), None)
+        if player is None or player.id not in performance.plans:
+            return None
+        of = (player.id, player.instrument_id, player.character_id, player.parameters)
+        if of != self._of:
+            if self._play_along is not None:
+                self._session.live_players.end(self._play_along.player_id)
+            try:
+                self._play_along = PlayAlong(playing_of(performance, player))
+            except AppError:
+                # Who cannot be seen (the instrument is not there) is said where the performance is made.
+                self._play_along = None
+            else:
+                self._session.live_players.begin(self._play_along)
+            self._of = of
+        return self._play_along
