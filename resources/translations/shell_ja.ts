@@ -753,8 +753,8 @@
         <translation>再生(&amp;P)</translation>
     </message>
     <message>
-        <source>&amp;Record</source>
-        <translation>録音(&amp;R)</translation>
+        <source>Re&amp;cord</source>
+        <translation>録音(&amp;C)</translation>
     </message>
     <message>
         <source>Count-in</source>
