@@ -20,6 +20,7 @@ from app.plan.embouchure import strain_of, tension_of
 from app.plan.expression import puffed, strained
 from app.plan.line import MEZZOFORTE
 from app.plan.lungs import FULL_BREATH_S, air_rate, lungful_s
+from app.plan.traces import pressed_by
 from metadata.model import Expression
 
 FloatArray = npt.NDArray[np.float64]
@@ -38,10 +39,11 @@ LEAST_SPENT = 0.08
 """Nobody breathes in who has hardly breathed out."""
 RELAXES_S = 2.0
 """Full lungs are held for so long; then the body lets go."""
-TENSION_S, AIR_S, EFFORT_S, RAISES_S = 0.06, 0.10, 0.50, 1.6
-"""How quickly lips, cheeks, the strain and the bell follow what the sensors say; they settle in this time."""
-BITES, BENDS = 0.35, 0.20
-"""What a full bite, and a full bend, add to the tension of the lips."""
+TENSION_S, PRESSED_S, AIR_S, EFFORT_S, RAISES_S = 0.09, 0.05, 0.10, 0.50, 1.6
+"""How quickly the lips follow the notes, and bite and bend, cheeks the air, the face the strain, and the bell the
+loudness; they settle in this time."""
+USUAL_BITE_S = 8.0
+"""The bite counts by how far it is from what it usually is: that settles in this time."""
 TONGUE_UP_S, TONGUE_DOWN_S = 0.015, 0.06
 """The tongue's stroke: it is seen as it leaves the reed or the teeth."""
 BELL_RISES = 0.5
@@ -87,6 +89,7 @@ class LiveBreath:
         self._tension = Spring(float(tension_of(np.array([float(self._middle)]), self._instrument)[0]), TENSION_S)
         self._air, self._effort = Spring(0.0, AIR_S), Spring(0.0, EFFORT_S)
         self._bell = Spring(0.0, RAISES_S)
+        self._pressed, self._usual_bite = Spring(0.0, PRESSED_S), Spring(0.0, USUAL_BITE_S)
         self._shown = {
             name: Spring(0.0, expressions[name].fade_in_s) for name in ("strained", "puffed") if name in expressions
         }
@@ -194,8 +197,14 @@ class LiveBreath:
         pitch = np.array([self._middle if self._pitch is None else self._pitch])
         held_s = np.array([now_s - self._onset_s if self._sounding else 0.0])
         tension, effort = strain_of(tension_of(pitch, self._instrument), loud, held_s)
-        tight = float(tension[0]) + BITES * self._bite + BENDS * self._bend
-        self._tension.follow(min(max(tight * self._parameters.embouchure_tension, 0.0), 1.0), elapsed_s)
+        tight = float(tension[0]) * self._parameters.embouchure_tension
+        self._tension.follow(min(max(tight, 0.0), 1.0), elapsed_s)
+        if self._blown:
+            usual = self._usual_bite.follow(self._bite, elapsed_s)
+            pressed = float(pressed_by(np.array([self._bite - usual]), np.array([self._bend]))[0])
+        else:
+            pressed = 0.0
+        self._pressed.follow(pressed, elapsed_s)
         if not self._blown:
             effort = np.zeros(1)
         self._air.follow(float(loud[0]), elapsed_s)
@@ -219,7 +228,7 @@ class LiveBreath:
             expressions["neutral"] = np.ones(FRAMES)
         face = Drivers(
             at_lips=pair(self._at_lips.at(now_s)),
-            tension=pair(self._tension.value),
+            tension=pair(self._tension.value + self._pressed.value),
             effort=pair(self._effort.value),
             air=pair(self._air.value),
             tongue=pair(self._tongue.at(now_s)),

@@ -1,0 +1,187 @@
+"""Fingers brought back to their places: a few steps of inverse kinematics, of all fingers that need it at once.
+
+Each finger is brought by itself; they are solved together because a frame of one finger takes as long as a hundred.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from app.rig import quaternion
+from app.rig.hold import Chain
+
+FloatArray = npt.NDArray[np.float64]
+IntArray = npt.NDArray[np.intp]
+
+ROUNDS = 5
+DAMPING_M = 0.004
+STEP_M = 0.012
+"""A finger is brought back to its place in steps of at most this length, stiff where its joints hardly move it."""
+
+
+@dataclass(frozen=True)
+class Asked:
+    """A finger that is to be brought somewhere in some frames.
+
+    Attributes
+    ----------
+    chain : Chain
+    rotations : (K, n, 4) float64
+        As it is.
+    joint : int
+        The joint, of the finger's, whose point ...
+    tip_m : (3,) float64
+        ... in its frame ...
+    wanted_m : (K, 3) float64
+        ... comes here, in the wrist's frame.
+    """
+
+    chain: Chain
+    rotations: FloatArray
+    joint: int
+    tip_m: FloatArray
+    wanted_m: FloatArray
+
+
+@dataclass(frozen=True)
+class _Rows:
+    """Chains (R, ...), one for each row; angles that a finger has not are not ``used``."""
+
+    offsets_m: FloatArray
+    axes: FloatArray
+    joints: IntArray
+    kinds: IntArray
+    used: npt.NDArray[np.bool_]
+    low: FloatArray
+    high: FloatArray
+
+    @classmethod
+    def of(cls, chains: Sequence[Chain], counts: Sequence[int]) -> _Rows:
+        most = max(len(chain.dofs) for chain in chains)
+        dofs = np.zeros((len(chains), most, 2), np.intp)
+        used = np.zeros((len(chains), most), dtype=bool)
+        low, high = np.zeros(used.shape), np.zeros(used.shape)
+        for row, chain in enumerate(chains):
+            own = slice(0, len(chain.dofs))
+            dofs[row, own], used[row, own], low[row, own], high[row, own] = chain.dofs, True, chain.low, chain.high
+        each = np.repeat(np.arange(len(chains)), counts)
+        return cls(
+            offsets_m=np.array([chain.offsets_m for chain in chains])[each],
+            axes=np.array([chain.axes for chain in chains])[each],
+            joints=dofs[each, :, 0],
+            kinds=dofs[each, :, 1],
+            used=used[each],
+            low=low[each],
+            high=high[each],
+        )
+
+
+def brought(asked: Sequence[Asked]) -> list[FloatArray]:
+    """Rotations (K, n, 4) of each, with the point at its place, within the limits of the joints."""
+    result: list[FloatArray] = [one.rotations for one in asked]
+    lengths = [len(one.chain.offsets_m) for one in asked]
+    for length in dict.fromkeys(lengths):
+        places = [place for place, own in enumerate(lengths) if own == length]
+        together = [asked[place] for place in places]
+        counts = [len(one.wanted_m) for one in together]
+        solved = _brought(
+            _Rows.of([one.chain for one in together], counts),
+            np.concatenate([one.rotations for one in together]),
+            np.repeat([one.joint for one in together], counts),
+            np.repeat([one.tip_m for one in together], counts, axis=0),
+            np.concatenate([one.wanted_m for one in together]),
+        )
+        for place, own in zip(places, np.split(solved, np.cumsum(counts)[:-1]), strict=True):
+            result[place] = own
+    return result
+
+
+def _brought(
+    chains: _Rows, rotations: FloatArray, joint: IntArray, tip_m: FloatArray, wanted_m: FloatArray
+) -> FloatArray:
+    """A few damped Gauss-Newton steps (Wampler 1986) on the angles that a finger has."""
+    rows = np.arange(len(rotations))
+    each, joints, kinds = rows[:, None], chains.joints, chains.kinds
+    moves = (chains.used & (joints <= joint[:, None]))[..., None]
+    angles = _angles(chains, rotations)
+    now = angles[each, joints, kinds]
+    low, high = np.minimum(chains.low, now), np.maximum(chains.high, now)
+    above = np.empty_like(rotations)
+    above[:, 0] = quaternion.IDENTITY
+    turned = _turned(chains, angles)
+    for _ in range(ROUNDS):
+        places, bases = _forward(chains, turned)
+        tip = places[rows, joint] + quaternion.rotate(bases[rows, joint], tip_m)
+        off = wanted_m - tip
+        length = np.sqrt(np.einsum("ki,ki->k", off, off))[:, None]
+        off = off * np.minimum(1.0, STEP_M / np.maximum(length, 1e-9))
+        above[:, 1:] = bases[:, :-1]
+        axes = quaternion.rotate(above[each, joints], _axes(chains, angles)[each, joints, kinds])
+        slopes = quaternion.cross(axes, tip[:, None] - places[each, joints]) * moves
+        now = angles[each, joints, kinds]
+        step = _step(slopes, off)
+        # What would leave its range stands still, and the other joints make up for it.
+        for _ in range(2):
+            stuck = (now + step < low) | (now + step > high)
+            stand = np.where(stuck, np.minimum(np.maximum(now + step, low), high) - now, 0.0)
+            left = off - np.einsum("kdi,kd->ki", slopes, stand)
+            step = np.where(stuck, stand, _step(np.where(stuck[..., None], 0.0, slopes), left))
+        now = np.minimum(np.maximum(now + step, low), high)
+        for column in range(now.shape[1]):
+            own = chains.used[:, column]
+            angles[rows[own], joints[own, column], kinds[own, column]] = now[own, column]
+        turned = _turned(chains, angles)
+    return turned
+
+
+def _axes(chains: _Rows, angles: FloatArray) -> FloatArray:
+    """About which axis (R, n, 3, 3) each of its angles turns a joint, in the frame of the one above."""
+    axis = chains.axes
+    swing = angles[..., 0, None] * axis[:, :, 0] + angles[..., 1, None] * axis[:, :, 1]
+    angle = np.maximum(np.sqrt(np.einsum("kni,kni->kn", swing, swing)), 1e-9)[..., None, None]
+    # Flexion and sideways are one turn about a common axis: what either adds is turned by half of it, nearly.
+    once = quaternion.cross(swing[:, :, None], axis)
+    twice = quaternion.cross(swing[:, :, None], once)
+    result: FloatArray = axis + (1.0 - np.cos(angle)) / angle**2 * once + (angle - np.sin(angle)) / angle**3 * twice
+    result[:, :, 2] = quaternion.rotate(quaternion.from_rotation_vector(swing), axis[:, :, 2])
+    return result
+
+
+def _step(slopes: FloatArray, off_m: FloatArray) -> FloatArray:
+    """Damped least squares: the angles (R, D) that bring a point by ``off_m`` (R, 3)."""
+    normal = np.einsum("kdi,kdj->kij", slopes, slopes) + DAMPING_M**2 * np.eye(3)
+    step: FloatArray = np.einsum("kdi,ki->kd", slopes, np.linalg.solve(normal, off_m[..., None])[..., 0])
+    return step
+
+
+def _forward(chains: _Rows, rotations: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Places (R, n, 3) and rotations (R, n, 4) of the joints in the wrist's frame."""
+    places, bases = np.empty((*rotations.shape[:2], 3)), np.empty_like(rotations)
+    places[:, 0], bases[:, 0] = chains.offsets_m[:, 0], rotations[:, 0]
+    for index in range(1, rotations.shape[1]):
+        places[:, index] = places[:, index - 1] + quaternion.rotate(bases[:, index - 1], chains.offsets_m[:, index])
+        bases[:, index] = quaternion.multiply(bases[:, index - 1], rotations[:, index])
+    return places, bases
+
+
+def _angles(chains: _Rows, rotations: FloatArray) -> FloatArray:
+    """Flexion, sideways and twist (R, n, 3) of rotations."""
+    twist = chains.axes[:, :, 2]
+    swing, _ = quaternion.swing_twist(rotations, twist)
+    bent = quaternion.to_rotation_vector(swing)
+    result: FloatArray = np.einsum("kni,knai->kna", bent, chains.axes)
+    result[..., 2] = quaternion.twist_angle(rotations, twist)
+    return result
+
+
+def _turned(chains: _Rows, angles: FloatArray) -> FloatArray:
+    """Rotations (R, n, 4) of angles: swing after twist, as `app.rig.hand.joint_rotations`."""
+    axes = chains.axes
+    swing = angles[..., 0, None] * axes[:, :, 0] + angles[..., 1, None] * axes[:, :, 1]
+    return quaternion.multiply(
+        quaternion.from_rotation_vector(swing), quaternion.from_axis_angle(axes[:, :, 2], angles[..., 2])
+    )
