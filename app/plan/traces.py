@@ -100,13 +100,18 @@ def _spans(
 
 def _pressed(heard: Heard, clock: Clock, at_s: FloatArray, sounds: npt.NDArray[np.bool_]) -> FloatArray:
     """What bite and pitch bend add to the tension: the bite by how far it is from the usual one."""
-    pressed = np.zeros(len(at_s))
+    bite = bend = np.zeros(len(at_s))
     if heard.bite is not None:
         bite = _sampled(heard.bite, clock, at_s)
-        pressed += BITE_TENSION * (bite - (np.median(bite[sounds]) if sounds.any() else 0.0))
+        bite = bite - (np.median(bite[sounds]) if sounds.any() else 0.0)
     if heard.bend is not None:
         bend = _sampled(heard.bend, clock, at_s)
-        pressed += MOST_BEND_TENSION * np.tanh(BEND_TENSION / MOST_BEND_TENSION * bend)
+    return pressed_by(bite, bend)
+
+
+def pressed_by(bite: FloatArray, bend: FloatArray) -> FloatArray:
+    """Tension added by a bite beyond the usual one (0..1) and a pitch bend (-1..1)."""
+    pressed: FloatArray = BITE_TENSION * bite + MOST_BEND_TENSION * np.tanh(BEND_TENSION / MOST_BEND_TENSION * bend)
     return pressed
 
 
