@@ -584,7 +584,7 @@
     </message>
     <message>
         <source>Export MIDI...</source>
-        <translation>MIDI を書き出し...</translation>
+        <translation>MIDI を書き出す...</translation>
     </message>
     <message>
         <source>Export Players...</source>

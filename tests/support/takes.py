@@ -1,77 +1,52 @@
-"""A synthetic wind player: takes whose breaths, dynamics and vibrato are known because they were made here.
-
-No recording of a person: a breath sensor is modelled as a rise of some milliseconds to the dynamics asked for, noise of
-a step or two, and a fall to zero, sent at a controller's rate as steps of 1/127.
-"""
+"""Takes of a synthetic wind player, made note by note; nobody played them."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence
 
-import numpy as np
-import numpy.typing as npt
+from app.score.take import Cleaning, Take, Wiring
+from app.score.tempo import TempoMap
 
-from app.score.model import ControllerCurve, CurveKind, Note, Part
-from app.score.tempo import TempoChange, TempoMap
-
-TICKS_PER_S = 960.0
-"""At 120 quarters a minute and 480 ticks a quarter."""
-TEMPO = TempoMap(480, (TempoChange(0, 500_000.0),))
-
-Dynamics = Callable[[npt.NDArray[np.float64]], npt.NDArray[np.float64]]
+PlayedNote = tuple[float, float, int, float]
+"""Onset and end in seconds, pitch, and the breath it is blown with, 0..1."""
 
 
-@dataclass(frozen=True)
-class Blow:
-    """Air from one time to another; ``dynamics`` of seconds since it began."""
-
-    start_s: float
-    end_s: float
-    dynamics: Dynamics = lambda s: np.full(len(s), 0.6)
-
-
-def ticks(seconds: float) -> int:
-    """Whole ticks."""
-    return round(seconds * TICKS_PER_S)
-
-
-def breath_curve(
-    blows: Sequence[Blow], rate_hz: float = 200.0, rise_s: float = 0.02, noise: int = 1, seed: int = 1
-) -> ControllerCurve:
-    """What a breath sensor sends; between the blows it says 0, with noise of a step now and then."""
-    chance = np.random.default_rng(seed)
-    at = np.arange(0.0, max(blow.end_s for blow in blows) + 0.5, 1.0 / rate_hz)
-    value = np.zeros(len(at))
-    for blow in blows:
-        here = (at >= blow.start_s) & (at < blow.end_s)
-        since, left = at[here] - blow.start_s, blow.end_s - at[here]
-        value[here] = blow.dynamics(since) * np.minimum(1.0, np.minimum(since + 1e-3, left) / rise_s)
-    steps = np.round(127 * value) + chance.integers(-noise, noise + 1, len(at))
-    return _curve("breath", at, np.clip(steps, 0, 127) / 127)
-
-
-def vibrato_curve(
-    start_s: float, end_s: float, depth: float, rate_hz: float, kind: CurveKind = "pitch_bend", middle: float = 0.0
-) -> ControllerCurve:
-    """A vibrato on pitch bend or bite from one time to another."""
-    at = np.arange(0.0, end_s + 0.5, 0.005)
-    inside = (at >= start_s) & (at < end_s)
-    return _curve(kind, at, np.where(inside, middle + depth * np.sin(2 * np.pi * rate_hz * (at - start_s)), middle))
-
-
-def _curve(kind: CurveKind, at: npt.NDArray[np.float64], values: npt.NDArray[np.float64]) -> ControllerCurve:
-    changed = np.flatnonzero(np.diff(values, prepend=np.nan) != 0.0)
-    places = np.round(at[changed] * TICKS_PER_S).astype(int).tolist()
-    return ControllerCurve(kind, tuple(places), tuple(values[changed].tolist()))
-
-
-def take(
-    notes: Sequence[tuple[float, float, int]], *curves: ControllerCurve, map_id: str = "trumpet_Bb", velocity: int = 80
-) -> Part:
-    """A part of notes (onset, end, pitch), seconds; a wind controller sends one velocity throughout."""
-    made = tuple(
-        Note(f"1:{number}", ticks(onset), ticks(end) - ticks(onset), pitch, velocity)
-        for number, (onset, end, pitch) in enumerate(notes, 1)
+def take_of(
+    notes: Iterable[PlayedNote],
+    *,
+    id: str = "take:1",
+    tempo_map: TempoMap | None = None,
+    start_s: float = 0.0,
+    end_s: float | None = None,
+    cleaning: Cleaning | None = None,
+    wiring: Wiring | None = None,
+    breathes: bool = True,
+    more: Sequence[tuple[float, str]] = (),
+    velocity: int = 90,
+) -> Take:
+    """A take in which each note is blown with one breath; where notes touch or overlap the breath goes on."""
+    notes = sorted(notes)
+    events: list[tuple[float, int, str]] = [(time_s, 1, raw) for time_s, raw in more]
+    for index, (onset_s, note_end_s, pitch, breath) in enumerate(notes):
+        events.append((onset_s, 2, f"90{pitch:02x}{velocity:02x}"))
+        events.append((note_end_s, 1, f"80{pitch:02x}00"))
+        if breathes:
+            events.append((onset_s, 0, f"b002{round(127 * breath):02x}"))
+            if not any(other[0] <= note_end_s < other[1] for other in notes[index + 1 :]):
+                events.append((note_end_s, 3, "b00200"))
+    events.sort()
+    last_s = max((event[0] for event in events), default=start_s)
+    return Take(
+        id=id,
+        name="Take 1",
+        colour="",
+        device="EWI5000",
+        recorded="2026-11-21T12:00:00+00:00",
+        wiring=wiring or Wiring(),
+        cleaning=cleaning or Cleaning(),
+        tempo_map=tempo_map or TempoMap(480),
+        start_us=round(start_s * 1e6),
+        end_us=round((last_s if end_s is None else end_s) * 1e6),
+        times_us=tuple(round(event[0] * 1e6) for event in events),
+        messages=tuple(event[2] for event in events),
     )
-    return Part("1.1.1", "Trumpet", 0, 0, 0, 56, "trumpet", map_id, made, curves)

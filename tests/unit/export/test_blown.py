@@ -12,7 +12,7 @@ from app.cli import main
 from app.formats.fbx.read import read_scene
 from app.score.model import Score
 from app.score.write import write_midi
-from tests.support.takes import TEMPO, Blow, breath_curve, take, vibrato_curve
+from tests.support.blown import TEMPO, Blow, breath_curve, take, vibrato_curve
 
 LIPS_MM = 2.0
 SWELL = Blow(0.99, 4.0, lambda s: 0.25 + 0.7 * np.minimum(s / 3.0, 1.0))

@@ -23,7 +23,7 @@ from app.plan.model import PlayerPlan
 from app.project.model import Project, project_from_score
 from app.score.model import ControllerCurve, Score
 from instrument_maps.load import bundled_maps
-from tests.support.takes import TEMPO, Blow, breath_curve, take, vibrato_curve
+from tests.support.blown import TEMPO, Blow, breath_curve, take, vibrato_curve
 
 FPS = Fraction(60)
 SWELL = Blow(0.99, 5.0, lambda s: 0.25 + 0.7 * np.minimum(s / 4.0, 1.0))

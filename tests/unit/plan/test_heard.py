@@ -17,7 +17,7 @@ from app.plan.lungs import air_used_s
 from app.plan.model import BreathEvent, PlayerParameters, PlayerPlan
 from app.score.model import ControllerCurve, Part
 from instrument_maps.load import bundled_maps
-from tests.support.takes import TEMPO, Blow, breath_curve, take, ticks
+from tests.support.blown import TEMPO, Blow, breath_curve, take, ticks
 
 TRUMPET = bundled_maps()["trumpet_Bb"]
 

@@ -1,0 +1,74 @@
+"""Whatever a breath sensor says, the plan stays sound."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from app.performance.loudness import heard, note_loudness, sounding_curve
+from app.plan.generate import Line, Piece, make_plans, time_frame
+from app.plan.heard import GASP_S
+from app.plan.model import PlayerParameters
+from app.score.model import ControllerCurve, Note, Part
+from instrument_maps.load import bundled_maps
+from tests.support.blown import TEMPO
+
+TRUMPET = bundled_maps()["trumpet_Bb"]
+LEVELS = (0.0, 0.0, 0.01, 0.03, 0.4, 0.8, 1.0)
+
+
+@st.composite
+def parts(draw: st.DrawFn) -> Part:
+    """Lines with rests and legato overlaps, under curves that need not have anything to do with them."""
+    notes: list[Note] = []
+    at = draw(st.integers(0, 900))
+    for number in range(draw(st.integers(1, 12))):
+        length = draw(st.integers(1, 2000))
+        notes.append(Note(f"1:{number + 1}", at, length + draw(st.sampled_from((0, 20))), 60 + number, 80))
+        at += length + draw(st.sampled_from((0, 0, 100, 400, 2000)))
+    curves = []
+    for kind in draw(st.sets(st.sampled_from(("breath", "pitch_bend", "bite")), min_size=1)):
+        ticks = sorted(draw(st.sets(st.integers(0, at + 500), min_size=1, max_size=40)))
+        values = tuple(draw(st.sampled_from(LEVELS)) for _ in ticks)
+        curves.append(ControllerCurve(kind, tuple(ticks), values))  # type: ignore[arg-type]
+    return Part("1.1.1", "x", 0, 0, 0, 56, "trumpet", "trumpet_Bb", tuple(notes), tuple(curves))
+
+
+@settings(deadline=None, max_examples=120)
+@given(parts(), st.sampled_from((2.0, 9.0)))
+def test_breaths_are_in_order_and_end_before_what_they_serve(part: Part, lung_s: float) -> None:
+    line = Line("p", part.notes, TRUMPET, PlayerParameters(lung_s=lung_s), (), note_loudness(part), heard(part))
+    frame = time_frame((line,), TEMPO)
+    plan = make_plans(Piece(TEMPO), (line,), frame)["p"]
+    onset_s = {f"breath:{note.id}": TEMPO.seconds(float(note.onset_tick)) for note in part.notes}
+    before_s = dict(zip(onset_s, [-np.inf, *onset_s.values()], strict=False))
+    breaths = [event for event in plan.breaths if event.kind == "breath"]
+    for event in breaths:
+        assert event.start_s < event.end_s <= onset_s[event.id] + 0.002
+        assert event.start_s >= before_s[event.id], "no note is lost altogether"
+        assert event.start_tick <= event.end_tick
+        assert 0.0 < event.depth <= 1.0
+        if event.reason.id.startswith("breath.heard"):
+            assert event.end_s - event.start_s >= GASP_S - 0.002
+    for one, following in pairwise(plan.breaths):
+        assert one.end_s <= following.start_s + 1e-6
+    if plan.traces is not None:
+        for values in (plan.traces.tension, plan.traces.air, plan.traces.effort):
+            if values is not None:
+                assert np.isfinite(values).all()
+                assert values.min() >= -1e-9
+                assert values.max() <= 1.0 + 1e-9
+
+
+@settings(deadline=None, max_examples=100)
+@given(parts())
+def test_every_note_is_heard(part: Part) -> None:
+    curve = sounding_curve(part)
+    if curve is None:
+        return
+    assert list(curve.ticks) == sorted(set(curve.ticks))
+    loudness = note_loudness(part)
+    assert min(loudness) > 0.0
