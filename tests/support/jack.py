@@ -14,9 +14,12 @@ from typing import Final
 import pytest
 
 CLIENT_SYSTEM: Final = "API_UNIX_JACK"
-PERIOD_FRAMES: Final = 64
 RATE_HZ: Final = 48000
-PERIOD_S: Final = PERIOD_FRAMES / RATE_HZ
+PATIENT_FRAMES: Final = 4096
+"""A period so long that no client gets the processor too late on a busy machine: it would read what is already the next
+period's, and messages would be lost on the way to us."""
+QUICK_FRAMES: Final = 64
+"""For latency, and for what must not be lost: then in step with the clients, which a killed one would stop."""
 _VARIABLE: Final = "JACK_DEFAULT_SERVER"
 
 
@@ -29,15 +32,15 @@ def require_jack() -> None:
 
 
 @contextmanager
-def jack_server(name: str) -> Iterator[None]:
+def jack_server(name: str, period_frames: int = PATIENT_FRAMES, *, is_in_step: bool = False) -> Iterator[Server]:
     """A dummy server that this process and its children use, as long as the block runs."""
     require_jack()
     before = os.environ.get(_VARIABLE)
-    server = Server(name)
+    server = Server(name, period_frames, is_in_step=is_in_step)
     os.environ[_VARIABLE] = name
     try:
         server.start()
-        yield
+        yield server
     finally:
         server.stop()
         if before is None:
@@ -49,24 +52,16 @@ def jack_server(name: str) -> Iterator[None]:
 class Server:
     """A server that can be started and stopped."""
 
-    def __init__(self, name: str) -> None:
-        self.name = name
+    def __init__(self, name: str, period_frames: int, *, is_in_step: bool) -> None:
+        self.name, self.period_frames, self.is_in_step = name, period_frames, is_in_step
         self._process: subprocess.Popen[bytes] | None = None
 
     def start(self) -> None:
         """Start it and wait until it answers."""
         self._process = subprocess.Popen(
             [
-                "jackd",
-                "--name",
-                self.name,
-                "--no-realtime",
-                "-d",
-                "dummy",
-                "-p",
-                str(PERIOD_FRAMES),
-                "-r",
-                str(RATE_HZ),
+                *("jackd", "-n", self.name, "--no-realtime", *(("--sync",) if self.is_in_step else ())),
+                *("-d", "dummy", "-p", str(self.period_frames), "-r", str(RATE_HZ)),
             ],
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,

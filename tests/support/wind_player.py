@@ -8,8 +8,11 @@ from __future__ import annotations
 
 import math
 import random
+import subprocess
+import sys
 import time
 from collections.abc import Iterator, Sequence
+from pathlib import Path
 from typing import Any, Self
 
 from tests.support.jack import CLIENT_SYSTEM
@@ -104,3 +107,62 @@ class WindPlayer:
                 time.sleep(left_s)
             sent.append((self.send(message), message))
         return sent
+
+
+class PlayerProcess:
+    """A burst from a process of its own, as a device does not wait for the editor's Python.
+
+    Parameters
+    ----------
+    client : str
+    seconds, rate_hz : float
+    """
+
+    def __init__(self, client: str, seconds: float, rate_hz: float = 1000.0) -> None:
+        self.name = f"{client}:EWI USB"
+        self._process = subprocess.Popen(
+            [sys.executable, "-m", __name__, client, str(seconds), str(rate_hz)],
+            cwd=Path(__file__).parents[2],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            text=True,
+        )
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._process.kill()
+        self._process.communicate()
+
+    def start(self) -> None:
+        """Begin to play."""
+        assert self._process.stdin is not None
+        self._process.stdin.write("\n")
+        self._process.stdin.flush()
+
+    def sent(self) -> list[tuple[int, bytes]]:
+        """Wait for the end; what was sent and when."""
+        assert self._process.stdout is not None
+        found = []
+        for line in self._process.stdout:
+            if not line.strip():
+                break
+            ns, message = line.split()
+            found.append((int(ns), bytes.fromhex(message)))
+        return found
+
+
+def main() -> None:
+    """Appear, wait for a line, play a burst, tell what was sent, stay until killed."""
+    client, seconds, rate_hz = sys.argv[1:]
+    with WindPlayer(client) as player:
+        sys.stdin.readline()
+        for ns, message in player.play(burst(float(seconds), float(rate_hz))):
+            print(ns, message.hex())
+        print(flush=True)
+        sys.stdin.readline()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,62 @@
+"""Waiting for what a recorder tells."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import TypeVar
+
+import pytest
+
+from app.capture.link import RecorderLink
+from app.capture.protocol import Events, News
+
+T = TypeVar("T", bound=News)
+PATIENCE_S = 30.0
+"""The machine may be busy with other tests."""
+
+
+class Ear:
+    """Everything a link has told, in order."""
+
+    def __init__(self, link: RecorderLink) -> None:
+        self.link = link
+        self.told: list[News] = []
+
+    def look(self) -> None:
+        """Take what has come."""
+        self.told += self.link.poll()
+
+    def wait(self, kind: type[T], where: Callable[[T], bool] = lambda told: True, *, after: int = 0) -> T:
+        """The first of a kind, of all that was told from place `after` on."""
+        end_s = time.monotonic() + PATIENCE_S
+        while True:
+            self.look()
+            for told in self.told[after:]:
+                if isinstance(told, kind) and where(told):
+                    return told
+            if time.monotonic() > end_s:
+                pytest.fail(f"no {kind.__name__} came; there came {self.told[after:]}"[:2000])
+            time.sleep(0.005)
+
+    def wait_for_messages(self, count: int) -> list[tuple[int, bytes]]:
+        """Wait until so many messages have come; all."""
+        end_s = time.monotonic() + PATIENCE_S
+        while len(self.messages) < count and time.monotonic() < end_s:
+            self.look()
+            time.sleep(0.005)
+        return self.messages
+
+    @property
+    def messages(self) -> list[tuple[int, bytes]]:
+        """All messages that have come."""
+        return [
+            pair
+            for told in self.told
+            if isinstance(told, Events)
+            for pair in zip(told.times_ns, told.messages, strict=True)
+        ]
+
+    def of(self, *kinds: type[News]) -> list[News]:
+        """What was told of these kinds."""
+        return [told for told in self.told if isinstance(told, kinds)]

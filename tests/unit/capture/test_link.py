@@ -1,0 +1,328 @@
+"""The recorder over real MIDI transport (JACK's dummy server), in its own process: devices that come and go, processes
+that are killed."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from app.capture.journal import Header, Journal, passes, read_journal
+from app.capture.link import RecorderLink
+from app.capture.protocol import (
+    Back,
+    Finished,
+    Lost,
+    NotStarted,
+    Opened,
+    Ports,
+    Refused,
+    Restarted,
+    Written,
+)
+from app.formats.locks import is_locked
+from tests.support.jack import PATIENT_FRAMES, RATE_HZ, Server, jack_server
+from tests.support.listening import PATIENCE_S, Ear
+from tests.support.wind_player import PlayerProcess, WindPlayer, phrase
+
+ROOT = Path(__file__).parents[3]
+HEADER = Header("p", "player", "EWI", "ewi_usb", 0.0, "")
+PHRASE = phrase([60, 62, 64], beat_s=0.2, ghosts=1)
+
+
+@pytest.fixture(scope="module", autouse=True)
+def server() -> Iterator[Server]:
+    with jack_server(f"suisou-link-{os.getpid()}") as running:
+        yield running
+
+
+@pytest.fixture
+def ear() -> Iterator[Ear]:
+    with RecorderLink() as link:
+        yield Ear(link)
+
+
+def opened(ear: Ear, name: str) -> Ear:
+    ear.wait(Ports, lambda told: name in told.inputs)
+    ear.link.open(name)
+    ear.wait(Opened)
+    return ear
+
+
+def started(ear: Ear, path: Path) -> Ear:
+    ear.link.start(path, HEADER)
+    ear.link.sync(time.perf_counter_ns(), 0.0)
+    ear.wait(Written)
+    return ear
+
+
+def finished(ear: Ear, path: Path) -> Journal:
+    ear.link.stop()
+    told = ear.wait(Finished)
+    assert told.path == str(path)
+    assert not ear.link.is_recording
+    journal = read_journal(path)
+    assert journal.complete
+    assert told.count == len(journal.messages)
+    return journal
+
+
+def test_devices_come_and_go(ear: Ear) -> None:
+    with WindPlayer() as player:
+        told = ear.wait(Ports, lambda told: player.name in told.inputs)
+        assert told.system == "jack"
+        place = len(ear.told)
+    ear.wait(Ports, lambda told: player.name not in told.inputs, after=place)
+
+
+def test_what_is_played_arrives_whole_in_order_and_stamped(ear: Ear, tmp_path: Path) -> None:
+    path = tmp_path / "take"
+    with WindPlayer() as player:
+        started(opened(ear, player.name), path)
+        sent = player.play(PHRASE)
+        ear.wait_for_messages(len(sent))
+        journal = finished(ear, path)
+    assert [message for _, message in ear.messages] == [message for _, message in sent]
+    assert list(zip(journal.times_ns, journal.messages, strict=True)) == ear.messages
+    assert all(0 <= stamp - ns < PATIENCE_S * 1e9 for (stamp, _), (ns, _) in zip(ear.messages, sent, strict=True))
+    assert not is_locked(path)
+    (taken,) = passes(journal)
+    assert 0 < taken.times_us[0] < taken.times_us[-1]
+
+
+def test_whoever_waits_is_called(tmp_path: Path) -> None:
+    called = threading.Event()
+    with RecorderLink(called.set) as link:
+        assert called.wait(PATIENCE_S)
+        called.clear()
+        assert link.poll()
+        with WindPlayer():
+            assert called.wait(PATIENCE_S)
+            assert link.poll()
+
+
+def test_unplugged_in_the_middle_and_plugged_in_again(ear: Ear, tmp_path: Path) -> None:
+    path = tmp_path / "take"
+    with WindPlayer() as player:
+        started(opened(ear, player.name), path)
+        sent = player.play(PHRASE)
+        ear.wait_for_messages(len(sent))
+        player.unplug()
+        lost = ear.wait(Lost)
+        player.plug_in()
+        back = ear.wait(Back)
+        sent += player.play(PHRASE)
+        ear.wait_for_messages(len(sent))
+        journal = finished(ear, path)
+    assert (lost.port, back.port) == (player.name, player.name)
+    assert [message for _, message in ear.messages] == [message for _, message in sent]
+    assert list(journal.messages) == [message for _, message in sent]
+    assert journal.gaps == ((lost.ns, back.ns),)
+    assert not ear.of(Refused)
+
+
+def test_another_port_is_opened_while_the_first_is_blown(ear: Ear) -> None:
+    with PlayerProcess("First", 3.0) as first, WindPlayer("Second") as second:
+        opened(ear, first.name)
+        first.start()
+        ear.wait_for_messages(100)
+        place = len(ear.told)
+        ear.link.open(second.name)
+        assert ear.wait(Opened, after=place).port == second.name
+        before = len(ear.messages)
+        second.send(b"\x90\x3c\x40")
+        assert [message for _, message in ear.wait_for_messages(before + 1)[before:]] == [b"\x90\x3c\x40"]
+        ear.link.open(None)
+        assert ear.link.port is None
+        assert not ear.of(Restarted)
+
+
+def test_a_take_goes_on_when_another_port_is_opened(ear: Ear, tmp_path: Path) -> None:
+    path = tmp_path / "take"
+    with WindPlayer("First") as first, WindPlayer("Second") as second:
+        started(opened(ear, first.name), path)
+        first.send(b"\x90\x3c\x40")
+        ear.wait_for_messages(1)
+        place = len(ear.told)
+        ear.link.open(second.name)
+        for number in range(5):
+            # Told while one recorder takes over from the other.
+            ear.link.sync(time.perf_counter_ns(), float(number))
+        ear.wait(Opened, after=place)
+        second.send(b"\x80\x3c\x40")
+        ear.wait_for_messages(2)
+        journal = finished(ear, path)
+    assert journal.messages == (b"\x90\x3c\x40", b"\x80\x3c\x40")
+    assert len(journal.syncs) == 6
+    ((_, back_ns),) = journal.gaps
+    assert back_ns is not None
+
+
+def test_a_message_is_sent_to_an_output(ear: Ear) -> None:
+    import rtmidi
+
+    heard: list[list[int]] = []
+    synth = rtmidi.MidiIn(rtmidi.API_UNIX_JACK, "Synth")
+    synth.open_virtual_port("in")
+    synth.set_callback(lambda event, _: heard.append(event[0]))
+    try:
+        ear.wait(Ports, lambda told: "Synth:in" in told.outputs)
+        ear.link.open_output("Synth:in")
+        end_s = time.monotonic() + PATIENCE_S
+        while not heard and time.monotonic() < end_s:
+            ear.link.send(b"\x90\x3c\x40")
+            time.sleep(0.1)
+        assert heard[0] == [0x90, 0x3C, 0x40]
+    finally:
+        synth.close_port()
+        synth.delete()
+
+
+def test_a_killed_recorder_is_started_again_and_goes_on(ear: Ear, tmp_path: Path) -> None:
+    path = tmp_path / "take"
+    with WindPlayer() as player:
+        started(opened(ear, player.name), path)
+        sent = player.play(PHRASE)
+        ear.wait_for_messages(len(sent))
+        ear.wait(Written, lambda told: told.count == len(sent))
+        place = len(ear.told)
+        child = ear.link._child
+        assert child is not None
+        child.kill()
+        assert ear.wait(Restarted).reason.id == "capture.recorder_ended"
+        assert ear.wait(Opened, after=place).port == player.name
+        sent += player.play(PHRASE)
+        ear.wait_for_messages(len(sent))
+        journal = finished(ear, path)
+    assert list(journal.messages) == [message for _, message in sent]
+    assert len(journal.gaps) == 1
+
+
+def test_a_recorder_that_does_not_live_is_given_up(ear: Ear) -> None:
+    end_s = time.monotonic() + PATIENCE_S
+    while not ear.of(Refused) and time.monotonic() < end_s:
+        child = ear.link._child
+        if child is not None:
+            child.kill()
+        ear.look()
+        time.sleep(0.02)
+    (refused,) = ear.of(Refused)
+    assert isinstance(refused, Refused)
+    assert refused.reason.id == "capture.recorder_fails"
+
+
+EDITOR = """
+import sys, time
+from app.capture.journal import Header
+from app.capture.link import RecorderLink
+from app.capture.protocol import Opened, Ports, Written
+link = RecorderLink()
+name, path = sys.argv[1:]
+def wait(kind):
+    while not any(isinstance(told, kind) for told in link.poll()):
+        time.sleep(0.01)
+wait(Ports)
+link.open(name)
+wait(Opened)
+link.start(path, Header("p", "player", name, "ewi_usb", 0.0, ""))
+link.sync(time.perf_counter_ns(), 0.0)
+wait(Written)
+print(link._child.pid, flush=True)
+time.sleep(600)
+"""
+
+
+def test_a_killed_editor_loses_nothing(tmp_path: Path) -> None:
+    path = tmp_path / "take"
+    with WindPlayer() as player:
+        editor = subprocess.Popen(
+            [sys.executable, "-c", EDITOR, player.name, str(path)],
+            cwd=ROOT,
+            env={**os.environ, "PYTHONPATH": str(ROOT)},
+            stdout=subprocess.PIPE,
+        )
+        assert editor.stdout is not None
+        assert editor.stdout.readline()
+        sent = player.play(PHRASE)
+        # What is on its way is not yet heard.
+        time.sleep(4 * PATIENT_FRAMES / RATE_HZ)
+        editor.kill()
+        editor.communicate()
+        end_s = time.monotonic() + PATIENCE_S
+        while is_locked(path) and time.monotonic() < end_s:
+            time.sleep(0.02)
+    journal = read_journal(path)
+    assert journal.complete
+    assert list(journal.messages) == [message for _, message in sent]
+
+
+def test_ctrl_c_in_the_terminal_leaves_the_recorder(ear: Ear) -> None:
+    with WindPlayer() as player:
+        opened(ear, player.name)
+        child = ear.link._child
+        assert child is not None
+        child.send_signal(signal.SIGINT)
+        player.send(b"\x90\x3c\x40")
+        assert ear.wait_for_messages(1)
+        assert not ear.of(Restarted)
+
+
+def test_a_journal_that_is_there_is_not_written_over(ear: Ear, tmp_path: Path) -> None:
+    path = tmp_path / "take"
+    path.write_text("precious")
+    ear.link.start(path, HEADER)
+    assert ear.wait(NotStarted).reason.id == "journal.exists"
+    assert not ear.link.is_recording
+    assert path.read_text() == "precious"
+    ear.link.start(tmp_path / "nowhere" / "take", HEADER)
+    assert ear.wait(NotStarted, lambda told: told.reason.id == "file.cannot_write")
+
+
+def test_a_take_that_waits_for_its_device(ear: Ear, tmp_path: Path) -> None:
+    path = tmp_path / "take"
+    ear.wait(Ports)
+    ear.link.open("EWI:EWI USB")
+    assert ear.wait(Refused).reason.id == "capture.port_not_here"
+    started(ear, path)
+    with WindPlayer() as player:
+        ear.wait(Opened)
+        player.send(b"\x90\x3c\x40")
+        ear.wait_for_messages(1)
+        journal = finished(ear, path)
+    assert journal.messages == (b"\x90\x3c\x40",)
+    ((_, back_ns),) = journal.gaps
+    assert back_ns is not None
+
+
+def test_a_server_that_ends_and_starts_again(ear: Ear, server: Server, tmp_path: Path) -> None:
+    player = WindPlayer()
+    opened(ear, player.name)
+    server.stop()
+    ear.wait(Lost)
+    player.unplug()
+    server.start()
+    with WindPlayer() as player:
+        ear.wait(Back)
+        player.send(b"\x90\x3c\x40")
+        assert ear.wait_for_messages(1)
+
+
+def test_without_a_server_it_says_so_once_and_prints_nothing(
+    monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("JACK_DEFAULT_SERVER", "suisou-none")
+    with RecorderLink(system="jack") as link:
+        ear = Ear(link)
+        assert ear.wait(Refused).reason.id == "capture.no_system"
+        time.sleep(2.5)
+        ear.look()
+        assert len(ear.of(Refused)) == 1
+        assert ear.of(Ports) == [Ports((), (), "")]
+    assert capfd.readouterr() == ("", "")

@@ -1,0 +1,250 @@
+"""What the recorder does with a system that is made up here: no transport, no process."""
+
+from __future__ import annotations
+
+import io
+from queue import SimpleQueue
+from typing import Any
+
+import pytest
+
+from app.capture import recorder as recording
+from app.capture.ports import Port, PortError
+from app.capture.protocol import (
+    NEWS,
+    Back,
+    Events,
+    Lost,
+    News,
+    Open,
+    Opened,
+    Ports,
+    Refused,
+    Send,
+    read_framed,
+)
+from app.capture.recorder import Recorder, send_news
+
+
+class Device:
+    """An opened port."""
+
+    def __init__(self) -> None:
+        self.is_closed = False
+        self.sent: list[bytes] = []
+
+    def close_port(self) -> None:
+        self.is_closed = True
+
+    def delete(self) -> None:
+        assert self.is_closed
+
+    def send_message(self, message: bytes) -> None:
+        self.sent.append(bytes(message))
+
+
+class System:
+    """A system whose devices come and go as a test says."""
+
+    def __init__(self, *names: str) -> None:
+        self.name = "alsa"
+        self.is_closed = False
+        self.listed = {name: f"{name} 20:0" for name in names}
+        self.listed_outputs: tuple[str, ...] = ()
+        self.busy: set[str] = set()
+        self.opened: list[Device] = []
+        self.heard: Any = None
+        self.order: list[str] = []
+
+    def inputs(self) -> tuple[Port, ...]:
+        return tuple(Port(name, identity, index) for index, (name, identity) in enumerate(self.listed.items()))
+
+    def outputs(self) -> tuple[Port, ...]:
+        return tuple(Port(name, name, index) for index, name in enumerate(self.listed_outputs))
+
+    def open_input(self, port: Port, heard: Any) -> Device:
+        if port.name in self.busy:
+            raise PortError("capture.port_refused", port=port.name, detail="in use")
+        self.heard = heard
+        return self._open("input")
+
+    def open_output(self, port: Port) -> Device:
+        return self._open("output")
+
+    def _open(self, what: str) -> Device:
+        self.order.append(what)
+        self.opened.append(Device())
+        return self.opened[-1]
+
+    def close(self) -> None:
+        self.is_closed = True
+
+
+class Bench:
+    """A recorder with its queues."""
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch, system: System | None) -> None:
+        self.systems: list[System | None] = [system]
+
+        def made(wanted: str) -> System:
+            found = self.systems[-1]
+            if found is None:
+                raise PortError("capture.no_system")
+            return found
+
+        monkeypatch.setattr(recording, "MidiSystem", made)
+        self.news: SimpleQueue[Any] = SimpleQueue()
+        self.journal: SimpleQueue[Any] = SimpleQueue()
+        self.recorder = Recorder(self.news, self.journal)
+
+    def told(self) -> list[News]:
+        found = []
+        while not self.news.empty():
+            found.append(self.news.get())
+        return found
+
+    def kinds(self) -> list[type]:
+        return [type(told) for told in self.told()]
+
+    def marks(self) -> list[str]:
+        found = []
+        while not self.journal.empty():
+            found.append(self.journal.get()[0])
+        return found
+
+
+def test_devices_are_told_when_they_change(monkeypatch: pytest.MonkeyPatch) -> None:
+    system = System("EWI")
+    bench = Bench(monkeypatch, system)
+    for _ in range(3):
+        bench.recorder.look()
+    assert bench.told() == [Ports(("EWI",), (), "alsa")]
+    system.listed["Piano"] = "Piano 24:0"
+    bench.recorder.look()
+    assert bench.told() == [Ports(("EWI", "Piano"), (), "alsa")]
+
+
+def test_a_lost_port_is_opened_again_when_it_comes_back(monkeypatch: pytest.MonkeyPatch) -> None:
+    system = System("EWI")
+    bench = Bench(monkeypatch, system)
+    bench.recorder.obey(Open("EWI", None))
+    assert bench.kinds() == [Ports, Opened]
+    identity = system.listed.pop("EWI")
+    bench.recorder.look()
+    assert bench.kinds() == [Lost, Ports]
+    assert system.opened[0].is_closed
+    bench.recorder.look()
+    assert bench.kinds() == []
+    system.listed["EWI"] = identity
+    bench.recorder.look()
+    assert bench.kinds() == [Ports, Back]
+    assert bench.marks() == ["back", "lost", "back"]
+
+
+def test_one_that_came_back_unseen_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
+    system = System("EWI")
+    bench = Bench(monkeypatch, system)
+    bench.recorder.obey(Open("EWI", None))
+    bench.told()
+    system.listed["EWI"] = "EWI 24:0"
+    bench.recorder.look()
+    assert bench.kinds() == [Lost, Back]
+
+
+def test_a_port_in_use_elsewhere_is_told_once_and_opened_when_it_is_free(monkeypatch: pytest.MonkeyPatch) -> None:
+    system = System("EWI")
+    system.busy.add("EWI")
+    bench = Bench(monkeypatch, system)
+    bench.recorder.obey(Open("EWI", None))
+    for _ in range(3):
+        bench.recorder.look()
+    (refused,) = [told for told in bench.told() if isinstance(told, Refused)]
+    assert refused.reason.id == "capture.port_refused"
+    system.busy.clear()
+    bench.recorder.look()
+    assert bench.kinds() == [Opened]
+
+
+def test_a_port_that_is_not_there_yet_is_told_once_and_opened_when_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
+    system = System()
+    bench = Bench(monkeypatch, system)
+    bench.recorder.obey(Open("EWI", None))
+    bench.recorder.look()
+    assert [told.reason.id for told in bench.told() if isinstance(told, Refused)] == ["capture.port_not_here"]
+    system.listed["EWI"] = "EWI 20:0"
+    bench.recorder.look()
+    assert bench.kinds() == [Ports, Opened]
+
+
+def test_the_output_is_opened_before_the_input(monkeypatch: pytest.MonkeyPatch) -> None:
+    system = System("EWI")
+    system.listed_outputs = ("Synth",)
+    bench = Bench(monkeypatch, system)
+    bench.recorder.obey(Open("EWI", "Synth"))
+    assert system.order == ["output", "input"]
+    bench.recorder.obey(Send(b"\x90\x3c\x40"))
+    assert system.opened[0].sent == [b"\x90\x3c\x40"]
+
+
+def test_what_cannot_be_sent_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    bench = Bench(monkeypatch, System("EWI"))
+    bench.recorder.obey(Open("EWI", "Synth"))
+    bench.told()
+    bench.recorder.obey(Send(b"\x90\x3c\x40"))
+    (refused,) = bench.told()
+    assert isinstance(refused, Refused)
+    assert refused.reason.id == "capture.not_sent"
+
+
+def test_a_system_that_comes_later_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
+    now_s = [100.0]
+    bench = Bench(monkeypatch, None)
+    monkeypatch.setattr(recording.time, "perf_counter", lambda: now_s[0])
+    for _ in range(4):
+        bench.recorder.look()
+        now_s[0] += 0.5
+    assert [type(told) for told in bench.told()] == [Ports, Refused]
+    bench.systems.append(System("EWI"))
+    now_s[0] += 2.0
+    bench.recorder.look()
+    assert bench.told() == [Ports(("EWI",), (), "alsa")]
+
+
+def test_a_jack_server_without_ports_is_asked_anew(monkeypatch: pytest.MonkeyPatch) -> None:
+    now_s = [100.0]
+    dead = System()
+    dead.name = "jack"
+    bench = Bench(monkeypatch, dead)
+    monkeypatch.setattr(recording.time, "perf_counter", lambda: now_s[0])
+    bench.recorder.look()
+    bench.systems.append(System("EWI"))
+    now_s[0] += 2.0
+    bench.recorder.look()
+    assert dead.is_closed
+    assert bench.told()[-1] == Ports(("EWI",), (), "alsa")
+
+
+def test_what_is_heard_goes_to_the_disk_and_to_the_editor(monkeypatch: pytest.MonkeyPatch) -> None:
+    system = System("EWI")
+    bench = Bench(monkeypatch, system)
+    bench.recorder.obey(Open("EWI", None))
+    bench.told()
+    bench.marks()
+    system.heard(([0x90, 60, 80], 0.1), None)
+    assert bench.journal.get() == bench.news.get()
+
+
+def test_events_that_gathered_are_sent_together_and_in_order() -> None:
+    queue: SimpleQueue[Any] = SimpleQueue()
+    for item in ((1, b"\x90\x3c\x40"), (2, b"\xf8"), (3, b"\x80\x3c\x40"), Lost("EWI", 4), (5, b"\xb0\x02\x01"), None):
+        queue.put(item)
+    stream = io.BytesIO()
+    send_news(queue, stream)
+    stream.seek(0)
+    found = [read_framed(stream, NEWS) for _ in range(3)]
+    assert not stream.read()
+    assert found == [
+        Events((1, 3), (b"\x90\x3c\x40", b"\x80\x3c\x40")),
+        Lost("EWI", 4),
+        Events((5,), (b"\xb0\x02\x01",)),
+    ]
