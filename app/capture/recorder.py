@@ -120,8 +120,8 @@ class Recorder:
         self._has_ports = bool(inputs or outputs)
 
     def _answering(self) -> MidiSystem | None:
-        """The system, tried anew now and then where none answers; a JACK server that has gone looks like one without
-        ports, also when another has come."""
+        """The system, tried anew now and then where none answers. A JACK server that has gone looks like one without
+        ports, or, to who has one open, as before: then the device is to be chosen again."""
         is_sure = self._system is not None and (self._has_ports or self._system.name != "jack")
         now_s = time.perf_counter()
         if not is_sure and now_s >= self._tried_at_s + _NO_SYSTEM_LOOK_S:

@@ -188,7 +188,7 @@ def _write(target: Path, path: Path, tempo: float) -> None:
         end_us=end_us,
     )
     path.unlink()
-    print(f"{target}: {notes} notes in {max(end_us, take.times_us[-1], 0) / 1e6:.1f} s")
+    print(f"{target}: {notes} {'note' if notes == 1 else 'notes'} in {max(end_us, take.times_us[-1], 0) / 1e6:.1f} s")
 
 
 def _end_us(journal: Journal) -> int:

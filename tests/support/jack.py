@@ -32,7 +32,7 @@ def require_jack() -> None:
 
 
 @contextmanager
-def jack_server(name: str, period_frames: int = PATIENT_FRAMES, *, is_in_step: bool = False) -> Iterator[Server]:
+def jack_server(name: str, period_frames: int = PATIENT_FRAMES, *, is_in_step: bool = False) -> Iterator[None]:
     """A dummy server that this process and its children use, as long as the block runs."""
     require_jack()
     before = os.environ.get(_VARIABLE)
@@ -40,7 +40,7 @@ def jack_server(name: str, period_frames: int = PATIENT_FRAMES, *, is_in_step: b
     os.environ[_VARIABLE] = name
     try:
         server.start()
-        yield server
+        yield
     finally:
         server.stop()
         if before is None:

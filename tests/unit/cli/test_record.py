@@ -1,0 +1,206 @@
+"""``suisou ports`` and ``suisou record`` as a person meets them, over real MIDI transport (JACK's dummy server)."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import mido
+import pytest
+
+from app.capture.journal import Header, JournalWriter
+from app.cli import main
+from tests.support.jack import jack_server
+from tests.support.wind_player import WindPlayer, phrase
+
+ROOT = Path(__file__).parents[3]
+PHRASE = phrase([60, 62, 64], beat_s=0.2)
+
+Run = Callable[..., tuple[int, str, str]]
+
+
+@pytest.fixture
+def run(capsys: pytest.CaptureFixture[str]) -> Run:
+    def call(*arguments: str | Path) -> tuple[int, str, str]:
+        capsys.readouterr()
+        status = main([str(argument) for argument in arguments])
+        captured = capsys.readouterr()
+        assert "Traceback" not in captured.err
+        return status, captured.out, captured.err
+
+    return call
+
+
+@pytest.fixture(scope="module")
+def jack() -> Iterator[None]:
+    with jack_server(f"suisou-cli-{os.getpid()}"):
+        yield
+
+
+@pytest.fixture
+def player(jack: None) -> Iterator[WindPlayer]:
+    with WindPlayer() as found:
+        yield found
+
+
+@pytest.fixture
+def playing(player: WindPlayer) -> Iterator[WindPlayer]:
+    """Somebody who does not stop."""
+    done = threading.Event()
+
+    def play() -> None:
+        while not done.is_set():
+            player.play(PHRASE)
+
+    thread = threading.Thread(target=play)
+    thread.start()
+    yield player
+    done.set()
+    thread.join()
+
+
+def pitches(path: Path) -> list[int]:
+    return [m.note for track in mido.MidiFile(path).tracks for m in track if m.type == "note_on" and m.velocity]
+
+
+def test_the_devices_are_listed(player: WindPlayer, run: Run) -> None:
+    status, told, _ = run("ports")
+    assert status == 0
+    assert f"  {player.name}  Akai EWI USB\n" in told
+    status, told, _ = run("ports", "--json")
+    assert status == 0
+    assert json.loads(told) == {
+        "system": "jack",
+        "inputs": [{"name": player.name, "controller": "ewi_usb"}],
+        "outputs": [],
+    }
+
+
+def test_no_device_is_said(jack: None, run: Run, tmp_path: Path) -> None:
+    assert run("ports") == (0, "no MIDI device is connected; plug one in and switch it on\n", "")
+    status, _, told = run("record", "--port", "EWI", "--to", tmp_path / "take.mid")
+    assert (status, told) == (1, "suisou: no MIDI device is connected; plug one in and switch it on\n")
+    assert not list(tmp_path.iterdir())
+
+
+def test_no_midi_system_is_said(monkeypatch: pytest.MonkeyPatch, run: Run) -> None:
+    monkeypatch.setenv("JACK_DEFAULT_SERVER", "suisou-none")
+    monkeypatch.setenv("SUISOU_MIDI_API", "jack")
+    status, _, told = run("ports")
+    assert status == 1
+    assert "no MIDI system answers" in told
+
+
+def test_a_take_is_recorded(playing: WindPlayer, run: Run, tmp_path: Path) -> None:
+    path = tmp_path / "take.mid"
+    arguments = ("--seconds", "2", "--count-in", "1", "--tempo", "240")
+    status, told, errors = run("record", "--port", "ewi", "--to", path, *arguments)
+    assert status == 0
+    assert errors == "suisou: recording\n"
+    assert told.startswith("1 2 3 4\n")
+    assert told.endswith(" notes in 2.0 s\n")
+    assert list(tmp_path.iterdir()) == [path], "the journal went"
+    file = mido.MidiFile(path)
+    assert file.type == 1
+    assert file.length == pytest.approx(2.0, abs=0.3)
+    assert set(pitches(path)) == {60, 62, 64}
+    assert any(m.is_cc(2) for m in file.tracks[1])
+    assert mido.tempo2bpm(file.tracks[0][0].tempo) == pytest.approx(240.0)
+
+
+def test_ctrl_c_ends_the_take(playing: WindPlayer, tmp_path: Path) -> None:
+    path = tmp_path / "take.mid"
+    recording = subprocess.Popen(
+        [sys.executable, "-m", "app", "record", "--port", playing.name, "--to", str(path)],
+        cwd=ROOT,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    assert recording.stderr is not None
+    assert recording.stderr.readline() == "suisou: recording; Ctrl+C ends it\n"
+    time.sleep(1.5)
+    recording.send_signal(signal.SIGINT)
+    told, errors = recording.communicate(timeout=60)
+    assert (recording.returncode, errors) == (0, "")
+    assert told.startswith(f"{path}: ")
+    assert pitches(path)
+
+
+def test_a_device_that_is_not_there_is_said_with_those_that_are(player: WindPlayer, run: Run, tmp_path: Path) -> None:
+    status, _, told = run("record", "--port", "flute", "--to", tmp_path / "take.mid")
+    assert (status, told) == (1, f"suisou: no MIDI device is called 'flute'; there are: {player.name}\n")
+
+
+def test_silence_is_no_take(player: WindPlayer, run: Run, tmp_path: Path) -> None:
+    status, _, told = run("record", "--port", player.name, "--to", tmp_path / "take.mid", "--seconds", "0.2")
+    assert status == 1
+    assert f"nothing was heard from {player.name}" in told
+    assert not list(tmp_path.iterdir())
+
+
+def test_nothing_is_written_over(run: Run, tmp_path: Path) -> None:
+    path = tmp_path / "take.mid"
+    path.write_text("precious")
+    status, _, told = run("record", "--port", "EWI", "--to", path)
+    assert status == 1
+    assert "is there already" in told
+    assert path.read_text() == "precious"
+
+
+def left(tmp_path: Path) -> Path:
+    """The journal of a recording that was killed."""
+    journal = tmp_path / "take.mid.take-journal"
+    writer = JournalWriter(str(journal), Header("", "", "EWI USB", "ewi_usb", 0.0, ""))
+    writer.sync(10**9, 0.0, 0)
+    writer.event(10**9, b"\x90\x3c\x50")
+    writer.event(2 * 10**9, b"\x80\x3c\x50")
+    writer.close()
+    with journal.open("ab") as stream:
+        stream.write(b"e 30000")
+    return journal
+
+
+def test_what_a_crash_left_is_written(run: Run, tmp_path: Path) -> None:
+    left(tmp_path)
+    path = tmp_path / "take.mid"
+    status, _, told = run("record", "--port", "EWI", "--to", path)
+    assert status == 1
+    assert f"'suisou record --rescue --to {path}'" in told
+    assert run("record", "--rescue", "--to", path) == (0, f"{path}: 1 note in 1.0 s\n", "")
+    assert pitches(path) == [60]
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_a_running_recording_is_left_alone(run: Run, tmp_path: Path) -> None:
+    journal = tmp_path / "take.mid.take-journal"
+    writer = JournalWriter(str(journal), Header("", "", "EWI USB", "ewi_usb", 0.0, ""))
+    for arguments in (("--rescue",), ("--port", "EWI")):
+        status, _, told = run("record", *arguments, "--to", tmp_path / "take.mid")
+        assert status == 1
+        assert "is running" in told
+    writer.close()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "status"),
+    [
+        (("--port", "EWI"), 2),
+        (("--to", "x.mid"), 2),
+        (("--to", "x.mid", "--port", "EWI", "--tempo", "nan"), 2),
+        (("--to", "x.mid", "--port", "EWI", "--tempo", "5"), 2),
+        (("--to", "x.mid", "--port", "EWI", "--seconds", "0"), 2),
+        (("--to", "x.mid", "--port", "EWI", "--count-in", "1.5"), 2),
+        (("--to", "x.mid", "--port", "EWI", "--count-in", "-1"), 2),
+        (("--to", "x.mid", "--rescue"), 1),
+    ],
+)
+def test_what_makes_no_sense_is_refused(run: Run, arguments: tuple[str, ...], status: int, tmp_path: Path) -> None:
+    assert run("record", *(str(tmp_path / a) if a == "x.mid" else a for a in arguments))[0] == status
