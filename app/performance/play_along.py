@@ -21,6 +21,7 @@ from app.performance.chunks import Pose
 from app.performance.live_breath import LiveBreath, LiveLook
 from app.performance.live_hands import FRAMES, LiveHands
 from app.performance.live_help import LiveHelp
+from app.score.take import SILENCING, Wiring, decoded, is_wired, said
 from instrument_maps.model import Fingering
 from metadata.load import load_expressions
 from metadata.model import Expression
@@ -112,6 +113,35 @@ class PlayAlong:
         """How far the pitch is bent, -1 (down) .. 1 (up)."""
         self._time(time_s)
         self._breath.bend(min(max(value, -1.0), 1.0))
+
+    def hear(self, time_s: float, raw: str, wiring: Wiring) -> bool:
+        """Take a MIDI message, in hexadecimal, as takes keep them; what says nothing of notes, breath or lips is passed
+        over. Whether a note began or ended.
+
+        Parameters
+        ----------
+        time_s : float
+        raw : str
+        wiring : Wiring
+            With what the controller sends breath and bite.
+        """
+        message = decoded(raw)
+        if message is None or not is_wired(message, wiring):
+            return False
+        if message.type == "note_on" and message.velocity:
+            self.note_on(time_s, message.note, message.velocity)
+        elif message.type in ("note_on", "note_off"):
+            self.note_off(time_s, message.note)
+        elif message.type == "control_change" and message.control in SILENCING:
+            self.all_off(time_s)
+        for kind, value in said(message, wiring):
+            if kind == "breath":
+                self.breath(time_s, value)
+            elif kind == "bite":
+                self.bite(time_s, value)
+            elif kind == "pitch_bend":
+                self.bend(time_s, value)
+        return message.type in ("note_on", "note_off")
 
     def pose(self, time_s: float) -> Pose:
         """How the player stands now."""

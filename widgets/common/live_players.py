@@ -10,12 +10,13 @@ from PySide6.QtCore import QObject, Signal
 
 from app.performance.chunks import Pose
 from app.performance.play_along import PlayAlong
+from app.score.take import Wiring
 
 
 class LivePlayers(QObject):
     """The players that are armed, each with what makes the pose of now.
 
-    Whoever listens to a controller makes a `PlayAlong` of the player, hands it over with `begin`, tells it what is
+    Whoever listens to a controller makes a `PlayAlong` of the player, hands it over with `begin`, tells `hear` what is
     played (stamped by ``time.perf_counter``) and takes it back with `end`. After a change of the player, the
     instrument or the body another one is begun in its place.
 
@@ -23,9 +24,12 @@ class LivePlayers(QObject):
     -------
     changed()
         Others are played now, or somebody otherwise.
+    struck()
+        A note began or ended: whoever draws need not wait.
     """
 
     changed = Signal()
+    struck = Signal()
 
     def __init__(self) -> None:
         super().__init__()
@@ -45,6 +49,12 @@ class LivePlayers(QObject):
         """Show a player as the performance has it again."""
         if self._playing.pop(player_id, None) is not None:
             self.changed.emit()
+
+    def hear(self, player_id: str, time_s: float, raw: str, wiring: Wiring) -> None:
+        """A player is played so: a MIDI message in hexadecimal, see `PlayAlong.hear`."""
+        play_along = self._playing.get(player_id)
+        if play_along is not None and play_along.hear(time_s, raw, wiring):
+            self.struck.emit()
 
     def pose(self, player_id: str) -> Pose | None:
         """How a player stands now; None for who is not played."""

@@ -115,6 +115,7 @@ class ViewportPanel(QWidget):
         session.preview_changed.connect(self.refresh)
         session.theme_changed.connect(self._dress)
         session.live_players.changed.connect(self._live_changed)
+        session.live_players.struck.connect(self._struck)
         session.viewport.changed.connect(self._state_changed)
         session.viewport.viewed.connect(self._view_asked)
         session.viewport.framed.connect(self._frame_asked)
@@ -413,6 +414,12 @@ class ViewportPanel(QWidget):
         else:
             self._live.stop()
         self.refresh()
+
+    def _struck(self) -> None:
+        """A note is seen at once."""
+        if self._live.isActive():
+            self._live.start()
+            self.refresh()
 
     def _show_live(self) -> None:
         # While the performance is heard the playhead's changes draw already.

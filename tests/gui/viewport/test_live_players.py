@@ -10,6 +10,7 @@ from app.performance.chunks import Pose
 from app.performance.ensemble import Performance
 from app.performance.motion import playing_of
 from app.performance.play_along import PlayAlong
+from app.score.take import Wiring
 from widgets.common.session import Session
 from widgets.viewport.panel import ViewportPanel
 from widgets.viewport.poses import Posed
@@ -49,9 +50,7 @@ def test_who_is_played_moves_while_the_playhead_rests(qtbot: QtBot, session: Ses
     assert all(shown(viewport)[other] is not before[other] for other in others)
 
 
-def test_a_key_that_goes_down_is_seen_in_the_next_picture(
-    qtbot: QtBot, session: Session, viewport: ViewportPanel
-) -> None:
+def test_a_key_that_goes_down_is_seen_at_once(qtbot: QtBot, session: Session, viewport: ViewportPanel) -> None:
     live = play_along(session)
     session.live_players.begin(live)
     controls = live.pose(perf_counter()).controls
@@ -61,8 +60,13 @@ def test_a_key_that_goes_down_is_seen_in_the_next_picture(
         if (limits := session.performance.instrument(session.project.players[0]).range).low <= pitch <= limits.high
         and len(session.performance.instrument(session.project.players[0]).fingerings_for(pitch)[0].controls) > 1
     )
-    live.note_on(perf_counter(), pitch)
     own = live.player_id
+    asked = live.asked
+    session.live_players.hear(own, perf_counter(), f"90{pitch:02x}5a", Wiring())
+    assert live.asked == asked + 1
+    session.live_players.hear(own, perf_counter(), "b0027f", Wiring())
+    session.live_players.hear("nobody", perf_counter(), "903c5a", Wiring())
+    assert live.asked == asked + 1
 
     def pressed() -> bool:
         pose = shown(viewport)[own]

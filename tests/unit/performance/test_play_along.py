@@ -17,6 +17,7 @@ from app.performance.contacts import Break, ContactJudge, joined
 from app.performance.play_along import PlayAlong
 from app.project.model import Player
 from app.rig import quaternion
+from app.score.take import Wiring
 from instrument_maps.load import bundled_maps
 from metadata.load import load_skeleton
 from tests.support.live import FPS, LATE_S, QUARTER, Played, line, performance_of, played, playing_alone
@@ -171,6 +172,31 @@ def test_where_the_breath_pauses_long_enough_one_breathes_in_and_shuts_the_mouth
     again = looked(player, 8.0, 0.12)
     assert again[-1].morphs["jawOpen"] < playing.morphs["jawOpen"] + 0.05
     assert max(np.abs(np.diff([pose.morphs["jawOpen"] for pose in (*paused, *again)]))) < 0.3
+
+
+def test_midi_messages_say_the_same() -> None:
+    told, heard = along(), along()
+    wiring = Wiring(channel=1, breath="cc2", bite="cc1")
+    told.breath(1.0, 100 / 127)
+    told.note_on(1.0, 61, 90)
+    told.bite(1.1, 40 / 127)
+    told.bend(1.1, 0.25)
+    told.note_on(1.2, 63, 90)
+    told.note_off(1.2, 61)
+    messages = [
+        (1.0, "b00264"), (1.0, "903d5a"), (1.1, "b00128"), (1.1, "e00050"), (1.2, "903f5a"), (1.2, "903d00"),
+        # Another channel's, a clock, a broken one, and one that says nothing here.
+        (1.2, "914050"), (1.2, "f8"), (1.2, "90"), (1.2, "b04000"),
+    ]  # fmt: skip
+    for time_s, raw in messages:
+        heard.hear(time_s, raw, wiring)
+    one, other = told.pose(1.3), heard.pose(1.3)
+    np.testing.assert_array_equal(one.rotations, other.rotations)
+    assert one.morphs == other.morphs
+    assert one.controls == other.controls
+    heard.hear(2.0, "b07b00", wiring)
+    looked(heard, 2.0, 1.2)
+    assert heard.fingering is None
 
 
 def test_time_does_not_run_backwards() -> None:
