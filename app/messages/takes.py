@@ -1,10 +1,22 @@
-"""Refusals of what is done with takes."""
+"""What is done with takes, and why not."""
 
 from __future__ import annotations
 
 from typing import Final
 
 TEMPLATES: Final[dict[str, str]] = {
+    "edit.comp": "some bars from {take}",
+    "edit.comp_whole": "all of {take}",
+    "edit.comp_before": "what was there before the takes",
+    "edit.rename_take": "call a take {take}",
+    "edit.colour_take": "colour of {take}",
+    "edit.remove_take": "delete {take}",
+    "edit.move_take": "another place for {take}",
+    "edit.clean_take": "clean {take}",
+    "edit.follow_beats": "tempo of {take}",
+    "work.find_beats": "Finding the beats of {take}",
+    "take.beats_found": "The piece follows {take}: {count} beats, {bpm:.0f} a minute.",
+    "take.changed": "{take} was changed while its beats were looked for; nothing was done.",
     "take.none": "There is no take {take} any more.",
     "take.too_many": "A project has room for {most} takes: delete some first.",
     "take.not_free": "{part} has notes already, so the tempo cannot follow one take. Quantise the take instead.",

@@ -16,6 +16,7 @@ import msgspec
 import numpy as np
 import numpy.typing as npt
 
+from app.identity_cache import IdentityCache
 from app.score.model import CurveKind
 from app.score.tempo import TempoMap
 from metadata.model import BiteSource, BreathSource
@@ -121,8 +122,8 @@ class Take(msgspec.Struct, frozen=True, dict=True, forbid_unknown_fields=True):
 
     @cached_property
     def played(self) -> Played:
-        """What the events mean."""
-        return played(self)
+        """What the events mean; a take that is called or cleaned otherwise was played the same."""
+        return _PLAYED.get((self.times_us, self.messages, self.wiring, self.end_us), lambda: played(self))
 
     @property
     def start_tick(self) -> float:
@@ -175,6 +176,9 @@ class Played:
 
     def __len__(self) -> int:
         return len(self.onsets_s)
+
+
+_PLAYED: Final[IdentityCache[Played]] = IdentityCache(64)
 
 
 def played(take: Take) -> Played:

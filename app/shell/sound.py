@@ -21,13 +21,19 @@ from app.plan.generate import frame_around
 from app.plan.model import TimeFrame
 from app.project.document import Change
 from app.project.edit.piece import set_offset
+from app.project.edit.players import change as change_players
+from app.project.edit.takes import comp_whole
 from app.project.edit.tempo import scale_tempo
 from app.project.model import Project
 from app.shell.stems import Stems
+from widgets.common.listening import HeardTake
 from widgets.common.session import Session, Severity
 from widgets.common.tasks import Progress, StopWanted
 
 _FRAME_MS = 16
+_TAKE_WAIT_MS = 1000
+"""A take that is listened to is waited for at most so long: what is heard first is rendered first."""
+_TAKE_LOOK_MS = 50
 SURE = 0.5
 """An offset that was estimated with less confidence is not taken by itself."""
 SAME_TEMPO = 0.002
@@ -72,10 +78,15 @@ class Sound(QObject):
         """Source and metronome of the mix that was made last."""
         self._counted_s: tuple[float, float] | None = None
         """While a take is recorded: where counting in begins, and where the take does."""
+        self._as_heard: tuple[Project, HeardTake, Project] | None = None
+        """The project with a take in the place of a part, and what it was made from."""
+        self._take_waits_ms = 0
         self._own_move = False
         self._told_silent = False
         self._frame_timer = QTimer(self, interval=_FRAME_MS, timerType=Qt.TimerType.PreciseTimer)
         self._frame_timer.timeout.connect(self._follow_sound)
+        self._take_timer = QTimer(self, interval=_TAKE_LOOK_MS)
+        self._take_timer.timeout.connect(self._play_take)
         self._stems.changed.connect(self._stems_changed)
         session.changed.connect(self._changed)
         session.playhead_changed.connect(self._playhead_moved)
@@ -105,7 +116,7 @@ class Sound(QObject):
             self._own_move = False
 
     def _playhead_moved(self, playhead_s: float) -> None:
-        project = self._session.project
+        project = self._heard_project()
         if self._synthesiser_heard(project) and not self._stems.covers(playhead_s):
             self._stems.follow(project, playhead_s)
         if self._own_move or not self._heard:
@@ -120,6 +131,7 @@ class Sound(QObject):
             self._frame_timer.start()
         else:
             self._frame_timer.stop()
+            self._session.listening.set_take(None)
         self._follow_sound()
         self._session.set_playing(playing)
 
@@ -129,11 +141,56 @@ class Sound(QObject):
             self._told_silent = True
             self._session.notice(Message("audio.no_device"), Severity.WARNING)
 
+    # Takes
+
+    def listen(self, take: HeardTake, from_s: float) -> None:
+        """Play a take without taking it, as soon as its beginning is rendered; it is over when the sound stops."""
+        self.playback.stop()
+        self._session.set_playhead(from_s)
+        self._session.listening.set_take(take)
+        self._take_waits_ms = _TAKE_WAIT_MS
+        self._take_timer.start()
+        self._play_take()
+
+    def stop_listening(self) -> None:
+        """Hear the part again."""
+        self._take_timer.stop()
+        self.playback.stop()
+        self._session.listening.set_take(None)
+
+    def _play_take(self) -> None:
+        self._take_waits_ms -= _TAKE_LOOK_MS
+        if self._session.listening.take is None:
+            self._take_timer.stop()
+        elif not self._stems.is_busy or self._take_waits_ms <= 0:
+            self._take_timer.stop()
+            self.playback.play(self._session.playhead_s)
+
+    def _heard_project(self) -> Project:
+        """The project as it is heard: the take that is listened to stands in the place of the part."""
+        project, take = self._session.project, self._session.listening.take
+        recorded = project.takes.get(take.player_id) if take is not None else None
+        if take is None or recorded is None or (take.take_id and all(take.take_id != t.id for t in recorded.takes)):
+            return project
+        known = self._as_heard
+        if known is None or known[0] is not project or known[1] is not take:
+            heard = comp_whole(project, take.player_id, take.take_id)
+            # In a recording of the piece the part is heard already: the take alone is added to it.
+            over = project.audio is not None and self._session.listening.source == "recording"
+            everyone = [player.id for player in project.players]
+            if take.alone or over:
+                heard = change_players(heard, everyone, soloed=False)
+                heard = change_players(heard, [take.player_id], soloed=True)
+            else:
+                heard = change_players(heard, [take.player_id], muted=False)
+            self._as_heard = known = (project, take, heard)
+        return known[2]
+
     # What is heard
 
     def _changed(self, change: Change) -> None:
         if change.opened:
-            self.playback.stop()
+            self.stop_listening()
             self._estimated.clear()
             self._unplaced = ""
         elif change.before.audio is None and change.after.audio is not None:
@@ -141,19 +198,21 @@ class Sound(QObject):
             # An offset that is there already, or was there before an undo, is the person's.
             fresh = audio.offset_s == 0.0 and audio.confidence is None and audio.path not in self._estimated
             self._unplaced = audio.path if fresh else ""
-        self._take(change.after)
+        self._take()
 
     def _listening_changed(self) -> None:
         listening = self._session.listening
         self.playback.set_speed(listening.speed)
         self.playback.set_volume(listening.volume)
-        chosen = (listening.source, listening.click)
+        chosen = (listening.source, listening.click, listening.take)
         if chosen != self._chosen:
             self._chosen = chosen
-            self._take(self._session.project)
+            self._as_heard = None
+            self._take()
 
-    def _take(self, project: Project) -> None:
-        """Let this project be heard."""
+    def _take(self) -> None:
+        """Let the project be heard as it is now."""
+        project = self._heard_project()
         self._set_span(project)
         path = project.audio.path if project.audio is not None else ""
         if path != self._path:
@@ -166,7 +225,7 @@ class Sound(QObject):
         """A take is recorded: it is counted in from a moment to another, and the performance goes on without an end.
         None: no more."""
         self._counted_s = counted_s
-        self._set_span(self._session.project)
+        self._set_span(self._heard_project())
         self._set_mix()
 
     def _set_span(self, project: Project) -> None:
@@ -179,13 +238,20 @@ class Sound(QObject):
         self._set_mix()
 
     def _synthesiser_heard(self, project: Project) -> bool:
-        return self._heard and (project.audio is None or self._session.listening.source != "recording")
+        listening = self._session.listening
+        return self._heard and (project.audio is None or listening.source != "recording" or listening.take is not None)
 
     def _set_mix(self) -> None:
         session = self._session
-        project, listening = session.project, session.listening
+        project, listening = self._heard_project(), session.listening
         tracks: list[Track] = []
-        if project.audio is not None and self._recording is not None and listening.source != "synthesiser":
+        alone = listening.take is not None and listening.take.alone
+        if (
+            project.audio is not None
+            and self._recording is not None
+            and listening.source != "synthesiser"
+            and not alone
+        ):
             tracks.append(recording_track(self._recording, project.audio.offset_s))
         if self._synthesiser_heard(project):
             tracks.extend(self._stems.tracks(project))

@@ -671,4 +671,128 @@
         <translation>すべての種類</translation>
     </message>
 </context>
+<context>
+    <name>TakeSection</name>
+    <message>
+        <source>Take</source>
+        <translation>テイク</translation>
+    </message>
+    <message>
+        <source>{seconds:.1f} s, {count:,} events</source>
+        <translation>{seconds:.1f} 秒、イベント {count:,} 個</translation>
+    </message>
+    <message>
+        <source>{count} quarters</source>
+        <translation>四分音符 {count} 個分</translation>
+    </message>
+    <message>
+        <source>ghost notes: {count}</source>
+        <translation>ゴーストノート {count}</translation>
+    </message>
+    <message>
+        <source>unheard: {count}</source>
+        <translation>聞こえない音 {count}</translation>
+    </message>
+    <message>
+        <source>late fingers: {count}</source>
+        <translation>指の遅れ {count}</translation>
+    </message>
+    <message>
+        <source>struck twice: {count}</source>
+        <translation>二度打ち {count}</translation>
+    </message>
+    <message>
+        <source>Notes: {count}; nothing is left out.</source>
+        <translation>音符 {count} 個。除かれた音はありません。</translation>
+    </message>
+    <message>
+        <source>Notes: {count}. Left out: {faults}.</source>
+        <translation>音符 {count} 個。除かれた音: {faults}。</translation>
+    </message>
+    <message>
+        <source>Name of the take</source>
+        <translation>テイクの名前</translation>
+    </message>
+    <message>
+        <source>Colour of the take</source>
+        <translation>テイクの色</translation>
+    </message>
+    <message>
+        <source>Cleaning</source>
+        <translation>クリーニング</translation>
+    </message>
+    <message>
+        <source>ms</source>
+        <comment>milliseconds</comment>
+        <translation>ms</translation>
+    </message>
+    <message>
+        <source>Ghost notes shorter than</source>
+        <translation>ゴーストノートの長さの上限</translation>
+    </message>
+    <message>
+        <source>Soft notes shorter than this are left out, and short ones between two of a legato. 0: none</source>
+        <translation>これより短い弱い音と、レガートの 2 音の間に挟まった短い音を除きます。0: 除きません</translation>
+    </message>
+    <message>
+        <source>and softer than</source>
+        <translation>強さの上限</translation>
+    </message>
+    <message>
+        <source>Soft: the breath stays below this; without breath the velocity</source>
+        <translation>ブレスがこの値に届かない音を弱い音とします。ブレスがなければベロシティで判断します</translation>
+    </message>
+    <message>
+        <source>Doubled notes within</source>
+        <translation>二度打ちとみなす間隔</translation>
+    </message>
+    <message>
+        <source>The same note struck again within this time is one note. 0: never</source>
+        <translation>この時間内に同じ高さの音が再び鳴ったら 1 つの音にまとめます。0: まとめません</translation>
+    </message>
+    <message>
+        <source>Legato overlap at most</source>
+        <translation>レガートの重なりの上限</translation>
+    </message>
+    <message>
+        <source>A note that sounds longer into the next is cut there</source>
+        <translation>次の音にこれより長く重なる音は切りつめます</translation>
+    </message>
+    <message>
+        <source>Quantise</source>
+        <translation>クオンタイズ</translation>
+    </message>
+    <message>
+        <source>How far notes are drawn to the grid</source>
+        <translation>音符をグリッドに寄せる強さ</translation>
+    </message>
+    <message>
+        <source>Draw to the score</source>
+        <translation>楽譜に合わせる</translation>
+    </message>
+    <message>
+        <source>How far notes are drawn to those of the part from before the first take, by pitch and time</source>
+        <translation>最初のテイクより前のパートの音符に、高さと時間で対応させて寄せる強さ</translation>
+    </message>
+    <message>
+        <source>Grid of the quantising</source>
+        <translation>クオンタイズのグリッド</translation>
+    </message>
+    <message>
+        <source>As Usual</source>
+        <translation>標準に戻す</translation>
+    </message>
+    <message>
+        <source>Clean this take as every take is cleaned at first</source>
+        <translation>このテイクのクリーニングを最初の設定に戻します</translation>
+    </message>
+    <message>
+        <source>Find the Beats</source>
+        <translation>拍を検出</translation>
+    </message>
+    <message>
+        <source>For a take without a click: the piece gets the tempo it was played in. Nobody else may have notes</source>
+        <translation>クリックなしで録音したテイク用です。演奏されたテンポを曲のテンポにします。ほかのパートに音符がないときだけ使えます</translation>
+    </message>
+</context>
 </TS>

@@ -1296,6 +1296,54 @@
             <translation>キャラクター {id!r} には演奏に必要なものがありません: {missing}</translation>
         </message>
         <message>
+            <source>some bars from {take}</source>
+            <translation>{take}から一部を採用</translation>
+        </message>
+        <message>
+            <source>all of {take}</source>
+            <translation>{take}をすべて採用</translation>
+        </message>
+        <message>
+            <source>what was there before the takes</source>
+            <translation>テイク前の内容に戻す</translation>
+        </message>
+        <message>
+            <source>call a take {take}</source>
+            <translation>テイクの名前を{take}に変更</translation>
+        </message>
+        <message>
+            <source>colour of {take}</source>
+            <translation>{take}の色</translation>
+        </message>
+        <message>
+            <source>delete {take}</source>
+            <translation>{take}を削除</translation>
+        </message>
+        <message>
+            <source>another place for {take}</source>
+            <translation>{take}の並び順を変更</translation>
+        </message>
+        <message>
+            <source>clean {take}</source>
+            <translation>{take}のクリーニング</translation>
+        </message>
+        <message>
+            <source>tempo of {take}</source>
+            <translation>{take}のテンポ</translation>
+        </message>
+        <message>
+            <source>Finding the beats of {take}</source>
+            <translation>{take}の拍を検出中</translation>
+        </message>
+        <message>
+            <source>The piece follows {take}: {count} beats, {bpm:.0f} a minute.</source>
+            <translation>曲のテンポを{take}に合わせました。{count} 拍、毎分 {bpm:.0f} 拍。</translation>
+        </message>
+        <message>
+            <source>{take} was changed while its beats were looked for; nothing was done.</source>
+            <translation>拍の検出中に{take}が変更されたため、何も行いませんでした。</translation>
+        </message>
+        <message>
             <source>There is no take {take} any more.</source>
             <translation>テイク {take} はもうありません。</translation>
         </message>

@@ -634,6 +634,54 @@
         <source>Count In Two Bars</source>
         <translation>2小節カウントイン</translation>
     </message>
+    <message>
+        <source>Listen to Take</source>
+        <translation>テイクを試聴</translation>
+    </message>
+    <message>
+        <source>Listen to Take Alone</source>
+        <translation>テイクだけを試聴</translation>
+    </message>
+    <message>
+        <source>Use the Whole Take</source>
+        <translation>テイク全体を採用</translation>
+    </message>
+    <message>
+        <source>Selected Span from the Take Above</source>
+        <translation>選択範囲を 1 つ上のテイクから採用</translation>
+    </message>
+    <message>
+        <source>Selected Span from the Take Below</source>
+        <translation>選択範囲を 1 つ下のテイクから採用</translation>
+    </message>
+    <message>
+        <source>Back to What Was Before the Takes</source>
+        <translation>テイク前の内容に戻す</translation>
+    </message>
+    <message>
+        <source>Rename Take</source>
+        <translation>テイクの名前を変更</translation>
+    </message>
+    <message>
+        <source>Move Take Up</source>
+        <translation>テイクを上へ移動</translation>
+    </message>
+    <message>
+        <source>Move Take Down</source>
+        <translation>テイクを下へ移動</translation>
+    </message>
+    <message>
+        <source>Clean Take as Usual</source>
+        <translation>テイクのクリーニングを標準に戻す</translation>
+    </message>
+    <message>
+        <source>Find the Beats of the Take</source>
+        <translation>テイクの拍を検出</translation>
+    </message>
+    <message>
+        <source>Delete Take</source>
+        <translation>テイクを削除</translation>
+    </message>
 </context>
 <context>
     <name>ActionTable</name>
@@ -799,6 +847,10 @@
     <message>
         <source>Players</source>
         <translation>プレイヤー</translation>
+    </message>
+    <message>
+        <source>Takes</source>
+        <translation>テイク</translation>
     </message>
     <message>
         <source>Go</source>

@@ -291,6 +291,76 @@
     </message>
 </context>
 <context>
+    <name>TakeHeads</name>
+    <message>
+        <source>Takes</source>
+        <translation>テイク</translation>
+    </message>
+    <message>
+        <source>Before</source>
+        <translation>録音前</translation>
+    </message>
+    <message>
+        <source>What was there before the first take. Double-click takes all of it back</source>
+        <translation>最初のテイクより前の内容。ダブルクリックですべて元に戻します</translation>
+    </message>
+    <message>
+        <source>{seconds:.1f} s, notes: {count}</source>
+        <translation>{seconds:.1f} 秒、音符 {count} 個</translation>
+    </message>
+    <message>
+        <source>Double-click takes all of it</source>
+        <translation>ダブルクリックですべて採用します</translation>
+    </message>
+    <message>
+        <source>Name of the take</source>
+        <translation>テイクの名前</translation>
+    </message>
+</context>
+<context>
+    <name>TakesLane</name>
+    <message>
+        <source>What was recorded of the player in front. Drag over a row to take that stretch from that take</source>
+        <translation>前面のプレイヤーの録音。行の上をドラッグすると、その範囲をそのテイクから採用します</translation>
+    </message>
+    <message>
+        <source>Takes ({count})</source>
+        <translation>テイク ({count})</translation>
+    </message>
+    <message>
+        <source>Takes</source>
+        <translation>テイク</translation>
+    </message>
+    <message>
+        <source>No player is in front.</source>
+        <translation>前面のプレイヤーがいません。</translation>
+    </message>
+    <message>
+        <source>Nothing is recorded of {player} yet. Connect a wind controller, choose it under Record, and play: each time through becomes a take here. Then drag over the takes to put the part together.</source>
+        <translation>{player}の録音はまだありません。ウィンドコントローラーを接続し、「録音」メニューで選んで演奏すると、1 回ごとにここにテイクができます。テイクの上をドラッグしてパートを組み立てます。</translation>
+    </message>
+    <message>
+        <source>{note} is left out: {why}</source>
+        <translation>{note} は除かれます: {why}</translation>
+    </message>
+    <message>
+        <source>short and soft, a ghost note</source>
+        <translation>短く弱い音（ゴーストノート）</translation>
+    </message>
+    <message>
+        <source>blown too softly to be heard</source>
+        <translation>息が弱く聞こえない音</translation>
+    </message>
+    <message>
+        <source>a finger was late, it lies between two notes of a legato</source>
+        <translation>指が遅れ、レガートの 2 音の間に鳴った音</translation>
+    </message>
+    <message>
+        <source>the same note twice, a key sprang back</source>
+        <translation>キーの跳ね返りによる二度打ち</translation>
+    </message>
+</context>
+<context>
     <name>TimelinePanel</name>
     <message>
         <source>Lanes</source>

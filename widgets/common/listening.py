@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Final, Literal
 
 from PySide6.QtCore import QObject, Signal
@@ -12,6 +13,23 @@ Source = Literal["recording", "synthesiser", "both"]
 SOURCES: Final[tuple[Source, ...]] = ("recording", "synthesiser", "both")
 
 LEAST_SPEED, MOST_SPEED = 0.25, 2.0
+
+
+@dataclass(frozen=True)
+class HeardTake:
+    """A take that is listened to without being taken.
+
+    Attributes
+    ----------
+    player_id, take_id : str
+        ``take_id`` is empty for what was there before the first take.
+    alone : bool
+        Whether nobody else is heard.
+    """
+
+    player_id: str
+    take_id: str
+    alone: bool
 
 
 class Listening(QObject):
@@ -35,6 +53,8 @@ class Listening(QObject):
         Of the project's recording, once it is read.
     ready : float
         0..1: how much of the score the synthesiser has made.
+    take : HeardTake or None
+        Heard in the place of its player's part until the sound stops.
 
     Signals
     -------
@@ -57,6 +77,7 @@ class Listening(QObject):
         self.silent = False
         self.ready = 1.0
         self.waveform: Peaks | None = None
+        self.take: HeardTake | None = None
 
     def set(
         self,
@@ -79,6 +100,12 @@ class Listening(QObject):
         self.silent = self.silent if silent is None else silent
         self.ready = self.ready if ready is None else ready
         if before != self._state():
+            self.changed.emit()
+
+    def set_take(self, take: HeardTake | None) -> None:
+        """Hear a take in the place of its player's part; None: the part."""
+        if take != self.take:
+            self.take = take
             self.changed.emit()
 
     def set_waveform(self, waveform: Peaks | None) -> None:

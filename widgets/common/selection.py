@@ -22,11 +22,14 @@ class Selection(msgspec.Struct, frozen=True):
     events : frozenset of EventKey
     span : (int, int) or None
         A range of ticks, half-open.
+    take : str or None
+        A take of the player in front; empty: what was there before the first.
     """
 
     notes: frozenset[str] = frozenset()
     events: frozenset[EventKey] = frozenset()
     span: tuple[int, int] | None = None
+    take: str | None = None
 
     def __bool__(self) -> bool:
-        return bool(self.notes or self.events or self.span)
+        return bool(self.notes or self.events or self.span or self.take is not None)

@@ -14,6 +14,7 @@ from widgets.inspector.generated import Generated
 from widgets.inspector.history_list import HistoryList
 from widgets.inspector.note_section import NoteSection
 from widgets.inspector.problem_list import ProblemList
+from widgets.inspector.take_section import TakeSection
 
 MOST_COUNTED = 999
 
@@ -33,6 +34,7 @@ class InspectorPanel(QWidget):
         self._generated = Generated(session)
         self._notes = NoteSection(session, self._generated)
         self._events = EventSection(session, self._generated)
+        self._take = TakeSection(session)
         self._maker = ExpressionMaker(session)
         self._empty = QLabel()
         self._empty.setWordWrap(True)
@@ -64,7 +66,7 @@ class InspectorPanel(QWidget):
         layout = QVBoxLayout(upper)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(0)
-        for widget in (self._notes, self._events, self._empty, self._maker):
+        for widget in (self._notes, self._events, self._take, self._empty, self._maker):
             layout.addWidget(widget)
         layout.addStretch(1)
         scroll = QScrollArea()
@@ -89,9 +91,9 @@ class InspectorPanel(QWidget):
         outer.addWidget(splitter)
 
     def show_selection(self) -> None:
-        """Show the selected notes and events."""
-        notes, events = self._notes.show_notes(), self._events.show_events()
-        self._empty.setVisible(not notes and not events and not self._maker.is_open)
+        """Show the selected notes and events, or the selected take."""
+        notes, events, take = self._notes.show_notes(), self._events.show_events(), self._take.show_take()
+        self._empty.setVisible(not notes and not events and not take and not self._maker.is_open)
         varied = any(key.event_id.startswith("vary:") for key in self._session.selection.events)
         self._empty.setText(self._varied_text() if varied else self._empty_text())
 
@@ -110,6 +112,8 @@ class InspectorPanel(QWidget):
     def _changed(self, change: Change) -> None:
         if change.before.score.parts is not change.after.score.parts or change.opened:
             self.show_selection()
+        elif change.before.takes is not change.after.takes:
+            self._take.show_take()
         if change.before.corrections is not change.after.corrections or change.opened:
             self._show_tab_texts()
 

@@ -23,6 +23,7 @@ from widgets.timeline.axis import TimeAxis
 from widgets.timeline.extent import scroll_limits, selected_span
 from widgets.timeline.lane import GUTTER_PX, Lane
 from widgets.timeline.lanes import LANES
+from widgets.timeline.lanes.takes import TakesLane
 from widgets.timeline.quantise import QuantisePopover
 from widgets.timeline.roll import PianoRoll
 from widgets.timeline.ruler import Ruler
@@ -86,6 +87,7 @@ class TimelinePanel(QWidget):
         made = [kind(session, self.axis) for kind in LANES]
         for lane in (*made[:1], self.roll, *made[1:]):
             self.lanes[lane.id] = lane
+        self.takes = next(lane for lane in made if isinstance(lane, TakesLane))
 
         self.tool_bar = ToolBar(session, self.roll, self)
         self.ruler = Ruler(session, self.axis, self)
@@ -95,8 +97,6 @@ class TimelinePanel(QWidget):
             lane.fold_changed.connect(self._place_playhead)
             lane.header.setContextMenuPolicy(Qt.ContextMenuPolicy.CustomContextMenu)
             lane.header.customContextMenuRequested.connect(self._header_menu)
-            if lane.folded_at_first:
-                lane.set_folded(True)
 
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
@@ -106,6 +106,8 @@ class TimelinePanel(QWidget):
         column.addWidget(self.stack, 1)
         column.addLayout(self._make_foot())
         self.playhead = Playhead(session, self)
+        for lane in self.lanes.values():
+            lane.set_folded(lane.folded_at_first)
         self.quantise = QuantisePopover(session, self)
 
         self.ruler.sought.connect(self.sought)
@@ -210,6 +212,15 @@ class TimelinePanel(QWidget):
     def ask_quantise(self) -> None:
         """Open the quantise popover over the roll."""
         self.quantise.open_over(self.roll)
+
+    def ask_take_name(self) -> None:
+        """Type the selected take's name where it stands."""
+        self.takes.show()
+        self.takes.ask_name()
+
+    def step_take(self, by: int) -> None:
+        """Take the selected span from the take above (-1) or below (1)."""
+        self.takes.step(by)
 
     def reveal(self, time_s: float) -> None:
         """Bring a time into view."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
 from math import ceil, floor
 
 from PySide6.QtCore import QEvent, QSize, Qt
@@ -12,6 +11,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy, QToolButton, QWi
 from app.project.document import Change
 from app.project.grid import Grid
 from widgets.common.combo import Combo, Option
+from widgets.common.grids import GRIDS
 from widgets.common.icons import icon, pixmap
 from widgets.common.listening import LEAST_SPEED, MOST_SPEED, SOURCES
 from widgets.common.musical_time import metre_at
@@ -31,14 +31,6 @@ BUTTONS = (
 """Actions by id, and their icons."""
 TOGGLES = (("play.click", "metronome"), ("play.follow", "follow"))
 
-_LENGTHS = (1, 2, 4, 8, 16, 32)
-_KINDS = (("", Fraction(1)), ("T", Fraction(2, 3)), (".", Fraction(3, 2)))
-GRIDS: dict[str, Fraction] = {
-    f"1/{length}{sign}": Fraction(4, length) * factor
-    for sign, factor in _KINDS
-    for length in _LENGTHS[2 if sign else 0 :]
-}
-"""Steps of the grid in quarters: straight, triplets, dotted."""
 _ROOMY_PX = 1250
 """With less room the hint is a picture alone."""
 

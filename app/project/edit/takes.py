@@ -113,7 +113,7 @@ def comp(project: Project, player_id: str, take_id: str, start_tick: int, end_ti
     notes, curves = _source(project, player_id, take_id)
     wanted = [note for note in notes if start_tick <= note.onset_tick < end_tick]
     project = _replaced(project, player_id, wanted, curves, start_tick, end_tick)
-    spans = _laid(recorded.comp, start_tick, end_tick, take_id)
+    spans = comp_with(recorded.comp, start_tick, end_tick, take_id)
     return _with(project, player_id, msgspec.structs.replace(recorded, comp=spans))
 
 
@@ -126,6 +126,25 @@ def comp_whole(project: Project, player_id: str, take_id: str) -> Project:
     slack = project.score.ticks_per_quarter // 8
     start, end = round(take.start_tick), round(take.end_tick)
     return comp(project, player_id, take_id, max(start, 0) if start <= slack else start, end)
+
+
+def comp_with(spans: tuple[CompSpan, ...], start_tick: int, end_tick: int, take_id: str) -> tuple[CompSpan, ...]:
+    """The comp with a span laid over it; neighbours of one take are one."""
+    result = []
+    for span in spans:
+        if span.start_tick < start_tick:
+            result.append(msgspec.structs.replace(span, end_tick=min(span.end_tick, start_tick)))
+        if span.end_tick > end_tick:
+            result.append(msgspec.structs.replace(span, start_tick=max(span.start_tick, end_tick)))
+    if take_id != BEFORE:
+        result.append(CompSpan(start_tick, end_tick, take_id))
+    joined: list[CompSpan] = []
+    for span in sorted(result, key=lambda span: span.start_tick):
+        if joined and joined[-1].take_id == span.take_id and joined[-1].end_tick == span.start_tick:
+            joined[-1] = msgspec.structs.replace(joined[-1], end_tick=span.end_tick)
+        else:
+            joined.append(span)
+    return tuple(joined)
 
 
 def set_cleaning(project: Project, player_id: str, take_id: str, cleaning: Cleaning) -> Project:
@@ -163,29 +182,32 @@ def take_cleaned(project: Project, player_id: str, take_id: str) -> Cleaned:
 def take_curves(project: Project, player_id: str, take_id: str) -> tuple[ControllerCurve, ...]:
     """A take's breath, bite and other controllers, in the piece's ticks."""
     take = _recorded(project, player_id, take_id).take(take_id)
-    return _CURVES.get((take,), lambda: _curves(take))
+    return _CURVES.get((take.played, take.tempo_map), lambda: _curves(take))
 
 
 # A take without a score
 
 
-def follow_beats(project: Project, player_id: str, take_id: str) -> Project:
-    """Find the beats of a take that was played freely, and let the piece have its tempo: the take's first beat begins
-    the piece, and its notes lie on beats as they were meant.
+def beats_of(project: Project, player_id: str, take_id: str) -> Floats:
+    """When the beats of a take that was played freely are, seconds. Slow at first: its library compiles.
 
     Raises
     ------
     AppError
         ``take.not_free``: others play too; ``take.too_few_notes``, ``take.no_beats``.
     """
-    for part in project.score.parts:
-        if part.notes and part.id != project.player(player_id).part_id:
-            raise AppError("take.not_free", part=part.name)
+    _require_free(project, player_id)
+    clean = cleaned(_recorded(project, player_id, take_id).take(take_id))
+    kept = clean.kept
+    return find_beats(clean.onsets_s[kept], clean.ends_s[kept])
+
+
+def follow_beats(project: Project, player_id: str, take_id: str, beats_s: Floats) -> Project:
+    """Let the piece have the tempo of a take that was played freely: its first beat begins the piece, and its notes
+    lie on beats as they were meant. Raises AppError ``take.not_free``."""
+    _require_free(project, player_id)
     recorded = _recorded(project, player_id, take_id)
     take = recorded.take(take_id)
-    clean = cleaned(take)
-    kept = clean.kept
-    beats_s = find_beats(clean.onsets_s[kept], clean.ends_s[kept])
     tempo_map = tempo_of_beats(beats_s, project.score.ticks_per_quarter)
     shift_us = round(float(beats_s[0]) * 1e6)
     take = msgspec.structs.replace(
@@ -199,6 +221,13 @@ def follow_beats(project: Project, player_id: str, take_id: str) -> Project:
     project = replace(project, score=msgspec.structs.replace(project.score, tempo_map=tempo_map))
     project = _with(project, player_id, msgspec.structs.replace(recorded, takes=takes))
     return comp(project, player_id, take_id, 0, LAST_TICK)
+
+
+def _require_free(project: Project, player_id: str) -> None:
+    """Where others play, the tempo is not one take's to say."""
+    for part in project.score.parts:
+        if part.notes and part.id != project.player(player_id).part_id:
+            raise AppError("take.not_free", part=part.name)
 
 
 # How it is done
@@ -390,25 +419,6 @@ def _value_at(curve: ControllerCurve | None, tick: int) -> float | None:
         return None
     index = bisect_right(curve.ticks, tick) - 1
     return curve.values[index] if index >= 0 else None
-
-
-def _laid(spans: tuple[CompSpan, ...], start_tick: int, end_tick: int, take_id: str) -> tuple[CompSpan, ...]:
-    """The comp with a span laid over it; neighbours of one take are one."""
-    result = []
-    for span in spans:
-        if span.start_tick < start_tick:
-            result.append(msgspec.structs.replace(span, end_tick=min(span.end_tick, start_tick)))
-        if span.end_tick > end_tick:
-            result.append(msgspec.structs.replace(span, start_tick=max(span.start_tick, end_tick)))
-    if take_id != BEFORE:
-        result.append(CompSpan(start_tick, end_tick, take_id))
-    joined: list[CompSpan] = []
-    for span in sorted(result, key=lambda span: span.start_tick):
-        if joined and joined[-1].take_id == span.take_id and joined[-1].end_tick == span.start_tick:
-            joined[-1] = msgspec.structs.replace(joined[-1], end_tick=span.end_tick)
-        else:
-            joined.append(span)
-    return tuple(joined)
 
 
 def _recleaned(

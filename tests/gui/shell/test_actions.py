@@ -205,7 +205,7 @@ def test_no_shortcut_is_the_key_of_a_menu(program: Program, code: str) -> None:
         for action in program.window.menuBar().actions()
         if action.isVisible()
     }
-    assert len(menus) == 7
+    assert len(menus) == 8
     taken = {
         row.id: keys
         for row in program.editor.table.rows.values()

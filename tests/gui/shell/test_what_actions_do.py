@@ -7,13 +7,14 @@ import traceback
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
+import msgspec
 import numpy as np
 import pytest
 import soundfile
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QKeySequence
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QDialog, QWidget
+from PySide6.QtWidgets import QApplication, QDialog, QLineEdit, QWidget
 from pytestqt.qtbot import QtBot
 
 from app.errors import Message
@@ -23,11 +24,13 @@ from app.project.autosave import Autosave
 from app.project.casting import StagePosition
 from app.project.edit.piece import set_audio
 from app.project.edit.players import place
+from app.project.edit.takes import add_takes, comp_whole, set_cleaning
 from app.project.grid import Grid
 from app.project.model import Player, Project, map_choices
 from app.project.presence import Presence
 from app.score.model import Note
 from app.score.read import read_midi
+from app.score.take import Cleaning
 from app.shell.actions import rows
 from app.shell.app import Program
 from app.shell.recording import Recorder
@@ -37,7 +40,9 @@ from instrument_maps.load import bundled_maps
 from tests.gui.conftest import QUARTET, delete_now
 from tests.gui.shell.conftest import Answers
 from tests.support.recorder import EWI, RunningClock, SpokenFor
+from tests.support.takes import take_of
 from tests.support.tasks import ImmediateTasks
+from widgets.common.listening import HeardTake
 from widgets.common.selection import EventKey, Selection
 from widgets.common.tokens import DARK
 from widgets.timeline.panel import TimelinePanel
@@ -322,6 +327,76 @@ def set_language(code: str) -> Deed:
     return lambda desk: desk.program.editor.speak(code)
 
 
+def recorded(take_id: str, span: tuple[int, int] | None = None, alone: bool = False) -> Deed:
+    """Somebody recorded two takes, a second and a third above the part, and selected one; perhaps nobody else plays."""
+
+    def ready(desk: Desk) -> None:
+        clock, player = desk.project.score.tempo_map, desk.player
+        made = []
+        for higher in (2, 4):
+            notes = [
+                (clock.seconds(float(note.onset_tick)), clock.seconds(float(note.end_tick)), note.pitch + higher, 0.6)
+                for note in desk.notes()
+            ]
+            made.append(take_of(notes, tempo_map=clock))
+        desk.session.attempt(Message("edit.comp_before"), lambda project: add_takes(project, player.id, made)[0])
+        if alone:
+            score = desk.project.score
+            parts = tuple(
+                part if part.id == player.part_id else msgspec.structs.replace(part, notes=()) for part in score.parts
+            )
+            score = msgspec.structs.replace(score, parts=parts)
+            desk.session.apply(Message("edit.comp_before"), dataclasses.replace(desk.project, score=score))
+        desk.session.select(Selection(span=span, take=take_id))
+
+    return ready
+
+
+def recorded_and_taken(desk: Desk) -> None:
+    recorded("take:1")(desk)
+    desk.session.attempt(
+        Message("edit.comp_whole", {"take": "1"}), lambda project: comp_whole(project, desk.player.id, "take:1")
+    )
+
+
+def owners(desk: Desk) -> list[str]:
+    """Which takes the part has, from its beginning on."""
+    return [span.take_id for span in desk.project.takes[desk.player.id].comp]
+
+
+def lanes(desk: Desk) -> list[str]:
+    return [take.id for take in desk.project.takes[desk.player.id].takes]
+
+
+def heard_take(desk: Desk) -> HeardTake | None:
+    """The take that is listened to; it is over when the sound stops."""
+    heard = desk.session.listening.take
+    assert playing(desk)
+    assert desk.session.listening.take is None
+    return heard
+
+
+def higher_by(desk: Desk, count: int) -> bool:
+    before = [note.pitch for note in desk.notes(desk.before)]
+    return [note.pitch for note in desk.notes()] == [pitch + count for pitch in before]
+
+
+def named(desk: Desk) -> bool:
+    field = desk.timeline.takes.findChild(QLineEdit, "take_name_field")
+    assert field is not None
+    QTest.keyClicks(field, "Best")
+    QTest.keyClick(field, Qt.Key.Key_Return)
+    return [take.name for take in desk.project.takes[desk.player.id].takes] == ["Take 1", "Best"]
+
+
+def otherwise_cleaned(desk: Desk) -> None:
+    recorded("take:1")(desk)
+    desk.session.attempt(
+        Message("edit.clean_take", {"take": "1"}),
+        lambda project: set_cleaning(project, desk.player.id, "take:1", Cleaning(quantise=1.0)),
+    )
+
+
 def looping(desk: Desk) -> bool:
     score, notes = desk.project.score, [note for note, _ in desk.chosen()]
     seconds = score.tempo_map.seconds
@@ -602,6 +677,37 @@ CASES: dict[str, Case] = {
     "generate.bars_back": Case(
         lambda d: not d.project.corrections.get(d.player.id), command("generate.bars"), edits=True
     ),
+    # Takes
+    "takes.listen": Case(lambda d: heard_take(d) == HeardTake(d.player.id, "take:2", alone=False), recorded("take:2")),
+    "takes.listen_alone": Case(
+        lambda d: heard_take(d) == HeardTake(d.player.id, "take:2", alone=True), recorded("take:2")
+    ),
+    "takes.whole": Case(lambda d: higher_by(d, 4) and owners(d) == ["take:2"], recorded("take:2"), edits=True),
+    "takes.above": Case(
+        lambda d: owners(d) == ["take:1"] and d.session.selection.take == "take:1",
+        recorded("take:2", (0, 4000)),
+        edits=True,
+    ),
+    "takes.below": Case(
+        lambda d: owners(d) == ["take:2"] and d.session.selection.take == "take:2",
+        recorded("take:1", (0, 4000)),
+        edits=True,
+    ),
+    "takes.before": Case(
+        lambda d: owners(d) == [] and len(d.before.takes[d.player.id].comp) == 1, recorded_and_taken, edits=True
+    ),
+    "takes.rename": Case(named, recorded("take:2"), edits=True),
+    "takes.earlier_lane": Case(lambda d: lanes(d) == ["take:2", "take:1"], recorded("take:2"), edits=True),
+    "takes.later_lane": Case(lambda d: lanes(d) == ["take:2", "take:1"], recorded("take:1"), edits=True),
+    "takes.usual_cleaning": Case(
+        lambda d: d.project.takes[d.player.id].takes[0].cleaning == Cleaning(), otherwise_cleaned, edits=True
+    ),
+    "takes.find_beats": Case(
+        lambda d: d.project.score.tempo_map != d.before.score.tempo_map and owners(d) == ["take:1"],
+        recorded("take:1", alone=True),
+        edits=True,
+    ),
+    "takes.remove": Case(lambda d: lanes(d) == ["take:1"], recorded("take:2"), edits=True),
     "problems.next": Case(lambda d: d.session.selection.notes == {d.notes()[4].id}, problem),
     "problems.previous": Case(
         lambda d: len(d.session.selection.notes) == 1 and d.session.selection.notes != {d.notes()[4].id}, problem

@@ -20,10 +20,11 @@ from app.shell.settings import Settings
 from app.shell.sound import Sound
 from tests.gui.transport.conftest import Elapse
 from tests.gui.transport.devices import FakeDevices
+from widgets.common.grids import GRIDS
 from widgets.common.number_slider import NumberSlider
 from widgets.common.session import Session
 from widgets.common.tokens import LIGHT
-from widgets.transport.bar import GRIDS, TransportBar
+from widgets.transport.bar import TransportBar
 from widgets.transport.fields import bars_text, clock_seconds, clock_text
 
 LEFT = Qt.MouseButton.LeftButton

@@ -17,6 +17,7 @@ from app.project.edit.players import duplicate_players, remove_players
 from app.project.edit.takes import (
     BEFORE,
     add_takes,
+    beats_of,
     comp,
     comp_whole,
     follow_beats,
@@ -151,7 +152,7 @@ def test_a_free_take_gives_the_piece_its_beats() -> None:
     beats = np.cumsum(np.concatenate([[1.0], np.full(15, 0.6), np.full(15, 0.55)]))
     played = [(float(at), float(at) + 0.5, 60 + index % 5, 0.6) for index, at in enumerate(beats)]
     project = add_takes(_empty(), TRUMPET, [take_of(played)])[0]
-    project = follow_beats(project, TRUMPET, "take:1")
+    project = follow_beats(project, TRUMPET, "take:1", beats_of(project, TRUMPET, "take:1"))
     ticks = np.array([note.onset_tick for note in notes(project)])
     assert np.abs(ticks - 480 * np.rint(ticks / 480)).max() <= 30
     assert len(ticks) == len(played)
@@ -162,7 +163,7 @@ def test_a_free_take_gives_the_piece_its_beats() -> None:
 
 def test_beats_are_not_found_where_others_play() -> None:
     with pytest.raises(AppError) as caught:
-        follow_beats(recorded(ONE), TRUMPET, "take:1")
+        beats_of(recorded(ONE), TRUMPET, "take:1")
     assert caught.value.message.id == "take.not_free"
 
 

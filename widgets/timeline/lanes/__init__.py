@@ -8,7 +8,16 @@ from widgets.timeline.lanes.breath import BreathLane
 from widgets.timeline.lanes.curves import CurvesLane
 from widgets.timeline.lanes.fingering import FingeringLane
 from widgets.timeline.lanes.problems import ProblemsLane
+from widgets.timeline.lanes.takes import TakesLane
 from widgets.timeline.lanes.waveform import WaveformLane
 
-LANES: tuple[type[Lane], ...] = (WaveformLane, FingeringLane, BreathLane, ActingLane, CurvesLane, ProblemsLane)
+LANES: tuple[type[Lane], ...] = (
+    WaveformLane,
+    TakesLane,
+    FingeringLane,
+    BreathLane,
+    ActingLane,
+    CurvesLane,
+    ProblemsLane,
+)
 """In the order of a new window, from the top; the piano roll stands before them all but the first."""

@@ -1,0 +1,311 @@
+"""Takes: listen, take, clean, put away."""
+
+from __future__ import annotations
+
+from app.errors import AppError, Message
+from app.project.edit import takes as edit
+from app.project.edit.takes import BEFORE
+from app.project.limits import LAST_TICK
+from app.project.model import Player, Project
+from app.score.take import Cleaning, Floats, Take
+from app.shell.action import QT_TRANSLATE_NOOP, Action
+from app.shell.sound import sound_of
+from widgets.common.listening import HeardTake
+from widgets.common.selection import Selection
+from widgets.common.session import Session, Severity
+from widgets.common.tasks import Progress, StopWanted
+
+
+def _takes(session: Session) -> tuple[Take, ...]:
+    """The takes of the player in front, in the order of their lanes."""
+    recorded = session.project.takes.get(session.player.id) if session.player is not None else None
+    return recorded.takes if recorded is not None else ()
+
+
+def _chosen(session: Session) -> tuple[Player, Take] | None:
+    """The selected take, and whose it is."""
+    player, take_id = session.player, session.selection.take
+    found = [take for take in _takes(session) if take.id == take_id]
+    return (player, found[0]) if player is not None and found else None
+
+
+def listen(session: Session) -> None:
+    """Hear the selected take among the others, or no more."""
+    _listen(session, alone=False)
+
+
+def listen_alone(session: Session) -> None:
+    """Hear nothing but the selected take, or no more."""
+    _listen(session, alone=True)
+
+
+def _listen(session: Session, alone: bool) -> None:
+    sound, player, take_id = sound_of(session), session.player, session.selection.take
+    if sound is None or player is None or take_id is None:
+        return
+    wanted = HeardTake(player.id, take_id, alone)
+    if session.listening.take == wanted:
+        sound.stop_listening()
+    else:
+        sound.listen(wanted, _listen_from(session))
+
+
+def _listen_from(session: Session) -> float:
+    """From the selected span on, else from where the playhead is, if that is in the take, else from its beginning."""
+    clock, span, chosen = session.project.score.tempo_map, session.selection.span, _chosen(session)
+    if span is not None:
+        return clock.seconds(float(span[0]))
+    if chosen is None:
+        return session.playhead_s
+    start_s, end_s = clock.seconds(chosen[1].start_tick), clock.seconds(chosen[1].end_tick)
+    return session.playhead_s if start_s <= session.playhead_s < end_s else start_s
+
+
+def whole(session: Session) -> None:
+    """Let the part have all of the selected take, or all of what was there before."""
+    player, take_id, chosen = session.player, session.selection.take, _chosen(session)
+    if player is None or take_id is None:
+        return
+    name = Message("edit.comp_before") if chosen is None else Message("edit.comp_whole", {"take": chosen[1].name})
+    session.attempt(name, lambda project: edit.comp_whole(project, player.id, take_id))
+
+
+def before(session: Session) -> None:
+    """Let the part have again what was there before, in the selected span, else everywhere."""
+    player, span = session.player, session.selection.span or (0, LAST_TICK)
+    if player is not None:
+        session.attempt(Message("edit.comp_before"), lambda project: edit.comp(project, player.id, BEFORE, *span))
+
+
+def above(session: Session) -> None:
+    """Let the part have the selected span from the take above."""
+    if session.timeline_view is not None:
+        session.timeline_view.step_take(-1)
+
+
+def below(session: Session) -> None:
+    """Let the part have the selected span from the take below."""
+    if session.timeline_view is not None:
+        session.timeline_view.step_take(1)
+
+
+def rename(session: Session) -> None:
+    """Type the name of the selected take."""
+    if session.timeline_view is not None:
+        session.timeline_view.ask_take_name()
+
+
+def remove(session: Session) -> None:
+    """Throw the selected take away; what the part has of it stays."""
+    chosen = _chosen(session)
+    if chosen is None:
+        return
+    player, take = chosen
+    name = Message("edit.remove_take", {"take": take.name})
+    if session.attempt(name, lambda project: edit.remove_take(project, player.id, take.id)):
+        session.select(Selection())
+
+
+def earlier_lane(session: Session) -> None:
+    """Put the selected take above the one above it."""
+    _move(session, -1)
+
+
+def later_lane(session: Session) -> None:
+    """Put the selected take below the one below it."""
+    _move(session, 1)
+
+
+def _move(session: Session, by: int) -> None:
+    chosen = _chosen(session)
+    if chosen is None:
+        return
+    player, take = chosen
+    place = _takes(session).index(take) + by
+    target = place if by < 0 else place + 1
+    name = Message("edit.move_take", {"take": take.name})
+    session.attempt(name, lambda project: edit.move_take(project, player.id, take.id, target))
+
+
+def usual_cleaning(session: Session) -> None:
+    """Clean the selected take as every take is cleaned at first."""
+    chosen = _chosen(session)
+    if chosen is None:
+        return
+    player, take = chosen
+    name = Message("edit.clean_take", {"take": take.name})
+    session.attempt(name, lambda project: edit.set_cleaning(project, player.id, take.id, Cleaning()))
+
+
+def find_beats(session: Session) -> None:
+    """Let the piece have the tempo that the selected take was played in."""
+    chosen = _chosen(session)
+    if chosen is None:
+        return
+    player, take = chosen
+    project = session.project
+
+    def work(progress: Progress, stop_wanted: StopWanted) -> Floats:
+        return edit.beats_of(project, player.id, take.id)
+
+    def done(beats_s: Floats) -> None:
+        found = [one for one in _takes_of(session.project, player.id) if one.id == take.id]
+        if not found or found[0].played is not take.played:
+            session.notice(Message("take.changed", {"take": take.name}), Severity.WARNING)
+            return
+        name = Message("edit.follow_beats", {"take": take.name})
+        if session.attempt(name, lambda project: edit.follow_beats(project, player.id, take.id, beats_s)):
+            bpm = 60.0 * (len(beats_s) - 1) / float(beats_s[-1] - beats_s[0])
+            session.notice(Message("take.beats_found", {"take": take.name, "count": len(beats_s), "bpm": bpm}))
+
+    def failed(error: AppError) -> None:
+        session.notice(error.message, Severity.ERROR)
+
+    session.tasks.run(Message("work.find_beats", {"take": take.name}), work, done, failed, key="find_beats")
+
+
+def _takes_of(project: Project, player_id: str) -> tuple[Take, ...]:
+    recorded = project.takes.get(player_id)
+    return recorded.takes if recorded is not None else ()
+
+
+def _has_chosen(session: Session) -> bool:
+    return _chosen(session) is not None
+
+
+def _has_row(session: Session) -> bool:
+    """Whether a take is selected, or what was there before."""
+    return _has_chosen(session) or (session.selection.take == BEFORE and bool(_takes(session)))
+
+
+def _can_listen(session: Session) -> bool:
+    return session.playback is not None and _has_row(session)
+
+
+def _has_takes(session: Session) -> bool:
+    return bool(_takes(session))
+
+
+def _can_step(session: Session) -> bool:
+    return _has_takes(session) and session.timeline_view is not None and session.selection.span is not None
+
+
+def _is_cleaned_otherwise(session: Session) -> bool:
+    chosen = _chosen(session)
+    return chosen is not None and chosen[1].cleaning != Cleaning()
+
+
+def _may_rise(session: Session) -> bool:
+    chosen = _chosen(session)
+    return chosen is not None and chosen[1] is not _takes(session)[0]
+
+
+def _may_sink(session: Session) -> bool:
+    chosen = _chosen(session)
+    return chosen is not None and chosen[1] is not _takes(session)[-1]
+
+
+ACTIONS: tuple[Action, ...] = (
+    Action(
+        "takes.listen",
+        QT_TRANSLATE_NOOP("Action", "Listen to Take"),
+        listen,
+        "Record/Takes",
+        "Ctrl+L",
+        enabled=_can_listen,
+        icon="play",
+    ),
+    Action(
+        "takes.listen_alone",
+        QT_TRANSLATE_NOOP("Action", "Listen to Take Alone"),
+        listen_alone,
+        "Record/Takes",
+        "Ctrl+Shift+L",
+        enabled=_can_listen,
+        icon="solo",
+    ),
+    Action(
+        "takes.whole",
+        QT_TRANSLATE_NOOP("Action", "Use the Whole Take"),
+        whole,
+        "Record/Takes",
+        enabled=_has_row,
+        icon="check",
+    ),
+    Action(
+        "takes.above",
+        QT_TRANSLATE_NOOP("Action", "Selected Span from the Take Above"),
+        above,
+        "Record/Takes",
+        "Alt+Up",
+        "timeline",
+        enabled=_can_step,
+        icon="chevron_up",
+    ),
+    Action(
+        "takes.below",
+        QT_TRANSLATE_NOOP("Action", "Selected Span from the Take Below"),
+        below,
+        "Record/Takes",
+        "Alt+Down",
+        "timeline",
+        enabled=_can_step,
+        icon="chevron_down",
+    ),
+    Action(
+        "takes.before",
+        QT_TRANSLATE_NOOP("Action", "Back to What Was Before the Takes"),
+        before,
+        "Record/Takes",
+        enabled=_has_takes,
+        icon="history",
+    ),
+    Action(
+        "takes.rename",
+        QT_TRANSLATE_NOOP("Action", "Rename Take"),
+        rename,
+        "Record/Takes",
+        "F2",
+        "timeline",
+        enabled=_has_chosen,
+        icon="pencil",
+    ),
+    Action(
+        "takes.earlier_lane",
+        QT_TRANSLATE_NOOP("Action", "Move Take Up"),
+        earlier_lane,
+        "Record/Takes",
+        enabled=_may_rise,
+    ),
+    Action(
+        "takes.later_lane",
+        QT_TRANSLATE_NOOP("Action", "Move Take Down"),
+        later_lane,
+        "Record/Takes",
+        enabled=_may_sink,
+    ),
+    Action(
+        "takes.usual_cleaning",
+        QT_TRANSLATE_NOOP("Action", "Clean Take as Usual"),
+        usual_cleaning,
+        "Record/Takes",
+        enabled=_is_cleaned_otherwise,
+        icon="reset",
+    ),
+    Action(
+        "takes.find_beats",
+        QT_TRANSLATE_NOOP("Action", "Find the Beats of the Take"),
+        find_beats,
+        "Record/Takes",
+        enabled=_has_chosen,
+        icon="tempo",
+    ),
+    Action(
+        "takes.remove",
+        QT_TRANSLATE_NOOP("Action", "Delete Take"),
+        remove,
+        "Record/Takes",
+        enabled=_has_chosen,
+        icon="delete",
+    ),
+)

@@ -1,0 +1,278 @@
+"""Takes by mouse and keys: swiped, chosen, renamed, cleaned away, judged by the project."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import QPoint, QPointF, Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication, QLineEdit, QMenu
+from pytestqt.qtbot import QtBot
+
+from app.errors import Message
+from app.project.edit.takes import BEFORE, add_takes, set_cleaning
+from app.project.grid import Grid
+from app.score.take import Cleaning
+from app.shell.actions import ActionTable
+from app.shell.commands import edit, notes, takes, timeline
+from app.shell.settings import Settings
+from tests.gui.timeline.conftest import TPQ, scale_project
+from tests.gui.timeline.lane_hands import ALT, click, double_click, drag, move_to
+from tests.support.takes import PlayedNote, take_of
+from tests.support.tasks import ImmediateTasks
+from widgets.common.selection import Selection
+from widgets.common.session import Session
+from widgets.timeline.lanes.takes import TakesLane
+from widgets.timeline.panel import TimelinePanel
+
+PLAYER = "p1.1.1"
+EXACT = Cleaning(ghost_s=0.0, double_s=0.0, overlap_s=0.0)
+GHOST: PlayedNote = (1.02, 1.05, 79, 0.04)
+
+
+def played(pitch: int) -> list[PlayedNote]:
+    """A note on each of the eight quarters of the scale; a quarter lasts half a second."""
+    return [(0.5 * beat, 0.5 * beat + 0.45, pitch + beat, 0.7) for beat in range(8)]
+
+
+@pytest.fixture
+def lane(qt_app: QApplication, qtbot: QtBot, tmp_path: Path) -> Iterator[TakesLane]:
+    project, _ = add_takes(
+        scale_project(), PLAYER, [take_of(played(50), cleaning=EXACT), take_of(played(70), cleaning=EXACT)]
+    )
+    session = Session(project, ImmediateTasks())
+    table = ActionTable(
+        session, Settings(tmp_path / "editor.ini"), [*edit.ACTIONS, *notes.ACTIONS, *timeline.ACTIONS, *takes.ACTIONS]
+    )
+    panel = TimelinePanel(session)
+    qtbot.addWidget(panel)
+    table.attach("timeline", panel)
+    panel.resize(1200, 900)
+    panel.takes.set_folded(False)
+    panel.show()
+    qtbot.waitExposed(panel)
+    panel.axis.show(-0.5, 6.0)
+    session.set_grid(Grid(Fraction(1)))
+    panel.activateWindow()
+    qtbot.waitUntil(panel.isActiveWindow)
+    yield panel.takes
+    session.timeline_view = None
+    session.deleteLater()
+
+
+def place(lane: TakesLane, beat: float, row: int) -> QPointF:
+    seconds = lane.session.project.score.tempo_map.seconds(beat * TPQ)
+    return QPointF(lane.axis.x_px(seconds), lane.row_rect(row).center().y())
+
+
+def swipe(lane: TakesLane, first: float, last: float, row: int, **more: object) -> None:
+    start, end = place(lane, first, row), place(lane, last, row)
+    drag(lane, start, dx=end.x() - start.x(), **more)  # type: ignore[arg-type]
+
+
+def pitches(lane: TakesLane) -> list[int]:
+    project = lane.session.project
+    return [note.pitch for note in project.part(project.player(PLAYER)).notes]
+
+
+def comp(lane: TakesLane) -> list[tuple[float, float, str]]:
+    spans = lane.session.project.takes[PLAYER].comp
+    return [(span.start_tick / TPQ, span.end_tick / TPQ, span.take_id) for span in spans]
+
+
+def steps(lane: TakesLane) -> list[str]:
+    return [step.name.id for step in lane.session.document.done]
+
+
+def hover(lane: TakesLane, at: QPointF) -> None:
+    lane.hover(lane.mouse_at(at))
+
+
+SCALE = [60, 62, 64, 65, 67, 69, 71, 72]
+
+
+def test_swiping_takes_a_span_from_a_take_in_one_step(lane: TakesLane) -> None:
+    swipe(lane, 2, 5, 2)
+    assert comp(lane) == [(2.0, 5.0, "take:2")]
+    assert pitches(lane) == [60, 62, 72, 73, 74, 69, 71, 72]
+    assert steps(lane) == ["edit.comp"]
+    assert lane.session.selection == Selection(span=(2 * TPQ, 5 * TPQ), take="take:2")
+    swipe(lane, 4, 7, 1)
+    assert comp(lane) == [(2.0, 4.0, "take:2"), (4.0, 7.0, "take:1")]
+    assert pitches(lane) == [60, 62, 72, 73, 54, 55, 56, 72]
+    lane.session.document.undo()
+    lane.session.document.undo()
+    assert pitches(lane) == SCALE
+
+
+def test_a_swipe_snaps_to_the_grid_unless_alt_is_held(lane: TakesLane) -> None:
+    swipe(lane, 1.8, 4.3, 1)
+    assert comp(lane) == [(2.0, 4.0, "take:1")]
+    lane.session.document.undo()
+    swipe(lane, 1.8, 4.3, 1, modifiers=ALT)
+    ((start, end, _),) = comp(lane)
+    assert (start, end) == (pytest.approx(1.8, abs=0.02), pytest.approx(4.3, abs=0.02))
+
+
+def test_a_swipe_backwards_and_before_the_piece_is_one_too(lane: TakesLane) -> None:
+    swipe(lane, 3, -0.8, 1)
+    assert comp(lane) == [(0.0, 3.0, "take:1")]
+
+
+def test_the_swipe_is_shown_while_it_is_made_and_escape_ends_it(lane: TakesLane) -> None:
+    swipe(lane, 2, 5, 2, release=False)
+    assert [(span.start_tick, span.end_tick) for span in lane.shown_spans("take:2")] == [(2 * TPQ, 5 * TPQ)]
+    first = lane.shown_spans(BEFORE)[0]
+    assert (first.start_tick, first.end_tick) == (0, 2 * TPQ)
+    assert steps(lane) == []
+    QTest.keyClick(lane.plot, Qt.Key.Key_Escape)
+    assert lane.shown_spans("take:2") == ()
+    end = place(lane, 5, 2).toPoint()
+    QTest.mouseRelease(lane.plot, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier, end)
+    assert (steps(lane), comp(lane)) == ([], [])
+
+
+def test_a_swipe_that_returns_is_none(lane: TakesLane) -> None:
+    swipe(lane, 2, 5, 2, release=False)
+    start = place(lane, 2, 2).toPoint()
+    move_to(lane.plot, start, Qt.KeyboardModifier.NoModifier)
+    QTest.mouseRelease(lane.plot, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier, start)
+    assert steps(lane) == []
+
+
+def test_a_double_click_on_the_head_takes_the_whole_and_before_gives_all_back(lane: TakesLane) -> None:
+    head = QPoint(40, round(lane.row_rect(2).center().y() - 26))
+    QTest.mouseClick(lane.heads, Qt.MouseButton.LeftButton, pos=head)
+    assert lane.session.selection.take == "take:2"
+    QTest.mouseDClick(lane.heads, Qt.MouseButton.LeftButton, pos=head)
+    assert pitches(lane) == list(range(70, 78))
+    before = QPoint(40, round(lane.row_rect(0).center().y() - 26))
+    QTest.mouseDClick(lane.heads, Qt.MouseButton.LeftButton, pos=before)
+    assert (pitches(lane), comp(lane)) == (SCALE, [])
+    assert steps(lane) == ["edit.comp_whole", "edit.comp_before"]
+
+
+def test_a_click_selects_the_span_and_the_arrows_choose_another_take_for_it(lane: TakesLane) -> None:
+    swipe(lane, 2, 5, 1)
+    lane.session.select(Selection())
+    click(lane, place(lane, 3.2, 1))
+    assert lane.session.selection == Selection(span=(2 * TPQ, 5 * TPQ), take="take:1")
+    QTest.keyClick(lane.plot, Qt.Key.Key_Down)
+    assert comp(lane) == [(2.0, 5.0, "take:2")]
+    assert lane.session.selection.take == "take:2"
+    QTest.keyClick(lane.plot, Qt.Key.Key_Down)
+    assert steps(lane) == ["edit.comp", "edit.comp"]
+    QTest.keyClick(lane.plot, Qt.Key.Key_Up)
+    QTest.keyClick(lane.plot, Qt.Key.Key_Up)
+    assert (comp(lane), pitches(lane)) == ([], SCALE)
+    assert steps(lane)[-1] == "edit.comp_before"
+    QApplication.processEvents()
+    QTest.keyClick(lane.plot, Qt.Key.Key_Down, Qt.KeyboardModifier.AltModifier)
+    assert comp(lane) == [(2.0, 5.0, "take:1")]
+
+
+def test_left_and_right_go_from_span_to_span(lane: TakesLane) -> None:
+    swipe(lane, 2, 5, 1)
+    QTest.keyClick(lane.plot, Qt.Key.Key_Left)
+    assert lane.session.selection == Selection(span=(0, 2 * TPQ), take=BEFORE)
+    QTest.keyClick(lane.plot, Qt.Key.Key_Right)
+    QTest.keyClick(lane.plot, Qt.Key.Key_Right)
+    assert lane.session.selection.take == BEFORE
+    span = lane.session.selection.span
+    assert span is not None
+    assert span[0] == 5 * TPQ
+
+
+def test_a_take_is_renamed_where_it_stands(lane: TakesLane) -> None:
+    lane.choose("take:2")
+    lane.plot.setFocus()
+    QApplication.processEvents()
+    QTest.keyClick(lane.plot, Qt.Key.Key_F2)
+    field = lane.heads.findChild(QLineEdit, "take_name_field")
+    assert field is not None
+    QTest.keyClicks(field, "Best one")
+    QTest.keyClick(field, Qt.Key.Key_Return)
+    assert lane.session.project.takes[PLAYER].take("take:2").name == "Best one"
+    assert steps(lane) == ["edit.rename_take"]
+    QTest.keyClick(lane.plot, Qt.Key.Key_F2)
+    field = lane.heads.findChild(QLineEdit, "take_name_field")
+    assert field is not None
+    QTest.keyClicks(field, "x")
+    QTest.keyClick(field, Qt.Key.Key_Escape)
+    assert steps(lane) == ["edit.rename_take"]
+
+
+def test_deleting_leaves_the_notes(lane: TakesLane) -> None:
+    swipe(lane, 0, 8, 2)
+    QApplication.processEvents()
+    QTest.keyClick(lane.plot, Qt.Key.Key_Delete)
+    assert [take.id for take in lane.session.project.takes[PLAYER].takes] == ["take:1"]
+    assert pitches(lane) == list(range(70, 78))
+    assert lane.session.selection == Selection()
+
+
+def test_lanes_are_put_in_another_order(lane: TakesLane) -> None:
+    lane.choose("take:2")
+    QApplication.processEvents()
+    lane.session.actions["takes.earlier_lane"].trigger()
+    assert [row.take_id for row in lane.rows] == [BEFORE, "take:2", "take:1"]
+    QApplication.processEvents()
+    lane.session.actions["takes.later_lane"].trigger()
+    assert [row.take_id for row in lane.rows] == [BEFORE, "take:1", "take:2"]
+
+
+def test_the_menu_is_of_the_row_that_was_clicked(lane: TakesLane) -> None:
+    QTest.mouseClick(lane.plot, Qt.MouseButton.RightButton, pos=place(lane, 3, 2).toPoint())
+    popup = QApplication.activePopupWidget()
+    assert isinstance(popup, QMenu)
+    names = {action.objectName() for action in popup.actions()}
+    popup.close()
+    assert {"takes.whole", "takes.remove", "takes.find_beats"} <= names
+    assert lane.session.selection.take == "take:2"
+
+
+def test_what_cleaning_leaves_out_says_why(lane: TakesLane) -> None:
+    project, (id,) = add_takes(lane.session.project, PLAYER, [take_of([*played(60), GHOST])])
+    lane.session.apply(Message("edit.comp_before"), project)
+    row = lane.rows[-1]
+    assert (row.take_id, row.faults) == (id, ("silent",))
+    hover(lane, QPointF(lane.axis.x_px(1.03), lane.row_rect(3).center().y()))
+    assert "too softly" in lane.plot.toolTip()
+    hover(lane, QPointF(lane.axis.x_px(2.03), lane.row_rect(3).center().y()))
+    assert "too softly" not in lane.plot.toolTip()
+    kept = set_cleaning(lane.session.project, PLAYER, id, EXACT)
+    lane.session.apply(Message("edit.clean_take", {"take": "x"}), kept)
+    assert lane.rows[-1].faults == ()
+
+
+def test_a_first_take_unfolds_the_lane_and_another_player_has_none(lane: TakesLane) -> None:
+    lane.set_folded(True)
+    project, _ = add_takes(lane.session.project, PLAYER, [take_of(played(60))])
+    lane.session.apply(Message("edit.comp_before"), project)
+    assert not lane.folded
+    assert "(3)" in lane.title.text()
+    lane.session.set_players(("p2.1.1",))
+    assert lane.rows == ()
+    assert "Second" in lane.empty_text()
+    drag(lane, QPointF(100, 20), dx=200)
+    assert steps(lane) == ["edit.comp_before"]
+    lane.session.set_players((PLAYER,))
+    assert len(lane.rows) == 4
+
+
+def test_rows_keep_their_places_when_the_tempo_changes(lane: TakesLane) -> None:
+    from app.project.edit.tempo import set_tempo
+
+    before = lane.rows[1].kept.start_s.copy()
+    lane.session.apply(Message("edit.set_tempo"), set_tempo(lane.session.project, 0, 60.0))
+    assert lane.rows[1].kept.start_s == pytest.approx(2 * before)
+    assert lane.rows[1].breath is not None
+    assert lane.rows[1].breath.time_s[0] == pytest.approx(0.0)
+
+
+def test_double_clicking_a_row_is_no_swipe(lane: TakesLane) -> None:
+    double_click(lane, place(lane, 3, 1))
+    assert steps(lane) == []

@@ -1,0 +1,21 @@
+"""When a take was recorded, as this place writes it."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QDateTime, QLocale, Qt
+
+
+def when_text(recorded: str) -> str:
+    """Day and time; empty where nobody knows."""
+    moment = _moment(recorded)
+    return QLocale().toString(moment, QLocale.FormatType.ShortFormat) if moment.isValid() else ""
+
+
+def clock_text(recorded: str) -> str:
+    """The time alone; empty where nobody knows."""
+    moment = _moment(recorded)
+    return QLocale().toString(moment.time(), QLocale.FormatType.ShortFormat) if moment.isValid() else ""
+
+
+def _moment(recorded: str) -> QDateTime:
+    return QDateTime.fromString(recorded, Qt.DateFormat.ISODateWithMs).toLocalTime()

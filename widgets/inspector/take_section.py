@@ -1,0 +1,294 @@
+"""The selected take: what it is called, when it was played, and how notes are made of it."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Final
+
+import msgspec
+from PySide6.QtCore import QEvent, QSize, Qt
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QLineEdit, QPushButton, QToolButton, QVBoxLayout, QWidget
+
+from app.errors import Message
+from app.project.edit.takes import colour_take, rename_take, set_cleaning, take_cleaned
+from app.project.limits import CLEANING
+from app.project.model import Player
+from app.score.take import Cleaning, Take
+from widgets.common.combo import Combo, Option
+from widgets.common.grids import GRIDS
+from widgets.common.number_slider import NumberSlider
+from widgets.common.section import Section
+from widgets.common.session import Session
+from widgets.common.swatch import ColourSwatch
+from widgets.common.take_times import when_text
+from widgets.common.tokens import LEAST_TARGET_PX
+
+BUTTONS: Final = ("takes.listen", "takes.listen_alone", "takes.whole", "takes.remove")
+
+
+@dataclass(frozen=True)
+class _Number:
+    """How a number of the cleaning is shown: so many of the unit in one of the value's."""
+
+    field: str
+    scale: float
+    most: float
+    step: float
+
+
+NUMBERS: Final = (
+    _Number("ghost_s", 1000.0, 300.0, 5.0),
+    _Number("ghost_loudness", 100.0, 100.0, 1.0),
+    _Number("double_s", 1000.0, 100.0, 5.0),
+    _Number("overlap_s", 1000.0, 100.0, 5.0),
+    _Number("quantise", 100.0, 100.0, 5.0),
+    _Number("align", 100.0, 100.0, 5.0),
+)
+
+
+class TakeSection(QWidget):
+    """Shows and edits the selected take of the player in front."""
+
+    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._session = session
+        self._player: Player | None = None
+        self._take: Take | None = None
+        self._section = Section(session, "inspector_take", self)
+        self._cleaning = Section(session, "inspector_cleaning", self)
+        self._name = QLineEdit()
+        self._name.setObjectName("take_name")
+        self._swatch = ColourSwatch(session)
+        self._swatch.setObjectName("take_swatch")
+        self._about, self._counts = QLabel(), QLabel()
+        self._buttons = {id: QToolButton() for id in BUTTONS}
+        self._sliders: dict[str, NumberSlider] = {}
+        self._grid = Combo()
+        self._grid.setObjectName("take_grid_quarters")
+        self._usual, self._beats = QPushButton(), QPushButton()
+        self._usual.setObjectName("take_usual")
+        self._beats.setObjectName("take_beats")
+        self._build()
+        self._connect()
+        self.retranslate()
+        self.hide()
+
+    def _build(self) -> None:
+        line = QHBoxLayout()
+        line.setSpacing(4)
+        line.addWidget(self._name, 1)
+        line.addWidget(self._swatch)
+        buttons = QHBoxLayout()
+        buttons.setSpacing(2)
+        for id, button in self._buttons.items():
+            button.setObjectName(id.replace(".", "_"))
+            button.setMinimumSize(QSize(LEAST_TARGET_PX + 2, LEAST_TARGET_PX + 2))
+            button.setAutoRaise(True)
+            buttons.addWidget(button)
+        buttons.addStretch(1)
+        body = self._section.body
+        body.addLayout(line)
+        for label in (self._about, self._counts):
+            label.setWordWrap(True)
+            label.setTextFormat(Qt.TextFormat.PlainText)
+        body.addWidget(self._about)
+        body.addLayout(buttons)
+        body = self._cleaning.body
+        body.addWidget(self._counts)
+        for number in NUMBERS:
+            low, high = CLEANING[number.field]
+            usual = getattr(Cleaning(), number.field) * number.scale
+            slider = NumberSlider(
+                self._session,
+                low * number.scale,
+                high * number.scale,
+                default=usual,
+                step=number.step,
+                decimals=0,
+                fills=(0.0, number.most),
+            )
+            slider.setObjectName(f"take_{number.field}")
+            self._sliders[number.field] = slider
+            body.addWidget(slider)
+            if number.field == "quantise":
+                body.addWidget(self._grid)
+        below = QHBoxLayout()
+        below.setSpacing(4)
+        below.addWidget(self._usual)
+        below.addWidget(self._beats)
+        body.addLayout(below)
+        outer = QVBoxLayout(self)
+        outer.setContentsMargins(0, 0, 0, 0)
+        outer.setSpacing(0)
+        outer.addWidget(self._section)
+        outer.addWidget(self._cleaning)
+
+    def _connect(self) -> None:
+        session = self._session
+        self._name.editingFinished.connect(self._rename)
+        self._swatch.chosen.connect(self._colour)
+        for number in NUMBERS:
+            slider = self._sliders[number.field]
+            slider.changed.connect(
+                lambda value, token, number=number: self._clean(token, **{number.field: value / number.scale})
+            )
+            slider.released.connect(session.document.end_gesture)
+        self._grid.chosen.connect(lambda id: self._clean(None, grid_quarters=float(Fraction(id))))
+        self._usual.clicked.connect(lambda: session.actions["takes.usual_cleaning"].trigger())
+        self._beats.clicked.connect(lambda: session.actions["takes.find_beats"].trigger())
+        session.theme_changed.connect(self._dress)
+        self._dress()
+
+    # Showing
+
+    def show_take(self) -> bool:
+        """Show the selected take; whether there is one."""
+        player, take_id = self._session.player, self._session.selection.take
+        recorded = self._session.project.takes.get(player.id) if player is not None and take_id else None
+        takes = recorded.takes if recorded is not None else ()
+        self._player, self._take = player, next((take for take in takes if take.id == take_id), None)
+        self.setVisible(self._take is not None)
+        if self._take is None or player is None or recorded is None:
+            return False
+        take = self._take
+        self._section.header.set_texts(self.tr("Take"), player.name)
+        if not self._name.hasFocus() or not self._name.isModified():
+            self._name.setText(take.name)
+        self._swatch.show_colours((take.colour or self._session.colour(player),))
+        self._about.setText(self._about_text(take))
+        for id, button in self._buttons.items():
+            action = self._session.actions.get(id)
+            if action is not None and button.defaultAction() is not action:
+                button.setDefaultAction(action)
+        self._show_cleaning(take, has_score=bool(recorded.before_notes))
+        return True
+
+    def _about_text(self, take: Take) -> str:
+        seconds = (take.end_us - take.start_us) / 1e6
+        lasts = self.tr("{seconds:.1f} s, {count:,} events").format(seconds=seconds, count=len(take.times_us))
+        return " · ".join(text for text in (when_text(take.recorded), take.device, lasts) if text)
+
+    def _show_cleaning(self, take: Take, has_score: bool) -> None:
+        cleaning = take.cleaning
+        for number in NUMBERS:
+            self._sliders[number.field].show_value(getattr(cleaning, number.field) * number.scale)
+        self._sliders["align"].setEnabled(has_score or cleaning.align > 0.0)
+        quarters = Fraction(cleaning.grid_quarters).limit_denominator(960)
+        options = [Option(str(step), name) for name, step in GRIDS.items()]
+        if quarters not in GRIDS.values():
+            options.append(Option(str(quarters), self.tr("{count} quarters").format(count=quarters)))
+        self._grid.set_options(options)
+        self._grid.show_option(str(quarters))
+        self._grid.setEnabled(cleaning.quantise > 0.0)
+        self._usual.setEnabled(cleaning != Cleaning())
+        self._counts.setText(self._counts_text())
+
+    def _counts_text(self) -> str:
+        """What is left out."""
+        assert self._player is not None
+        assert self._take is not None
+        clean = take_cleaned(self._session.project, self._player.id, self._take.id)
+        found: Counter[str] = Counter(fault for fault in clean.faults if fault)
+        kept = len(clean.faults) - sum(found.values())
+        names = {
+            "ghost": self.tr("ghost notes: {count}"),
+            "silent": self.tr("unheard: {count}"),
+            "slip": self.tr("late fingers: {count}"),
+            "double": self.tr("struck twice: {count}"),
+        }
+        left_out = [text.format(count=found[fault]) for fault, text in names.items() if fault in found]
+        if not left_out:
+            return self.tr("Notes: {count}; nothing is left out.").format(count=kept)
+        return self.tr("Notes: {count}. Left out: {faults}.").format(count=kept, faults=", ".join(left_out))
+
+    # Edits
+
+    def _rename(self) -> None:
+        if self._take is None or self._player is None or self._name.text() == self._take.name:
+            return
+        self._name.setModified(False)
+        player_id, take_id, name = self._player.id, self._take.id, self._name.text()
+        self._session.attempt(
+            Message("edit.rename_take", {"take": name}), lambda project: rename_take(project, player_id, take_id, name)
+        )
+        self.show_take()
+
+    def _colour(self, colour: str) -> None:
+        if self._take is None or self._player is None:
+            return
+        player_id, take_id = self._player.id, self._take.id
+        self._session.attempt(
+            Message("edit.colour_take", {"take": self._take.name}),
+            lambda project: colour_take(project, player_id, take_id, colour),
+        )
+
+    def _clean(self, token: object | None, **fields: float) -> None:
+        if self._take is None or self._player is None:
+            return
+        player_id, take_id = self._player.id, self._take.id
+        cleaning = msgspec.structs.replace(self._take.cleaning, **fields)
+        self._session.attempt(
+            Message("edit.clean_take", {"take": self._take.name}),
+            lambda project: set_cleaning(project, player_id, take_id, cleaning),
+            token,
+        )
+
+    def _dress(self) -> None:
+        for label in (self._about, self._counts):
+            label.setStyleSheet(f"color: {self._session.tokens.text_dim};")
+
+    def retranslate(self) -> None:
+        """Set every text in the language of the editor."""
+        self._name.setAccessibleName(self.tr("Name of the take"))
+        self._swatch.setAccessibleName(self.tr("Colour of the take"))
+        self._swatch.setToolTip(self.tr("Colour of the take"))
+        self._cleaning.header.set_texts(self.tr("Cleaning"))
+        ms, percent = self.tr("ms", "milliseconds"), "%"
+        texts = {
+            "ghost_s": (
+                self.tr("Ghost notes shorter than"),
+                ms,
+                self.tr("Soft notes shorter than this are left out, and short ones between two of a legato. 0: none"),
+            ),
+            "ghost_loudness": (
+                self.tr("and softer than"),
+                percent,
+                self.tr("Soft: the breath stays below this; without breath the velocity"),
+            ),
+            "double_s": (
+                self.tr("Doubled notes within"),
+                ms,
+                self.tr("The same note struck again within this time is one note. 0: never"),
+            ),
+            "overlap_s": (
+                self.tr("Legato overlap at most"),
+                ms,
+                self.tr("A note that sounds longer into the next is cut there"),
+            ),
+            "quantise": (self.tr("Quantise"), percent, self.tr("How far notes are drawn to the grid")),
+            "align": (
+                self.tr("Draw to the score"),
+                percent,
+                self.tr("How far notes are drawn to those of the part from before the first take, by pitch and time"),
+            ),
+        }
+        for field, (label, unit, tip) in texts.items():
+            self._sliders[field].set_texts(label, unit, tip)
+        self._grid.setAccessibleName(self.tr("Grid of the quantising"))
+        self._grid.setToolTip(self.tr("Grid of the quantising"))
+        self._usual.setText(self.tr("As Usual"))
+        self._usual.setToolTip(self.tr("Clean this take as every take is cleaned at first"))
+        self._beats.setText(self.tr("Find the Beats"))
+        self._beats.setToolTip(
+            self.tr("For a take without a click: the piece gets the tempo it was played in. Nobody else may have notes")
+        )
+        self.show_take()
+
+    # Qt's own names
+
+    def changeEvent(self, event: QEvent) -> None:
+        if event.type() == QEvent.Type.LanguageChange:
+            self.retranslate()
+        super().changeEvent(event)

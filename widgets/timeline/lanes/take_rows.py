@@ -1,0 +1,153 @@
+"""What a row of the lane of takes shows, as arrays of seconds of the piece. Nothing draws here."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+import numpy.typing as npt
+
+from app.identity_cache import IdentityCache
+from app.project.edit.takes import BEFORE, recorded_of, take_cleaned, take_notes
+from app.project.model import CompSpan, PlayerTakes, Project
+from app.score.clean import Cleaned, Fault
+from app.score.model import ControllerCurve, Note
+from app.score.take import Take
+from app.score.tempo import TempoMap
+from widgets.timeline.lanes.geometry import Floats, Ints, Spans, Steps
+
+_KEPT: Final[IdentityCache[tuple[Spans, Ints, Ints]]] = IdentityCache(128)
+_LEFT_OUT: Final[IdentityCache[tuple[Spans, Ints, tuple[Fault, ...]]]] = IdentityCache(128)
+_BREATH: Final[IdentityCache[Steps | None]] = IdentityCache(128)
+
+
+@dataclass(frozen=True, eq=False)
+class TakeRow:
+    """A row.
+
+    Attributes
+    ----------
+    take : Take or None
+        None: what was there before the first.
+    kept : Spans
+        The notes as the part would have them, seconds.
+    pitches, onset_ticks : int64, as long
+    left_out : Spans
+        What cleaning leaves out, as it was played.
+    left_out_pitches : int64
+    faults : tuple of Fault
+        Why.
+    breath : Steps or None
+        0..1; None where none was sent.
+    """
+
+    take: Take | None
+    kept: Spans
+    pitches: Ints
+    onset_ticks: Ints
+    left_out: Spans
+    left_out_pitches: Ints
+    faults: tuple[Fault, ...]
+    breath: Steps | None
+
+    @property
+    def take_id(self) -> str:
+        """As edits know it."""
+        return BEFORE if self.take is None else self.take.id
+
+
+def rows_of(project: Project, player_id: str) -> tuple[TakeRow, ...]:
+    """What was there before, then the takes in the order of their lanes; none where nothing was recorded."""
+    recorded = project.takes.get(player_id)
+    if recorded is None or not recorded.takes:
+        return ()
+    clock = project.score.tempo_map
+    return (_before(recorded, clock), *(_row(project, player_id, take, clock) for take in recorded.takes))
+
+
+def owners(comp: Sequence[CompSpan], ticks: Ints) -> npt.NDArray[np.int64]:
+    """The index of the span of a comp that each tick lies in; -1: none."""
+    if not comp:
+        return np.full(len(ticks), -1, np.int64)
+    starts = np.array([span.start_tick for span in comp], np.int64)
+    ends = np.array([span.end_tick for span in comp], np.int64)
+    index = np.searchsorted(starts, ticks, side="right") - 1
+    return np.where((index >= 0) & (ticks < ends[index]), index, -1)
+
+
+def span_at(comp: Sequence[CompSpan], tick: float, end_tick: int) -> CompSpan:
+    """The span of a comp at a place; where no take was taken, the gap, as far as ``end_tick``."""
+    start = 0
+    for span in comp:
+        if tick < span.start_tick:
+            return CompSpan(start, span.start_tick, BEFORE)
+        if tick < span.end_tick:
+            return span
+        start = span.end_tick
+    return CompSpan(start, max(end_tick, start + 1), BEFORE)
+
+
+def pitch_range(rows: Sequence[TakeRow]) -> tuple[int, int]:
+    """The lowest and highest pitch of all rows, at least an octave apart, so that rows can be compared."""
+    found = [pitches for row in rows for pitches in (row.pitches, row.left_out_pitches) if len(pitches)]
+    if not found:
+        return 60, 72
+    low, high = min(int(each.min()) for each in found), max(int(each.max()) for each in found)
+    missing = max(12 - (high - low), 0)
+    return low - missing // 2, high + (missing + 1) // 2
+
+
+def _before(recorded: PlayerTakes, clock: TempoMap) -> TakeRow:
+    kept, pitches, ticks = _kept(recorded.before_notes, clock)
+    breath = next((curve for curve in recorded.before_curves if curve.kind == "breath"), None)
+    steps = None if breath is None else _BREATH.get((breath, clock), lambda: _drawn_breath(breath, clock))
+    none = np.empty(0, np.float64)
+    return TakeRow(None, kept, pitches, ticks, Spans(none, none), np.empty(0, np.int64), (), steps)
+
+
+def _row(project: Project, player_id: str, take: Take, clock: TempoMap) -> TakeRow:
+    kept, pitches, ticks = _kept(take_notes(project, player_id, take.id), clock)
+    clean = take_cleaned(project, player_id, take.id)
+    left_out, left_pitches, faults = _LEFT_OUT.get(
+        (clean, take.tempo_map, clock), lambda: _left_out(clean, take.tempo_map, clock)
+    )
+    breath = _BREATH.get((take.played, take.tempo_map, clock), lambda: _played_breath(take, clock))
+    return TakeRow(take, kept, pitches, ticks, left_out, left_pitches, faults, breath)
+
+
+def _kept(notes: tuple[Note, ...], clock: TempoMap) -> tuple[Spans, Ints, Ints]:
+    return _KEPT.get((notes, clock), lambda: _kept_arrays(notes, clock))
+
+
+def _kept_arrays(notes: tuple[Note, ...], clock: TempoMap) -> tuple[Spans, Ints, Ints]:
+    onsets = np.array([note.onset_tick for note in notes], np.int64)
+    ends = np.array([note.end_tick for note in notes], np.int64)
+    pitches = np.array([note.pitch for note in notes], np.int64)
+    return Spans(clock.seconds(onsets), clock.seconds(ends)), pitches, onsets
+
+
+def _left_out(clean: Cleaned, own: TempoMap, clock: TempoMap) -> tuple[Spans, Ints, tuple[Fault, ...]]:
+    index = [number for number, fault in enumerate(clean.faults) if fault]
+    spans = Spans(_moved(clean.onsets_s[index], own, clock), _moved(clean.ends_s[index], own, clock))
+    return spans, clean.pitches[index], tuple(clean.faults[number] for number in index)
+
+
+def _played_breath(take: Take, clock: TempoMap) -> Steps | None:
+    curve = take.played.curves.get("breath")
+    return None if curve is None else Steps(_moved(curve.times_s, take.tempo_map, clock), curve.values)
+
+
+def _drawn_breath(curve: ControllerCurve, clock: TempoMap) -> Steps:
+    return Steps(clock.seconds(np.array(curve.ticks, np.float64)), np.array(curve.values, np.float64))
+
+
+def _moved(seconds: Floats, own: TempoMap, clock: TempoMap) -> Floats:
+    """Times of a take's own clock as times of the piece, whose tempo may have changed since."""
+    return clock.seconds(own.ticks(seconds))
+
+
+def comp_of(project: Project, player_id: str) -> tuple[CompSpan, ...]:
+    """Which take a player's part has where."""
+    return recorded_of(project, player_id).comp

@@ -1,0 +1,442 @@
+"""The lane of takes: what was recorded of the player in front, a row for each take, and which of them the part has."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from PySide6.QtCore import QRectF, Qt
+from PySide6.QtGui import QKeyEvent
+from PySide6.QtWidgets import QMenu, QWidget
+
+from app.errors import Message
+from app.project.document import Change
+from app.project.edit.takes import BEFORE, comp, comp_whole, comp_with, rename_take
+from app.project.model import CompSpan, PlayerTakes, Project
+from app.score.clean import Fault
+from app.score.model import Metre
+from app.score.take import Take
+from app.score.tempo import TempoMap
+from instrument_maps.library import all_maps
+from widgets.common.pitch import pitch_text
+from widgets.common.selection import Selection
+from widgets.common.session import Session
+from widgets.timeline.axis import TimeAxis
+from widgets.timeline.lane import Lane, LaneMouse
+from widgets.timeline.lanes.take_drawing import STRIP_PX, TakesItem
+from widgets.timeline.lanes.take_heads import TakeHeads
+from widgets.timeline.lanes.take_rows import TakeRow, comp_of, pitch_range, rows_of, span_at
+
+ROW_PX, LEAST_ROW_PX, MOST_ROW_PX = 38, 24, 72
+SHOWN_ROWS, LEAST_SHOWN_ROWS = 6, 3
+"""As many rows as a lane wants to show, and as it shows at least; what does not fit is scrolled to."""
+EMPTY_PX = 62
+DRAG_PX = 3.0
+
+
+@dataclass
+class _Swipe:
+    at: LaneMouse
+    take_id: str
+    start_tick: int
+    end_tick: int
+    moved: bool = False
+
+
+class TakesLane(Lane):
+    """Takes one under another. Swiping over a row takes that span from that take."""
+
+    id = "takes"
+    preferred_height_px = EMPTY_PX
+    least_height_px = EMPTY_PX
+    folded_at_first = True
+
+    def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
+        super().__init__(session, axis, parent)
+        self.rows: tuple[TakeRow, ...] = ()
+        self.comp: tuple[CompSpan, ...] = ()
+        self.pitches = (60, 72)
+        self._sources: tuple[PlayerTakes | None, TempoMap, tuple[Metre, ...]] | None = None
+        self._swipe: _Swipe | None = None
+        self._scrolled_px = 0.0
+        self.heads = TakeHeads(self)
+        self.item = TakesItem(self)
+        session.listening.changed.connect(self.heads.update)
+        self.refresh()
+        self.retranslate()
+
+    def retranslate(self) -> None:
+        self._show_title()
+        self.title.setToolTip(
+            self.tr("What was recorded of the player in front. Drag over a row to take that stretch from that take")
+        )
+        self.heads.retranslate()
+        self.update_items()
+
+    def _show_title(self) -> None:
+        count = max(len(self.rows) - 1, 0)
+        self.title.setText(self.tr("Takes ({count})").format(count=count) if count else self.tr("Takes"))
+
+    def empty_text(self) -> str:
+        """How there comes to be a take."""
+        player = self.session.player
+        if player is None:
+            return self.tr("No player is in front.")
+        return self.tr(
+            "Nothing is recorded of {player} yet. Connect a wind controller, choose it under Record, and play: each "
+            "time through becomes a take here. Then drag over the takes to put the part together."
+        ).format(player=player.name)
+
+    # What is shown
+
+    def refresh(self) -> None:
+        """Show what was recorded of the player in front, where it is other."""
+        player, project = self.session.player, self.session.project
+        recorded = project.takes.get(player.id) if player is not None else None
+        sources = (recorded, project.score.tempo_map, project.score.metres)
+        known = self._sources
+        if known is not None and all(one is other for one, other in zip(sources, known, strict=True)):
+            if not self.rows:
+                self.update_items()
+            return
+        self._sources = sources
+        self.rows = rows_of(project, player.id) if player is not None else ()
+        self.comp = comp_of(project, player.id) if player is not None and self.rows else ()
+        self.pitches = pitch_range(self.rows)
+        self._show_title()
+        self._ask_room()
+        self._scroll_to(self._scrolled_px)
+        self.heads.update()
+        self.update_items()
+
+    def _ask_room(self) -> None:
+        count = len(self.rows)
+        if not count:
+            self.ask_height(EMPTY_PX, EMPTY_PX)
+            return
+        strip = round(STRIP_PX)
+        self.ask_height(strip + min(count, SHOWN_ROWS) * ROW_PX, strip + min(count, LEAST_SHOWN_ROWS) * LEAST_ROW_PX)
+
+    def project_changed(self, change: Change) -> None:
+        player = self.session.player
+        if change.before.takes is not change.after.takes and player is not None and not change.opened:
+            before, after = change.before.takes.get(player.id), change.after.takes.get(player.id)
+            if after is not None and len(after.takes) > (len(before.takes) if before is not None else 0):
+                # Who has recorded wants to see it.
+                self.set_folded(False)
+        self.refresh()
+
+    def players_changed(self) -> None:
+        self._cancel_swipe()
+        self.refresh()
+
+    def selection_changed(self, before: Selection) -> None:
+        now = self.session.selection
+        if (before.take, before.span) != (now.take, now.span):
+            self.heads.update()
+            self.update_items()
+
+    def theme_changed(self) -> None:
+        self.heads.update()
+
+    def colour_of(self, take_id: str) -> str:
+        """A take's colour; without one the player's, and of what was there before none."""
+        player = self.session.player
+        take = self.take_of(take_id)
+        if take is None or player is None:
+            return self.session.tokens.text_dim
+        return take.colour or self.session.colour(player)
+
+    def take_of(self, take_id: str) -> Take | None:
+        """A take of the player in front."""
+        return next((row.take for row in self.rows if row.take is not None and row.take.id == take_id), None)
+
+    def number_of(self, take_id: str) -> int | None:
+        """Which row a take has."""
+        return next((number for number, row in enumerate(self.rows) if row.take_id == take_id), None)
+
+    @property
+    def swiping(self) -> bool:
+        """Whether a swipe is under way."""
+        return self._swipe is not None and self._swipe.moved
+
+    def shown_comp(self) -> tuple[CompSpan, ...]:
+        """The comp as it would be if the swipe ended here."""
+        swipe = self._swipe
+        if swipe is None or not swipe.moved or swipe.start_tick == swipe.end_tick:
+            return self.comp
+        start, end = sorted((swipe.start_tick, swipe.end_tick))
+        return comp_with(self.comp, start, end, swipe.take_id)
+
+    def shown_spans(self, take_id: str) -> tuple[CompSpan, ...]:
+        """What the part has of a take; of what was there before, the gaps of the comp."""
+        spans = self.shown_comp()
+        if take_id != BEFORE:
+            return tuple(span for span in spans if span.take_id == take_id)
+        edges = [0, *(tick for span in spans for tick in (span.start_tick, span.end_tick)), self._end_tick()]
+        return tuple(
+            CompSpan(start, end, BEFORE) for start, end in zip(edges[::2], edges[1::2], strict=True) if start < end
+        )
+
+    def _end_tick(self) -> int:
+        """Where what can be seen ends."""
+        return max(round(self.session.project.score.tempo_map.ticks(self.axis.limits_s[1])), 1)
+
+    # Where rows lie
+
+    @property
+    def rows_rect(self) -> QRectF:
+        """The room below the strip, pixels of the plot."""
+        return self.plot_rect.adjusted(0.0, STRIP_PX, 0.0, 0.0)
+
+    @property
+    def row_px(self) -> float:
+        """How high a row is."""
+        room = self.rows_rect.height() / max(len(self.rows), 1)
+        return min(max(room, LEAST_ROW_PX), MOST_ROW_PX)
+
+    def row_rect(self, number: int) -> QRectF:
+        """A row, pixels of the plot."""
+        top = STRIP_PX - self._scrolled_px + number * self.row_px
+        return QRectF(0.0, top, self.plot_rect.width(), self.row_px)
+
+    def row_at(self, y_px: float) -> TakeRow | None:
+        """The row at a height."""
+        if y_px < STRIP_PX:
+            return None
+        number = int((y_px - STRIP_PX + self._scrolled_px) // self.row_px)
+        return self.rows[number] if 0 <= number < len(self.rows) else None
+
+    def _scroll_to(self, top_px: float) -> None:
+        most = max(len(self.rows) * self.row_px - self.rows_rect.height(), 0.0)
+        kept = min(max(top_px, 0.0), most)
+        if kept != self._scrolled_px:
+            self._scrolled_px = kept
+            self.heads.update()
+            self.update_items()
+
+    def show_row(self, take_id: str) -> None:
+        """Scroll to a take."""
+        number = self.number_of(take_id)
+        if number is not None:
+            top, bottom = number * self.row_px, (number + 1) * self.row_px
+            height = self.rows_rect.height()
+            self._scroll_to(min(top, max(self._scrolled_px, bottom - height)))
+
+    def wheel(self, mouse: LaneMouse, steps: float) -> bool:
+        """Where there are more rows than room."""
+        if len(self.rows) * self.row_px <= self.rows_rect.height() + 0.5:
+            return False
+        self._scroll_to(self._scrolled_px - steps * self.row_px)
+        return True
+
+    def pan_y(self, by_px: float) -> None:
+        self._scroll_to(self._scrolled_px - by_px)
+
+    # Edits
+
+    def choose(self, take_id: str) -> None:
+        """Select a take."""
+        self.session.select(Selection(take=take_id))
+        self.show_row(take_id)
+
+    def take_whole(self, take_id: str) -> None:
+        """Let the part have all of a take."""
+        player = self.session.player
+        if player is not None:
+            self.session.attempt(
+                self._named("edit.comp_whole", take_id), lambda project: comp_whole(project, player.id, take_id)
+            )
+
+    def rename(self, take_id: str, name: str) -> None:
+        """Call a take something else."""
+        player = self.session.player
+        if player is not None:
+            self.session.attempt(
+                Message("edit.rename_take", {"take": name}),
+                lambda project: rename_take(project, player.id, take_id, name),
+            )
+
+    def ask_name(self) -> None:
+        """Type the selected take's name where it stands."""
+        take_id = self.session.selection.take
+        if take_id and self.take_of(take_id) is not None:
+            self.set_folded(False)
+            self.show_row(take_id)
+            self.heads.type_name(take_id)
+
+    def take_span(self, take_id: str, start_tick: int, end_tick: int) -> None:
+        """Let the part have a span of a take, and select it."""
+        player = self.session.player
+        if player is None:
+            return
+
+        def edit(project: Project) -> Project:
+            return comp(project, player.id, take_id, start_tick, end_tick)
+
+        if self.session.attempt(self._named("edit.comp", take_id), edit):
+            self.session.select(Selection(span=(start_tick, end_tick), take=take_id))
+            self.show_row(take_id)
+
+    def _named(self, id: str, take_id: str) -> Message:
+        take = self.take_of(take_id)
+        return Message("edit.comp_before") if take is None else Message(id, {"take": take.name})
+
+    # The mouse
+
+    def press(self, mouse: LaneMouse) -> None:
+        self._swipe = None
+        if not self.rows:
+            return
+        row = self.row_at(mouse.y_px)
+        if row is not None:
+            tick = max(mouse.snapped_tick, 0)
+            self._swipe = _Swipe(mouse, row.take_id, tick, tick)
+        elif mouse.y_px < STRIP_PX:
+            self._select_span(mouse.tick)
+        else:
+            self.session.select(Selection())
+
+    def drag(self, mouse: LaneMouse) -> None:
+        swipe = self._swipe
+        if swipe is None or (not swipe.moved and abs(mouse.x_px - swipe.at.x_px) < DRAG_PX):
+            return
+        swipe.moved = True
+        tick = max(mouse.snapped_tick, 0)
+        if tick != swipe.end_tick:
+            swipe.end_tick = tick
+            self.update_items()
+
+    def release(self, mouse: LaneMouse) -> None:
+        swipe, self._swipe = self._swipe, None
+        if swipe is None:
+            return
+        if not swipe.moved:
+            self._click(swipe)
+        elif swipe.start_tick != swipe.end_tick:
+            start, end = sorted((swipe.start_tick, swipe.end_tick))
+            self.take_span(swipe.take_id, start, end)
+        self.update_items()
+
+    def cancel(self) -> None:
+        self._cancel_swipe()
+
+    def _cancel_swipe(self) -> None:
+        if self._swipe is not None:
+            self._swipe = None
+            self.update_items()
+
+    def _click(self, swipe: _Swipe) -> None:
+        span = span_at(self.comp, swipe.at.tick, self._end_tick())
+        if span.take_id == swipe.take_id and swipe.at.tick >= 0:
+            self.session.select(Selection(span=(span.start_tick, span.end_tick), take=span.take_id))
+        else:
+            self.choose(swipe.take_id)
+
+    def _select_span(self, tick: float) -> None:
+        span = span_at(self.comp, max(tick, 0.0), self._end_tick())
+        self.session.select(Selection(span=(span.start_tick, span.end_tick), take=span.take_id))
+        self.show_row(span.take_id)
+
+    def hover(self, mouse: LaneMouse | None) -> None:
+        row = self.row_at(mouse.y_px) if mouse is not None else None
+        if mouse is None or row is None:
+            self.plot.setToolTip("")
+            self.plot.unsetCursor()
+            return
+        self.plot.setCursor(Qt.CursorShape.IBeamCursor)
+        self.plot.setToolTip(self._tip(row, mouse))
+
+    def _tip(self, row: TakeRow, mouse: LaneMouse) -> str:
+        reach_s = 3.0 / self.axis.px_per_s
+        for index in row.left_out.between(mouse.time_s - reach_s, mouse.time_s + reach_s).tolist():
+            name = pitch_text(self.session.pitch_display, int(row.left_out_pitches[index]), self._transposition())
+            return self.tr("{note} is left out: {why}").format(note=name, why=self.why(row.faults[index]))
+        return self.heads.tip(row)
+
+    def _transposition(self) -> int:
+        player = self.session.player
+        instrument = None if player is None else all_maps().get(player.instrument_id)
+        return 0 if instrument is None else instrument.transposition_semitones
+
+    def why(self, fault: Fault) -> str:
+        """Why cleaning leaves a note out."""
+        return {
+            "": "",
+            "ghost": self.tr("short and soft, a ghost note"),
+            "silent": self.tr("blown too softly to be heard"),
+            "slip": self.tr("a finger was late, it lies between two notes of a legato"),
+            "double": self.tr("the same note twice, a key sprang back"),
+        }[fault]
+
+    def context_menu(self, mouse: LaneMouse) -> QMenu | None:
+        row = self.row_at(mouse.y_px)
+        if row is None:
+            return None
+        span = span_at(self.comp, mouse.tick, self._end_tick())
+        if self.session.selection.span is None or self.session.selection.take != row.take_id:
+            if span.take_id == row.take_id and mouse.tick >= 0:
+                self.session.select(Selection(span=(span.start_tick, span.end_tick), take=row.take_id))
+            else:
+                self.choose(row.take_id)
+        return self.menu()
+
+    def menu(self) -> QMenu:
+        """What can be done with the selected take."""
+        menu = QMenu(self)
+        menu.setObjectName("takes_menu")
+        for group in (
+            ("takes.listen", "takes.listen_alone"),
+            ("takes.whole", "takes.above", "takes.below", "takes.before"),
+            ("takes.rename", "takes.earlier_lane", "takes.later_lane"),
+            ("takes.usual_cleaning", "takes.find_beats"),
+            ("takes.remove",),
+        ):
+            for action_id in group:
+                action = self.session.actions.get(action_id)
+                if action is not None:
+                    menu.addAction(action)
+            menu.addSeparator()
+        return menu
+
+    # Keys
+
+    def key(self, event: QKeyEvent) -> bool:
+        """Up and Down choose another take for the selected span, else another take; Left and Right go to the spans
+        beside it."""
+        key, modifiers = event.key(), event.modifiers() & ~Qt.KeyboardModifier.KeypadModifier
+        if modifiers != Qt.KeyboardModifier.NoModifier or not self.rows:
+            return False
+        if key in (Qt.Key.Key_Up, Qt.Key.Key_Down):
+            self.step(-1 if key == Qt.Key.Key_Up else 1)
+        elif key in (Qt.Key.Key_Left, Qt.Key.Key_Right):
+            self._step_span(-1 if key == Qt.Key.Key_Left else 1)
+        elif key in (Qt.Key.Key_Delete, Qt.Key.Key_Backspace) and self.session.selection.take:
+            self.session.actions["takes.remove"].trigger()
+        elif key == Qt.Key.Key_Escape and self.session.selection.take is not None:
+            self.session.select(Selection())
+        else:
+            return False
+        return True
+
+    def step(self, by: int) -> None:
+        """Take the selected span from the take above (-1) or below (1); without a span, select that take."""
+        selection = self.session.selection
+        current = selection.take
+        if current is None and selection.span is not None:
+            current = span_at(self.comp, float(selection.span[0]), self._end_tick()).take_id
+        number = self.number_of(current) if current is not None else None
+        wanted = self.rows[min(max((number if number is not None else -by) + by, 0), len(self.rows) - 1)].take_id
+        if selection.span is None:
+            self.choose(wanted)
+        elif wanted != current:
+            self.take_span(wanted, *selection.span)
+
+    def _step_span(self, by: int) -> None:
+        span = self.session.selection.span
+        end = self._end_tick()
+        if span is None:
+            self._select_span(self.session.project.score.tempo_map.ticks(self.session.playhead_s))
+        elif by > 0 and span[1] < end:
+            self._select_span(float(span[1]))
+        elif by < 0 and span[0] > 0:
+            self._select_span(float(span[0] - 1))
