@@ -67,6 +67,7 @@ class RecorderLink:
         self._is_stopping = False
         self._unsent: list[Sync] = []
         self._deaths_s: list[float] = []
+        self._ending: threading.Timer | None = None
         self._thread = threading.Thread(target=self._run, name="recorder link", daemon=True)
         self._thread.start()
 
@@ -107,6 +108,7 @@ class RecorderLink:
             elif self._tell(Leave()):
                 # The next recorder opens it: a port in use is only closed by the end of its process.
                 self._is_leaving = True
+                self._end_surely()
 
     def send(self, message: bytes) -> None:
         """Send a message to the output; `Refused` where it cannot be."""
@@ -153,7 +155,15 @@ class RecorderLink:
             self._is_closed = True
             if self._child is not None:
                 _hang_up(self._child)
+                self._end_surely()
         self._thread.join()
+
+    def _end_surely(self) -> None:
+        """Kill the recorder, which was told to end, if a driver holds it up. The lock is held."""
+        assert self._child is not None
+        self._ending = threading.Timer(_END_WITHIN_S, self._child.kill)
+        self._ending.daemon = True
+        self._ending.start()
 
     def _tell(self, command: Command) -> bool:
         """Whether the recorder was told; what matters of the rest is told to the next. The lock is held."""
@@ -184,6 +194,8 @@ class RecorderLink:
                 self._is_leaving = False
                 self._child = None
             status = _ended(child)
+            if self._ending is not None:
+                self._ending.cancel()
             if not planned and not self._may_restart():
                 self._put(Refused(Message("capture.recorder_fails", {"detail": f"status {status}"})))
                 return

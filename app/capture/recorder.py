@@ -344,7 +344,9 @@ def _read_commands(queue: SimpleQueue[Command | None]) -> None:
 def _private_output() -> IO[bytes]:
     """Our output for ourselves: what drivers' libraries print goes nowhere, Python's own complaints still appear."""
     own = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
-    sys.stderr = os.fdopen(os.dup(sys.stderr.fileno()), "w", errors="backslashreplace", buffering=1)
+    # On Windows a program without a console has none.
+    if sys.stderr is not None:
+        sys.stderr = os.fdopen(os.dup(sys.stderr.fileno()), "w", errors="backslashreplace", buffering=1)
     nowhere = os.open(os.devnull, os.O_WRONLY)
     os.dup2(nowhere, 1)
     os.dup2(nowhere, 2)

@@ -5,7 +5,9 @@ from __future__ import annotations
 from typing import Final
 
 TEMPLATES: Final[dict[str, str]] = {
-    "capture.no_library": "MIDI devices cannot be reached: {detail}; on Linux, install the package libasound2",
+    "capture.no_library": (
+        "MIDI devices cannot be reached: {detail}; they need Python 3.11 or 3.12 and, on Linux, the package libasound2"
+    ),
     "capture.no_system": (
         "no MIDI system answers; on Linux, load the kernel's sequencer (sudo modprobe snd-seq) or start JACK"
     ),

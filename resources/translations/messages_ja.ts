@@ -48,8 +48,8 @@
             <translation>録音の開始位置は {offset_s:.3f} 秒です（確信度 {percent} %）。楽譜を {tempo_percent:+.1f} % 速く演奏します</translation>
         </message>
         <message>
-            <source>MIDI devices cannot be reached: {detail}; on Linux, install the package libasound2</source>
-            <translation>MIDI機器を利用できません: {detail}。Linuxではパッケージ libasound2 をインストールしてください</translation>
+            <source>MIDI devices cannot be reached: {detail}; they need Python 3.11 or 3.12 and, on Linux, the package libasound2</source>
+            <translation>MIDI機器を利用できません: {detail}。Python 3.11 または 3.12 が必要です。Linuxではパッケージ libasound2 も必要です</translation>
         </message>
         <message>
             <source>no MIDI system answers; on Linux, load the kernel's sequencer (sudo modprobe snd-seq) or start JACK</source>

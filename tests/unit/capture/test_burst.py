@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import threading
 import time
 from pathlib import Path
@@ -27,7 +26,7 @@ def test_nothing_is_lost_in_bursts_while_the_editor_is_busy(tmp_path: Path) -> N
             sum(range(20_000))
 
     with (
-        jack_server(f"suisou-burst-{os.getpid()}", QUICK_FRAMES, is_in_step=True),
+        jack_server("suisou-burst", QUICK_FRAMES, is_in_step=True),
         PlayerProcess("Burst", BURST_S) as player,
         RecorderLink() as link,
     ):

@@ -39,7 +39,7 @@ PHRASE = phrase([60, 62, 64], beat_s=0.2, ghosts=1)
 
 @pytest.fixture(scope="module", autouse=True)
 def server() -> Iterator[None]:
-    with jack_server(f"suisou-link-{os.getpid()}"):
+    with jack_server("suisou-link"):
         yield
 
 
@@ -313,3 +313,15 @@ def test_without_a_server_it_says_so_once_and_prints_nothing(
         assert len(ear.of(Refused)) == 1
         assert ear.of(Ports) == [Ports((), (), "")]
     assert capfd.readouterr() == ("", "")
+
+
+def test_a_recorder_that_a_driver_holds_up_does_not_hold_up_the_editor(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("app.capture.link._END_WITHIN_S", 0.5)
+    with RecorderLink() as link:
+        Ear(link).wait(Ports)
+        child = link._child
+        assert child is not None
+        child.send_signal(signal.SIGSTOP)
+    assert child.poll() == -signal.SIGKILL

@@ -66,6 +66,7 @@ def test_a_library_that_cannot_be_loaded_is_told(monkeypatch: pytest.MonkeyPatch
 
 
 def test_a_system_that_is_not_there_is_told() -> None:
+    pytest.importorskip("rtmidi")
     with pytest.raises(PortError, match=r"capture\.api_unknown") as caught:
         MidiSystem("telepathy")
     assert caught.value.message.arguments["possible"]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 import signal
 import subprocess
 import sys
@@ -40,7 +39,7 @@ def run(capsys: pytest.CaptureFixture[str]) -> Run:
 
 @pytest.fixture(scope="module")
 def jack() -> Iterator[None]:
-    with jack_server(f"suisou-cli-{os.getpid()}"):
+    with jack_server("suisou-cli"):
         yield
 
 

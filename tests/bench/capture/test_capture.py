@@ -1,0 +1,218 @@
+"""What the recorder costs and loses, over JACK's dummy server in step with its clients (64 frames: 1.33 ms).
+
+Beside the recorder a calibration listens to the same player: a process of its own that does nothing but stamp. What a
+stamp differs from the calibration's is ours; what both are late is JACK's period and the machine's.
+"""
+
+from __future__ import annotations
+
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+import pytest
+
+from app.capture.journal import Header, read_journal
+from app.capture.link import RecorderLink
+from app.capture.protocol import Finished, Opened, Ports, Restarted, Written
+from tests.support.jack import PATIENT_FRAMES, QUICK_FRAMES, RATE_HZ, jack_server
+from tests.support.listening import Ear
+from tests.support.wind_player import PlayerProcess
+
+PERIOD_MS = QUICK_FRAMES / RATE_HZ * 1e3
+HEADER = Header("p", "player", "EWI", "ewi_usb", 0.0, "")
+
+pytestmark = pytest.mark.bench
+
+
+@contextmanager
+def redrawing(wanted: bool) -> Iterator[None]:
+    """A thread of ours that keeps Python's lock as a window that redraws without pause."""
+    done = threading.Event()
+
+    def redraw() -> None:
+        while not done.is_set():
+            sum(range(20_000))
+
+    window = threading.Thread(target=redraw)
+    if wanted:
+        window.start()
+    try:
+        yield
+    finally:
+        done.set()
+        if wanted:
+            window.join()
+
+
+CALIBRATION = """
+import sys, time, rtmidi
+heard = []
+def stamp(event, _):
+    heard.append((time.perf_counter_ns(), bytes(event[0])))
+midi = rtmidi.MidiIn(rtmidi.API_UNIX_JACK, "Calibration")
+midi.open_port(midi.get_ports().index(sys.argv[1]), "in")
+midi.set_callback(stamp)
+print(flush=True)
+sys.stdin.readline()
+for ns, message in heard:
+    print(ns, message.hex())
+print(flush=True)
+sys.stdin.readline()
+"""
+
+
+class Calibration:
+    """Stamps, and nothing else."""
+
+    def __init__(self, port: str) -> None:
+        self._process = subprocess.Popen(
+            [sys.executable, "-c", CALIBRATION, port],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            text=True,
+        )
+        assert self._process.stdout is not None
+        self._process.stdout.readline()
+
+    def heard(self) -> list[tuple[int, bytes]]:
+        assert self._process.stdin is not None
+        assert self._process.stdout is not None
+        self._process.stdin.write("\n")
+        self._process.stdin.flush()
+        found = []
+        for line in self._process.stdout:
+            if not line.strip():
+                break
+            ns, message = line.split()
+            found.append((int(ns), bytes.fromhex(message)))
+        self._process.kill()
+        self._process.communicate()
+        return found
+
+
+def percentiles(values: npt.NDArray[np.float64]) -> str:
+    wanted = (("median", 50), ("95 %", 95), ("99 %", 99))
+    return ", ".join(f"{name} {np.percentile(values, q):.2f}" for name, q in wanted)
+
+
+def begun(ear: Ear, player: PlayerProcess, path: Path) -> None:
+    ear.wait(Ports, lambda told: player.name in told.inputs)
+    ear.link.open(player.name)
+    ear.wait(Opened)
+    ear.link.start(path, HEADER)
+    ear.link.sync(time.perf_counter_ns(), 0.0)
+    ear.wait(Written)
+
+
+def bursts(path: Path, seconds: float, rate_hz: float, *, busy: bool) -> str:
+    """Record messages at a rate; what was lost and how late everything was, in words."""
+    news = threading.Event()
+    polled_ns: list[tuple[int, int]] = []
+    done = threading.Event()
+    with (
+        jack_server("suisou-bench", QUICK_FRAMES, is_in_step=True),
+        PlayerProcess("Burst", seconds, rate_hz) as player,
+        RecorderLink(news.set) as link,
+    ):
+        ear = Ear(link)
+        begun(ear, player, path)
+        calibration = Calibration(player.name)
+
+        def window() -> None:
+            while not done.is_set():
+                news.wait(0.1)
+                news.clear()
+                place = len(ear.told)
+                ear.look()
+                now_ns = time.perf_counter_ns()
+                for told in ear.told[place:]:
+                    polled_ns.extend((now_ns, ns) for ns in getattr(told, "times_ns", ()))
+
+        waking = threading.Thread(target=window)
+        waking.start()
+        with redrawing(busy):
+            player.start()
+            sent = player.sent()
+            end_s = time.monotonic() + 30.0
+            while len(polled_ns) < len(sent) and time.monotonic() < end_s:
+                time.sleep(0.05)
+        done.set()
+        waking.join()
+        calibrated = calibration.heard()
+        link.stop()
+        ear.wait(Finished)
+    journal = read_journal(path)
+    came = [message for _, message in ear.messages]
+    is_whole = came == [message for _, message in sent] == list(journal.messages)
+    lost = len(sent) - len(came), len(sent) - len(journal.messages)
+    text = (
+        f"{len(sent)} messages in {seconds:g} s, the editor {'busy' if busy else 'idle'}: {lost[0]} did not come, "
+        f"{lost[1]} are not in the journal{'' if is_whole else ', NOT as they were sent'}"
+    )
+    if lost[0] == 0:
+        late_ms = (np.array([ns for ns, _ in ear.messages]) - np.array([ns for ns, _ in sent])) / 1e6
+        to_poll_ms = np.array([now_ns - ns for now_ns, ns in polled_ns]) / 1e6
+        text += (
+            f"\n  stamp after the sender's: {percentiles(late_ms)} ms; 99 % less a period "
+            f"{np.percentile(late_ms, 99) - PERIOD_MS:.2f} ms"
+            f"\n  from the stamp to poll(): {percentiles(to_poll_ms)} ms"
+        )
+        if [message for _, message in calibrated] == came:
+            alone_ms = (np.array([ns for ns, _ in calibrated]) - np.array([ns for ns, _ in sent])) / 1e6
+            text += (
+                f"\n  the calibration's stamp after the sender's: {percentiles(alone_ms)} ms; ours differs from it by "
+                f"{percentiles(np.abs(late_ms - alone_ms))} ms"
+            )
+        else:
+            text += f"\n  the calibration heard {len(calibrated)} messages, not the same"
+    return text
+
+
+@pytest.mark.parametrize("busy", [False, True])
+def test_bursts(tmp_path: Path, busy: bool) -> None:
+    for rate_hz in (100.0, 1000.0):
+        print(f"\n{bursts(tmp_path / f'take {rate_hz:g}', 10.0, rate_hz, busy=busy)}")
+
+
+def test_what_a_killed_recorder_loses(tmp_path: Path) -> None:
+    path = tmp_path / "take"
+    with (
+        jack_server("suisou-bench", PATIENT_FRAMES),
+        PlayerProcess("Burst", 6.0) as player,
+        RecorderLink() as link,
+    ):
+        ear = Ear(link)
+        begun(ear, player, path)
+        player.start()
+        time.sleep(3.0)
+        child = link._child
+        assert child is not None
+        killed_ns = time.perf_counter_ns()
+        child.send_signal(signal.SIGKILL)
+        ear.wait(Restarted)
+        ear.wait(Opened, after=len(ear.told) - 1)
+        back_ns = time.perf_counter_ns()
+        sent = player.sent()
+        time.sleep(0.5)
+        link.stop()
+        ear.wait(Finished)
+    journal = read_journal(path)
+    before = [ns for ns in journal.times_ns if ns < killed_ns]
+    came = [ns for ns, _ in ear.messages if ns < killed_ns]
+    ((lost_ns, again_ns),) = journal.gaps
+    print(
+        f"\nkill -9 of the recorder in 1,000 messages a second: {len(before)} of {len(came)} that had come until then "
+        f"are in the journal, the last {(killed_ns - max(before)) / 1e6:.1f} ms old; heard again "
+        f"{(back_ns - killed_ns) / 1e6:.0f} ms after (gap told: {((again_ns or 0) - lost_ns) / 1e6:.0f} ms); of "
+        f"{len(sent)} sent {len(journal.messages)} are there"
+    )
+    assert before
