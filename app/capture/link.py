@@ -64,8 +64,10 @@ class RecorderLink:
         self._is_closed = False
         self._open = Open(None, None)
         self._take: Start | None = None
+        self._is_begun = False
         self._is_stopping = False
         self._unsent: list[Sync] = []
+        self._failure: Message | None = None
         self._deaths_s: list[float] = []
         self._ending: threading.Timer | None = None
         self._thread = threading.Thread(target=self._run, name="recorder link", daemon=True)
@@ -118,10 +120,13 @@ class RecorderLink:
     def start(self, path: str | os.PathLike[str], header: Header) -> None:
         """Begin a journal, which must not be there: `Written`, or `NotStarted`. One that runs is finished first."""
         with self._lock:
+            if self._failure is not None:
+                self._put(NotStarted(self._failure))
+                return
             self._take = Start(str(Path(path).absolute()), header)
             self._is_stopping = False
             self._unsent.clear()
-            self._tell(self._take)
+            self._is_begun = self._tell(self._take)
 
     def sync(self, ns: int, position_s: float, pass_: int = 0) -> None:
         """Say what place of the piece is heard at a moment of `time.perf_counter_ns`.
@@ -183,7 +188,7 @@ class RecorderLink:
             try:
                 child = self._started(resumed_ns)
             except OSError as error:
-                self._put(Refused(Message("capture.recorder_fails", {"detail": error.strerror or str(error)})))
+                self._fail(error.strerror or str(error))
                 return
             if child is None:
                 return
@@ -197,7 +202,7 @@ class RecorderLink:
             if self._ending is not None:
                 self._ending.cancel()
             if not planned and not self._may_restart():
-                self._put(Refused(Message("capture.recorder_fails", {"detail": f"status {status}"})))
+                self._fail(f"status {status}")
                 return
             if not planned:
                 self._put(Restarted(Message("capture.recorder_ended")))
@@ -209,9 +214,9 @@ class RecorderLink:
                 return None
             self._child = _started(self._system)
             if self._take is not None:
-                self._tell(
-                    self._take if resumed_ns is None else msgspec.structs.replace(self._take, resumed_ns=resumed_ns)
-                )
+                # What no recorder has begun must not be there.
+                began_ns = resumed_ns if self._is_begun else None
+                self._is_begun = self._tell(msgspec.structs.replace(self._take, resumed_ns=began_ns)) or self._is_begun
             if self._open != Open(None, None):
                 self._tell(self._open)
             for point in self._unsent:
@@ -220,6 +225,12 @@ class RecorderLink:
             if self._is_stopping:
                 self._tell(Stop())
             return self._child
+
+    def _fail(self, detail: str) -> None:
+        with self._lock:
+            self._failure = Message("capture.recorder_fails", {"detail": detail})
+            self._take = None
+        self._put(Refused(self._failure))
 
     def _may_restart(self) -> bool:
         now_s = time.monotonic()

@@ -315,6 +315,34 @@ def test_without_a_server_it_says_so_once_and_prints_nothing(
     assert capfd.readouterr() == ("", "")
 
 
+def test_where_no_process_can_be_started(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setattr("app.capture.link.sys.executable", "/nowhere/python")
+    with RecorderLink() as link:
+        ear = Ear(link)
+        assert ear.wait(Refused).reason.id == "capture.recorder_fails"
+        link.start(tmp_path / "take", HEADER)
+        assert ear.wait(NotStarted).reason.id == "capture.recorder_fails"
+        assert not link.is_recording
+
+
+def test_a_journal_that_is_there_is_not_gone_on_with(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """Started in the moment in which there is no recorder."""
+    path = tmp_path / "take"
+    path.write_text("precious")
+    with RecorderLink() as link:
+        ear = Ear(link)
+        ear.wait(Ports)
+        tell = link._tell
+        monkeypatch.setattr(link, "_tell", lambda command: False)
+        link.start(path, HEADER)
+        monkeypatch.setattr(link, "_tell", tell)
+        child = link._child
+        assert child is not None
+        child.kill()
+        assert ear.wait(NotStarted).reason.id == "journal.exists"
+    assert path.read_text() == "precious"
+
+
 def test_a_recorder_that_a_driver_holds_up_does_not_hold_up_the_editor(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
