@@ -61,6 +61,7 @@ class TransportBar(QWidget):
         self.beat = BeatLight(session)
         self.take_text = QLabel()
         self.take_text.setObjectName("take_text")
+        self.take_text.hide()
         self._name()
         self._build()
         self._connect()
@@ -102,31 +103,31 @@ class TransportBar(QWidget):
         row.setSpacing(3)
         for id, _ in BUTTONS:
             row.addWidget(self.buttons[id])
-        row.addSpacing(6)
+        row.addSpacing(3)
         for field, least_px, most_px in ((self.bars, 78, 112), (self.clock, 84, 112), (self.frames, 66, 92)):
             field.setMinimumWidth(least_px)
             field.setMaximumWidth(most_px)
             row.addWidget(field, 3)
-        self.tempo.setMinimumWidth(92)
+        self.tempo.setMinimumWidth(84)
         self.tempo.setAlignment(Qt.AlignmentFlag.AlignCenter)
         row.addWidget(self.tempo)
-        row.addSpacing(6)
+        row.addSpacing(3)
         row.addWidget(self.buttons["play.click"])
         row.addWidget(self.beat)
         row.addWidget(self.take_text)
-        for slider, least_px, most_px in ((self.volume, 92, 150), (self.speed, 92, 150)):
+        for slider, least_px, most_px in ((self.volume, 84, 150), (self.speed, 84, 150)):
             slider.setMinimumWidth(least_px)
             slider.setMaximumWidth(most_px)
             row.addWidget(slider, 3)
-        for combo, least_px, most_px in ((self.source, 108, 190), (self.snap, 66, 90)):
+        for combo, least_px, most_px in ((self.source, 100, 190), (self.snap, 66, 90)):
             combo.setMinimumWidth(least_px)
             combo.setMaximumWidth(most_px)
             combo.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
         row.addWidget(self.source, 2)
-        row.addSpacing(6)
+        row.addSpacing(3)
         row.addWidget(self.snap_button)
         row.addWidget(self.snap, 1)
-        row.addSpacing(6)
+        row.addSpacing(3)
         row.addWidget(self.buttons["play.follow"])
         row.addStretch(1)
         row.addWidget(self.silent_sign)
@@ -215,6 +216,7 @@ class TransportBar(QWidget):
             text = self.tr("REC") if recording.passes < 2 else self.tr("REC {number}").format(number=recording.passes)
         if text != self.take_text.text():
             self.take_text.setText(text)
+            self.take_text.setVisible(bool(text))
 
     def _show_state(self) -> None:
         session, listening = self._session, self._session.listening
