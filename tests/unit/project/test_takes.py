@@ -29,7 +29,7 @@ from app.project.edit.takes import (
 from app.project.model import CompSpan, Project
 from app.project.storage import load, save
 from app.score.take import Cleaning
-from tests.support.take_events import PlayedNote, take_of
+from tests.support.takes import PlayedNote, take_of
 from tests.unit.project.pieces import small_project
 
 TRUMPET = "1.1.1"

@@ -11,7 +11,7 @@ from app.errors import AppError
 from app.score.beats import find_beats, tempo_of_beats
 from app.score.clean import cleaned, highest
 from app.score.take import Cleaning, Controlled, Wiring, is_message
-from tests.support.take_events import PlayedNote, take_of
+from tests.support.takes import PlayedNote, take_of
 
 RAW = Cleaning(ghost_s=0.0, double_s=0.0, overlap_s=0.2)
 
