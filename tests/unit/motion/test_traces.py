@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 import numpy as np
@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 from app.motion.curve import EVERYWHERE, Trace, moves
 from app.motion.model import Motion
+from app.motion.solve import padding
 from app.performance.bodies import character_of, model_of
 from app.performance.contacts import ContactJudge, joined
 from app.performance.ensemble import Performance
@@ -152,3 +153,27 @@ def test_a_trace_in_place_of_a_curve_changes_everything() -> None:
     trace, curve = Trace(0.0, 0.01, np.zeros(5)), moves(())
     assert trace.changed_s(curve) is EVERYWHERE
     assert curve.changed_s(trace) is EVERYWHERE
+
+
+def test_after_an_edit_only_the_spans_that_are_told_have_changed() -> None:
+    maps = bundled_maps()
+    low = maps["trumpet_Bb"].range.easy_low + 5
+    part = take([(1.0, 5.0, low), (5.0, 6.0, low + 2), (6.0, 8.6, low + 4)], BLOWN, vibrato_curve(6.2, 8.6, 0.1, 5.0))
+    project = project_from_score(Score("Take", 480, TEMPO, parts=(part,)), maps)
+    player = project.players[0]
+    first = Performance(project)
+    before = playing_of(first, player)
+    edited = replace(project, corrections={player.id: (SetEmbouchure("1:2", tension=0.9, air=0.1),)})
+    second = Performance(edited, first)
+    after = playing_of(second, player, before)
+    span = whole_span(second.time_frame, FPS)
+    old, new = (player_motion(one, player, span) for one in (first, second))
+    times_s = new.first_frame_s + np.arange(new.frames) / float(FPS)
+    told_s = after.changed_s(before)
+    pad_s = (padding(FPS) + 1) / float(FPS)
+    told = np.any([(times_s >= low_s - pad_s) & (times_s <= high_s + pad_s) for low_s, high_s in told_s], axis=0)
+    changed = np.any([old.morphs[name] != new.morphs[name] for name in new.morphs], axis=0)
+    changed |= (old.rotations != new.rotations).any(axis=(1, 2))
+    assert changed.any()
+    assert not (changed & ~told).any()
+    assert told.mean() < 0.5, "and not everything is made anew"
