@@ -146,6 +146,7 @@ class JournalWriter:
     def __init__(self, path: str, header: Header, *, resumed: bool = False) -> None:
         self.path = path
         self.count = 0
+        self._last_sync = (-_LARGEST_NS, 0)
         mode = "r+" if resumed and Path(path).exists() else "x"
         try:
             self._file = FileIO(path, mode)
@@ -160,12 +161,20 @@ class JournalWriter:
         self._is_synced = False
 
     def _cut(self) -> int:
-        """Cut a torn line off and count the events; the length of what stays."""
+        """Cut a torn line off, and that the take was ended; the length of what stays."""
         data = self._file.read()
-        whole = data.rfind(b"\n") + 1
+        lines = data[: data.rfind(b"\n") + 1].splitlines(keepends=True)
+        if lines and lines[-1].startswith(b"end "):
+            del lines[-1]
+        for line in lines:
+            if line.startswith(b"e "):
+                self.count += 1
+            elif line.startswith(b"s "):
+                _, ns, _, pass_ = line.split()
+                self._last_sync = int(ns), int(pass_)
+        whole = sum(map(len, lines))
         self._file.truncate(whole)
         self._file.seek(whole)
-        self.count = data[:whole].count(b"\ne ")
         return whole
 
     def event(self, ns: int, message: bytes) -> None:
@@ -175,7 +184,10 @@ class JournalWriter:
         self.count += 1
 
     def sync(self, ns: int, position_s: float, pass_: int) -> None:
-        """Add what was heard."""
+        """Add what was heard. What no reader would take is put right: time never goes back."""
+        if not math.isfinite(position_s) or abs(position_s) > _LARGEST_S:
+            return
+        ns, pass_ = self._last_sync = max(ns, self._last_sync[0]), max(pass_, self._last_sync[1])
         self._is_synced = False
         self._pending += b"s %d %.6f %d\n" % (ns, position_s, pass_)
 

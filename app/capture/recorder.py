@@ -18,8 +18,10 @@ import signal
 import sys
 import threading
 import time
+import traceback
 from itertools import groupby
 from queue import Empty, SimpleQueue
+from types import TracebackType
 from typing import IO, Any, Final, TypeAlias
 
 from app.capture.journal import JournalWriter, is_whole
@@ -353,8 +355,16 @@ def _private_output() -> IO[bytes]:
     return own
 
 
+def _end_at_once(kind: type[BaseException], error: BaseException | None, trace: TracebackType | None) -> None:
+    """A recorder of which one thread has failed is of no use: the editor starts another."""
+    traceback.print_exception(kind, error, trace)
+    os._exit(1)
+
+
 def main() -> None:
     """Record for whoever started this process."""
+    sys.excepthook = _end_at_once
+    threading.excepthook = lambda failed: _end_at_once(failed.exc_type, failed.exc_value, failed.exc_traceback)
     # Ctrl-C in the terminal is meant for the editor, which ends this process by ending.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     sys.setswitchinterval(_SWITCH_S)

@@ -79,6 +79,25 @@ def test_another_recorder_begins_what_the_first_did_not(tmp_path: Path) -> None:
         assert read_journal(path).messages == (OFF,)
 
 
+def test_what_would_make_a_journal_unreadable_is_not_written(tmp_path: Path) -> None:
+    path = tmp_path / "take"
+    writer = JournalWriter(str(path), HEADER)
+    writer.sync(5 * S, 1.0, 1)
+    writer.sync(4 * S, 2.0, 0)
+    writer.sync(6 * S, float("nan"), 1)
+    writer.mark("end", 7 * S)
+    writer.close()
+    # The recorder was killed before it could say that it had finished.
+    writer = JournalWriter(str(path), HEADER, resumed=True)
+    writer.mark("lost", 8 * S)
+    writer.sync(4 * S, 3.0, 0)
+    writer.mark("end", 9 * S)
+    writer.close()
+    journal = read_journal(path)
+    assert journal.syncs == (SyncPoint(5 * S, 1.0, 1), SyncPoint(5 * S, 2.0, 1), SyncPoint(5 * S, 3.0, 1))
+    assert journal.complete
+
+
 def test_who_finds_it_knows_whether_it_still_runs(tmp_path: Path) -> None:
     path = tmp_path / "take"
     writer = JournalWriter(str(path), HEADER)

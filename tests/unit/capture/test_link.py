@@ -315,6 +315,20 @@ def test_without_a_server_it_says_so_once_and_prints_nothing(
     assert capfd.readouterr() == ("", "")
 
 
+def test_a_recorder_in_which_something_fails_is_started_again(capfd: pytest.CaptureFixture[str]) -> None:
+    with RecorderLink() as link:
+        ear = Ear(link)
+        ear.wait(Ports)
+        child = link._child
+        assert child is not None
+        assert child.stdin is not None
+        child.stdin.write(b"\x01\x00\x00\x00\xc1")
+        child.stdin.flush()
+        ear.wait(Restarted)
+        assert child.poll() == 1
+    assert "DecodeError" in capfd.readouterr().err
+
+
 def test_where_no_process_can_be_started(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setattr("app.capture.link.sys.executable", "/nowhere/python")
     with RecorderLink() as link:
