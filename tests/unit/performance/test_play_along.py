@@ -261,12 +261,12 @@ def test_memory_does_not_grow() -> None:
             player.pose(now_s + 0.99)
             now_s += 1.0
 
-    play(60)
+    play(30)
     tracemalloc.start()
     try:
-        play(10)
+        play(4)
         before = tracemalloc.take_snapshot()
-        play(60)
+        play(15)
         after = tracemalloc.take_snapshot()
     finally:
         tracemalloc.stop()
