@@ -180,7 +180,7 @@ def bursts(path: Path, seconds: float, rate_hz: float, *, busy: bool) -> str:
 @pytest.mark.parametrize("busy", [False, True])
 def test_bursts(tmp_path: Path, busy: bool) -> None:
     for rate_hz in (100.0, 1000.0):
-        print(f"\n{bursts(tmp_path / f'take {rate_hz:g}', 10.0, rate_hz, busy=busy)}")
+        print(f"\n{bursts(tmp_path / f'take {rate_hz:g}', 5.0, rate_hz, busy=busy)}")
 
 
 def test_what_a_killed_recorder_loses(tmp_path: Path) -> None:
