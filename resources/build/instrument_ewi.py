@@ -207,10 +207,10 @@ class Ewi:
             tab = slab(middle, normal, X * side, oval(0.0170, 0.0078), 0.0030, hollow_m=0.0002)
             self.work.add(tab.pieces)
             self.touch(name, label, f"{finger}.pad", tab.point, tab.normal)
-        # For low B flat it lies over two tabs, nearly half way between their middles, still on the edge of the one.
+        # For low B flat it lies over two tabs, on the rim of the one that is next to the other.
         low = next(row for row in self.work.contacts if row["control"] == "key_C_low")
         point, normal = np.asarray(low["point"]), np.asarray(low["normal"])
-        self.work.contact("right.little.pad", point - 0.0045 * Z, normal, control="key_C_low",
+        self.work.contact("right.little.pad", point - 0.0034 * Z, normal, control="key_C_low",
                           together=("key_C_sharp_low",))  # fmt: skip
 
     def rollers(self) -> None:
