@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from typing import Any, Final
+from typing import Final
 
 from PySide6.QtCore import QObject, QTimer
 
 from app.errors import AppError
 from app.performance.motion import playing_of
 from app.performance.play_along import PlayAlong
-from app.score.take import SILENCING, Wiring, said
+from app.score.take import Wiring
 from widgets.common.session import Session
 
 REST_S: Final = 4.0
@@ -38,34 +38,21 @@ class LivePlayer(QObject):
         self._rest = QTimer(self, singleShot=True, interval=round(1000 * REST_S))
         self._rest.timeout.connect(self.rest)
 
-    def tell(self, time_s: float, message: Any, wiring: Wiring) -> None:
+    def tell(self, time_s: float, raw: str, wiring: Wiring) -> None:
         """Something was played.
 
         Parameters
         ----------
         time_s : float
             Of `time.perf_counter`.
-        message : mido.Message
-            Of a channel.
+        raw : str
+            A message of MIDI in hexadecimal.
         wiring : Wiring
         """
         playing = self._ready()
-        if playing is None:
-            return
-        if message.type == "note_on" and message.velocity:
-            playing.note_on(time_s, message.note, message.velocity)
-        elif message.type in ("note_on", "note_off"):
-            playing.note_off(time_s, message.note)
-        elif message.type == "control_change" and message.control in SILENCING:
-            playing.all_off(time_s)
-        for kind, value in said(message, wiring):
-            if kind == "breath":
-                playing.breath(time_s, value)
-            elif kind == "bite":
-                playing.bite(time_s, value)
-            elif kind == "pitch_bend":
-                playing.bend(time_s, value)
-        self._rest.start()
+        if playing is not None:
+            self._session.live_players.hear(playing.player_id, time_s, raw, wiring)
+            self._rest.start()
 
     def rest(self) -> None:
         """Nobody plays any more."""

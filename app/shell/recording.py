@@ -246,7 +246,7 @@ class Recorder(QObject):
             elif message.type in ("note_on", "note_off") and message.note == pitch:
                 pitch = None
             breath = next((value for kind, value in said(message, wiring) if kind == "breath"), breath)
-            self._live.tell(ns / 1e9, message, wiring)
+            self._live.tell(ns / 1e9, raw.hex(), wiring)
         self._state.set_played(breath, pitch)
         self._state.heard.emit(events)
 
