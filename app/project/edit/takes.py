@@ -14,7 +14,6 @@ take.too_few_notes(count, least), take.no_beats() : no beat is found (`app.score
 
 from __future__ import annotations
 
-from bisect import bisect_right
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from fractions import Fraction
@@ -22,6 +21,7 @@ from typing import Any, Final
 
 import msgspec
 import numpy as np
+import numpy.typing as npt
 
 from app.errors import AppError
 from app.identity_cache import IdentityCache
@@ -42,6 +42,7 @@ BEFORE: Final = ""
 
 _NOTES: Final[IdentityCache[tuple[Note, ...]]] = IdentityCache(64)
 _CURVES: Final[IdentityCache[tuple[ControllerCurve, ...]]] = IdentityCache(64)
+_STEPS: Final[IdentityCache[tuple[npt.NDArray[np.int64], Floats]]] = IdentityCache(16)
 
 
 def recorded_of(project: Project, player_id: str) -> PlayerTakes:
@@ -327,15 +328,11 @@ def _curves(take: Take) -> tuple[ControllerCurve, ...]:
     curves = []
     for kind, curve in take.played.curves.items():
         ticks = np.rint(take.tempo_map.ticks(curve.times_s)).astype(np.int64)
-        inside = (ticks >= 0) & (ticks <= LAST_TICK)
-        # What was sent before the piece holds at its beginning.
-        earlier = np.flatnonzero(ticks < 0)
-        steps = dict(zip(ticks[inside].tolist(), curve.values[inside].tolist(), strict=True))
-        if len(earlier):
-            steps.setdefault(0, float(curve.values[earlier[-1]]))
-        ordered = sorted(steps.items())
-        if ordered:
-            curves.append(ControllerCurve(kind, *zip(*ordered, strict=True)))
+        # What was sent before the piece holds at its beginning; of several at one tick the last.
+        ticks, values = np.maximum(ticks[ticks <= LAST_TICK], 0), curve.values[ticks <= LAST_TICK]
+        last = np.append(ticks[1:] != ticks[:-1], True)[: len(ticks)]
+        if len(ticks):
+            curves.append(ControllerCurve(kind, tuple(ticks[last].tolist()), tuple(values[last].tolist())))
     return tuple(curves)
 
 
@@ -394,31 +391,39 @@ def _spliced(
     old, new = {curve.kind: curve for curve in before}, {curve.kind: curve for curve in given}
     result = []
     for kind in (*old, *(kind for kind in new if kind not in old)):
-        steps = {tick: value for tick, value in _steps(old.get(kind)) if not start_tick <= tick < end_tick}
-        inside = {tick: value for tick, value in _steps(new.get(kind)) if start_tick <= tick < end_tick}
-        held = _value_at(new.get(kind), start_tick)
-        inside.setdefault(start_tick, 0.0 if held is None else held)
-        after = _value_at(old.get(kind), end_tick)
-        if end_tick < LAST_TICK:
-            inside.setdefault(end_tick, 0.0 if after is None else after)
-        ordered = sorted({**inside, **steps}.items())
-        kept = [step for index, step in enumerate(ordered) if index == 0 or step[1] != ordered[index - 1][1]]
+        ticks, values = _steps(old.get(kind))
+        new_ticks, new_values = _steps(new.get(kind))
+        first, last = np.searchsorted(ticks, [start_tick, end_tick])
+        # Where a span begins and where it ends a value holds that was said before.
+        from_index, to_index = np.searchsorted(new_ticks, [start_tick + 1, end_tick])
+        goes_on = [(end_tick, _held(ticks, values, end_tick))] if end_tick < LAST_TICK else []
+        spliced = (
+            (ticks[:first], values[:first]),
+            ([start_tick], [_held(new_ticks, new_values, start_tick)]),
+            (new_ticks[from_index:to_index], new_values[from_index:to_index]),
+            ([tick for tick, _ in goes_on], [value for _, value in goes_on]),
+            (ticks[last:], values[last:]),
+        )
+        all_ticks = np.concatenate([np.asarray(part, np.int64) for part, _ in spliced])
+        all_values = np.concatenate([np.asarray(part, np.float64) for _, part in spliced])
+        kept = np.append(True, all_values[1:] != all_values[:-1])
         # A controller that never says anything is none.
-        if any(value for _, value in kept):
-            result.append(ControllerCurve(kind, *zip(*kept, strict=True)))
+        if all_values.any():
+            result.append(ControllerCurve(kind, tuple(all_ticks[kept].tolist()), tuple(all_values[kept].tolist())))
     return tuple(result)
 
 
-def _steps(curve: ControllerCurve | None) -> Iterable[tuple[int, float]]:
-    return () if curve is None else zip(curve.ticks, curve.values, strict=True)
-
-
-def _value_at(curve: ControllerCurve | None, tick: int) -> float | None:
-    """What holds at a tick; None before the first."""
+def _steps(curve: ControllerCurve | None) -> tuple[npt.NDArray[np.int64], Floats]:
+    """A curve as arrays."""
     if curve is None:
-        return None
-    index = bisect_right(curve.ticks, tick) - 1
-    return curve.values[index] if index >= 0 else None
+        return np.empty(0, np.int64), np.empty(0)
+    return _STEPS.get((curve,), lambda: (np.array(curve.ticks, np.int64), np.array(curve.values, np.float64)))
+
+
+def _held(ticks: npt.NDArray[np.int64], values: Floats, tick: int) -> float:
+    """What holds at a tick; 0 before the first."""
+    index = int(np.searchsorted(ticks, tick, side="right")) - 1
+    return float(values[index]) if index >= 0 else 0.0
 
 
 def _recleaned(

@@ -16,13 +16,16 @@ from app.audio.render_process import RenderProcess
 from app.audio.track import RATE_HZ
 from app.errors import Message
 from app.project.edit.piece import set_audio, set_offset
+from app.project.edit.takes import add_takes, remove_take
 from app.project.edit.tempo import scale_tempo, set_tempo
 from app.project.model import Project
 from app.shell.sound import Sound, sound_of
 from tests.gui.transport.conftest import Elapse
 from tests.gui.transport.devices import FakeDevices
+from tests.support.takes import take_of
 from tests.support.tasks import ImmediateTasks
 from tests.unit.audio.pieces import melody, piece, with_players
+from widgets.common.listening import HeardTake
 from widgets.common.session import Session, Severity
 
 NAME = Message("edit.set_offset")
@@ -318,3 +321,61 @@ def test_an_empty_piece_is_silent(sound: Sound, session: Session, qtbot: QtBot) 
     session.document.open(piece())
     wait_ready(session, qtbot)
     assert not heard(sound, -1.0, 2.0).any()
+
+
+# Takes
+
+
+def first(session: Session) -> str:
+    return session.project.players[0].id
+
+
+@pytest.fixture
+def recorded(ready: Sound, session: Session, qtbot: QtBot) -> Sound:
+    """Two takes of the first player: one of the second second, one of nothing."""
+    takes = [take_of([(1.0, 1.9, 74, 0.8)], tempo_map=session.project.score.tempo_map), take_of([])]
+    edit(session, add_takes(session.project, first(session), takes)[0])
+    wait_ready(session, qtbot)
+    return ready
+
+
+def test_a_take_is_heard_in_the_place_of_the_part_until_the_sound_stops(
+    recorded: Sound, session: Session, elapse: Elapse, qtbot: QtBot
+) -> None:
+    before, project = heard(recorded, 0.0, 3.0), session.project
+    recorded.listen(HeardTake(first(session), "take:1", alone=False), 0.5)
+    qtbot.waitUntil(lambda: session.playing)
+    assert session.playhead_s == pytest.approx(0.5, abs=0.02)
+    wait_ready(session, qtbot)
+    assert np.abs(heard(recorded, 1.0, 1.9) - before[RATE_HZ : round(1.9 * RATE_HZ)]).max() > 0.01
+    assert loudness(recorded, 2.2, 2.9) > 0.01, "the others play on"
+    assert session.project is project, "nothing was taken"
+    session.playback.stop()  # type: ignore[union-attr]
+    assert session.listening.take is None
+    wait_ready(session, qtbot)
+    assert heard(recorded, 0.0, 3.0) == pytest.approx(before, abs=1e-6)
+
+
+def test_a_take_alone_is_all_that_is_heard(recorded: Sound, session: Session, qtbot: QtBot) -> None:
+    edit(session, with_players(session.project, p0={"muted": True}, p1={"soloed": True}))
+    recorded.listen(HeardTake(first(session), "take:1", alone=True), 1.0)
+    wait_ready(session, qtbot)
+    assert loudness(recorded, 1.1, 1.8) > 0.01
+    assert loudness(recorded, 2.7, 2.95) < 1e-3
+    recorded.stop_listening()
+    assert not session.playing
+
+
+def test_a_take_that_is_thrown_away_is_heard_no_more(recorded: Sound, session: Session, qtbot: QtBot) -> None:
+    recorded.listen(HeardTake(first(session), "take:1", alone=True), 1.0)
+    wait_ready(session, qtbot)
+    edit(session, remove_take(session.project, first(session), "take:1"))
+    wait_ready(session, qtbot)
+    assert loudness(recorded, 2.2, 2.9) > 0.01
+
+
+def test_another_piece_ends_listening(recorded: Sound, session: Session) -> None:
+    recorded.listen(HeardTake(first(session), "take:1", alone=True), 1.0)
+    session.document.open(piece(melody((0, 960, 60))))
+    assert session.listening.take is None
+    assert not session.playing

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import msgspec
+import numpy as np
 from hypothesis import HealthCheck, settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, precondition, rule
@@ -36,14 +37,16 @@ from app.plan.corrections import (
 from app.plan.model import PlayerPlan
 from app.project.check import faults
 from app.project.document import Change, Document
-from app.project.edit import events, generation, notes, piece, players, tempo
+from app.project.edit import events, generation, notes, piece, players, takes, tempo
 from app.project.edit.corrections import put, take_back
 from app.project.edit.found_events import event_id_of, events_of
 from app.project.model import Project
 from app.project.reimport import orphaned, reattached, reimport
 from app.project.storage import load, save
+from app.score.take import Cleaning
 from instrument_maps.load import bundled_maps
 from tests.support.projects import expressions as any_expression
+from tests.support.takes import take_of
 from tests.unit.project.pieces import ANGRY, small_project
 
 MAPS = bundled_maps()
@@ -271,7 +274,78 @@ def hang_on_another(data: st.DataObject, project: Project) -> Project:
     return reattached(project, orphan.player_id, orphan.correction, data.draw(st.sampled_from(played)).id)
 
 
-KEEPING: list[Edit] = [edit_players, edit_piece, another_performance, read_again]
+played_notes = st.lists(
+    st.tuples(
+        st.integers(-4, 30).map(lambda eighths: eighths / 8.0),
+        st.sampled_from([0.01, 0.03, 0.125, 0.14, 0.6]),
+        st.integers(55, 75),
+        st.sampled_from([0.0, 0.04, 0.3, 1.0]),
+    ),
+    max_size=8,
+)
+some_cleaning = st.builds(
+    Cleaning,
+    ghost_s=st.sampled_from([0.0, 0.05, 0.5]),
+    ghost_loudness=st.sampled_from([0.0, 0.15, 1.0]),
+    double_s=st.sampled_from([0.0, 0.03, 0.2]),
+    overlap_s=st.sampled_from([0.0, 0.02]),
+    quantise=st.sampled_from([0.0, 0.5, 1.0]),
+    grid_quarters=st.sampled_from([0.25, 1 / 3, 16.0]),
+    align=st.sampled_from([0.0, 0.0, 0.7, 1.0]),
+)
+
+
+def record(data: st.DataObject, project: Project) -> Project:
+    """A take or two of a synthetic player who begins early, overlaps, repeats and sends what nobody understands."""
+    made = []
+    for notes_played in data.draw(st.lists(played_notes, min_size=1, max_size=2)):
+        notes_played = [(at, at + length, pitch, breath) for at, length, pitch, breath in notes_played]
+        more = data.draw(st.lists(st.sampled_from([(0.2, "e00050"), (0.4, "d040"), (1.0, "f8"), (1.2, "b07b00")])))
+        made.append(
+            take_of(
+                notes_played,
+                more=sorted(more),
+                start_s=-1.0,
+                end_s=5.0,
+                breathes=data.draw(st.booleans()),
+                tempo_map=project.score.tempo_map,
+            )
+        )
+    return takes.add_takes(project, a_player(data, project).id, made)[0]
+
+
+def edit_takes(data: st.DataObject, project: Project) -> Project:
+    if not any(recorded.takes for recorded in project.takes.values()):
+        return record(data, project)
+    player_id = data.draw(st.sampled_from([id for id, recorded in project.takes.items() if recorded.takes]))
+    known = [take.id for take in project.takes[player_id].takes]
+    take_id = data.draw(st.sampled_from(known))
+    match data.draw(st.integers(0, 9)):
+        case 0:
+            return record(data, project)
+        case 1:
+            name = data.draw(st.sampled_from(["best", "", "\u202e", "x" * 999]))
+            return takes.rename_take(project, player_id, take_id, name)
+        case 2:
+            return takes.colour_take(project, player_id, take_id, data.draw(st.sampled_from(["", "#102030"])))
+        case 3:
+            return takes.remove_take(project, player_id, take_id)
+        case 4:
+            return takes.move_take(project, player_id, take_id, data.draw(st.integers(0, len(known))))
+        case 5:
+            return takes.comp_whole(project, player_id, data.draw(st.sampled_from([takes.BEFORE, *known])))
+        case 6 | 7:
+            first, length = data.draw(spans)
+            owner = data.draw(st.sampled_from([takes.BEFORE, *known]))
+            return takes.comp(project, player_id, owner, first, first + length)
+        case 8:
+            beats_s = np.array([0.1, 0.6, 1.2, 1.7])
+            return takes.follow_beats(project, player_id, take_id, beats_s)
+        case _:
+            return takes.set_cleaning(project, player_id, take_id, data.draw(some_cleaning))
+
+
+KEEPING: list[Edit] = [edit_players, edit_piece, another_performance, read_again, edit_takes, edit_takes]
 """Whatever these do, every correction is still there after it (it may have moved with the music)."""
 OTHERS: list[Edit] = [add_correction, forget_correction, edit_event, edit_notes, hang_on_another]
 

@@ -243,3 +243,27 @@ def test_lengths_changed_by_hand_stay_when_a_take_is_cleaned() -> None:
     project = resize(project, ["t:1000001"], 40)
     project = set_cleaning(project, TRUMPET, "take:1", Cleaning())
     assert notes(project)[0].duration_tick == 424
+
+
+@given(swipes, st.integers(0, 3))
+@settings(max_examples=40, deadline=None)
+def test_what_is_blown_is_always_the_take_s_that_the_comp_says(made: list[tuple[str, int, int]], seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    times = np.sort(rng.integers(-200, 2000, 40)) / 1000.0
+    sent = [(float(at), f"b002{value:02x}") for at, value in zip(times, rng.integers(0, 128, 40), strict=True)]
+    blown = [take_of(ONE, cleaning=EXACT, breathes=False, more=sent[part::2], start_s=-1.0) for part in (0, 1)]
+    project = add_takes(small_project(), TRUMPET, blown)[0]
+    owner = dict.fromkeys(range(3000), BEFORE)
+    for take_id, start, length in made:
+        project = comp(project, TRUMPET, take_id, start, start + length)
+        owner |= dict.fromkeys(range(start, start + length), take_id)
+    breath = next((c for c in project.part(project.player(TRUMPET)).curves if c.kind == "breath"), None)
+    for tick in range(0, 3000, 7):
+        expected = 0.0
+        if owner[tick] != BEFORE:
+            # Times are whole ticks: 960 a second.
+            part = 0 if owner[tick] == "take:1" else 1
+            said = [int(raw[4:], 16) / 127 for at, raw in sent[part::2] if round(at * 960) <= tick]
+            expected = said[-1] if said else 0.0
+        index = -1 if breath is None else int(np.searchsorted(breath.ticks, tick, side="right")) - 1
+        assert (breath.values[index] if breath is not None and index >= 0 else 0.0) == expected
