@@ -710,6 +710,11 @@
         <translation>音符 {count} 個。除かれた音: {faults}。</translation>
     </message>
     <message>
+        <source>, </source>
+        <comment>between what is left out</comment>
+        <translation>、</translation>
+    </message>
+    <message>
         <source>Name of the take</source>
         <translation>テイクの名前</translation>
     </message>

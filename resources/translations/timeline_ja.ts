@@ -336,8 +336,12 @@
         <translation>前面のプレイヤーがいません。</translation>
     </message>
     <message>
-        <source>Nothing is recorded of {player} yet. Connect a wind controller, choose it under Record, and play: each time through becomes a take here. Then drag over the takes to put the part together.</source>
-        <translation>{player}の録音はまだありません。ウィンドコントローラーを接続し、「録音」メニューで選んで演奏すると、1 回ごとにここにテイクができます。テイクの上をドラッグしてパートを組み立てます。</translation>
+        <source>Nothing is recorded of {player} yet. Connect a wind controller, start recording ({keys}) and play: each time through becomes a take here. Then drag over the takes to put the part together.</source>
+        <translation>{player}の録音はまだありません。ウィンドコントローラーを接続し、録音を始めて（{keys}）演奏すると、1 回ごとにここにテイクができます。テイクの上をドラッグしてパートを組み立てます。</translation>
+    </message>
+    <message>
+        <source>Record</source>
+        <translation>録音</translation>
     </message>
     <message>
         <source>{note} is left out: {why}</source>

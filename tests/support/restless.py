@@ -30,14 +30,17 @@ from PySide6.QtGui import QContextMenuEvent, QKeySequence, QMouseEvent, QWheelEv
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QDialog, QMainWindow, QMenu, QMenuBar, QWidget
 
+from app.errors import Message
 from app.performance.ensemble import Performance
 from app.project.autosave import Autosave
+from app.project.edit.takes import add_takes, comp_whole
 from app.project.model import Project
 from app.project.presence import Presence
 from app.project.storage import load, save
 from app.shell.app import Program, make_application
 from app.shell.settings import Settings
 from app.shell.tasks import ThreadTasks
+from tests.support.takes import take_of
 
 QUARTET = Path(__file__).parents[2] / "resources" / "examples" / "quartet.mid"
 
@@ -99,8 +102,8 @@ class Restless:
             self.program.editor.files.open(QUARTET, ask=False)
             QApplication.processEvents()
         deed = self.random.choices(
-            (self.click, self.drag, self.wheel, self.press, self.command, self.context_menu, self.play_on),
-            (8, 6, 3, 5, 6, 2, 1),
+            (self.click, self.drag, self.wheel, self.press, self.command, self.context_menu, self.play_on, self.record),
+            (8, 6, 3, 5, 6, 2, 1, 1),
         )[0]
         start_s = time.perf_counter()
         self._busy = True
@@ -296,6 +299,23 @@ class Restless:
         self.deeds.append("wait")
         QTest.qWait(self.random.randint(1, 40))
 
+    def record(self) -> None:
+        """Somebody has played something on a wind controller."""
+        player = self.session.player
+        if player is None:
+            return
+        self.deeds.append(f"record {player.name}")
+        chance = self.random
+        played = [
+            (0.4 * beat + chance.uniform(0.0, 0.1), 0.4 * beat + chance.uniform(0.1, 0.5), chance.randint(60, 72), 0.6)
+            for beat in range(30)
+        ]
+        take = take_of(played, tempo_map=self.session.project.score.tempo_map)
+        name = Message("edit.record", {"count": 1})
+        if self.session.attempt(name, lambda project: add_takes(project, player.id, [take])[0]):
+            take_id = self.session.project.takes[player.id].takes[-1].id
+            self.session.attempt(name, lambda project: comp_whole(project, player.id, take_id))
+
     # What must be true
 
     def calm_down(self) -> None:
@@ -348,6 +368,7 @@ def by_hand(project: Project) -> object:
         {player: frozenset(map(msgspec.json.encode, items)) for player, items in project.corrections.items() if items},
         project.expressions,
         project.audio,
+        project.takes,
     )
 
 

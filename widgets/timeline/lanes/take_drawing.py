@@ -8,7 +8,6 @@ import numpy as np
 from PySide6.QtCore import QLineF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen
 
-from app.project.edit.takes import BEFORE
 from app.project.model import CompSpan
 from widgets.timeline.lane import LaneItem
 from widgets.timeline.lanes.drawing import draw_lines, draw_rects, draw_text, shade, small_font
@@ -76,7 +75,7 @@ class TakesItem(LaneItem):
         painter.setPen(QPen(QColor(tokens.line), 1.0))
         painter.drawLine(strip.bottomLeft(), strip.bottomRight())
         names = {row.take_id: row.take.name for row in lane.rows if row.take is not None}
-        for span, box in self._boxes(lane.comp, 3.0, STRIP_PX - 6.0):
+        for span, box in self._boxes(lane.shown_comp(), 3.0, STRIP_PX - 6.0):
             colour = lane.colour_of(span.take_id)
             inner = box.adjusted(0.5, 0.0, -0.5, 0.0)
             painter.fillRect(inner, shade(colour, 70))
@@ -159,15 +158,14 @@ class TakesItem(LaneItem):
         return tops, height
 
     def _paint_selected(self, painter: QPainter) -> None:
-        """The selected span, in the rows that the part has it from."""
-        lane, selection = self._lane, self._lane.session.selection
-        if selection.span is None or selection.take is None or lane.swiping:
-            return
-        number = lane.number_of(selection.take)
-        if number is None:
+        """The selected span, in the row that the part has it from; while somebody swipes, what is swiped over."""
+        lane = self._lane
+        outlined = lane.outlined()
+        number = lane.number_of(outlined.take_id) if outlined is not None else None
+        if outlined is None or number is None:
             return
         box = lane.row_rect(number)
-        for _, place in self._boxes((CompSpan(*selection.span, BEFORE),), box.top(), box.height()):
+        for _, place in self._boxes((outlined,), box.top(), box.height()):
             painter.setBrush(Qt.BrushStyle.NoBrush)
             painter.setPen(QPen(QColor(lane.session.tokens.accent), 2.0))
             painter.drawRect(place.adjusted(1.0, 1.0, -1.0, -1.5))

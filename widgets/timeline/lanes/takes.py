@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from PySide6.QtCore import QRectF, Qt
-from PySide6.QtGui import QKeyEvent
+from PySide6.QtGui import QKeyEvent, QKeySequence
 from PySide6.QtWidgets import QMenu, QWidget
 
 from app.errors import Message
@@ -82,9 +82,14 @@ class TakesLane(Lane):
         if player is None:
             return self.tr("No player is in front.")
         return self.tr(
-            "Nothing is recorded of {player} yet. Connect a wind controller, choose it under Record, and play: each "
+            "Nothing is recorded of {player} yet. Connect a wind controller, start recording ({keys}) and play: each "
             "time through becomes a take here. Then drag over the takes to put the part together."
-        ).format(player=player.name)
+        ).format(player=player.name, keys=self._record_keys())
+
+    def _record_keys(self) -> str:
+        action = self.session.actions.get("record.toggle")
+        keys = action.shortcut().toString(QKeySequence.SequenceFormat.NativeText) if action is not None else ""
+        return keys or self.tr("Record")
 
     # What is shown
 
@@ -154,18 +159,29 @@ class TakesLane(Lane):
         """Which row a take has."""
         return next((number for number, row in enumerate(self.rows) if row.take_id == take_id), None)
 
-    @property
-    def swiping(self) -> bool:
-        """Whether a swipe is under way."""
-        return self._swipe is not None and self._swipe.moved
+    def _swiped(self) -> CompSpan | None:
+        """What the swipe would take if it ended here."""
+        swipe = self._swipe
+        if swipe is None or not swipe.moved or swipe.start_tick == swipe.end_tick:
+            return None
+        start, end = sorted((swipe.start_tick, swipe.end_tick))
+        return CompSpan(start, end, swipe.take_id)
 
     def shown_comp(self) -> tuple[CompSpan, ...]:
         """The comp as it would be if the swipe ended here."""
-        swipe = self._swipe
-        if swipe is None or not swipe.moved or swipe.start_tick == swipe.end_tick:
+        swiped = self._swiped()
+        if swiped is None:
             return self.comp
-        start, end = sorted((swipe.start_tick, swipe.end_tick))
-        return comp_with(self.comp, start, end, swipe.take_id)
+        return comp_with(self.comp, swiped.start_tick, swiped.end_tick, swiped.take_id)
+
+    def outlined(self) -> CompSpan | None:
+        """What is swiped over, else the selected span, with the take that the part has it from."""
+        selection = self.session.selection
+        if self._swipe is not None and self._swipe.moved:
+            return self._swiped()
+        if selection.span is None or selection.take is None:
+            return None
+        return CompSpan(*selection.span, selection.take)
 
     def shown_spans(self, take_id: str) -> tuple[CompSpan, ...]:
         """What the part has of a take; of what was there before, the gaps of the comp."""
@@ -307,14 +323,14 @@ class TakesLane(Lane):
             self.update_items()
 
     def release(self, mouse: LaneMouse) -> None:
+        swiped = self._swiped()
         swipe, self._swipe = self._swipe, None
         if swipe is None:
             return
         if not swipe.moved:
             self._click(swipe)
-        elif swipe.start_tick != swipe.end_tick:
-            start, end = sorted((swipe.start_tick, swipe.end_tick))
-            self.take_span(swipe.take_id, start, end)
+        elif swiped is not None:
+            self.take_span(swiped.take_id, swiped.start_tick, swiped.end_tick)
         self.update_items()
 
     def cancel(self) -> None:
