@@ -201,7 +201,8 @@ class TakeSection(QWidget):
         left_out = [text.format(count=found[fault]) for fault, text in names.items() if fault in found]
         if not left_out:
             return self.tr("Notes: {count}; nothing is left out.").format(count=kept)
-        return self.tr("Notes: {count}. Left out: {faults}.").format(
+        faults = self.tr(", ", "between what is left out").join(left_out)
+        return self.tr("Notes: {count}. Left out: {faults}.").format(count=kept, faults=faults)
             count=kept, faults=self.tr(", ", "between what is left out").join(left_out)
         )
 
