@@ -203,8 +203,6 @@ class TakeSection(QWidget):
             return self.tr("Notes: {count}; nothing is left out.").format(count=kept)
         faults = self.tr(", ", "between what is left out").join(left_out)
         return self.tr("Notes: {count}. Left out: {faults}.").format(count=kept, faults=faults)
-            count=kept, faults=self.tr(", ", "between what is left out").join(left_out)
-        )
 
     # Edits
 
