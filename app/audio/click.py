@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from functools import cache
 from typing import Final
 
@@ -39,6 +40,14 @@ def click_track(project: Project, start_s: float, end_s: float) -> Track:
                 pieces.append(Piece(round(at_s * RATE_HZ), _click(_BEAT_HZ if index else _BAR_HZ)))
         bar += 1
     return Track(pieces)
+
+
+def steady_clicks(times_s: Iterable[float], high: int) -> Track:
+    """Clicks at times, the first ones higher."""
+    return Track(
+        Piece(round(at_s * RATE_HZ), _click(_BAR_HZ if index < high else _BEAT_HZ))
+        for index, at_s in enumerate(times_s)
+    )
 
 
 def _beats(project: Project, bar_tick: int, next_tick: int) -> list[float]:

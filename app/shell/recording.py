@@ -14,8 +14,10 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Final
 
+import msgspec
 from PySide6.QtCore import QCoreApplication, QObject, Qt, QTimer
 
+from app.audio.playback import Playback
 from app.capture.adopt import takes_of
 from app.capture.journal import Header, Journal, read_journal
 from app.capture.link import RecorderLink
@@ -43,6 +45,7 @@ from app.shell.live_player import LivePlayer
 from app.shell.settings import Settings
 from app.shell.sound import sound_of
 from metadata.load import load_controllers, recognised_controller
+from metadata.model import Controller
 from widgets.common.session import Session, Severity
 
 SYNC_MS: Final = 40
@@ -51,6 +54,17 @@ _STILL_S: Final = 1e-6
 
 _JUMP_S: Final = 0.25
 """The sound is elsewhere than it would be by now: it was sent there, or the loop returned."""
+
+_NO_DEVICE: Final = frozenset(
+    {
+        "capture.no_library",
+        "capture.no_system",
+        "capture.api_unknown",
+        "capture.port_refused",
+        "capture.recorder_fails",
+    }
+)
+"""Refusals that leave no device to listen to."""
 
 MakeLink = Callable[[Callable[[], None]], RecorderLink]
 
@@ -85,6 +99,8 @@ class Recorder(QObject):
     make_link : callable
     now_ns : callable
         The clock of the events.
+    make_playback : callable
+        Makes what plays a beep, or clicks, beside the performance.
     """
 
     def __init__(
@@ -94,13 +110,15 @@ class Recorder(QObject):
         settings: Settings,
         make_link: MakeLink | None = None,
         now_ns: Callable[[], int] = time.perf_counter_ns,
+        make_playback: Callable[[], Playback] = Playback,
     ) -> None:
         super().__init__(session)
         self.setObjectName("recorder")
         self._session, self._files, self._settings = session, files, settings
         self._state = session.recording
         self._make_link: MakeLink = make_link if make_link is not None else RecorderLink
-        self._now_ns = now_ns
+        self.now_ns = now_ns
+        self.make_playback = make_playback
         self._link: RecorderLink | None = None
         self._live = LivePlayer(session, self.recorded_player, self)
         self._running: _Running | None = None
@@ -138,9 +156,13 @@ class Recorder(QObject):
     def choose(self, port: str) -> None:
         """Record from this device from now on, also whenever it comes back; empty: from none."""
         self.begin()
+        if port == self._state.port:
+            return
         assert self._link is not None
         self._settings.midi_port = port
-        self._state.set(port=port, connection="waiting" if port else "none")
+        self._state.set(port=port, connection="waiting" if port else "none", refusal=None)
+        self._state.set_played(0.0, None)
+        self._live.rest()
         self._know(port)
         self._link.open(port or None)
 
@@ -159,20 +181,12 @@ class Recorder(QObject):
         """Say with what the device sends breath and bite, as it was learned or chosen."""
         for name, value in (("channel", str(wiring.channel)), ("breath", wiring.breath), ("bite", wiring.bite)):
             self._settings.set_midi_device(self._state.port, name, value)
-        self._state.changed.emit()
+        self._know(self._state.port)
 
     def set_latency(self, latency_s: float) -> None:
         """Say how late events of the device come."""
         self._settings.set_midi_device(self._state.port, "latency_s", repr(float(latency_s)))
         self._know(self._state.port)
-
-    def wiring(self) -> Wiring:
-        """With what the device sends breath and bite: as was said, else as its kind does."""
-        controller = load_controllers()[self._state.controller]
-        said = {name: self._settings.midi_device(self._state.port, name) for name in ("channel", "breath", "bite")}
-        if not said["breath"]:
-            return Wiring(controller.channel, controller.breath[0], controller.bite)
-        return Wiring(int(said["channel"] or 0), said["breath"], said["bite"] or "none")  # type: ignore[arg-type]
 
     def _know(self, port: str) -> None:
         """What is remembered of a device."""
@@ -184,7 +198,16 @@ class Recorder(QObject):
             latency_s = float(self._settings.midi_device(port, "latency_s") or 0.0)
         except ValueError:
             latency_s = 0.0
-        self._state.set(controller=controller, latency_s=latency_s)
+        self._state.set(controller=controller, latency_s=latency_s, wiring=self._wiring(port, controllers[controller]))
+
+    def _wiring(self, port: str, controller: Controller) -> Wiring:
+        """With what a device sends breath and bite: as was said, else as its kind does."""
+        said = {name: self._settings.midi_device(port, name) for name in ("channel", "breath", "bite")}
+        try:
+            return msgspec.convert({**said, "channel": int(said["channel"])}, Wiring)
+        except (ValueError, msgspec.ValidationError):
+            # Nothing was said, or somebody edited the settings by hand.
+            return Wiring(controller.channel, controller.breath[0], controller.bite)
 
     def send_to(self, output: str | None) -> None:
         """Send to a port."""
@@ -205,10 +228,12 @@ class Recorder(QObject):
         state = self._state
         match told:
             case Ports():
-                gone = state.connection == "refused" and state.port not in told.inputs
-                state.set(ports=told.inputs, connection="waiting" if gone else state.connection)
+                state.set(ports=told.inputs)
+                # What held us up is no more; whether the device can be had now is told next.
+                if told.system and state.refusal is not None and state.port not in told.inputs:
+                    state.set(connection="waiting" if state.port else "none", refusal=None)
             case Opened() | Back():
-                state.set(connection="open")
+                state.set(connection="open", refusal=None)
                 if isinstance(told, Back):
                     self._session.notice(Message("record.device_back", {"device": told.port}))
             case Lost():
@@ -218,9 +243,7 @@ class Recorder(QObject):
                 id = "record.device_lost_running" if state.running else "record.device_lost"
                 self._session.notice(Message(id, {"device": told.port}), Severity.WARNING)
             case Refused():
-                if state.connection != "open":
-                    state.set(connection="refused")
-                self._session.notice(told.reason, Severity.ERROR)
+                self._refused(told.reason)
             case NotStarted():
                 self._session.notice(told.reason, Severity.ERROR)
                 self._running = None
@@ -234,8 +257,24 @@ class Recorder(QObject):
             case Finished():
                 self._finished(Path(told.path))
 
+    def _refused(self, reason: Message) -> None:
+        """Something cannot be done: the device be had, or something beside it."""
+        state = self._state
+        if reason.id == "capture.port_not_here":
+            # It is waited for; a window that opens without it need not warn.
+            state.set(connection="waiting", refusal=None)
+            return
+        if reason.id in _NO_DEVICE:
+            is_ours = reason.arguments.get("port", state.port) == state.port
+            if is_ours:
+                state.set(connection="refused" if state.port else "none", refusal=reason)
+            if not state.port:
+                # Nobody wanted one yet: whoever looks for devices reads it there.
+                return
+        self._session.notice(reason, Severity.ERROR)
+
     def _hear(self, events: Events) -> None:
-        wiring = self.wiring()
+        wiring = self._state.wiring
         breath, pitch = self._state.breath, self._state.pitch
         for ns, raw in zip(events.times_ns, events.messages, strict=True):
             message = decoded(raw.hex())
@@ -292,7 +331,7 @@ class Recorder(QObject):
             latency_s=state.latency_s,
             started=datetime.now(UTC).isoformat(timespec="milliseconds"),
         )
-        self._running = _Running(path, player_id, start_s, session.loop_s, self.wiring(), session.project)
+        self._running = _Running(path, player_id, start_s, session.loop_s, self._state.wiring, session.project)
         self._link.start(path, header)
         sound.set_recording((lead_s, start_s))
         state.set(running=True, start_s=start_s, counted_from_s=lead_s, passes=1, events=0)
@@ -333,7 +372,7 @@ class Recorder(QObject):
         running, playback = self._running, self._session.playback
         if running is None or playback is None or self._link is None or not playback.is_playing:
             return
-        ns, position_s = self._now_ns(), playback.position_s()
+        ns, position_s = self.now_ns(), playback.position_s()
         if running.first_s is None:
             running.first_s = running.last_s = position_s
             return
@@ -363,7 +402,7 @@ class Recorder(QObject):
         if running is not None and self._link is not None:
             if not running.last_ns and self._session.playback is not None:
                 # It was over before anybody asked where it was: the take must be somewhere.
-                self._link.sync(self._now_ns(), self._session.playback.position_s(), 0)
+                self._link.sync(self.now_ns(), self._session.playback.position_s(), 0)
             self._adopting[str(running.path)] = running
             self._link.stop()
         self._ended()

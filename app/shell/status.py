@@ -59,10 +59,13 @@ class StatusLine(QStatusBar):
         The person wants to see the problems.
     instruments_asked()
         The person wants to see what is wrong with instruments of their own.
+    devices_asked()
+        The person wants to see the MIDI devices.
     """
 
     problems_asked = Signal()
     instruments_asked = Signal()
+    devices_asked = Signal()
 
     def __init__(self, session: Session, files: Files, tasks: ThreadTasks | None, parent: QWidget) -> None:
         super().__init__(parent)
@@ -75,6 +78,7 @@ class StatusLine(QStatusBar):
         self._log: deque[tuple[Message, Severity]] = deque(maxlen=MOST_NOTICES)
         self._frames: deque[float] = deque(maxlen=120)
         self._ready = 1.0
+        self._told_device: tuple[object, ...] = ()
 
         self._work = QWidget()
         self._work_line = QHBoxLayout(self._work)
@@ -98,6 +102,9 @@ class StatusLine(QStatusBar):
         self._instruments = _flat("instrument_problems")
         self._instruments.clicked.connect(self.instruments_asked)
         self.addPermanentWidget(self._instruments)
+        self._device = _flat("midi_device")
+        self._device.clicked.connect(self.devices_asked)
+        self.addPermanentWidget(self._device)
         self._problems = _flat("problems")
         self._problems.clicked.connect(self.problems_asked)
         self._saved, self._rate, self._motion = QLabel(), QLabel(), QLabel()
@@ -128,6 +135,7 @@ class StatusLine(QStatusBar):
         session.performance_changed.connect(self._tell_problems)
         session.problems_changed.connect(self._tell_problems)
         session.instruments_changed.connect(self._tell_instruments)
+        session.recording.changed.connect(self._tell_device)
         session.theme_changed.connect(self.retranslate)
         session.playing_changed.connect(self._played)
         files.changed.connect(self._tell_saved)
@@ -238,6 +246,27 @@ class StatusLine(QStatusBar):
         told = "\n".join(sentence(problems[0], self._session) for problems in wrong.values())
         self._instruments.setToolTip(told + "\n\n" + self.tr("Show the instruments"))
 
+    def _tell_device(self) -> None:
+        """Which device is recorded from, and whether it is there; nothing where nobody has one."""
+        recording, tokens = self._session.recording, self._session.tokens
+        told = (recording.port, recording.connection, bool(recording.ports), tokens.name)
+        if told == self._told_device:
+            return
+        self._told_device = told
+        self._device.setVisible(bool(recording.port or recording.ports))
+        text, name, colour = {
+            "none": (self.tr("choose a MIDI device"), "record", tokens.text_dim),
+            "waiting": (self.tr("waiting for {device}"), "record", tokens.text_dim),
+            "open": (self.tr("{device} connected"), "record", tokens.good),
+            "lost": (self.tr("{device} unplugged"), "warning", tokens.warning),
+            "refused": (self.tr("{device} cannot be opened"), "error", tokens.error),
+        }[recording.connection]
+        self._device.setIcon(icon(name, tokens, colour))
+        room_px = max(self.width() // 6, 120)
+        device = QFontMetrics(self._device.font()).elidedText(recording.port, Qt.TextElideMode.ElideMiddle, room_px)
+        self._device.setText(" " + text.format(device=device))
+        self._device.setToolTip(self.tr("MIDI devices: choose, watch what comes in"))
+
     def _tell_saved(self) -> None:
         files = self._files
         if not files.is_open:
@@ -303,6 +332,8 @@ class StatusLine(QStatusBar):
         for task, row in self._rows.items():
             row.tell(task, tokens)
         self._tell_instruments()
+        self._told_device = ()
+        self._tell_device()
         self._opened()
 
     def changeEvent(self, event: QEvent) -> None:

@@ -139,6 +139,7 @@ class Window(QMainWindow):
         self.session.theme_changed.connect(self._dress)
         self.status.problems_asked.connect(self._next_problem)
         self.status.instruments_asked.connect(self.show_instruments)
+        self.status.devices_asked.connect(self.show_devices)
         generator.ready_changed.connect(self.status.set_ready)
         picture = self.viewport.findChild(QOpenGLWidget)
         if isinstance(picture, QOpenGLWidget):
@@ -286,6 +287,18 @@ class Window(QMainWindow):
         dialog.show()
         dialog.raise_()
         dialog.activateWindow()
+
+    def show_devices(self) -> None:
+        """Show the MIDI devices; once."""
+        from app.shell.recording_dialogs import show_devices
+
+        show_devices(self.editor)
+
+    def show_latency(self) -> None:
+        """Find out how late the MIDI device comes; once."""
+        from app.shell.recording_dialogs import show_latency
+
+        show_latency(self.editor)
 
     def show_about(self) -> None:
         """Say which program this is."""

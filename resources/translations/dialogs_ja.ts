@@ -109,6 +109,17 @@
     </message>
 </context>
 <context>
+    <name>HitChart</name>
+    <message>
+        <source>How late every hit came</source>
+        <translation>各クリックに対する吹き始めの遅れ</translation>
+    </message>
+    <message>
+        <source>{count} ms</source>
+        <translation>{count} ms</translation>
+    </message>
+</context>
+<context>
     <name>ImportDialog</name>
     <message>
         <source>Import MIDI</source>
@@ -398,6 +409,298 @@
     <message>
         <source>Cancel</source>
         <translation>キャンセル</translation>
+    </message>
+</context>
+<context>
+    <name>LatencyDialog</name>
+    <message>
+        <source>The device has gone, or a take is recorded: measuring was ended.</source>
+        <translation>機器が外れたか録音が始まったため、測定を終了しました。</translation>
+    </message>
+    <message>
+        <source>Stop</source>
+        <translation>停止</translation>
+    </message>
+    <message>
+        <source>Start</source>
+        <translation>開始</translation>
+    </message>
+    <message>
+        <source>There is no audio device: blow when the light flashes. Measure again when there is one.</source>
+        <translation>オーディオデバイスがありません。ライトの点滅に合わせて吹いてください。機器を接続したら測定し直してください。</translation>
+    </message>
+    <message>
+        <source>Listen, and play along: the first {count} do not count.</source>
+        <translation>クリックを聴きながら吹き始めてください。最初の {count} 回は数えません。</translation>
+    </message>
+    <message>
+        <source>Blow a short note on every click: {count} of {all}</source>
+        <translation>クリックごとに短く吹いてください: {count}/{all}</translation>
+    </message>
+    <message>
+        <source>No device is connected: choose one in Record &gt; Devices, or type a number.</source>
+        <translation>機器が接続されていません。録音 &gt; 機器で選ぶか、数値を入力してください。</translation>
+    </message>
+    <message>
+        <source>{device}: {count} ms are taken off now.</source>
+        <translation>{device}: 現在 {count} ms を差し引いています。</translation>
+    </message>
+    <message>
+        <source>Only {count} of {all} clicks were hit ({least} are needed). Try again.</source>
+        <translation>{all} 回のうち {count} 回しか合いませんでした({least} 回必要です)。もう一度試してください。</translation>
+    </message>
+    <message>
+        <source>The hits differ by ±{spread} ms, too much to tell. Try again, shorter and harder.</source>
+        <translation>ばらつきが ±{spread} ms と大きく、測定できません。もっと短くはっきりと吹いて、もう一度試してください。</translation>
+    </message>
+    <message>
+        <source>{device} comes {count} ms late; {used} of {all} hits counted, they differ by ±{spread} ms.</source>
+        <translation>{device} の遅れは {count} ms です({all} 回のうち {used} 回を使用、ばらつき ±{spread} ms)。</translation>
+    </message>
+    <message>
+        <source>It is taken off from now on.</source>
+        <translation>これからの録音で差し引かれます。</translation>
+    </message>
+    <message>
+        <source>Latency</source>
+        <translation>レイテンシー</translation>
+    </message>
+    <message>
+        <source>Blow a short note on every click. What is found is how late the sound and the device come together; it also contains your own anticipation, as most people blow a little early or late. What you know better you can type.</source>
+        <translation>クリックごとに短く吹いてください。測定されるのは音の出力と機器を合わせた遅れです。人は少し早めか遅めに吹くものなので、ご自身の癖も含まれます。正しい値がわかっている場合は入力できます。</translation>
+    </message>
+    <message>
+        <source>ms</source>
+        <translation>ms</translation>
+    </message>
+    <message>
+        <source>Taken off the time of everything that this device sends</source>
+        <translation>この機器から届くすべての時刻から差し引きます</translation>
+    </message>
+    <message>
+        <source>Use</source>
+        <translation>使用</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>閉じる</translation>
+    </message>
+</context>
+<context>
+    <name>MidiDevicesDialog</name>
+    <message>
+        <source>There is no audio device: connect one and try again.</source>
+        <translation>オーディオデバイスがありません。接続してもう一度試してください。</translation>
+    </message>
+    <message>
+        <source>The volume of the transport is 0.</source>
+        <translation>トランスポートの音量が 0 です。</translation>
+    </message>
+    <message>
+        <source>You should hear a short tone.</source>
+        <translation>短い音が聞こえるはずです。</translation>
+    </message>
+    <message>
+        <source>No breath came in. Blow harder, or turn breath sending on in the device, and try again.</source>
+        <translation>ブレスが届きませんでした。もっと強く吹くか、機器のブレス送信を有効にして、もう一度試してください。</translation>
+    </message>
+    <message>
+        <source>Nothing came in from the device. Is it switched on?</source>
+        <translation>機器から何も届きませんでした。電源は入っていますか?</translation>
+    </message>
+    <message>
+        <source>Found: {source} on channel {number}.</source>
+        <translation>検出: チャンネル {number} の {source}。</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>キャンセル</translation>
+    </message>
+    <message>
+        <source>Learn by Blowing</source>
+        <translation>吹いて検出</translation>
+    </message>
+    <message>
+        <source>Blow now: soft, loud and soft again. {count} s</source>
+        <translation>弱く、強く、また弱く吹いてください。あと {count} 秒</translation>
+    </message>
+    <message>
+        <source>{count} ms</source>
+        <translation>{count} ms</translation>
+    </message>
+    <message>
+        <source>No device</source>
+        <translation>機器なし</translation>
+    </message>
+    <message>
+        <source>waiting for it</source>
+        <translation>接続待ち</translation>
+    </message>
+    <message>
+        <source>connected</source>
+        <translation>接続中</translation>
+    </message>
+    <message>
+        <source>unplugged</source>
+        <translation>取り外し</translation>
+    </message>
+    <message>
+        <source>cannot be opened</source>
+        <translation>開けません</translation>
+    </message>
+    <message>
+        <source>Connect a wind controller by USB, or by a MIDI interface, and switch it on: it appears here by itself.</source>
+        <translation>ウインドコントローラーを USB か MIDI インターフェースで接続し、電源を入れてください。自動的にここに表示されます。</translation>
+    </message>
+    <message>
+        <source>Click the device that you play.</source>
+        <translation>演奏する機器をクリックしてください。</translation>
+    </message>
+    <message>
+        <source>Any</source>
+        <translation>すべて</translation>
+    </message>
+    <message>
+        <source>MIDI Devices</source>
+        <translation>MIDI機器</translation>
+    </message>
+    <message>
+        <source>Device</source>
+        <translation>機器</translation>
+    </message>
+    <message>
+        <source>State</source>
+        <translation>状態</translation>
+    </message>
+    <message>
+        <source>Devices</source>
+        <translation>機器</translation>
+    </message>
+    <message>
+        <source>The chosen device</source>
+        <translation>選択中の機器</translation>
+    </message>
+    <message>
+        <source>What comes in</source>
+        <translation>入力モニター</translation>
+    </message>
+    <message>
+        <source>Kind</source>
+        <translation>種類</translation>
+    </message>
+    <message>
+        <source>Channel</source>
+        <translation>チャンネル</translation>
+    </message>
+    <message>
+        <source>Breath</source>
+        <translation>ブレス</translation>
+    </message>
+    <message>
+        <source>Bite</source>
+        <translation>バイト</translation>
+    </message>
+    <message>
+        <source>Latency</source>
+        <translation>レイテンシー</translation>
+    </message>
+    <message>
+        <source>Measure...</source>
+        <translation>測定...</translation>
+    </message>
+    <message>
+        <source>Finds with what the breath is sent, from {count} s of blowing. Escape cancels.</source>
+        <translation>{count} 秒間吹くと、ブレスがどのメッセージで送られるかを検出します。Esc でキャンセルします。</translation>
+    </message>
+    <message>
+        <source>Test Beep</source>
+        <translation>テスト音</translation>
+    </message>
+    <message>
+        <source>A short tone on the audio device</source>
+        <translation>オーディオデバイスで短い音を鳴らします</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>閉じる</translation>
+    </message>
+</context>
+<context>
+    <name>MidiMonitor</name>
+    <message>
+        <source>Plays on channel {number}, but only channel {wanted} is listened to.</source>
+        <translation>チャンネル {number} で届いていますが、チャンネル {wanted} だけを受信しています。</translation>
+    </message>
+    <message>
+        <source>Channel {number}</source>
+        <translation>チャンネル {number}</translation>
+    </message>
+    <message>
+        <source>Nothing has come in yet.</source>
+        <translation>まだ何も届いていません。</translation>
+    </message>
+    <message>
+        <source>{pitch} begins, velocity {value}</source>
+        <translation>{pitch} オン、ベロシティ {value}</translation>
+    </message>
+    <message>
+        <source>{pitch} ends</source>
+        <translation>{pitch} オフ</translation>
+    </message>
+    <message>
+        <source>Pressure on {pitch}: {value}</source>
+        <translation>{pitch} のキープレッシャー: {value}</translation>
+    </message>
+    <message>
+        <source>Program {value}</source>
+        <translation>プログラム {value}</translation>
+    </message>
+    <message>
+        <source>{text}   (channel {number})</source>
+        <translation>{text}   (チャンネル {number})</translation>
+    </message>
+    <message>
+        <source>Breath</source>
+        <translation>ブレス</translation>
+    </message>
+    <message>
+        <source>Bite</source>
+        <translation>バイト</translation>
+    </message>
+    <message>
+        <source>The last messages</source>
+        <translation>最近のメッセージ</translation>
+    </message>
+</context>
+<context>
+    <name>MidiSource</name>
+    <message>
+        <source>Nothing</source>
+        <translation>なし</translation>
+    </message>
+    <message>
+        <source>CC 1 (modulation)</source>
+        <translation>CC 1(モジュレーション)</translation>
+    </message>
+    <message>
+        <source>CC 2 (breath)</source>
+        <translation>CC 2(ブレス)</translation>
+    </message>
+    <message>
+        <source>CC 7 (volume)</source>
+        <translation>CC 7(ボリューム)</translation>
+    </message>
+    <message>
+        <source>CC 11 (expression)</source>
+        <translation>CC 11(エクスプレッション)</translation>
+    </message>
+    <message>
+        <source>Aftertouch</source>
+        <translation>アフタータッチ</translation>
+    </message>
+    <message>
+        <source>Pitch bend</source>
+        <translation>ピッチベンド</translation>
     </message>
 </context>
 <context>

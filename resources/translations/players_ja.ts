@@ -329,6 +329,14 @@
         <translation>ソロ: このプレイヤーだけが聞こえます</translation>
     </message>
     <message>
+        <source>Is recorded, whoever is in front. Click: whoever is in front then</source>
+        <translation>常にこのプレイヤーを録音します。クリックすると手前のプレイヤーの録音に戻ります</translation>
+    </message>
+    <message>
+        <source>Record this player, whoever is in front</source>
+        <translation>常にこのプレイヤーを録音する</translation>
+    </message>
+    <message>
         <source>Gives the entries</source>
         <translation>アインザッツを出す</translation>
     </message>

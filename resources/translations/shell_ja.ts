@@ -635,6 +635,14 @@
         <translation>2小節カウントイン</translation>
     </message>
     <message>
+        <source>Devices...</source>
+        <translation>機器...</translation>
+    </message>
+    <message>
+        <source>Measure Latency...</source>
+        <translation>レイテンシーの測定...</translation>
+    </message>
+    <message>
         <source>Listen to Take</source>
         <translation>テイクを試聴</translation>
     </message>
@@ -1042,6 +1050,30 @@
     <message>
         <source>Show the instruments</source>
         <translation>楽器を表示</translation>
+    </message>
+    <message>
+        <source>choose a MIDI device</source>
+        <translation>MIDI機器を選択</translation>
+    </message>
+    <message>
+        <source>waiting for {device}</source>
+        <translation>{device} を待っています</translation>
+    </message>
+    <message>
+        <source>{device} connected</source>
+        <translation>{device} 接続中</translation>
+    </message>
+    <message>
+        <source>{device} unplugged</source>
+        <translation>{device} が外れました</translation>
+    </message>
+    <message>
+        <source>{device} cannot be opened</source>
+        <translation>{device} を開けません</translation>
+    </message>
+    <message>
+        <source>MIDI devices: choose, watch what comes in</source>
+        <translation>MIDI機器の選択と入力モニター</translation>
     </message>
     <message>
         <source>saved</source>

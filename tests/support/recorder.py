@@ -64,7 +64,9 @@ class SpokenFor(RecorderLink):
             self.say(Finished(writer.path, writer.count))
 
     def play(self, message: bytes) -> None:
-        ns = self.clock.now_ns()
+        self.play_at(self.clock.now_ns(), message)
+
+    def play_at(self, ns: int, message: bytes) -> None:
         if self.writer is not None:
             self.writer.event(ns, message)
         self.say(Events((ns,), (message,)))

@@ -7,6 +7,9 @@ from typing import Literal
 
 from PySide6.QtCore import QObject, Signal
 
+from app.errors import Message
+from app.score.take import Wiring
+
 Connection = Literal["none", "waiting", "open", "lost", "refused"]
 """Of the chosen device: none is chosen; it is not there (yet); it is listened to; it has gone; it cannot be had."""
 
@@ -21,8 +24,12 @@ class Recording(QObject):
     port : str
         The chosen one, there or not; empty: none.
     connection : Connection
+    refusal : Message or None
+        Why the device, or every device, cannot be had.
     controller : str
         Id of the preset in ``metadata/controllers``.
+    wiring : Wiring
+        With what the device sends breath and bite.
     armed : str
         Id of the player who is recorded; empty: the one in front.
     running : bool
@@ -65,7 +72,9 @@ class Recording(QObject):
         self.ports: tuple[str, ...] = ()
         self.port = ""
         self.connection: Connection = "none"
+        self.refusal: Message | None = None
         self.controller = ""
+        self.wiring = Wiring()
         self.armed = ""
         self.running = False
         self.start_s = 0.0

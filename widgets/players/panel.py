@@ -143,6 +143,7 @@ class PlayersPanel(QWidget):
         session.theme_changed.connect(self._dress)
         self.list.chosen.connect(session.set_players)
         self.list.mute_clicked.connect(self._mute)
+        self.list.arm_clicked.connect(self._arm)
         self.list.solo_clicked.connect(self._solo)
         self.list.moved.connect(self._move)
         self.list.rows.renamed.connect(self._rename)
@@ -246,6 +247,10 @@ class PlayersPanel(QWidget):
             Message(ids[0] if on else ids[1], {"count": len(chosen)}),
             lambda project: edit.change(project, chosen, **{field: on}),
         )
+
+    def _arm(self, player_id: str) -> None:
+        recording = self._session.recording
+        recording.set(armed="" if recording.armed == player_id else player_id)
 
     def _mute(self, player_id: str) -> None:
         self._toggle(player_id, "muted", ("edit.mute", "edit.unmute"))

@@ -141,7 +141,7 @@ class PlayerModel(QAbstractListModel):
 
 
 class _RowDelegate(QStyledItemDelegate):
-    """Draws a row: colour, name, instrument, crown, problems, mute and solo."""
+    """Draws a row: colour, name, instrument, crown, problems, who is recorded, mute and solo."""
 
     def __init__(self, session: Session, view: PlayerList) -> None:
         super().__init__(view)
@@ -153,6 +153,12 @@ class _RowDelegate(QStyledItemDelegate):
         top = row.center().y() - BUTTON_PX // 2 + 1
         solo = QRect(row.right() - BUTTON_PX - 3, top, BUTTON_PX, BUTTON_PX)
         return solo.translated(-BUTTON_PX - 2, 0), solo
+
+    def arm_button(self, row: QRect) -> QRect:
+        """Where the mark of who is recorded is; nowhere while there is nothing to record from."""
+        if not self._session.recording.port:
+            return QRect()
+        return self.buttons(row)[0].translated(-BUTTON_PX - 2, 0)
 
     # Qt's own names
 
@@ -178,7 +184,11 @@ class _RowDelegate(QStyledItemDelegate):
         mute, solo = self.buttons(box)
         self._paint_button(painter, mute, "M", row.player.muted, tokens.warning)
         self._paint_button(painter, solo, "S", row.player.soloed, tokens.good)
-        self._paint_texts(painter, box.adjusted(16, 3, -(box.right() - mute.left()) - 4, -3), row, in_front)
+        arm = self.arm_button(box)
+        if arm.isValid():
+            self._paint_arm(painter, arm, row.player.id, in_front)
+        left = (arm if arm.isValid() else mute).left()
+        self._paint_texts(painter, box.adjusted(16, 3, -(box.right() - left) - 4, -3), row, in_front)
         painter.setPen(QColor(tokens.line))
         painter.drawLine(box.bottomLeft(), box.bottomRight())
         if in_front and self._view.hasFocus():
@@ -218,6 +228,14 @@ class _RowDelegate(QStyledItemDelegate):
         instrument = QFontMetricsF(small).elidedText(row.instrument, Qt.TextElideMode.ElideRight, lower.width())
         painter.drawText(lower, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft, instrument)
 
+    def _paint_arm(self, painter: QPainter, box: QRect, player_id: str, in_front: bool) -> None:
+        """Full: always recorded; a red ring: recorded while in front; a dim one: not recorded."""
+        tokens, armed = self._session.tokens, self._session.recording.armed
+        is_next = armed == player_id or (not armed and in_front)
+        painter.setPen(QPen(QColor(tokens.error if is_next else tokens.line_strong), 1.5))
+        painter.setBrush(QColor(tokens.error) if armed == player_id else Qt.BrushStyle.NoBrush)
+        painter.drawEllipse(QRectF(box).center(), 5.5, 5.5)
+
     def _paint_button(self, painter: QPainter, box: QRect, letter: str, on: bool, colour: str) -> None:
         tokens = self._session.tokens
         painter.setBrush(QColor(colour) if on else Qt.BrushStyle.NoBrush)
@@ -239,7 +257,8 @@ class _RowDelegate(QStyledItemDelegate):
 
     def updateEditorGeometry(self, editor: QWidget, option: QStyleOptionViewItem, index: AnyIndex) -> None:
         box = option.rect
-        editor.setGeometry(box.adjusted(13, 3, -2 * BUTTON_PX - 12, -4))
+        count = 3 if self.arm_button(box).isValid() else 2
+        editor.setGeometry(box.adjusted(13, 3, -count * (BUTTON_PX + 2) - 8, -4))
 
     def helpEvent(
         self, event: QHelpEvent, view: QAbstractItemView, option: QStyleOptionViewItem, index: AnyIndex
@@ -252,6 +271,11 @@ class _RowDelegate(QStyledItemDelegate):
             text = self.tr("Mute: not heard, but still seen and exported")
         elif solo.contains(event.pos()):
             text = self.tr("Solo: only these are heard")
+        elif self.arm_button(option.rect).contains(event.pos()):
+            armed = self._session.recording.armed == row.player.id
+            text = self.tr("Is recorded, whoever is in front. Click: whoever is in front then")
+            if not armed:
+                text = self.tr("Record this player, whoever is in front")
         else:
             lines = [row.player.name, row.instrument]
             if row.leads:
@@ -268,7 +292,7 @@ class PlayerList(QListView):
 
     Signals
     -------
-    mute_clicked(str), solo_clicked(str)
+    mute_clicked(str), solo_clicked(str), arm_clicked(str)
         The button of this player.
     moved(object, int)
         These ids (tuple of str) go before the row that had this number.
@@ -278,6 +302,7 @@ class PlayerList(QListView):
 
     mute_clicked = Signal(str)
     solo_clicked = Signal(str)
+    arm_clicked = Signal(str)
     moved = Signal(object, int)
     chosen = Signal(object)
 
@@ -299,6 +324,7 @@ class PlayerList(QListView):
         self.setUniformItemSizes(True)
         self.setMouseTracking(True)
         self.selectionModel().selectionChanged.connect(self._selected)
+        session.recording.changed.connect(self.viewport().update)
 
     def height_of_rows(self) -> int:
         """How high the list is without scrolling, pixels."""
@@ -351,6 +377,8 @@ class PlayerList(QListView):
         player_id = self.rows.rows[index.row()].player.id
         if mute.contains(position):
             return self.mute_clicked, player_id  # type: ignore[return-value]
+        if self._delegate.arm_button(self.visualRect(index)).contains(position):
+            return self.arm_clicked, player_id  # type: ignore[return-value]
         return (self.solo_clicked, player_id) if solo.contains(position) else (None, "")  # type: ignore[return-value]
 
     def _carried(self) -> tuple[str, ...]:

@@ -1,4 +1,4 @@
-"""The ruler: bars, seconds or frames, tempo and metre marks, the loop and the selected span."""
+"""The ruler: bars, seconds or frames, tempo and metre marks, the loop, the selected span, and what is recorded."""
 
 from __future__ import annotations
 
@@ -39,6 +39,7 @@ from widgets.timeline.ruler_labels import Labels, Mark, MarkEditor, bar_labels, 
 
 MARKS_PX = 22
 SCALE_PX = 24
+LOOP_PX, PUNCH_PX = 4.0, 4.0
 HEAD_PX = 6.0
 HEAD_HEIGHT_PX = 9.0
 GRIP_PX = 5.0
@@ -73,6 +74,8 @@ class Ruler(Pictured):
         self._panned_px: float | None = None
         self._span = session.selection.span
         self._before: tuple[Selection, tuple[float, float] | None] = (session.selection, session.loop_s)
+        self._punch_before = session.recording.punch_ticks
+        self._recorded: tuple[object, ...] = ()
         self._editing: tuple[str, int] | None = None
         self.setMouseTracking(True)
         self.setFixedHeight(MARKS_PX + SCALE_PX)
@@ -109,6 +112,7 @@ class Ruler(Pictured):
         session.selection_changed.connect(self._selection_set)
         session.loop_changed.connect(self.redraw)
         session.time_display_changed.connect(self._unit_set)
+        session.recording.changed.connect(self._recording_set)
         session.playhead_changed.connect(self._playhead_set)
         self._head_x = 0.0
         font = QFont(self.font())
@@ -200,15 +204,37 @@ class Ruler(Pictured):
         if span is not None:
             self._band(painter, self._seconds_of(span[0]), self._seconds_of(span[1]), tokens.accent, 0.0)
         if self.session.loop_s is not None:
-            self._band(painter, *self.session.loop_s, tokens.good, 4.0)
+            self._band(painter, *self.session.loop_s, tokens.good, LOOP_PX)
+        punch = self._punch_s()
+        if punch is not None:
+            self._band(painter, *punch, tokens.error, PUNCH_PX, LOOP_PX + 1.0)
 
-    def _band(self, painter: QPainter, start_s: float, end_s: float, colour: str, height: float) -> None:
+    def _punch_s(self) -> tuple[float, float] | None:
+        """The range that the part takes from a take; None: all of it."""
+        recording = self.session.recording
+        if not recording.punch or recording.punch_ticks is None:
+            return None
+        return self._seconds_of(recording.punch_ticks[0]), self._seconds_of(recording.punch_ticks[1])
+
+    def _paint_take(self, painter: QPainter) -> None:
+        """What is recorded already of the running take, or of its pass."""
+        recording, loop_s, head_s = self.session.recording, self.session.loop_s, self.session.playhead_s
+        start_s = loop_s[0] if recording.passes > 1 and loop_s is not None else recording.start_s
+        if recording.running and head_s > start_s:
+            shade = QColor(self.session.tokens.error)
+            shade.setAlpha(90)
+            left = self._x(start_s)
+            painter.fillRect(QRectF(left, MARKS_PX, self._x(head_s) - left, SCALE_PX), shade)
+
+    def _band(
+        self, painter: QPainter, start_s: float, end_s: float, colour: str, height: float, below: float = 0.0
+    ) -> None:
         left, right = self._x(start_s), self._x(end_s)
         shade = QColor(colour)
         shade.setAlpha(60)
         painter.fillRect(QRectF(left, MARKS_PX, right - left, SCALE_PX), shade)
         if height:
-            painter.fillRect(QRectF(left, MARKS_PX, right - left, height), QColor(colour))
+            painter.fillRect(QRectF(left, MARKS_PX + below, right - left, height), QColor(colour))
             for x in (left, right - 2):
                 painter.fillRect(QRectF(x, MARKS_PX, 2.0, SCALE_PX), QColor(colour))
 
@@ -224,8 +250,18 @@ class Ruler(Pictured):
             self._span = self.session.selection.span
             self.redraw()
 
+    def _recording_set(self) -> None:
+        recording = self.session.recording
+        shown = (recording.punch, recording.punch_ticks, recording.running, recording.passes)
+        if shown != self._recorded:
+            self._recorded = shown
+            self.redraw()
+
     def _playhead_set(self, playhead_s: float) -> None:
         before, self._head_x = self._head_x, self._x(playhead_s)
+        if self.session.recording.running:
+            self.update()
+            return
         for x in (before, self._head_x):
             self.update(int(x - HEAD_PX) - 1, 0, int(2 * HEAD_PX) + 4, self.height())
 
@@ -355,8 +391,10 @@ class Ruler(Pictured):
         on_head = place.y() >= self.height() - HEAD_HEIGHT_PX
         if on_head and abs(place.x() - self._x(self.session.playhead_s)) <= GRIP_PX:
             return "playhead"
-        if self.session.loop_s is not None:
-            for name, seconds in zip(("loop_start", "loop_end"), self.session.loop_s, strict=True):
+        loop, punch = ("loop", self.session.loop_s), ("punch", self._punch_s())
+        # Where both have an edge, the one whose bar is pressed.
+        for kind, span in (punch, loop) if place.y() > MARKS_PX + LOOP_PX else (loop, punch):
+            for name, seconds in zip((f"{kind}_start", f"{kind}_end"), span or (), strict=span is not None):
                 if abs(place.x() - self._x(seconds)) <= GRIP_PX:
                     return name
         return "seek"
@@ -376,6 +414,11 @@ class Ruler(Pictured):
             loop = (moved_s, end_s) if self._held == "loop_start" else (start_s, moved_s)
             if loop[1] > loop[0]:
                 self.session.set_loop(loop)
+        elif self._held in ("punch_start", "punch_end") and self.session.recording.punch_ticks is not None:
+            start, end = self.session.recording.punch_ticks
+            punch = (tick, end) if self._held == "punch_start" else (start, tick)
+            if punch[1] > punch[0]:
+                self.session.recording.set(punch_ticks=punch)
         elif self._held == "seek":
             start, end = sorted((self._tick_at(self._pressed.position().x(), free), tick))
             span = (start, end) if end > start else None
@@ -412,6 +455,7 @@ class Ruler(Pictured):
         elif self._held != "playhead":
             self.session.select(self._before[0])
             self.session.set_loop(self._before[1])
+            self.session.recording.set(punch_ticks=self._punch_before)
         self._held, self._pressed, self._mark = "", None, None
         self.redraw()
 
@@ -437,6 +481,7 @@ class Ruler(Pictured):
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         painter.setClipRect(QRectF(GUTTER_PX, 0, self.width() - GUTTER_PX, self.height()))
+        self._paint_take(painter)
         painter.setPen(Qt.PenStyle.NoPen)
         painter.setBrush(QColor(tokens.accent))
         shoulder = bottom - HEAD_HEIGHT_PX
@@ -465,6 +510,7 @@ class Ruler(Pictured):
             self._pressed, self._dragged = event.clone(), False
             self._base, self._token = self.session.project, object()
             self._before = (self.session.selection, self.session.loop_s)
+            self._punch_before = self.session.recording.punch_ticks
             if self._held == "seek":
                 self.sought.emit(self.axis.seconds(event.position().x() - GUTTER_PX))
             self.redraw()
@@ -482,7 +528,8 @@ class Ruler(Pictured):
             mark = self._mark
             held = self._take_hold(event.position())
             self._mark = mark
-            shapes = {"loop_start": Qt.CursorShape.SizeHorCursor, "loop_end": Qt.CursorShape.SizeHorCursor}
+            edges = ("loop_start", "loop_end", "punch_start", "punch_end")
+            shapes = dict.fromkeys(edges, Qt.CursorShape.SizeHorCursor)
             shapes |= {"playhead": Qt.CursorShape.SplitHCursor, "mark": Qt.CursorShape.PointingHandCursor}
             self.setCursor(shapes.get(held, Qt.CursorShape.ArrowCursor))
 

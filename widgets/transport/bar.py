@@ -6,7 +6,7 @@ from math import ceil, floor
 
 from PySide6.QtCore import QEvent, QSize, Qt
 from PySide6.QtGui import QAction, QResizeEvent, QShowEvent
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy, QToolButton, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QMenu, QSizePolicy, QToolButton, QWidget
 
 from app.project.document import Change
 from app.project.grid import Grid
@@ -30,6 +30,13 @@ BUTTONS = (
 )
 """Actions by id, and their icons."""
 TOGGLES = (("play.click", "metronome"), ("play.follow", "follow"))
+
+RECORD_MENU = (
+    ("record.count_in_0", "record.count_in_1", "record.count_in_2"),
+    ("record.punch", "record.arm"),
+    ("record.devices", "record.latency"),
+)
+"""What the record button's menu offers."""
 
 _ROOMY_PX = 1250
 """With less room the hint is a picture alone."""
@@ -91,6 +98,11 @@ class TransportBar(QWidget):
         names |= {self.snap: "snap", self.silent_sign: "silent_sign", self.silent_text: "silent_text"}
         for widget, name in names.items():
             widget.setObjectName(name)
+        menu = QMenu(self)
+        menu.setObjectName("record_menu")
+        menu.aboutToShow.connect(lambda: self._fill_record_menu(menu))
+        self.buttons["record.toggle"].setMenu(menu)
+        self.buttons["record.toggle"].setPopupMode(QToolButton.ToolButtonPopupMode.MenuButtonPopup)
         for button in (
             *(self.buttons[id] for id in ("play.loop", "play.click", "play.follow", "record.toggle")),
             self.snap_button,
@@ -162,6 +174,12 @@ class TransportBar(QWidget):
             action.trigger()
         # A toggle that did nothing must not look as if it had.
         self._show_state()
+
+    def _fill_record_menu(self, menu: QMenu) -> None:
+        menu.clear()
+        for group in RECORD_MENU:
+            menu.addSeparator()
+            menu.addActions([action for id in group if (action := self._session.actions.get(id)) is not None])
 
     def _go(self, time_s: float) -> None:
         self._session.set_playhead(time_s)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import ceil, floor
 
 from app.shell.action import QT_TRANSLATE_NOOP, Action
+from app.shell.editor import editor_of
 from app.shell.recording import recorder_of
 from widgets.common.session import Session
 
@@ -14,6 +15,16 @@ def toggle(session: Session) -> None:
     recorder = recorder_of(session)
     if recorder is not None:
         recorder.toggle()
+
+
+def devices(session: Session) -> None:
+    """Choose what is recorded from, and see what comes in."""
+    editor_of(session).window.show_devices()
+
+
+def latency(session: Session) -> None:
+    """Find out how late the device comes."""
+    editor_of(session).window.show_latency()
 
 
 def arm(session: Session, on: bool = True) -> None:
@@ -67,6 +78,10 @@ def _is_here(session: Session) -> bool:
     return recorder_of(session) is not None
 
 
+def _has_device(session: Session) -> bool:
+    return _is_here(session) and bool(session.recording.port) and not session.recording.running
+
+
 def _can_record(session: Session) -> bool:
     return _is_here(session) and session.playback is not None and session.player is not None
 
@@ -104,4 +119,20 @@ ACTIONS: tuple[Action, ...] = (
     _count_in(0, QT_TRANSLATE_NOOP("Action", "No Count-in")),
     _count_in(1, QT_TRANSLATE_NOOP("Action", "Count In One Bar")),
     _count_in(2, QT_TRANSLATE_NOOP("Action", "Count In Two Bars")),
+    Action(
+        "record.devices",
+        QT_TRANSLATE_NOOP("Action", "Devices..."),
+        devices,
+        "Record",
+        enabled=_is_here,
+        icon="settings",
+    ),
+    Action(
+        "record.latency",
+        QT_TRANSLATE_NOOP("Action", "Measure Latency..."),
+        latency,
+        "Record",
+        enabled=_has_device,
+        icon="clock",
+    ),
 )

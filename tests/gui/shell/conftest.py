@@ -9,17 +9,24 @@ import pytest
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
+from app.audio.playback import Playback
 from app.project.autosave import Autosave
 from app.project.importing import import_project, usual_rows
 from app.project.model import Project
 from app.project.presence import Presence
 from app.score.read import MidiContents
 from app.shell.app import Program
+from app.shell.files import Files
 from app.shell.questions import Answer
+from app.shell.recording import Recorder
 from app.shell.settings import Settings
+from app.shell.sound import sound_of
 from instrument_maps.load import bundled_maps
 from tests.gui.conftest import QUARTET, delete_now
+from tests.support.recorder import EWI, Clock, SpokenFor
+from tests.support.studio import Studio
 from tests.support.tasks import ImmediateTasks
+from widgets.common.session import Session
 from widgets.common.tokens import Tokens
 
 
@@ -115,3 +122,49 @@ def program(start: Start) -> Program:
 def empty(start: Start) -> Program:
     """An editor with nothing open."""
     return start()
+
+
+@pytest.fixture
+def studio(
+    qtbot: QtBot, qt_app: QApplication, settings: Settings, answers: Answers, tmp_path: Path
+) -> Iterator[Studio]:
+    """The editor on an empty piece with a trumpet, beside a wind controller."""
+    made: list[SpokenFor] = []
+    clock = Clock()
+
+    def make_link(on_news: Callable[[], None]) -> SpokenFor:
+        made.append(SpokenFor(on_news, clock))
+        return made[-1]
+
+    def recorder(session: Session, files: Files) -> Recorder:
+        return Recorder(session, files, settings, make_link, clock.now_ns, lambda: Playback(now=clock.now_s))
+
+    settings.midi_port = EWI
+    settings.count_in_bars = 0
+    program = Program(
+        settings,
+        ImmediateTasks(),
+        answers,
+        Autosave(Presence(tmp_path / "recovery")),
+        heard=False,
+        playback=Playback(now=clock.now_s),
+        recorder=recorder,
+    )
+    sound = sound_of(program.session)
+    assert sound is not None
+    program.session.playback = sound.playback
+    answers.answer = "discard"
+    program.window.show()
+    result = Studio(program, tmp_path, clock)
+    result.links = made
+    program.editor.files.begin()
+    program.session.actions["players.add"].trigger()
+    program.recorder.begin_where_remembered()
+    result.wait(lambda: program.session.recording.connection == "open")
+    yield result
+    program.window.hide()
+    program.end()
+    program.generator.deleteLater()
+    program.editor.files.end()
+    program.window.deleteLater()
+    program.session.deleteLater()

@@ -2,110 +2,15 @@
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable, Iterator
-from pathlib import Path
-
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QLabel
-from pytestqt.qtbot import QtBot
+from PySide6.QtWidgets import QLabel
 
-from app.audio.playback import Playback
 from app.capture.journal import Header, JournalWriter
 from app.capture.protocol import Back, Lost, Written
-from app.project.autosave import Autosave
-from app.project.presence import Presence
-from app.shell.app import Program
-from app.shell.files import Files
-from app.shell.recording import Recorder, recorder_of
-from app.shell.settings import Settings
-from app.shell.sound import sound_of
-from tests.gui.shell.conftest import Answers
-from tests.support.recorder import EWI, Clock, SpokenFor
-from tests.support.tasks import ImmediateTasks
-from widgets.common.session import Session
-
-
-class Studio:
-    def __init__(self, program: Program, folder: Path, clock: Clock) -> None:
-        self.program, self.folder, self.clock = program, folder, clock
-        self.session = program.session
-        self.links: list[SpokenFor] = []
-
-    @property
-    def link(self) -> SpokenFor:
-        return self.links[-1]
-
-    def wait(self, until: Callable[[], bool], most_s: float = 60.0) -> None:
-        end = time.monotonic() + most_s
-        while not until():
-            assert time.monotonic() < end
-            QApplication.processEvents()
-            time.sleep(0.001)
-            self.clock.ns += 10_000_000
-
-    def press(self, key: Qt.Key) -> None:
-        window = self.program.window
-        window.activateWindow()
-        assert QTest.qWaitForWindowActive(window, 10_000)
-        QTest.keyClick(window.palette_field, key, Qt.KeyboardModifier.ControlModifier)
-
-    def blow(self, pitch: int, at_s: float, length_s: float = 0.1) -> None:
-        """Play a note when the performance is there."""
-        self.wait(lambda: self.session.playhead_s >= at_s)
-        self.link.play(bytes((0xB0, 2, 100)))
-        self.link.play(bytes((0x90, pitch, 90)))
-        self.wait(lambda: self.session.playhead_s >= at_s + length_s or not self.session.playing)
-        self.link.play(bytes((0x80, pitch, 0)))
-        self.link.play(bytes((0xB0, 2, 0)))
-
-
-@pytest.fixture
-def studio(
-    qtbot: QtBot, qt_app: QApplication, settings: Settings, answers: Answers, tmp_path: Path
-) -> Iterator[Studio]:
-    """The editor on an empty piece with a trumpet, beside a wind controller."""
-    made: list[SpokenFor] = []
-    clock = Clock()
-
-    def make_link(on_news: Callable[[], None]) -> SpokenFor:
-        made.append(SpokenFor(on_news, clock))
-        return made[-1]
-
-    def recorder(session: Session, files: Files) -> Recorder:
-        return Recorder(session, files, settings, make_link, clock.now_ns)
-
-    settings.midi_port = EWI
-    settings.count_in_bars = 0
-    program = Program(
-        settings,
-        ImmediateTasks(),
-        answers,
-        Autosave(Presence(tmp_path / "recovery")),
-        heard=False,
-        playback=Playback(now=clock.now_s),
-        recorder=recorder,
-    )
-    sound = sound_of(program.session)
-    assert sound is not None
-    program.session.playback = sound.playback
-    answers.answer = "discard"
-    program.window.show()
-    result = Studio(program, tmp_path, clock)
-    result.links = made
-    program.editor.files.begin()
-    program.session.actions["players.add"].trigger()
-    program.recorder.begin_where_remembered()
-    result.wait(lambda: program.session.recording.connection == "open")
-    yield result
-    program.window.hide()
-    program.end()
-    program.generator.deleteLater()
-    program.editor.files.end()
-    program.window.deleteLater()
-    program.session.deleteLater()
+from app.shell.recording import recorder_of
+from tests.support.recorder import EWI
+from tests.support.studio import Studio
 
 
 def take_text(studio: Studio) -> QLabel:

@@ -1,0 +1,97 @@
+"""What a device sent lately, as few lines as tell it: for whoever wants to see that something comes in."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterator
+from typing import Final, Literal, TypeAlias
+
+import msgspec
+
+Kind: TypeAlias = Literal["note_on", "note_off", "key_pressure", "control", "program", "channel_pressure", "pitch_bend"]
+
+_KINDS: Final[dict[int, Kind]] = {
+    0x8: "note_off",
+    0x9: "note_on",
+    0xA: "key_pressure",
+    0xB: "control",
+    0xC: "program",
+    0xD: "channel_pressure",
+    0xE: "pitch_bend",
+}
+_NOTES: Final = ("note_on", "note_off")
+_BEND_RANGE: Final = 8192
+
+
+class Line(msgspec.Struct, frozen=True):
+    """A message, or several of one kind in a row.
+
+    Attributes
+    ----------
+    kind : Kind
+    channel : int
+        1..16.
+    number : int
+        Of the note or the controller; -1 where a message has none.
+    value : int
+        The last one: velocity, 0..127, a bend -8192..8191.
+    count : int
+    """
+
+    kind: Kind
+    channel: int
+    number: int
+    value: int
+    count: int = 1
+
+
+class HeardLog:
+    """The last messages. Between two notes, what swells and fades takes one line, however many messages tell it.
+
+    Parameters
+    ----------
+    most : int
+        Lines that are kept.
+    """
+
+    def __init__(self, most: int = 40) -> None:
+        self._lines: deque[Line] = deque(maxlen=most)
+
+    @property
+    def lines(self) -> tuple[Line, ...]:
+        """The newest first."""
+        return tuple(self._lines)
+
+    def clear(self) -> None:
+        """Forget everything."""
+        self._lines.clear()
+
+    def add(self, message: bytes) -> None:
+        """Something was heard: the bytes of one message of a channel."""
+        line = _line(message)
+        place = next((place for place, other in self._since_note() if _is_same(line, other)), None)
+        if place is None or line.kind in _NOTES:
+            self._lines.appendleft(line)
+        else:
+            self._lines[place] = msgspec.structs.replace(line, count=self._lines[place].count + 1)
+
+    def _since_note(self) -> Iterator[tuple[int, Line]]:
+        for place, line in enumerate(self._lines):
+            if line.kind in _NOTES:
+                return
+            yield place, line
+
+
+def _is_same(one: Line, other: Line) -> bool:
+    return (one.kind, one.channel, one.number) == (other.kind, other.channel, other.number)
+
+
+def _line(message: bytes) -> Line:
+    kind, channel = _KINDS[message[0] >> 4], (message[0] & 0x0F) + 1
+    if kind == "note_on" and message[2] == 0:
+        kind = "note_off"
+    if kind == "pitch_bend":
+        return Line(kind, channel, -1, (message[2] << 7 | message[1]) - _BEND_RANGE)
+    if len(message) == 2:
+        return Line(kind, channel, -1, message[1])
+    return Line(kind, channel, message[1], message[2])

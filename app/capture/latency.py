@@ -1,0 +1,135 @@
+"""How late a device comes, from somebody who blows on every click."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Final, Literal, TypeAlias
+
+import msgspec
+import numpy as np
+
+from app.capture.learn import breath_value
+from metadata.model import BreathSource
+
+EARLIEST_S: Final = -0.2
+"""Who blows earlier than this means another click."""
+LATEST_S: Final = 0.35
+LEAST_HITS: Final = 7
+MOST_SPREAD_S: Final = 0.035
+"""Whoever is less even than this says nothing of the device."""
+_ONE_HIT_S: Final = 0.15
+"""Two beginnings closer than this were one."""
+_BREATH_RESTS, _BREATH_BEGINS = 4, 12
+_OUTLIER: Final = 3.0
+_LEAST_OUTLIER_S: Final = 0.025
+_MAD_TO_DEVIATION: Final = 1.4826
+
+Fault: TypeAlias = Literal["", "too_few", "too_uneven"]
+
+
+class Measured(msgspec.Struct, frozen=True):
+    """What was found.
+
+    Attributes
+    ----------
+    offsets_s : tuple of float or None
+        For every click, how late the hit came that was taken for it; None: there was none.
+    used : tuple of bool
+        Whether that hit counted: those far from the others do not.
+    latency_s : float
+        The median of those that counted.
+    spread_s : float
+        Their standard deviation, from the median of the deviations.
+    fault : Fault
+        Why it is no measure; empty: it is one.
+    """
+
+    offsets_s: tuple[float | None, ...]
+    used: tuple[bool, ...]
+    latency_s: float
+    spread_s: float
+    fault: Fault
+
+
+def measured(clicks_s: Sequence[float], hits_s: Sequence[float]) -> Measured:
+    """The latency, from when clicks were heard and when hits came in; both on one clock, ascending.
+
+    Each click is given the hit that lies most like the others; missing and double ones do no harm.
+    """
+    near = [[hit - click for hit in hits_s if EARLIEST_S <= hit - click <= LATEST_S] for click in clicks_s]
+    every = [offset for offsets in near for offset in offsets]
+    if not every:
+        return Measured((None,) * len(near), (False,) * len(near), 0.0, 0.0, "too_few")
+    middle_s = _densest(every)
+    offsets = tuple(min(own, key=lambda offset: abs(offset - middle_s), default=None) for own in near)
+    found = np.array([offset for offset in offsets if offset is not None])
+    median_s = float(np.median(found))
+    deviation_s = _MAD_TO_DEVIATION * float(np.median(np.abs(found - median_s)))
+    most_s = max(_OUTLIER * deviation_s, _LEAST_OUTLIER_S)
+    used = tuple(offset is not None and abs(offset - median_s) <= most_s for offset in offsets)
+    kept = np.array([offset for offset, counts in zip(offsets, used, strict=True) if counts and offset is not None])
+    latency_s = float(np.median(kept))
+    spread_s = _MAD_TO_DEVIATION * float(np.median(np.abs(kept - latency_s)))
+    fault: Fault = ""
+    if len(kept) < LEAST_HITS:
+        fault = "too_few"
+    elif spread_s > MOST_SPREAD_S:
+        fault = "too_uneven"
+    return Measured(offsets, used, latency_s, spread_s, fault)
+
+
+def _densest(offsets: Sequence[float]) -> float:
+    """The offset with the most others around it, so that hits between the clicks do not draw the middle away."""
+    values = np.sort(np.array(offsets))
+    around = np.searchsorted(values, values + 0.05) - np.searchsorted(values, values - 0.05)
+    return float(np.median(values[around == around.max()]))
+
+
+def hits(events: Iterable[tuple[float, bytes]], breath: BreathSource) -> tuple[float, ...]:
+    """When somebody began to blow: notes, or where a device sends none, the breath; what doubles a hit is left out.
+
+    Parameters
+    ----------
+    events : iterable of (float, bytes)
+        Seconds, ascending, and messages of the channel that is listened to.
+    breath : BreathSource
+    """
+    notes: list[float] = []
+    breaths: list[float] = []
+    rests = True
+    for time_s, message in events:
+        value = breath_value(message, breath)
+        if message[0] >> 4 == 0x9 and message[2]:
+            notes.append(time_s)
+        elif value is not None and rests and value >= _BREATH_BEGINS:
+            breaths.append(time_s)
+            rests = False
+        elif value is not None and value <= _BREATH_RESTS:
+            rests = True
+    found: list[float] = []
+    for time_s in notes or breaths:
+        if not found or time_s - found[-1] > _ONE_HIT_S:
+            found.append(time_s)
+    return tuple(found)
+
+
+def placed(events: Iterable[tuple[int, bytes]], heard: Sequence[tuple[int, float]]) -> list[tuple[float, bytes]]:
+    """Events on the time line of what was heard.
+
+    Parameters
+    ----------
+    events : iterable of (int, bytes)
+        Moments of a clock, nanoseconds.
+    heard : sequence of (int, float)
+        At which moment of that clock which second was heard, ascending; outside them time goes on as a clock does.
+    """
+    if not heard:
+        return []
+    moments = np.array([moment for moment, _ in heard], np.float64)
+    seconds = np.array([second for _, second in heard], np.float64)
+    result = []
+    for moment, message in events:
+        at_s = float(np.interp(moment, moments, seconds))
+        beyond_ns = min(moment - heard[0][0], 0) + max(moment - heard[-1][0], 0)
+        result.append((at_s + beyond_ns / 1e9, message))
+    return result

@@ -1,0 +1,320 @@
+"""The dialogs of recording, by mouse and keys, beside a wind controller that a test speaks for."""
+
+from __future__ import annotations
+
+import random
+from typing import TypeVar
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import (
+    QApplication,
+    QComboBox,
+    QDoubleSpinBox,
+    QLabel,
+    QListWidget,
+    QProgressBar,
+    QPushButton,
+    QTreeWidget,
+    QWidget,
+)
+
+from app.capture.protocol import Back, Lost, Opened, Ports, Refused
+from app.errors import Message
+from app.score.take import Wiring
+from app.shell.recording import recorder_of
+from tests.support.recorder import EWI
+from tests.support.studio import Studio
+from widgets.dialogs.latency import CLICKS_S, LEAD, LatencyDialog
+from widgets.dialogs.midi_devices import MidiDevicesDialog
+
+W = TypeVar("W", bound=QWidget)
+USB = "EWI-USB"
+
+
+def devices(studio: Studio) -> MidiDevicesDialog:
+    studio.session.actions["record.devices"].trigger()
+    dialog = studio.program.window.findChild(MidiDevicesDialog)
+    assert dialog is not None
+    assert QTest.qWaitForWindowActive(dialog, 10_000)
+    return dialog
+
+
+def part(dialog: QWidget, kind: type[W], name: str) -> W:
+    found = dialog.findChild(kind, name)
+    assert found is not None
+    return found
+
+
+def click(button: QPushButton) -> None:
+    assert button.isEnabled()
+    QTest.mouseClick(button, Qt.MouseButton.LeftButton)
+
+
+def rows(dialog: QWidget) -> list[tuple[str, str]]:
+    tree = part(dialog, QTreeWidget, "midi_device_list")
+    items = [tree.topLevelItem(place) for place in range(tree.topLevelItemCount())]
+    return [(item.text(0), item.text(1)) for item in items if item is not None]
+
+
+def told(dialog: QWidget, name: str) -> str:
+    return part(dialog, QLabel, name).text()
+
+
+def swell(studio: Studio, channel: int = 1, controller: int = 2) -> None:
+    for value in [*range(0, 120, 4), *range(120, -1, -4)]:
+        studio.link.play(bytes((0xAF + channel, controller, value)))
+
+
+def test_devices_come_and_go_while_one_looks(studio: Studio) -> None:
+    dialog = devices(studio)
+    assert rows(dialog) == [("No device", ""), (EWI, "connected")]
+    studio.link.say(Ports((EWI, USB), (), "test"))
+    studio.wait(lambda: len(rows(dialog)) == 3)
+    assert rows(dialog)[2] == (USB, "")
+    studio.link.say(Lost(EWI, 0), Ports((USB,), (), "test"))
+    studio.wait(lambda: (EWI, "unplugged") in rows(dialog))
+    studio.link.say(Back(EWI, 0))
+    studio.wait(lambda: (EWI, "connected") in rows(dialog))
+    studio.link.say(Lost(EWI, 0), Refused(Message("capture.port_refused", {"port": EWI, "detail": "busy"})))
+    studio.wait(lambda: (EWI, "cannot be opened") in rows(dialog))
+    assert "another program" in told(dialog, "midi_hint")
+    studio.link.say(Opened(EWI, 0))
+    studio.wait(lambda: (EWI, "connected") in rows(dialog))
+    assert told(dialog, "midi_hint") == ""
+
+
+def test_another_device_is_chosen_by_a_click_and_by_enter_and_remembered(studio: Studio) -> None:
+    dialog = devices(studio)
+    studio.link.say(Ports((EWI, USB), (), "test"))
+    studio.wait(lambda: len(rows(dialog)) == 3)
+    tree = part(dialog, QTreeWidget, "midi_device_list")
+    item = tree.topLevelItem(2)
+    assert item is not None
+    QTest.mouseClick(tree.viewport(), Qt.MouseButton.LeftButton, pos=tree.visualItemRect(item).center())
+    assert studio.link.wanted[-1] == USB
+    assert studio.session.recording.controller == "ewi_usb"
+    assert rows(dialog)[2] == (USB, "waiting for it")
+    assert studio.program.editor.settings.midi_port == USB
+    tree.setFocus()
+    QTest.keyClick(tree, Qt.Key.Key_Up)
+    QTest.keyClick(tree, Qt.Key.Key_Return)
+    assert studio.link.wanted[-1] == EWI
+    studio.wait(lambda: studio.session.recording.connection == "open")
+    # The same once more is no other choice.
+    QTest.keyClick(tree, Qt.Key.Key_Return)
+    assert studio.session.recording.connection == "open"
+
+
+def test_without_a_device_it_is_taught_what_to_do(studio: Studio) -> None:
+    recorder = recorder_of(studio.session)
+    assert recorder is not None
+    recorder.choose("")
+    said: list[str] = []
+    studio.session.noticed.connect(lambda message, severity: said.append(message.id))
+    studio.link.say(Ports((), (), "test"))
+    dialog = devices(studio)
+    studio.wait(lambda: not studio.session.recording.ports)
+    assert told(dialog, "midi_hint").startswith("Connect a wind controller")
+    studio.link.say(Ports((), (), ""), Refused(Message("capture.no_system")))
+    studio.wait(lambda: "modprobe" in told(dialog, "midi_hint"))
+    studio.link.say(Ports((EWI,), (), "alsa"))
+    studio.wait(lambda: told(dialog, "midi_hint").startswith("Click"))
+    assert not said
+
+
+def test_a_remembered_device_that_is_not_there_is_waited_for_without_a_warning(studio: Studio) -> None:
+    said: list[str] = []
+    studio.session.noticed.connect(lambda message, severity: said.append(message.id))
+    dialog = devices(studio)
+    studio.link.say(Ports((), (), "test"), Refused(Message("capture.port_not_here", {"port": EWI})))
+    studio.wait(lambda: (EWI, "waiting for it") in rows(dialog))
+    assert not said
+
+
+def test_what_the_disk_or_an_output_refuses_says_nothing_of_the_device(studio: Studio) -> None:
+    studio.link.say(Lost(EWI, 0), Refused(Message("capture.not_written", {"file": "x", "reason": "full"})))
+    studio.wait(lambda: studio.session.recording.connection == "lost")
+    assert studio.session.recording.connection == "lost"
+    studio.link.say(Back(EWI, 0), Refused(Message("capture.port_refused", {"port": "Synth", "detail": "busy"})))
+    studio.wait(lambda: studio.session.recording.connection == "open")
+    assert studio.session.recording.connection == "open"
+
+
+def test_what_comes_in_is_seen(studio: Studio) -> None:
+    dialog = devices(studio)
+    studio.link.play(bytes((0xB0, 2, 127)))
+    for value in range(40):
+        studio.link.play(bytes((0xE0, 0, 64 + value)))
+    studio.link.play(bytes((0x90, 60, 90)))
+    studio.wait(lambda: told(dialog, "midi_note") == "C4")
+    # A trumpet's: C as it sounds is its D.
+    studio.session.pitch_display.set(written=True)
+    assert told(dialog, "midi_note") == "D4"
+    studio.session.pitch_display.set(written=False)
+    assert part(dialog, QProgressBar, "midi_breath").value() == 1000
+    assert part(dialog, QProgressBar, "midi_bite").value() == pytest.approx(609, abs=2)
+    lines = part(dialog, QListWidget, "midi_messages")
+    texts = [lines.item(row).text() for row in range(lines.count())]
+    assert len(texts) == 3
+    assert texts[0].startswith("C4 begins, velocity 90")
+    assert "×40" in texts[1]
+    assert told(dialog, "midi_channel") == "Channel 1"
+    studio.link.play(bytes((0x93, 72, 90)))
+    studio.wait(lambda: "channel 4" in told(dialog, "midi_channel"))
+    assert "only channel 1" in told(dialog, "midi_channel")
+
+
+def test_where_the_breath_is_is_learned_by_blowing(studio: Studio) -> None:
+    dialog = devices(studio)
+    learn = part(dialog, QPushButton, "midi_learn")
+    click(learn)
+    assert told(dialog, "midi_learned").startswith("Blow now")
+    swell(studio, channel=3, controller=11)
+    studio.wait(lambda: told(dialog, "midi_learned").startswith("Found"))
+    assert told(dialog, "midi_learned") == "Found: CC 11 (expression) on channel 3."
+    assert studio.session.recording.wiring == Wiring(3, "cc11", "pitch_bend")
+    assert part(dialog, QComboBox, "midi_breath_source").currentText() == "CC 11 (expression)"
+    # It is remembered of this device.
+    recorder = recorder_of(studio.session)
+    assert recorder is not None
+    recorder.choose("")
+    recorder.choose(EWI)
+    assert studio.session.recording.wiring.breath == "cc11"
+    # Another kind sends as it comes from its maker again.
+    recorder.set_controller("generic")
+    assert studio.session.recording.wiring == Wiring(0, "cc2", "none")
+
+
+def test_escape_cancels_learning_and_leaves_the_dialog(studio: Studio) -> None:
+    dialog = devices(studio)
+    before = studio.session.recording.wiring
+    click(part(dialog, QPushButton, "midi_learn"))
+    swell(studio, controller=11)
+    QTest.keyClick(dialog, Qt.Key.Key_Escape)
+    assert dialog.isVisible()
+    assert told(dialog, "midi_learned") == ""
+    assert studio.session.recording.wiring == before
+    QTest.keyClick(dialog, Qt.Key.Key_Escape)
+    assert not dialog.isVisible()
+
+
+def test_nothing_blown_is_nothing_learned(studio: Studio) -> None:
+    dialog = devices(studio)
+    click(part(dialog, QPushButton, "midi_learn"))
+    studio.wait(lambda: "Nothing came in" in told(dialog, "midi_learned"))
+    assert studio.session.recording.wiring.breath == "cc2"
+
+
+def test_breath_and_bite_are_never_the_same(studio: Studio) -> None:
+    dialog = devices(studio)
+    bite = part(dialog, QComboBox, "midi_bite_source")
+    bite.setFocus()
+    QTest.keyClick(bite, Qt.Key.Key_End)
+    assert studio.session.recording.wiring.bite == "channel_pressure"
+    breath = part(dialog, QComboBox, "midi_breath_source")
+    breath.setFocus()
+    QTest.keyClick(breath, Qt.Key.Key_End)
+    assert studio.session.recording.wiring == Wiring(1, "channel_pressure", "none")
+
+
+def test_a_beep_without_an_audio_device_says_so(studio: Studio) -> None:
+    dialog = devices(studio)
+    click(part(dialog, QPushButton, "midi_beep"))
+    assert "no audio device" in told(dialog, "midi_beep_told")
+
+
+def test_the_status_line_says_how_the_device_stands_and_opens_the_dialog(studio: Studio) -> None:
+    button = part(studio.program.window, QPushButton, "midi_device")
+    assert button.text().strip() == f"{EWI} connected"
+    click(button)
+    dialog = studio.program.window.findChild(MidiDevicesDialog)
+    assert dialog is not None
+    assert dialog.isVisible()
+    studio.link.say(Lost(EWI, 0))
+    studio.wait(lambda: "unplugged" in button.text())
+
+
+def test_the_dialogs_speak_japanese(studio: Studio) -> None:
+    dialog = devices(studio)
+    studio.program.editor.speak("ja")
+    QApplication.processEvents()
+    assert dialog.windowTitle() == "MIDI機器"
+    studio.program.editor.speak("en")
+
+
+# The latency
+
+
+def latency(studio: Studio) -> LatencyDialog:
+    studio.session.actions["record.latency"].trigger()
+    dialog = studio.program.window.findChild(LatencyDialog)
+    assert dialog is not None
+    assert QTest.qWaitForWindowActive(dialog, 10_000)
+    return dialog
+
+
+def blow_on_clicks(studio: Studio, dialog: LatencyDialog, late_s: float, jitter_s: float, every: int = 1) -> None:
+    """Play on the clicks by the test's own clock: the first sample is heard when the playback began."""
+    chance = random.Random(3)
+    begin_ns = studio.clock.ns
+    for number, click_s in enumerate(CLICKS_S):
+        if number < LEAD or number % every:
+            continue
+        at_ns = begin_ns + round((click_s + late_s + chance.gauss(0.0, jitter_s)) * 1e9)
+        studio.wait(lambda at_ns=at_ns: studio.clock.ns >= at_ns)  # type: ignore[misc]
+        studio.link.play_at(at_ns, bytes((0x90, 60, 90)))
+        studio.link.play_at(at_ns + 50_000_000, bytes((0x80, 60, 0)))
+    studio.wait(lambda: part(dialog, QPushButton, "latency_start").text() == "Start")
+
+
+def test_the_latency_is_measured_and_taken_off_from_then_on(studio: Studio) -> None:
+    dialog = latency(studio)
+    click(part(dialog, QPushButton, "latency_start"))
+    blow_on_clicks(studio, dialog, 0.08, 0.004)
+    value = part(dialog, QDoubleSpinBox, "latency_value")
+    assert value.value() == pytest.approx(80.0, abs=6.0)
+    assert studio.session.recording.latency_s == 0.0
+    click(part(dialog, QPushButton, "latency_take"))
+    assert studio.session.recording.latency_s == pytest.approx(value.value() / 1000.0)
+    assert studio.program.editor.settings.midi_device(EWI, "latency_s")
+    assert "taken off from now on" in told(dialog, "latency_told")
+    assert "anticipation" in " ".join(label.text() for label in dialog.findChildren(QLabel))
+
+
+def test_too_few_hits_are_refused(studio: Studio) -> None:
+    dialog = latency(studio)
+    click(part(dialog, QPushButton, "latency_start"))
+    blow_on_clicks(studio, dialog, 0.08, 0.004, every=4)
+    assert "Only 3 of 12" in told(dialog, "latency_told")
+    assert not part(dialog, QPushButton, "latency_take").isEnabled()
+
+
+def test_a_number_is_typed_instead(studio: Studio) -> None:
+    dialog = latency(studio)
+    value = part(dialog, QDoubleSpinBox, "latency_value")
+    value.setFocus()
+    value.selectAll()
+    QTest.keyClicks(value, "35")
+    click(part(dialog, QPushButton, "latency_take"))
+    assert studio.session.recording.latency_s == 0.035
+
+
+def test_escape_ends_measuring_first(studio: Studio) -> None:
+    dialog = latency(studio)
+    click(part(dialog, QPushButton, "latency_start"))
+    studio.wait(lambda: "light" in told(dialog, "latency_told"))
+    QTest.keyClick(dialog, Qt.Key.Key_Escape)
+    assert dialog.isVisible()
+    assert part(dialog, QPushButton, "latency_start").text() == "Start"
+    QTest.keyClick(dialog, Qt.Key.Key_Escape)
+    assert not dialog.isVisible()
+
+
+def test_a_device_that_goes_ends_measuring(studio: Studio) -> None:
+    dialog = latency(studio)
+    click(part(dialog, QPushButton, "latency_start"))
+    studio.link.say(Lost(EWI, 0))
+    studio.wait(lambda: "ended" in told(dialog, "latency_told"))
+    assert not part(dialog, QPushButton, "latency_start").isEnabled()

@@ -1,0 +1,50 @@
+"""The editor beside a wind controller that a test speaks for."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication
+
+from app.shell.app import Program
+from tests.support.recorder import Clock, SpokenFor
+
+
+class Studio:
+    """A program whose clock runs while the test waits."""
+
+    def __init__(self, program: Program, folder: Path, clock: Clock) -> None:
+        self.program, self.folder, self.clock = program, folder, clock
+        self.session = program.session
+        self.links: list[SpokenFor] = []
+
+    @property
+    def link(self) -> SpokenFor:
+        return self.links[-1]
+
+    def wait(self, until: Callable[[], bool], most_s: float = 60.0) -> None:
+        end = time.monotonic() + most_s
+        while not until():
+            assert time.monotonic() < end
+            QApplication.processEvents()
+            time.sleep(0.001)
+            self.clock.ns += 10_000_000
+
+    def press(self, key: Qt.Key) -> None:
+        window = self.program.window
+        window.activateWindow()
+        assert QTest.qWaitForWindowActive(window, 10_000)
+        QTest.keyClick(window.palette_field, key, Qt.KeyboardModifier.ControlModifier)
+
+    def blow(self, pitch: int, at_s: float, length_s: float = 0.1) -> None:
+        """Play a note when the performance is there."""
+        self.wait(lambda: self.session.playhead_s >= at_s)
+        self.link.play(bytes((0xB0, 2, 100)))
+        self.link.play(bytes((0x90, pitch, 90)))
+        self.wait(lambda: self.session.playhead_s >= at_s + length_s or not self.session.playing)
+        self.link.play(bytes((0x80, pitch, 0)))
+        self.link.play(bytes((0xB0, 2, 0)))

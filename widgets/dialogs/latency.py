@@ -1,0 +1,359 @@
+"""Finds out how late a device comes: clicks are heard, and somebody blows on each of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Final
+
+from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt, QTimer, Signal
+from PySide6.QtGui import QColor, QKeyEvent, QPainter, QPaintEvent, QPen
+from PySide6.QtWidgets import QDialog, QDoubleSpinBox, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+
+from app.audio.click import steady_clicks
+from app.audio.playback import Playback
+from app.audio.track import Mix
+from app.capture.latency import LEAST_HITS, Measured, hits, measured, placed
+from app.capture.protocol import Events
+from widgets.common.session import Session
+
+LEAD: Final = 4
+"""Clicks that are only listened to, or played along without counting."""
+COUNTED: Final = 12
+PERIOD_S: Final = 0.6
+_AFTER_S: Final = 0.5
+"""So long after the last click a hit is waited for."""
+_LOOK_MS: Final = 15
+_FLASH_S: Final = 0.12
+_SHOWN_S: Final = (-0.1, 0.3)
+
+CLICKS_S: Final = tuple(PERIOD_S * (1 + index) for index in range(LEAD + COUNTED))
+
+
+class LatencyDialog(QDialog):
+    """Not modal; what is found or typed is taken over with a button.
+
+    Parameters
+    ----------
+    session : Session
+    playback : Playback
+        Plays the clicks; becomes the dialog's. Its device and its clock are those that a take is heard by.
+    now_ns : callable
+        The clock of the events.
+    parent : QWidget, optional
+
+    Signals
+    -------
+    latency_chosen(float)
+        Seconds, to be taken off every event.
+    """
+
+    latency_chosen = Signal(float)
+
+    def __init__(
+        self, session: Session, playback: Playback, now_ns: Callable[[], int], parent: QWidget | None = None
+    ) -> None:
+        super().__init__(parent)
+        self.setObjectName("latency")
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        self._session, self._playback, self._now_ns = session, playback, now_ns
+        playback.setParent(self)
+        self._running = False
+        self._events: list[tuple[int, bytes]] = []
+        self._heard: list[tuple[int, float]] = []
+        self._found: Measured | None = None
+        self._stopped_why = ""
+        self._explained, self._told, self._value_name = QLabel(), QLabel(), QLabel()
+        self._told.setObjectName("latency_told")
+        self.chart = HitChart(session)
+        self.value = QDoubleSpinBox()
+        self.value.setObjectName("latency_value")
+        self.value.setRange(-500.0, 1000.0)
+        self.value.setDecimals(0)
+        self.value.setSingleStep(1.0)
+        self._start, self._take, self._close = QPushButton(), QPushButton(), QPushButton()
+        self._start.setObjectName("latency_start")
+        self._take.setObjectName("latency_take")
+        self._close.setObjectName("latency_close")
+        self._timer = QTimer(self, interval=_LOOK_MS, timerType=Qt.TimerType.PreciseTimer)
+        self._timer.timeout.connect(self._look)
+        self._build()
+        self._start.clicked.connect(self.toggle)
+        self._take.clicked.connect(self._choose)
+        self._close.clicked.connect(self.close)
+        self.value.valueChanged.connect(self._show)
+        self.finished.connect(self._stop)
+        session.recording.heard.connect(self._hear)
+        session.recording.changed.connect(self._changed)
+        session.theme_changed.connect(self._show)
+        self._port = ""
+        self._changed()
+        self.retranslate()
+        self.resize(600, 400)
+
+    def _build(self) -> None:
+        for label in (self._explained, self._told):
+            label.setWordWrap(True)
+        self._told.setMinimumHeight(3 * self._told.fontMetrics().lineSpacing())
+        self._told.setAlignment(Qt.AlignmentFlag.AlignTop)
+        for button in (self._take, self._close):
+            button.setAutoDefault(False)
+        self._start.setDefault(True)
+        bottom = QHBoxLayout()
+        bottom.addWidget(self._start)
+        bottom.addStretch(1)
+        bottom.addWidget(self._value_name)
+        bottom.addWidget(self.value)
+        bottom.addWidget(self._take)
+        bottom.addWidget(self._close)
+        page = QVBoxLayout(self)
+        page.addWidget(self._explained)
+        page.addWidget(self.chart, 1)
+        page.addWidget(self._told)
+        page.addLayout(bottom)
+
+    # Measuring
+
+    def toggle(self) -> None:
+        """Begin to click, or stop."""
+        if self._running:
+            self._stop()
+        else:
+            self._begin()
+
+    def _begin(self) -> None:
+        session, playback = self._session, self._playback
+        if session.playback is not None:
+            session.playback.stop()
+        self._events.clear()
+        self._heard.clear()
+        self._found, self._stopped_why = None, ""
+        self.chart.show_measured(None)
+        playback.set_volume(session.listening.volume)
+        playback.set_mix(Mix([steady_clicks(CLICKS_S, LEAD)]))
+        playback.set_span(0.0, float("inf"))
+        playback.play(0.0)
+        self._running = True
+        self._timer.start()
+        self._show()
+
+    def _stop(self) -> None:
+        self._running = False
+        self._timer.stop()
+        self._playback.stop()
+        self.chart.show_click(-1, False)
+        self._show()
+
+    def _hear(self, events: Events) -> None:
+        if self._running:
+            channel = self._session.recording.wiring.channel
+            self._events += [
+                (ns, raw)
+                for ns, raw in zip(events.times_ns, events.messages, strict=True)
+                if not channel or (raw[0] & 0x0F) + 1 == channel
+            ]
+
+    def _look(self) -> None:
+        """Note down what is heard now, and show what came in."""
+        ns, position_s = self._now_ns(), self._playback.position_s()
+        # The device plays nothing for a while at first: the clock does not run yet.
+        if not self._heard or position_s > self._heard[-1][1]:
+            self._heard.append((ns, position_s))
+        last = sum(click_s <= position_s for click_s in CLICKS_S) - 1
+        self.chart.show_click(last - LEAD, last >= 0 and position_s - CLICKS_S[last] < _FLASH_S)
+        found = hits(placed(self._events, self._heard), self._session.recording.wiring.breath)
+        clicked = CLICKS_S[LEAD : max(last + 1, LEAD)]
+        self.chart.show_measured(measured(clicked, found))
+        if position_s > CLICKS_S[-1] + _AFTER_S:
+            self._found = measured(CLICKS_S[LEAD:], found)
+            self.chart.show_measured(self._found)
+            if not self._found.fault:
+                self.value.setValue(round(1000.0 * self._found.latency_s))
+            self._stop()
+            return
+        self._show()
+
+    def _changed(self) -> None:
+        recording = self._session.recording
+        if self._running and (recording.connection != "open" or recording.running):
+            self._stopped_why = self.tr("The device has gone, or a take is recorded: measuring was ended.")
+            self._stop()
+        if recording.port != self._port:
+            self._port, self._found = recording.port, None
+            self.chart.show_measured(None)
+        if not self._running and self._found is None and not self.value.hasFocus():
+            self.value.setValue(round(1000.0 * recording.latency_s))
+        self._show()
+
+    def _choose(self) -> None:
+        self.latency_chosen.emit(self.value.value() / 1000.0)
+
+    # What is shown
+
+    def _show(self) -> None:
+        recording, tokens = self._session.recording, self._session.tokens
+        is_open = recording.connection == "open" and not recording.running
+        self._start.setEnabled(is_open)
+        self._start.setText(self.tr("Stop") if self._running else self.tr("Start"))
+        is_new = round(self.value.value()) != round(1000.0 * recording.latency_s)
+        self._take.setEnabled(bool(recording.port) and is_new and not self._running)
+        text, colour = self._words()
+        style = f"color: {getattr(tokens, colour)};"
+        if (text, style) != (self._told.text(), self._told.styleSheet()):
+            self._told.setText(text)
+            self._told.setStyleSheet(style)
+
+    def _words(self) -> tuple[str, str]:
+        recording = self._session.recording
+        if self._running:
+            beat = sum(click_s <= self._playback.position_s() for click_s in CLICKS_S)
+            if self._playback.is_silent:
+                text = self.tr(
+                    "There is no audio device: blow when the light flashes. Measure again when there is one."
+                )
+                return text, "warning"
+            if beat <= LEAD:
+                return self.tr("Listen, and play along: the first {count} do not count.").format(count=LEAD), "text"
+            text = self.tr("Blow a short note on every click: {count} of {all}")
+            return text.format(count=beat - LEAD, all=COUNTED), "text"
+        if self._stopped_why:
+            return self._stopped_why, "warning"
+        found = self._found
+        if found is None:
+            if not recording.port or recording.connection != "open":
+                return self.tr("No device is connected: choose one in Record > Devices, or type a number."), "warning"
+            text = self.tr("{device}: {count} ms are taken off now.")
+            return text.format(device=recording.port, count=f"{1000 * recording.latency_s:.0f}"), "text_dim"
+        used = sum(found.used)
+        if found.fault == "too_few":
+            text = self.tr("Only {count} of {all} clicks were hit ({least} are needed). Try again.")
+            return text.format(count=used, all=COUNTED, least=LEAST_HITS), "warning"
+        spread = f"{1000 * found.spread_s:.0f}"
+        if found.fault == "too_uneven":
+            text = self.tr("The hits differ by ±{spread} ms, too much to tell. Try again, shorter and harder.")
+            return text.format(spread=spread), "warning"
+        text = self.tr("{device} comes {count} ms late; {used} of {all} hits counted, they differ by ±{spread} ms.")
+        told = text.format(
+            device=recording.port, count=f"{1000 * found.latency_s:.0f}", used=used, all=COUNTED, spread=spread
+        )
+        if round(self.value.value()) == round(1000.0 * recording.latency_s):
+            told += " " + self.tr("It is taken off from now on.")
+        return told, "good"
+
+    def retranslate(self) -> None:
+        """Set every text anew."""
+        self.setWindowTitle(self.tr("Latency"))
+        self._explained.setText(
+            self.tr(
+                "Blow a short note on every click. What is found is how late the sound and the device come together; "
+                "it also contains your own anticipation, as most people blow a little early or late. What you know "
+                "better you can type."
+            )
+        )
+        self._value_name.setText(self.tr("Latency"))
+        self.value.setAccessibleName(self.tr("Latency"))
+        self.value.setSuffix(" " + self.tr("ms"))
+        self.value.setToolTip(self.tr("Taken off the time of everything that this device sends"))
+        self._take.setText(self.tr("Use"))
+        self._close.setText(self.tr("Close"))
+        self.chart.retranslate()
+        self._show()
+
+    # Qt's own names
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        if event.key() == Qt.Key.Key_Escape and self._running:
+            self._stop()
+            return
+        super().keyPressEvent(event)
+
+    def changeEvent(self, event: QEvent) -> None:
+        if event.type() == QEvent.Type.LanguageChange:
+            self.retranslate()
+        super().changeEvent(event)
+
+
+class HitChart(QWidget):
+    """How late every hit came, click by click, and a light."""
+
+    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setObjectName("latency_hits")
+        self._session = session
+        self.found: Measured | None = None
+        self._click, self._flashes = -1, False
+
+    def show_click(self, number: int, flashes: bool) -> None:
+        """The counted click of this number was the last; the light shines."""
+        if (number, flashes) != (self._click, self._flashes):
+            self._click, self._flashes = number, flashes
+            self.update()
+
+    def show_measured(self, found: Measured | None) -> None:
+        """What was found up to now."""
+        if found != self.found:
+            self.found = found
+            self.update()
+
+    def retranslate(self) -> None:
+        """Set the texts."""
+        self.setAccessibleName(self.tr("How late every hit came"))
+        self.update()
+
+    def sizeHint(self) -> QSize:
+        return QSize(560, 180)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        tokens = self._session.tokens
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.fillRect(self.rect(), QColor(tokens.sunken))
+        light = 22.0
+        painter.setPen(QPen(QColor(tokens.line_strong), 1.0))
+        painter.setBrush(QColor(tokens.accent if self._flashes else tokens.sunken))
+        painter.drawEllipse(QPointF(30.0, self.height() / 2), light / 2, light / 2)
+        room = QRectF(self.rect()).adjusted(110.0, 10.0, -10.0, -10.0)
+        self._paint_scale(painter, room)
+        if self.found is not None:
+            self._paint_hits(painter, room, self.found)
+
+    def _y(self, room: QRectF, offset_s: float) -> float:
+        low, high = _SHOWN_S
+        share = (min(max(offset_s, low), high) - low) / (high - low)
+        return room.bottom() - share * room.height()
+
+    def _paint_scale(self, painter: QPainter, room: QRectF) -> None:
+        tokens = self._session.tokens
+        for ms in (-100, 0, 100, 200, 300):
+            y = round(self._y(room, ms / 1000.0)) + 0.5
+            painter.setPen(QPen(QColor(tokens.line_strong if ms == 0 else tokens.line), 1.0))
+            painter.drawLine(QPointF(room.left(), y), QPointF(room.right(), y))
+            painter.setPen(QColor(tokens.text_dim))
+            label = QRectF(room.left() - 66.0, y - 9.0, 60.0, 18.0)
+            text = self.tr("{count} ms").format(count=str(ms).replace("-", "−"))
+            painter.drawText(label, int(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter), text)
+
+    def _paint_hits(self, painter: QPainter, room: QRectF, found: Measured) -> None:
+        tokens = self._session.tokens
+        step = room.width() / COUNTED
+        if any(found.used):
+            y = self._y(room, found.latency_s)
+            band = QColor(tokens.good)
+            band.setAlpha(50)
+            top = self._y(room, found.latency_s + found.spread_s)
+            bottom = self._y(room, found.latency_s - found.spread_s)
+            painter.fillRect(QRectF(room.left(), top, room.width(), bottom - top), band)
+            painter.setPen(QPen(QColor(tokens.good), 1.5))
+            painter.drawLine(QPointF(room.left(), y), QPointF(room.right(), y))
+        for number, (offset_s, counts) in enumerate(zip(found.offsets_s, found.used, strict=True)):
+            x = room.left() + (number + 0.5) * step
+            if offset_s is None:
+                # Not over yet, or missed.
+                painter.setPen(QColor(tokens.text_dim))
+                painter.drawText(QRectF(x - 10, self._y(room, 0.0) - 10, 20, 20), _MIDDLE, "×")
+                continue
+            painter.setPen(QPen(QColor(tokens.good if counts else tokens.warning), 2.0))
+            painter.setBrush(QColor(tokens.good) if counts else QColor(tokens.sunken))
+            painter.drawEllipse(QPointF(x, self._y(room, offset_s)), 4.5, 4.5)
+
+
+_MIDDLE: Final = int(Qt.AlignmentFlag.AlignCenter)

@@ -1,0 +1,372 @@
+"""The MIDI devices: which one is recorded from, what kind it is, and what comes in from it.
+
+The dialog asks by its signals; what holds is what `session.recording` says.
+"""
+
+from __future__ import annotations
+
+import msgspec
+from PySide6.QtCore import QEvent, Qt, QTimer, Signal
+from PySide6.QtGui import QColor, QKeyEvent
+from PySide6.QtWidgets import (
+    QDialog,
+    QFormLayout,
+    QGroupBox,
+    QHBoxLayout,
+    QHeaderView,
+    QLabel,
+    QPushButton,
+    QTreeWidget,
+    QTreeWidgetItem,
+    QVBoxLayout,
+    QWidget,
+)
+
+from app.audio.beep import BEEP_S, beep_track
+from app.audio.playback import Playback
+from app.audio.track import Mix
+from app.capture.learn import learned
+from app.capture.protocol import Events
+from metadata.load import load_controllers
+from widgets.common.combo import Combo, Option
+from widgets.common.instrument_name import language
+from widgets.common.session import Session
+from widgets.common.text import sentence
+from widgets.dialogs.midi_monitor import MidiMonitor, source_name
+
+LEARN_S = 3
+_BREATHS = ("cc2", "cc11", "cc7", "channel_pressure")
+_BITES = ("none", "pitch_bend", "cc1", "channel_pressure")
+_CHANNELS = 16
+_SIDE_PX = 300
+
+
+class MidiDevicesDialog(QDialog):
+    """Devices, the kind of the chosen one, and a monitor. Not modal: one plays, and looks.
+
+    Parameters
+    ----------
+    session : Session
+    playback : Playback
+        For a beep; becomes the dialog's.
+    parent : QWidget, optional
+
+    Signals
+    -------
+    chosen(str)
+        Record from this device; empty: from none.
+    controller_chosen(str)
+        The device is of this kind.
+    wiring_chosen(object)
+        It sends breath and bite so: an `app.score.take.Wiring`.
+    latency_asked()
+        Find out how late it comes.
+    """
+
+    chosen = Signal(str)
+    controller_chosen = Signal(str)
+    wiring_chosen = Signal(object)
+    latency_asked = Signal()
+
+    def __init__(self, session: Session, playback: Playback, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setObjectName("midi_devices")
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        self._session, self._playback = session, playback
+        playback.setParent(self)
+        self._learning: list[tuple[int, bytes]] | None = None
+        self._left_s = 0
+        self._listed: tuple[object, ...] = ()
+        self._list = QTreeWidget()
+        self._list.setObjectName("midi_device_list")
+        self._hint, self._told, self._heard, self._late = (QLabel() for _ in range(4))
+        self._kind, self._channel, self._breath, self._bite = (Combo() for _ in range(4))
+        self._rows = {widget: QLabel() for widget in (self._kind, self._channel, self._breath, self._bite)}
+        self._late_name = QLabel()
+        self._learn, self._measure, self._beep, self._close = (QPushButton() for _ in range(4))
+        self._device, self._incoming = QGroupBox(), QGroupBox()
+        self._monitor = MidiMonitor(session)
+        self._second = QTimer(self, interval=1000)
+        self._second.timeout.connect(self._count_down)
+        self._name()
+        self._build()
+        self._connect()
+        self.retranslate()
+        self.resize(820, 560)
+
+    # Building
+
+    def _name(self) -> None:
+        named: dict[QWidget, str] = {self._kind: "midi_kind", self._channel: "midi_wired_channel"}
+        named |= {self._breath: "midi_breath_source", self._bite: "midi_bite_source", self._learn: "midi_learn"}
+        named |= {self._measure: "midi_measure", self._beep: "midi_beep", self._close: "midi_close"}
+        named |= {self._hint: "midi_hint", self._told: "midi_learned", self._heard: "midi_beep_told"}
+        named[self._late] = "midi_latency"
+        for widget, name in named.items():
+            widget.setObjectName(name)
+
+    def _build(self) -> None:
+        self._list.setColumnCount(2)
+        self._list.setRootIsDecorated(False)
+        self._list.setUniformRowHeights(True)
+        header = self._list.header()
+        header.setStretchLastSection(False)
+        header.setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
+        header.setSectionResizeMode(1, QHeaderView.ResizeMode.ResizeToContents)
+        for label in (self._hint, self._told, self._heard):
+            label.setWordWrap(True)
+        for button in (self._learn, self._measure, self._beep, self._close):
+            # Enter in the list is no answer.
+            button.setAutoDefault(False)
+        late = QHBoxLayout()
+        late.addWidget(self._late, 1)
+        late.addWidget(self._measure)
+        form = QFormLayout(self._device)
+        for widget, name in self._rows.items():
+            form.addRow(name, widget)
+        form.addRow(self._learn)
+        form.addRow(self._told)
+        form.addRow(self._late_name, late)
+        left = QVBoxLayout()
+        left.addWidget(self._list, 1)
+        left.addWidget(self._hint)
+        left.addWidget(self._device)
+        QVBoxLayout(self._incoming).addWidget(self._monitor)
+        columns = QHBoxLayout()
+        columns.addLayout(left, 1)
+        columns.addWidget(self._incoming, 1)
+        self._device.setMinimumWidth(_SIDE_PX)
+        self._incoming.setMinimumWidth(_SIDE_PX)
+        bottom = QHBoxLayout()
+        bottom.addWidget(self._beep)
+        bottom.addWidget(self._heard, 1)
+        bottom.addWidget(self._close)
+        page = QVBoxLayout(self)
+        page.addLayout(columns, 1)
+        page.addLayout(bottom)
+
+    def _connect(self) -> None:
+        session, recording = self._session, self._session.recording
+        self._list.itemClicked.connect(self._choose)
+        self._list.itemActivated.connect(self._choose)
+        self._kind.chosen.connect(self._choose_kind)
+        self._channel.chosen.connect(lambda id: self._wire(channel=int(id)))
+        self._breath.chosen.connect(lambda id: self._wire(breath=id))
+        self._bite.chosen.connect(lambda id: self._wire(bite=id))
+        self._learn.clicked.connect(self._toggle_learning)
+        self._measure.clicked.connect(self.latency_asked)
+        self._beep.clicked.connect(self.beep)
+        self._close.clicked.connect(self.close)
+        # However it is closed.
+        self.finished.connect(self._playback.stop)
+        recording.changed.connect(self._show)
+        recording.heard.connect(self._hear)
+        session.theme_changed.connect(self._show)
+
+    # What the person does
+
+    def _choose(self, item: QTreeWidgetItem, column: int = 0) -> None:
+        self.chosen.emit(item.data(0, Qt.ItemDataRole.UserRole))
+
+    def _choose_kind(self, controller: str) -> None:
+        self._told.clear()
+        self.controller_chosen.emit(controller)
+
+    def _wire(self, **values: object) -> None:
+        wiring = msgspec.structs.replace(self._session.recording.wiring, **values)
+        if wiring.bite == wiring.breath:
+            # One message cannot tell of both.
+            wiring = msgspec.structs.replace(wiring, bite="none")
+        self._told.clear()
+        self.wiring_chosen.emit(wiring)
+
+    def beep(self) -> None:
+        """Let a short sound be heard, or say why none is."""
+        volume, playback = self._session.listening.volume, self._playback
+        playback.stop()
+        playback.set_volume(volume)
+        playback.set_mix(Mix([beep_track()]))
+        playback.set_span(0.0, BEEP_S)
+        playback.play(0.0)
+        if playback.is_silent:
+            self._tell(self._heard, self.tr("There is no audio device: connect one and try again."), wrong=True)
+        elif volume == 0.0:
+            self._tell(self._heard, self.tr("The volume of the transport is 0."), wrong=True)
+        else:
+            self._tell(self._heard, self.tr("You should hear a short tone."))
+
+    # Learning
+
+    def _toggle_learning(self) -> None:
+        if self._learning is not None:
+            self._stop_learning()
+            self._told.clear()
+        else:
+            self._learning, self._left_s = [], LEARN_S
+            self._second.start()
+            self._show()
+
+    def _stop_learning(self) -> None:
+        self._learning = None
+        self._second.stop()
+        self._show()
+
+    def _hear(self, events: Events) -> None:
+        if self._learning is not None:
+            self._learning += zip(events.times_ns, events.messages, strict=True)
+
+    def _count_down(self) -> None:
+        self._left_s -= 1
+        if self._left_s > 0:
+            self._show()
+            return
+        recording, events = self._session.recording, self._learning or []
+        self._stop_learning()
+        found = learned(events, load_controllers()[recording.controller].breath)
+        if found is None:
+            why = self.tr("No breath came in. Blow harder, or turn breath sending on in the device, and try again.")
+            if not events:
+                why = self.tr("Nothing came in from the device. Is it switched on?")
+            self._tell(self._told, why, wrong=True)
+            return
+        self._wire(breath=found.source, channel=found.channel)
+        text = self.tr("Found: {source} on channel {number}.")
+        self._tell(self._told, text.format(source=source_name(found.source), number=found.channel))
+
+    # What is shown
+
+    def _tell(self, label: QLabel, text: str, wrong: bool = False) -> None:
+        tokens = self._session.tokens
+        style = f"color: {tokens.warning if wrong else tokens.good};"
+        if (text, style) != (label.text(), label.styleSheet()):
+            label.setStyleSheet(style)
+            label.setText(text)
+
+    def _show(self) -> None:
+        recording = self._session.recording
+        if self._learning is not None and recording.connection != "open":
+            self._learning = None
+            self._second.stop()
+            self._told.clear()
+        self._show_devices()
+        self._show_kind()
+        is_open, is_learning = recording.connection == "open", self._learning is not None
+        self._learn.setEnabled(is_open)
+        self._learn.setText(self.tr("Cancel") if is_learning else self.tr("Learn by Blowing"))
+        if is_learning:
+            self._tell(self._told, self.tr("Blow now: soft, loud and soft again. {count} s").format(count=self._left_s))
+        self._late.setText(self.tr("{count} ms").format(count=f"{1000 * recording.latency_s:.0f}"))
+
+    def _show_devices(self) -> None:
+        recording, tokens = self._session.recording, self._session.tokens
+        names = list(recording.ports)
+        if recording.port and recording.port not in names:
+            names.append(recording.port)
+        current = self._list.currentItem()
+        at = recording.port if current is None else current.data(0, Qt.ItemDataRole.UserRole)
+        wanted = [("", self.tr("No device"), "")]
+        wanted += [(name, name, self._state(name)) for name in names]
+        shown = (wanted, recording.port, tokens.name)
+        if shown != self._listed:
+            # A list that is made anew under the mouse would not feel the click.
+            self._listed = shown
+            self._fill(wanted, at)
+        self._hint.setText(self._advice())
+        self._hint.setVisible(bool(self._hint.text()))
+        is_wrong = recording.refusal is not None
+        self._hint.setStyleSheet(f"color: {tokens.warning if is_wrong else tokens.text_dim};")
+
+    def _fill(self, wanted: list[tuple[str, str, str]], at: str) -> None:
+        recording, tokens = self._session.recording, self._session.tokens
+        self._list.clear()
+        for id, text, state in wanted:
+            item = QTreeWidgetItem([text, state])
+            item.setData(0, Qt.ItemDataRole.UserRole, id)
+            if id == recording.port:
+                font = item.font(0)
+                font.setBold(True)
+                item.setFont(0, font)
+                good = recording.connection == "open"
+                item.setForeground(1, QColor(tokens.good if good else tokens.warning))
+            self._list.addTopLevelItem(item)
+            if id == at:
+                self._list.setCurrentItem(item)
+
+    def _state(self, name: str) -> str:
+        recording = self._session.recording
+        if name != recording.port:
+            return ""
+        return {
+            "none": "",
+            "waiting": self.tr("waiting for it"),
+            "open": self.tr("connected"),
+            "lost": self.tr("unplugged"),
+            "refused": self.tr("cannot be opened"),
+        }[recording.connection]
+
+    def _advice(self) -> str:
+        """What to do where nothing can be recorded yet."""
+        recording = self._session.recording
+        if recording.refusal is not None:
+            return sentence(recording.refusal, self._session)
+        if not recording.ports:
+            return self.tr(
+                "Connect a wind controller by USB, or by a MIDI interface, and switch it on: it appears here by itself."
+            )
+        return "" if recording.port else self.tr("Click the device that you play.")
+
+    def _show_kind(self) -> None:
+        recording = self._session.recording
+        wiring, speaks_ja = recording.wiring, language() == "ja"
+        controllers = load_controllers()
+        self._kind.set_options(
+            [Option(id, found.title.ja if speaks_ja else found.title.en) for id, found in controllers.items()]
+        )
+        self._kind.show_option(recording.controller)
+        self._channel.set_options(
+            [Option("0", self.tr("Any")), *(Option(str(n), str(n)) for n in range(1, _CHANNELS + 1))]
+        )
+        self._channel.show_option(str(wiring.channel))
+        self._breath.set_options([Option(source, source_name(source)) for source in _BREATHS])
+        self._breath.show_option(wiring.breath)
+        bites = [source for source in dict.fromkeys((*_BITES, wiring.bite)) if source != wiring.breath]
+        self._bite.set_options([Option(source, source_name(source)) for source in bites])
+        self._bite.show_option(wiring.bite)
+        self._device.setEnabled(bool(recording.port))
+
+    def retranslate(self) -> None:
+        """Set every text anew."""
+        self.setWindowTitle(self.tr("MIDI Devices"))
+        self._list.setHeaderLabels([self.tr("Device"), self.tr("State")])
+        self._list.setAccessibleName(self.tr("Devices"))
+        self._device.setTitle(self.tr("The chosen device"))
+        self._incoming.setTitle(self.tr("What comes in"))
+        names = {self._kind: self.tr("Kind"), self._channel: self.tr("Channel"), self._breath: self.tr("Breath")}
+        names |= {self._bite: self.tr("Bite")}
+        for widget, text in names.items():
+            self._rows[widget].setText(text)
+            widget.setAccessibleName(text)
+        self._late_name.setText(self.tr("Latency"))
+        self._measure.setText(self.tr("Measure..."))
+        self._learn.setToolTip(
+            self.tr("Finds with what the breath is sent, from {count} s of blowing. Escape cancels.").format(
+                count=LEARN_S
+            )
+        )
+        self._beep.setText(self.tr("Test Beep"))
+        self._beep.setToolTip(self.tr("A short tone on the audio device"))
+        self._close.setText(self.tr("Close"))
+        self._show()
+
+    # Qt's own names
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        if event.key() == Qt.Key.Key_Escape and self._learning is not None:
+            self._toggle_learning()
+            return
+        super().keyPressEvent(event)
+
+    def changeEvent(self, event: QEvent) -> None:
+        if event.type() == QEvent.Type.LanguageChange:
+            self.retranslate()
+        super().changeEvent(event)

@@ -1,0 +1,189 @@
+"""What comes in from a device now: note, breath, bite, channel, and the last messages."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QCoreApplication, QEvent, Qt, QTimer
+from PySide6.QtGui import QFont
+from PySide6.QtWidgets import QFormLayout, QHBoxLayout, QLabel, QListWidget, QProgressBar, QVBoxLayout, QWidget
+
+from app.capture.heard import HeardLog, Line
+from app.capture.protocol import Events
+from app.score.take import decoded, is_wired, said
+from instrument_maps.library import all_maps
+from widgets.common.pitch import pitch_text
+from widgets.common.session import Session
+
+SHOW_MS = 40
+"""The list is shown anew at most so often, however much comes in."""
+_FULL = 1000
+
+
+class MidiMonitor(QWidget):
+    """Shows what `session.recording` hears."""
+
+    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setObjectName("midi_monitor")
+        self._session = session
+        self._log = HeardLog()
+        self._channel = 0
+        self._bite_now = 0.0
+        self._note, self._from = QLabel(), QLabel()
+        self._note.setObjectName("midi_note")
+        self._from.setObjectName("midi_channel")
+        self._from.setWordWrap(True)
+        font = QFont(self.font())
+        font.setPointSizeF(max(2.0 * font.pointSizeF(), 20.0))
+        self._note.setFont(font)
+        self._note.setMinimumWidth(96)
+        self._note.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self._breath, self._bite = _meter("midi_breath"), _meter("midi_bite")
+        self._names = {meter: QLabel() for meter in (self._breath, self._bite)}
+        self._list = QListWidget()
+        self._list.setObjectName("midi_messages")
+        self._list.setUniformItemSizes(True)
+        self._list.setSelectionMode(QListWidget.SelectionMode.NoSelection)
+        meters = QFormLayout()
+        for meter, name in self._names.items():
+            meters.addRow(name, meter)
+        meters.addRow(self._from)
+        line = QHBoxLayout()
+        line.addWidget(self._note)
+        line.addLayout(meters, 1)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.addLayout(line)
+        column.addWidget(self._list, 1)
+        self._soon = QTimer(self, singleShot=True, interval=SHOW_MS)
+        self._soon.timeout.connect(self._show)
+        recording = session.recording
+        recording.heard.connect(self._hear)
+        recording.played.connect(self._show_soon)
+        recording.changed.connect(self._changed)
+        session.pitch_display.changed.connect(self._show)
+        session.theme_changed.connect(self._show)
+        self._port = recording.port
+        self.retranslate()
+
+    def _hear(self, events: Events) -> None:
+        for raw in events.messages:
+            self._log.add(raw)
+            self._channel = (raw[0] & 0x0F) + 1
+        wiring = self._session.recording.wiring
+        for raw in events.messages:
+            message = decoded(raw.hex())
+            if message is not None and is_wired(message, wiring):
+                self._bite_now = next(
+                    (value for kind, value in said(message, wiring) if kind == "bite"), self._bite_now
+                )
+        self._show_soon()
+
+    def _changed(self) -> None:
+        recording = self._session.recording
+        if recording.port != self._port or recording.connection != "open":
+            self._port = recording.port
+            self._log.clear()
+            self._channel, self._bite_now = 0, 0.0
+        self._show()
+
+    def _show_soon(self) -> None:
+        if not self._soon.isActive():
+            self._soon.start()
+
+    def _show(self) -> None:
+        recording, tokens = self._session.recording, self._session.tokens
+        self._note.setText("–" if recording.pitch is None else self._pitch(recording.pitch))
+        _fill(self._breath, recording.breath)
+        _fill(self._bite, self._bite_now)
+        self._bite.setEnabled(recording.wiring.bite != "none")
+        wanted = recording.wiring.channel
+        is_other = bool(self._channel and wanted and self._channel != wanted)
+        if is_other:
+            text = self.tr("Plays on channel {number}, but only channel {wanted} is listened to.")
+        else:
+            text = self.tr("Channel {number}") if self._channel else self.tr("Nothing has come in yet.")
+        self._from.setText(text.format(number=self._channel, wanted=wanted))
+        style = f"color: {tokens.warning if is_other else tokens.text_dim};"
+        if style != self._from.styleSheet():
+            self._from.setStyleSheet(style)
+        lines = self._log.lines
+        while self._list.count() > len(lines):
+            self._list.takeItem(self._list.count() - 1)
+        for row, line in enumerate(lines):
+            text = self._text(line)
+            item = self._list.item(row)
+            if item is None:
+                self._list.addItem(text)
+            elif item.text() != text:
+                item.setText(text)
+
+    def _pitch(self, pitch: int) -> str:
+        """As the instrument of whoever is recorded is written, where pitches are shown so."""
+        recording, players = self._session.recording, self._session.project.players
+        player = next((player for player in players if player.id == recording.armed), self._session.player)
+        instrument = all_maps().get(player.instrument_id) if player is not None else None
+        semitones = instrument.transposition_semitones if instrument is not None else 0
+        return pitch_text(self._session.pitch_display, pitch, semitones)
+
+    def _text(self, line: Line) -> str:
+        match line.kind:
+            case "note_on":
+                text = self.tr("{pitch} begins, velocity {value}").format(
+                    pitch=self._pitch(line.number), value=line.value
+                )
+            case "note_off":
+                text = self.tr("{pitch} ends").format(pitch=self._pitch(line.number))
+            case "key_pressure":
+                text = self.tr("Pressure on {pitch}: {value}").format(pitch=self._pitch(line.number), value=line.value)
+            case "program":
+                text = self.tr("Program {value}").format(value=line.value + 1)
+            case "control":
+                text = f"{source_name(f'cc{line.number}')}: {line.value}"
+            case kind:
+                text = f"{source_name(kind)}: {line.value}"
+        if line.count > 1:
+            text += f"  ×{line.count}"
+        return self.tr("{text}   (channel {number})").format(text=text, number=line.channel)
+
+    def retranslate(self) -> None:
+        """Set every text anew."""
+        for meter, text in ((self._breath, self.tr("Breath")), (self._bite, self.tr("Bite"))):
+            self._names[meter].setText(text)
+            meter.setAccessibleName(text)
+        self._list.setAccessibleName(self.tr("The last messages"))
+        self._show()
+
+    def changeEvent(self, event: QEvent) -> None:
+        """Another language."""
+        if event.type() == QEvent.Type.LanguageChange:
+            self.retranslate()
+        super().changeEvent(event)
+
+
+def source_name(source: str) -> str:
+    """With what a device sends something, in words."""
+    named = {
+        "none": QCoreApplication.translate("MidiSource", "Nothing"),
+        "cc1": QCoreApplication.translate("MidiSource", "CC 1 (modulation)"),
+        "cc2": QCoreApplication.translate("MidiSource", "CC 2 (breath)"),
+        "cc7": QCoreApplication.translate("MidiSource", "CC 7 (volume)"),
+        "cc11": QCoreApplication.translate("MidiSource", "CC 11 (expression)"),
+        "channel_pressure": QCoreApplication.translate("MidiSource", "Aftertouch"),
+        "pitch_bend": QCoreApplication.translate("MidiSource", "Pitch bend"),
+    }
+    return named.get(source) or f"CC {source.removeprefix('cc')}"
+
+
+def _meter(name: str) -> QProgressBar:
+    meter = QProgressBar()
+    meter.setObjectName(name)
+    meter.setRange(0, _FULL)
+    meter.setTextVisible(False)
+    meter.setStyleSheet("min-height: 10px; max-height: 10px;")
+    return meter
+
+
+def _fill(meter: QProgressBar, share: float) -> None:
+    value = round(_FULL * share)
+    if value != meter.value():
+        meter.setValue(value)
