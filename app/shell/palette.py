@@ -115,22 +115,24 @@ class Palette(QFrame):
             self.list.setCurrentIndex(self.model.index(0, 0))
 
     def _best(self, query: str) -> list[str]:
-        """Ids that fit, what can be done now before what cannot; without a query what was done last."""
-        scored = []
+        """Ids that fit, what can be done now before what cannot, and letters strewn about after both; without a query
+        what was done last."""
+        scored: list[tuple[bool, bool, float, int, str]] = []
+        whole = 2.0 * len("".join(query.split())) - 1.0
         for order, (action_id, row) in enumerate(self._table.rows.items()):
             if action_id == "application.palette":
                 continue
             action = self._table.actions[action_id]
             if not query.strip():
                 recent = self._ran.index(action_id) if action_id in self._ran else len(self._ran)
-                scored.append((not action.isEnabled(), float(recent), order, action_id))
+                scored.append((False, not action.isEnabled(), float(recent), order, action_id))
                 continue
             menu = row.menu.replace("/", " ")
             names = (plain(action.text()), plain(row.text), f"{self._table.place(action_id)} {action.text()}", menu)
             values = [fitness(query, name) for name in (*names[:3], f"{menu} {row.text}")]
             fits = [value - 0.5 * (place > 1) for place, value in enumerate(values) if value is not None]
             if fits:
-                scored.append((not action.isEnabled(), -max(fits), order, action_id))
+                scored.append((max(fits) < whole, not action.isEnabled(), -max(fits), order, action_id))
         return [action_id for *_, action_id in sorted(scored)]
 
     def _run(self, index: QModelIndex | QPersistentModelIndex) -> None:

@@ -113,6 +113,15 @@ class LatencyDialog(QDialog):
 
     # Measuring
 
+    @property
+    def is_measuring(self) -> bool:
+        """Whether it clicks."""
+        return self._running
+
+    def heard_s(self) -> float:
+        """The moment of the clicks that is heard now."""
+        return self._playback.position_s()
+
     def toggle(self) -> None:
         """Begin to click, or stop."""
         if self._running:

@@ -122,6 +122,24 @@ def test_mute_and_solo(panel: PlayersPanel, session: Session) -> None:
     assert [player.muted for player in session.project.players] == [True, True, False, False]
 
 
+def test_who_is_recorded_is_armed_where_there_is_something_to_record_from(
+    panel: PlayersPanel, session: Session
+) -> None:
+    recording = session.recording
+    click_row(panel, 1, x=-68)
+    assert recording.armed == ""
+    assert session.players == (ids(session)[1],)
+    recording.set(port="EWI5000")
+    click_row(panel, 2, x=-68)
+    assert recording.armed == ids(session)[2]
+    assert session.players == (ids(session)[1],)
+    click_row(panel, 0, x=-68)
+    assert recording.armed == ids(session)[0]
+    click_row(panel, 0, x=-68)
+    assert recording.armed == ""
+    assert not session.document.done
+
+
 def test_dragging_a_row_reorders(panel: PlayersPanel, session: Session) -> None:
     before = ids(session)
     view = panel.list.viewport()

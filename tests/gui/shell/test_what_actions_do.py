@@ -741,6 +741,8 @@ CASES: dict[str, Case] = {
     "application.instruments": Case(lambda d: d.dialog("instruments")),
     "application.preferences": Case(lambda d: d.dialog("preferences")),
     "application.shortcuts": Case(lambda d: d.dialog("preferences")),
+    "record.devices": Case(lambda d: d.dialog("midi_devices")),
+    "record.latency": Case(lambda d: d.dialog("latency")),
     "record.toggle": Case(lambda d: d.session.recording.running and d.session.playing),
     "record.arm": Case(lambda d: d.session.recording.armed == d.project.players[0].id),
     "record.punch": Case(lambda d: d.session.recording.punch and d.session.recording.punch_ticks == span_of_chosen(d)),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 from PySide6.QtCore import QPointF, Qt
+from PySide6.QtGui import QColor
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QLineEdit, QMenu
 
@@ -86,6 +87,51 @@ def test_edges_of_the_loop_are_dragged(stage: Stage) -> None:
     hand.drag(place(stage, 3 * TPQ), place(stage, 8 * TPQ))
     assert stage.session.loop_s is not None
     assert stage.session.loop_s[0] < 3.0
+
+
+def test_edges_of_the_punch_range_are_dragged(stage: Stage) -> None:
+    recording = stage.session.recording
+    hand = Hand(ruler_of(stage))
+    recording.set(punch=True, punch_ticks=(2 * TPQ, 4 * TPQ))
+    stage.session.set_loop((1.0, 2.0))
+    # Both have an edge here: the bar of the loop is above that of the punch range.
+    hand.drag(place(stage, 4 * TPQ - 2, 32), place(stage, 6.03 * TPQ, 32))
+    assert recording.punch_ticks == (2 * TPQ, 6 * TPQ)
+    assert stage.session.loop_s == (1.0, 2.0)
+    hand.drag(place(stage, 4 * TPQ - 2, 24), place(stage, 5 * TPQ, 24))
+    assert stage.session.loop_s == (1.0, 2.5)
+    # An edge does not pass the other, and Escape takes a drag back.
+    hand.drag(place(stage, 6 * TPQ), place(stage, 1 * TPQ))
+    assert recording.punch_ticks[1] > recording.punch_ticks[0]
+    before = recording.punch_ticks
+    hand.press(place(stage, 2 * TPQ, 32))
+    hand.move(place(stage, 1.5 * TPQ, 32))
+    hand.move(place(stage, 1 * TPQ, 32))
+    assert recording.punch_ticks[0] == TPQ
+    QTest.keyClick(ruler_of(stage), Qt.Key.Key_Escape)
+    assert recording.punch_ticks == before
+    hand.release(place(stage, 1 * TPQ, 32))
+    recording.set(punch=False)
+    hand.drag(place(stage, 2 * TPQ, 32), place(stage, 3 * TPQ, 32))
+    assert recording.punch_ticks == before
+
+
+def test_a_running_take_is_seen_from_its_beginning_to_the_playhead(stage: Stage) -> None:
+    ruler, recording = ruler_of(stage), stage.session.recording
+    stage.session.set_playhead(1.0)
+
+    def shown(tick: float) -> QColor:
+        x, y = place(stage, tick, 30)
+        return ruler.grab().toImage().pixelColor(round(x * ruler.devicePixelRatioF()), round(y))
+
+    plain = shown(1.5 * TPQ), shown(2.5 * TPQ)
+    recording.set(running=True, start_s=0.5, counted_from_s=-1.5, passes=1)
+    assert shown(1.5 * TPQ).red() > plain[0].red() + 20
+    assert shown(2.5 * TPQ) == plain[1]
+    stage.session.set_playhead(1.5)
+    assert shown(2.5 * TPQ).red() > plain[1].red() + 20
+    recording.set(running=False)
+    assert shown(1.5 * TPQ) == plain[0]
 
 
 def test_a_double_click_fits(stage: Stage) -> None:
