@@ -210,7 +210,7 @@ class Ewi:
         # For low B flat it lies over two tabs, on the rim of the one that is next to the other.
         low = next(row for row in self.work.contacts if row["control"] == "key_C_low")
         point, normal = np.asarray(low["point"]), np.asarray(low["normal"])
-        self.work.contact("right.little.pad", point - 0.0034 * Z, normal, control="key_C_low",
+        self.work.contact("right.little.pad", point - 0.0032 * Z, normal, control="key_C_low",
                           together=("key_C_sharp_low",))  # fmt: skip
 
     def rollers(self) -> None:
