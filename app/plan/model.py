@@ -252,6 +252,23 @@ class Traces:
     air: FloatArray | None = None
     effort: FloatArray | None = None
 
+    def __eq__(self, other: object) -> bool:
+        """Whether they are the same to the last bit, as plans are compared."""
+        if not isinstance(other, Traces):
+            return NotImplemented
+        return (
+            (self.start_s, self.step_s) == (other.start_s, other.step_s)
+            and np.array_equal(self.tension, other.tension)
+            and _same(self.air, other.air)
+            and _same(self.effort, other.effort)
+        )
+
+    __hash__ = None  # type: ignore[assignment]
+
+
+def _same(one: FloatArray | None, other: FloatArray | None) -> bool:
+    return one is other or (one is not None and other is not None and np.array_equal(one, other))
+
 
 class PlayerPlan(msgspec.Struct, frozen=True):
     """Everything one player does. Each tuple is ordered by start; ``traces`` are there where controllers tell."""

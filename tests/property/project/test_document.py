@@ -295,7 +295,7 @@ some_cleaning = st.builds(
 )
 
 
-def record(data: st.DataObject, project: Project) -> Project:
+def record(data: st.DataObject, project: Project, player_id: str) -> Project:
     """A take or two of a synthetic player who begins early, overlaps, repeats and sends what nobody understands."""
     made = []
     for notes_played in data.draw(st.lists(played_notes, min_size=1, max_size=2)):
@@ -311,18 +311,18 @@ def record(data: st.DataObject, project: Project) -> Project:
                 tempo_map=project.score.tempo_map,
             )
         )
-    return takes.add_takes(project, a_player(data, project).id, made)[0]
+    return takes.add_takes(project, player_id, made)[0]
 
 
 def edit_takes(data: st.DataObject, project: Project) -> Project:
     if not any(recorded.takes for recorded in project.takes.values()):
-        return record(data, project)
+        return record(data, project, a_player(data, project).id)
     player_id = data.draw(st.sampled_from([id for id, recorded in project.takes.items() if recorded.takes]))
     known = [take.id for take in project.takes[player_id].takes]
     take_id = data.draw(st.sampled_from(known))
     match data.draw(st.integers(0, 9)):
         case 0:
-            return record(data, project)
+            return record(data, project, a_player(data, project).id)
         case 1:
             name = data.draw(st.sampled_from(["best", "", "\u202e", "x" * 999]))
             return takes.rename_take(project, player_id, take_id, name)
@@ -395,6 +395,14 @@ class Day(RuleBasedStateMachine):
             kinds = Counter(map(type, before.corrections.get(player.id, ())))
             assert kinds <= Counter(map(type, after.corrections.get(player.id, ()))), player.id
         self.applied(after)
+
+    @precondition(lambda self: self.document.project.players)
+    @rule(data=st.data())
+    def somebody_records(self, data: st.DataObject) -> None:
+        """What was recorded is the part."""
+        player_id = a_player(data, self.document.project).id
+        after = record(data, self.document.project, player_id)
+        self.applied(takes.comp_whole(after, player_id, after.takes[player_id].takes[-1].id))
 
     @precondition(lambda self: self.document.project.players)
     @rule(edit=st.sampled_from(OTHERS), data=st.data())
