@@ -129,6 +129,8 @@ class Lane(QWidget):
         row.setSpacing(0)
         row.addWidget(self.header)
         row.addWidget(self.plot, 1)
+        # Where the plot is folded away the header stays at the left.
+        row.addStretch(0)
         self.setMinimumHeight(self.least_height_px)
 
         self._autoscroll = QTimer(self)

@@ -263,6 +263,15 @@ def test_a_first_take_unfolds_the_lane_and_another_player_has_none(lane: TakesLa
     assert len(lane.rows) == 4
 
 
+def test_a_folded_lane_has_its_name_at_the_left(lane: TakesLane, qtbot: QtBot) -> None:
+    width = lane.plot.width()
+    lane.set_folded(True)
+    qtbot.waitUntil(lambda: lane.height() < 40)
+    assert lane.header.x() == 0
+    lane.set_folded(False)
+    qtbot.waitUntil(lambda: lane.plot.width() == width)
+
+
 def test_rows_keep_their_places_when_the_tempo_changes(lane: TakesLane) -> None:
     from app.project.edit.tempo import set_tempo
 
