@@ -15,7 +15,7 @@ take.too_few_notes(count, least), take.no_beats() : no beat is found (`app.score
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any, Final
 
@@ -37,10 +37,29 @@ from app.score.clean import Cleaned, cleaned
 from app.score.model import ControllerCurve, Note, Score
 from app.score.take import Cleaning, Take
 
+
+@dataclass(frozen=True, eq=False)
+class _Placed:
+    """A take's notes in the piece, and where its onsets went: from ticks as played, ascending, to ticks as they are."""
+
+    notes: tuple[Note, ...]
+    played: Floats
+    here: Floats
+
+    def moved(self, ticks: Floats) -> Floats:
+        """Where other moments of the take go: between two onsets in proportion, so that none overtakes another."""
+        if not len(self.played):
+            return ticks
+        # An aligned note may pass another: a breath never runs backwards.
+        here = np.maximum.accumulate(self.here)
+        by = np.interp(ticks, self.played, here - self.played)
+        return np.asarray(ticks + by, np.float64)
+
+
 BEFORE: Final = ""
 """The id of what the part was before the first take, where a take is asked for."""
 
-_NOTES: Final[IdentityCache[tuple[Note, ...]]] = IdentityCache(64)
+_PLACED: Final[IdentityCache[_Placed]] = IdentityCache(64)
 _CURVES: Final[IdentityCache[tuple[ControllerCurve, ...]]] = IdentityCache(64)
 _STEPS: Final[IdentityCache[tuple[npt.NDArray[np.int64], Floats]]] = IdentityCache(16)
 
@@ -167,12 +186,7 @@ def take_notes(project: Project, player_id: str, take_id: str) -> tuple[Note, ..
 
     A note that is taken for one of the score's keeps that one's id, so that its corrections hold for it.
     """
-    recorded = _recorded(project, player_id, take_id)
-    take = recorded.take(take_id)
-    score, before = project.score, recorded.before_notes
-    # The score is another value after every edit; these are what the notes depend on.
-    keys = (take, before, score.metres, score.ticks_per_quarter, score.pickup_ticks)
-    return _NOTES.get(keys, lambda: _notes(take, score, before))
+    return _placed(project, player_id, take_id).notes
 
 
 def take_cleaned(project: Project, player_id: str, take_id: str) -> Cleaned:
@@ -181,9 +195,11 @@ def take_cleaned(project: Project, player_id: str, take_id: str) -> Cleaned:
 
 
 def take_curves(project: Project, player_id: str, take_id: str) -> tuple[ControllerCurve, ...]:
-    """A take's breath, bite and other controllers, in the piece's ticks."""
+    """A take's breath, bite and other controllers, in the piece's ticks; they go where the notes go that are drawn to
+    the score or the grid."""
     take = _recorded(project, player_id, take_id).take(take_id)
-    return _CURVES.get((take.played, take.tempo_map), lambda: _curves(take))
+    placed = _placed(project, player_id, take_id)
+    return _CURVES.get((take, placed), lambda: _curves(take, placed))
 
 
 # A take without a score
@@ -261,13 +277,22 @@ def _source(project: Project, player_id: str, take_id: str) -> tuple[tuple[Note,
     return take_notes(project, player_id, take_id), take_curves(project, player_id, take_id)
 
 
-def _notes(take: Take, score: Score, before: tuple[Note, ...]) -> tuple[Note, ...]:
+def _placed(project: Project, player_id: str, take_id: str) -> _Placed:
+    recorded, score = _recorded(project, player_id, take_id), project.score
+    take, before = recorded.take(take_id), recorded.before_notes
+    # The score is another value after every edit; these are what the notes depend on.
+    keys = (take, before, score.metres, score.ticks_per_quarter, score.pickup_ticks)
+    return _PLACED.get(keys, lambda: _place(take, score, before))
+
+
+def _place(take: Take, score: Score, before: tuple[Note, ...]) -> _Placed:
     clean = cleaned(take)
     kept = [index for index in clean.kept[:MOST_TAKE_NOTES] if clean.ends_s[index] > 0.0]
     onsets = np.maximum(take.tempo_map.ticks(clean.onsets_s[kept]), 0.0)
     ends = np.minimum(take.tempo_map.ticks(clean.ends_s[kept]), LAST_TICK)
     ids = [take_note_id(take.number, index) for index in kept]
     pitches = clean.pitches[kept].tolist()
+    played = onsets
     if take.cleaning.align > 0.0:
         onsets, ends, ids, pitches = _aligned(take.cleaning.align, onsets, ends, ids, pitches, before, score)
     if take.cleaning.quantise > 0.0:
@@ -279,7 +304,7 @@ def _notes(take: Take, score: Score, before: tuple[Note, ...]) -> tuple[Note, ..
         )
         if round(onset) < LAST_TICK
     ]
-    return tuple(sorted(notes, key=lambda note: (note.onset_tick, note.pitch)))
+    return _Placed(tuple(sorted(notes, key=lambda note: (note.onset_tick, note.pitch))), played, onsets)
 
 
 def _aligned(
@@ -324,10 +349,10 @@ def _quantised(cleaning: Cleaning, onsets: Floats, ends: Floats, score: Score) -
     return new, np.maximum(ends + ends_by, new + 1.0)
 
 
-def _curves(take: Take) -> tuple[ControllerCurve, ...]:
+def _curves(take: Take, placed: _Placed) -> tuple[ControllerCurve, ...]:
     curves = []
     for kind, curve in take.played.curves.items():
-        ticks = np.rint(take.tempo_map.ticks(curve.times_s)).astype(np.int64)
+        ticks = np.rint(placed.moved(take.tempo_map.ticks(curve.times_s))).astype(np.int64)
         # What was sent before the piece holds at its beginning; of several at one tick the last.
         ticks, values = np.maximum(ticks[ticks <= LAST_TICK], 0), curve.values[ticks <= LAST_TICK]
         last = np.append(ticks[1:] != ticks[:-1], True)[: len(ticks)]
@@ -443,7 +468,9 @@ def _recleaned(
     known = here.keys() | _others(project, part.id)
     notes |= {id: note for id, note in now.items() if id not in was and id not in known}
     ordered = sorted(notes.values(), key=lambda note: (note.onset_tick, note.pitch))
-    return _with_part(project, part.id, ordered, part.curves)
+    breath = take_curves(project, player_id, span.take_id)
+    curves = _spliced(part.curves, breath, span.start_tick, span.end_tick)
+    return _with_part(project, part.id, ordered, curves)
 
 
 def _is_as_given(here: Note, given: Note) -> bool:

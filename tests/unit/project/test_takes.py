@@ -24,6 +24,7 @@ from app.project.edit.takes import (
     remove_take,
     rename_take,
     set_cleaning,
+    take_curves,
     take_notes,
 )
 from app.project.model import CompSpan, Project
@@ -146,6 +147,26 @@ def test_a_take_of_a_known_part_lands_on_its_notes() -> None:
         for id, note in wanted.items()
         if id in found
     )
+
+
+def test_the_breath_goes_where_the_notes_go() -> None:
+    played = [(0.07, 0.4, 70, 0.5), (0.6, 0.95, 71, 0.9)]
+    project = add_takes(small_project(), TRUMPET, [take_of(played, cleaning=Cleaning(quantise=1.0, grid_quarters=1.0))])
+    take_id = project[1][0]
+    found = take_notes(project[0], TRUMPET, take_id)
+    assert [note.onset_tick for note in found] == [0, 480]
+    breath = next(curve for curve in take_curves(project[0], TRUMPET, take_id) if curve.kind == "breath")
+    assert breath.ticks[0] == 0
+    assert breath.values[breath.ticks.index(480)] == pytest.approx(round(0.9 * 127) / 127)
+    assert list(breath.ticks) == sorted(breath.ticks)
+    # Also in the part, when the take is cleaned later.
+    loose = add_takes(small_project(), TRUMPET, [take_of(played, end_s=2.0)])[0]
+    loose = set_cleaning(
+        comp_whole(loose, TRUMPET, take_id), TRUMPET, take_id, Cleaning(quantise=1.0, grid_quarters=1.0)
+    )
+    part = loose.part(loose.player(TRUMPET))
+    curve = next(curve for curve in part.curves if curve.kind == "breath")
+    assert {note.onset_tick for note in part.notes} <= set(curve.ticks) | {0}
 
 
 def test_a_free_take_gives_the_piece_its_beats() -> None:
