@@ -1,11 +1,12 @@
-"""The saxophones: the alto, and the tenor and the baritone with larger tubes.
+"""The saxophones: the alto, the tenor and the baritone with larger tubes, the straight soprano.
 
 Sizes are those of common instruments. Alto: neck 190 mm along its curve, body 455 mm from the receiver to the bow,
 25 mm thick at its top and 53 at its end, bow 98 mm from axis to axis, bell rim 121 mm wide and 215 mm below the
 receiver. Tenor: body 590 mm, 29 to 63 mm thick, bell 153 mm, a neck that rises before it falls to the mouth.
 Baritone to low A: body 800 mm, 38 to 84 mm thick (slimmer under the hands than a real cone: a small hand must reach
-around it), a loop above the body, bell 180 mm. The pearls are 33 to 38 mm apart on all: hands do not grow with the
-tube; the cups lie where the tone holes are, on rods as long as they need to be.
+around it), a loop above the body, bell 180 mm. Soprano: 675 mm with the mouthpiece, 14 to 43 mm thick, bell 91 mm. The
+pearls are 31 to 38 mm apart on all: hands do not grow with the tube; the cups lie where the tone holes are, on rods as
+long as they need to be.
 
 The model's frame: +Z along the mouthpiece, away from the player. The body hangs from the neck's end, a little to the
 player's right and back to the body (`Shape`); its Wall's front looks ahead, +90 degrees is the player's left. Distances
@@ -55,6 +56,10 @@ BARITONE_REED = SingleReed(
     tip_m=0.015, length=0.104, radius=0.0166, end_radius=0.0152, beak_length=0.042, tip_width=0.0178, table=0.0110,
     bite=0.0100, reed_length=0.0860, reed_width=0.0178, reed_thick=0.0035, ligature=(0.045, 0.072), metal=BRASS,
 )  # fmt: skip
+SOPRANO_REED = SingleReed(
+    tip_m=0.011, length=0.068, radius=0.0122, end_radius=0.0108, beak_length=0.031, tip_width=0.0125, table=0.0080,
+    bite=0.0076, reed_length=0.0600, reed_width=0.0125, reed_thick=0.0029, ligature=(0.033, 0.054), metal=BRASS,
+)  # fmt: skip
 
 HOLES = {  # along of the alto's holes, radius of their cups
     "hfs": (0.022, 0.0070), "pf": (0.040, 0.0072), "se": (0.058, 0.0074), "peb": (0.074, 0.0076), "pd": (0.100, 0.0080),
@@ -84,12 +89,17 @@ class Layout:
     bell_length, bell_throat, bell_rim : from the bow to the rim, radii; ``bell_sides`` around it
     bell_deg, bell_lean : the bell lies so far to the left of ahead, seen from the body, and leans away from it
     bell_cups : along the bell of the cups of B and B flat, and radius
-    hook_deg : from the pearls of the right hand around to the thumb's hook; ``hook_reach`` is its length
+    hook_deg : from the pearls of the right hand around to the thumb's hook; ``hook_reach`` is its length,
+        ``hook_at`` how far after the first pearl it lies
     thumb_deg : from the front around to the left thumb's rest, on the alto
     palm : of the palm keys of D, E flat and F, after the left hand's first pearl
     cluster : the left little finger's keys lie so much farther down than the alto's; their height
     fork : the cup of the fork F sharp lies so much higher than the hole, above the hand
-    side : of B flat, C and E at the side, after the right hand's first pearl; ``side_rise`` higher than the alto's
+    side : of B flat, C and E at the side, after the right hand's first pearl; so many degrees beside the pearls and
+        so high over the body (``side_deg``, ``side_heights``), their cups and rods so much farther around
+        (``side_cups_deg``, ``side_axles_deg``); ``side_place`` of the index finger works them
+    front : of the front F, before the left hand's first pearl
+    high_f_sharp : of the high F sharp, after the right hand's third pearl
     little : of the right little finger's E flat: after the third pearl, degrees beside it, height
     far : thin parts farther than this from every touch have no collision bodies, nor tone holes' rims lower than
         ``flat``, nor posts lower than ``low_posts``; nodes in ``whole`` keep all;
@@ -133,7 +143,14 @@ class Layout:
     rod: float = 0.0075
     low_posts: float = 0.0
     whole: tuple[str, ...] = ()
-    side_rise: float = 0.0
+    side_cups_deg: float = 0.0
+    side_axles_deg: float = 0.0
+    side_deg: tuple[float, float, float] = (-45.0, -48.0, -51.0)
+    side_heights: tuple[float, float, float] = (0.0265, 0.0255, 0.0240)
+    hook_at: float = 0.012
+    side_place: str = "pad_proximal"
+    front: float = 0.0119
+    high_f_sharp: float = -0.0030
     far: float = 0.0601
     flat: float = 0.0062
     steps: tuple[int, int, int] = (5, 3, 6)
@@ -383,7 +400,7 @@ class Saxophone:
     def front_f(self, first: float, angle: float) -> None:
         """The small key above the first finger."""
         work = self.work
-        along = first - 0.0119
+        along = first - self.layout.front
         touch = self.plate(along, angle + 8.0, 0.0166, 0.0074, 0.0120)
         work.key("key_front_F", "ff", "left.index.pad", self.rod(along - 0.006, along + 0.006, angle + 40.0, 0.0090),
                  touch, travel_m=0.0040)  # fmt: skip
@@ -498,11 +515,11 @@ class Saxophone:
         fork = replace(fork, along=fork.along - layout.fork)
         rod = self.rod(last - 0.010, fork.along - 0.008, pearls - 42.0, layout.rod + 0.0005)
         work.key("key_fork_F_sharp", "afs", "right.ring.pad", rod, touch, [fork], travel_m=0.0040)
-        touch = self.plate(last - 0.0030, pearls - 29.0 * self.right_share, 0.0160, 0.0130, 0.0075)
+        touch = self.plate(last + layout.high_f_sharp, pearls - 29.0 * self.right_share, 0.0160, 0.0130, 0.0075)
         high = self.cup("hfs", -112.0)
         rod = self.rod(last + 0.004, high.along - 0.008, pearls - 56.0, 0.0125)
         work.key("key_high_F_sharp", "hfs", "right.ring.pad", rod, touch, [high], travel_m=0.0040)
-        hook_at = layout.right + 0.012
+        hook_at = layout.right + layout.hook_at
         hook = thumb_rest(
             body, hook_at, pearls + 360.0 - layout.hook_deg, reach=layout.hook_reach, width=0.017, metal=BRASS
         )
@@ -514,17 +531,16 @@ class Saxophone:
         work, layout = self.work, self.layout
         pearls = layout.right_pearl_deg
         for name, label, along, angle, axle, cup_angle, height in (
-            ("key_side_B_flat", "sbb", layout.side[0], -45.0, -90.0, -114.0, 0.0265),
-            ("key_side_C", "sc", layout.side[1], -48.0, -96.0, -120.0, 0.0255),
-            ("key_side_E", "se", layout.side[2], -51.0, -103.0, -127.0, 0.0240),
+            ("key_side_B_flat", "sbb", layout.side[0], layout.side_deg[0], -90.0, -114.0, layout.side_heights[0]),
+            ("key_side_C", "sc", layout.side[1], layout.side_deg[1], -96.0, -120.0, layout.side_heights[1]),
+            ("key_side_E", "se", layout.side[2], layout.side_deg[2], -103.0, -127.0, layout.side_heights[2]),
         ):
             place = layout.right + along
-            over = height + layout.side_rise
             length = min(0.0056, round(layout.side[1] - layout.side[2] - 0.0004, 4))
-            touch = self.plate(place, pearls + angle * self.right_share, over, length, 0.0115)
-            cup = self.cup(label, cup_angle)
-            rod = self.rod(place + 0.004, cup.along - 0.009, axle, 0.0085)
-            work.key(name, label, "right.index.pad_proximal", rod, touch, [cup], travel_m=0.0035)
+            touch = self.plate(place, pearls + angle * self.right_share, height, length, 0.0115)
+            cup = self.cup(label, cup_angle - layout.side_cups_deg)
+            rod = self.rod(place + 0.004, cup.along - 0.009, axle - layout.side_axles_deg, 0.0085)
+            work.key(name, label, f"right.index.{layout.side_place}", rod, touch, [cup], travel_m=0.0035)
 
     def right_little(self) -> None:
         """E flat and C of the right little finger, with rollers between."""
@@ -675,6 +691,61 @@ class Baritone(Saxophone):
             self.work.model.add(BRASS, turned(place, way, ring, sides=24, proxy=False))
 
 
+class Soprano(Saxophone):
+    """Builds the straight soprano: neck, body and bell in one line with the mouthpiece."""
+
+    def directions(self) -> tuple[Array, Array]:
+        """Along the mouthpiece; the pearls on top."""
+        return Z, Y
+
+    def neck_corners(self) -> list[Array]:
+        """The upper end, in the mouthpiece."""
+        reed = self.layout.reed
+        return [np.array([0.0, reed.axis_y, reed.end_z + 0.008])]
+
+    def tubes(self) -> None:
+        """Mouthpiece, cork, the straight body and its bell."""
+        work, body, reed = self.work, self.body, self.layout.reed
+        work.add(reed.pieces())
+        start = np.array([0.0, reed.axis_y, reed.end_z])
+        self.beak()
+        cork = body.radius(0.0) + 0.0012
+        work.model.add(
+            "cork", turned(start - 0.001 * Z, Z, [(0, 0), (0, cork), (0.014, cork), (0.014, 0)], sides=24, proxy=False)
+        )
+        work.model.add(BRASS, body.skin(28))
+        for along in (0.040, 0.046, self.end - 0.006):
+            work.model.add(BRASS, body.collar(along, 0.005))
+        up = self.down
+        self.bell = Wall(
+            body.point(self.end, 0.0) - body.radius(self.end) * self.front, up, self.front, self.bell_profile()
+        )
+        self.add_bell(np.asarray(self.bell.start), up)
+
+    def neck_octave(self) -> None:
+        """The octave key's cup on the upper end."""
+        cup = Cup(self.body, 0.026, 0.0, 0.0050, rim_m=0.0028, thick_m=0.0030, rim_material=BRASS, material=BRASS)
+        rod = self.body.cross_rod(0.062, 0.0, 0.010, 0.0060)
+        self.work.linked("octave_neck", ("key_octave",), rod, cups=[cup], drop_m=-0.0022)
+
+    def low_cups(self) -> None:
+        """C, C sharp, B and B flat on the body's lower end, with their guards."""
+        work = self.work
+        for node, control, along, angle, radius, axle, drop in (
+            ("pad_low_C", ("key_C",), 0.443, -40.0, 0.0145, -92.0, 0.0045),
+            ("pad_C_sharp", ("key_C_sharp",), 0.447, 62.0, 0.0125, 112.0, -0.0042),
+            ("pad_B", ("key_B", "key_B_flat"), 0.484, 52.0, 0.0155, 104.0, 0.0048),
+            ("pad_B_flat", ("key_B_flat",), 0.514, 24.0, 0.0160, 76.0, 0.0048),
+        ):
+            cup = Cup(self.body, along, angle, radius, rim_m=0.0034, thick_m=0.0038, rim_material=BRASS, material=BRASS)
+            work.linked(node, control, self.rod(along - radius, along + radius, axle), cups=[cup], drop_m=drop)
+            self.guard(cup)
+
+    def fittings(self) -> None:
+        """The ring of a strap."""
+        self.strap_ring()
+
+
 ALTO = Layout()
 TENOR = Layout(
     reed=TENOR_REED, neck=((0.150, 0.010), (0.262, 0.050), (0.270, -0.062)), bends=(0.090, 0.052),
@@ -693,8 +764,18 @@ BARITONE = Layout(
     hook_reach=0.0223, rod=0.0064, low_posts=0.0080, whole=("pad_C_sharp", "pad_B", "pad_B_flat", "pad_low_A"),
 )  # fmt: skip
 
+SOPRANO = Layout(
+    reed=SOPRANO_REED, body=((0.0, 0.0068), (0.040, 0.0080), (0.545, 0.0212)), holes=0.667, holes_from=0.118, cups=0.80,
+    left=0.212, right=0.336, pitch=(0.033, 0.031, 0.031), bell_length=0.052, bell_throat=0.0216, bell_rim=0.0455,
+    left_share=1.145, little=(0.0130, -23.0, 0.0165), hook_reach=0.0320, hook_at=0.0075,
+    side=(0.0185, 0.0128, 0.0071), side_deg=(-20.0, -20.0, -20.0), side_heights=(0.0240, 0.0240, 0.0250),
+    side_place="pad_middle", front=0.0105, side_cups_deg=48.0,
+    side_axles_deg=28.0,
+)  # fmt: skip
+
 INSTRUMENTS = {
     "sax_alto_Eb": entry(lambda: Saxophone(ALTO).make()),
+    "sax_soprano_Bb": entry(lambda: Soprano(SOPRANO).make()),
     "sax_tenor_Bb": entry(lambda: Saxophone(TENOR).make()),
     "sax_baritone_Eb": entry(lambda: Baritone(BARITONE).make()),
 }
