@@ -614,11 +614,10 @@ class Saxophone:
             foot = cup.wall.point(along, angle, -0.001)
             knee = foot + 0.75 * (top - cup.seat + cup.rim_m * up)
             wires.append(np.array([foot, 0.5 * (foot + knee) + 0.002 * unit(place - top), place]))
-        self.work.model.add(BRASS, *(tube(wire, 0.0013, sides=5, proxy=False) for wire in wires))
+        self.work.model.add(BRASS, *(tube(wire, 0.0013, sides=5) for wire in wires))
         cross = np.array([top - reach * over, top, top + reach * over])
         self.work.model.add(BRASS, tube(cross, 0.0015, sides=6))
-        self.work.model.add("felt", turned(top, -up, [(0.0, 0), (0.0, 0.0045), (0.0024, 0.0045), (0.0024, 0)], sides=12,
-                                           proxy=False))  # fmt: skip
+        self.work.model.add("felt", turned(top, -up, [(0.0, 0), (0.0, 0.0045), (0.0024, 0.0045), (0.0024, 0)], sides=12))
 
     def fittings(self) -> None:
         """The ring of the strap and the brace to the bell."""
@@ -639,8 +638,9 @@ class Saxophone:
         along = 0.60 * (layout.left + layout.right)
         plate = body.point(along, 180.0, 0.0006)
         out = body.normal(180.0)
-        work.model.add(BRASS, turned(plate, out, [(-0.001, 0), (-0.001, 0.008), (0.0008, 0.007), (0.0008, 0)], sides=16,
-                                     proxy=False))  # fmt: skip
+        wide = min(0.008, 0.45 * body.radius(along))  # flat on a slim body's round
+        disc = [(-0.001, 0), (-0.001, wide), (0.0008, wide - 0.001), (0.0008, 0)]
+        work.model.add(BRASS, turned(plate, out, disc, sides=16, proxy=False))
         work.model.add(BRASS, torus(plate + 0.0085 * out, body.around(180.0), 0.0075, 0.0016, sides=8, around=24))
 
 
@@ -767,8 +767,8 @@ BARITONE = Layout(
 SOPRANO = Layout(
     reed=SOPRANO_REED, body=((0.0, 0.0068), (0.040, 0.0080), (0.545, 0.0212)), holes=0.667, holes_from=0.118, cups=0.80,
     left=0.212, right=0.336, pitch=(0.033, 0.031, 0.031), bell_length=0.052, bell_throat=0.0216, bell_rim=0.0455,
-    left_share=1.145, little=(0.0130, -23.0, 0.0165), hook_reach=0.0320, hook_at=0.0075,
-    side=(0.0185, 0.0128, 0.0071), side_deg=(-20.0, -20.0, -20.0), side_heights=(0.0240, 0.0240, 0.0250),
+    left_share=1.145, little=(0.0130, -22.5, 0.0162), hook_reach=0.0320, hook_at=0.0075,
+    side=(0.0182, 0.0128, 0.0071), side_deg=(-20.0, -20.0, -20.0), side_heights=(0.0240, 0.0240, 0.0250),
     side_place="pad_middle", front=0.0105, side_cups_deg=48.0,
     side_axles_deg=28.0,
 )  # fmt: skip
