@@ -41,6 +41,7 @@ from resources.build.instrument_reeds import SingleReed, thumb_rest
 X, Y, Z = np.eye(3)
 BRASS = "gold_lacquer"
 THIN_M = 0.0018
+POST_M = 0.0017
 FINGER_M = 0.020
 """How far from the body's wall the middle of a finger goes around it."""
 
@@ -211,7 +212,7 @@ class Saxophone:
             profile = [(-height - 0.0008, 0.0016), (-0.0014, 0.0013), (0.0, 0.0023), (0.0020, 0.0)]
             shape = turned(top, out, profile, sides=6, proxy=False, hard_deg=80.0)
             low = height < self.layout.low_posts
-            bodies = [] if low else [cylinder(top - height * out, top + 0.0018 * out, 0.0017)]
+            bodies = [] if low else [cylinder(top - height * out, top + 0.0018 * out, POST_M)]
             self.work.model.add(BRASS, bodied(shape, *bodies))
         return found
 
@@ -614,10 +615,13 @@ class Saxophone:
             foot = cup.wall.point(along, angle, -0.001)
             knee = foot + 0.75 * (top - cup.seat + cup.rim_m * up)
             wires.append(np.array([foot, 0.5 * (foot + knee) + 0.002 * unit(place - top), place]))
-        self.work.model.add(BRASS, *(tube(wire, 0.0013, sides=5) for wire in wires))
+        feet = [bodied(tube(wire, 0.0013, sides=5, proxy=False), *tube(wire[::2], 0.0013).proxies) for wire in wires]
+        self.work.model.add(BRASS, *feet)
         cross = np.array([top - reach * over, top, top + reach * over])
         self.work.model.add(BRASS, tube(cross, 0.0015, sides=6))
-        self.work.model.add("felt", turned(top, -up, [(0.0, 0), (0.0, 0.0045), (0.0024, 0.0045), (0.0024, 0)], sides=12))
+        self.work.model.add(
+            "felt", turned(top, -up, [(0.0, 0), (0.0, 0.0045), (0.0024, 0.0045), (0.0024, 0)], sides=12)
+        )
 
     def fittings(self) -> None:
         """The ring of the strap and the brace to the bell."""
@@ -745,6 +749,24 @@ class Soprano(Saxophone):
         """The ring of a strap."""
         self.strap_ring()
 
+    def without_thin(self) -> None:
+        """Nor do posts that stand beside another in the little room, and the rim that hardly stands out of its bell."""
+        super().without_thin()
+        parts, posts = self.work.model.parts, np.empty((0, 3))
+        for index, part in enumerate(parts):
+            kept = []
+            for body in part.shape.proxies:
+                if body["shape"] == "ring" and body["radius_m"] == self.layout.bell_rim:
+                    continue
+                if body["shape"] == "cylinder" and part.node == "root" and body["radius_m"] == POST_M:
+                    middle = np.mean([body["a_m"], body["b_m"]], axis=0)
+                    if np.linalg.norm(posts - middle, axis=1).min(initial=1.0) < POST_M:
+                        continue
+                    posts = np.vstack([posts, middle])
+                kept.append(body)
+            if len(kept) < len(part.shape.proxies):
+                parts[index] = replace(part, shape=bodied(part.shape, *kept))
+
 
 ALTO = Layout()
 TENOR = Layout(
@@ -770,7 +792,7 @@ SOPRANO = Layout(
     left_share=1.145, little=(0.0130, -22.5, 0.0162), hook_reach=0.0320, hook_at=0.0075,
     side=(0.0182, 0.0128, 0.0071), side_deg=(-20.0, -20.0, -20.0), side_heights=(0.0240, 0.0240, 0.0250),
     side_place="pad_middle", front=0.0105, side_cups_deg=48.0,
-    side_axles_deg=28.0,
+    side_axles_deg=28.0, low_posts=0.0070,
 )  # fmt: skip
 
 INSTRUMENTS = {
