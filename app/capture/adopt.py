@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+from itertools import count
+
 from app.capture.journal import Journal, Pass, passes
 from app.score.take import Cleaning, Take, Wiring
 from app.score.tempo import TempoMap
@@ -16,6 +19,7 @@ def takes_of(
     name: str,
     start_s: float | None = None,
     cleaning: Cleaning | None = None,
+    taken: Collection[str] = (),
 ) -> tuple[Take, ...]:
     """A take for every pass in which a note was played, in order; their ids are given by the project.
 
@@ -27,12 +31,16 @@ def takes_of(
     wiring : Wiring
         With what the device sends breath and bite.
     name : str
-        What a take is called, ``{number}`` for its number in this recording.
+        What a take is called, ``{number}`` for its number.
     start_s : float, optional
         Where the recording was wanted from: what was played before, while it was counted in, stays in the take, which
         begins there. By default the first moment that is known.
+    cleaning : Cleaning, optional
+    taken : collection of str
+        Names of the takes that are there: numbers go on after them.
     """
     result: list[Take] = []
+    numbers = (number for number in count(len(taken) + 1) if name.format(number=number) not in taken)
     syncs = {number: [point for point in journal.syncs if point.pass_ == number] for number in _numbers(journal)}
     for played in passes(journal):
         if not any(message[0] >> 4 == 0x9 and message[2] for message in played.messages):
@@ -45,7 +53,7 @@ def takes_of(
         result.append(
             Take(
                 id="",
-                name=name.format(number=len(result) + 1),
+                name=name.format(number=next(numbers)),
                 colour="",
                 device=journal.header.port,
                 recorded=journal.header.started,

@@ -431,6 +431,7 @@ class Recorder(QObject):
             running.wiring,
             QCoreApplication.translate("Recorder", "Take {number}"),
             running.start_s,
+            taken=_names(self._session.project, running.player_id),
         )
         if not takes:
             path.unlink(missing_ok=True)
@@ -492,7 +493,7 @@ class Recorder(QObject):
         controller = load_controllers().get(journal.header.controller) or recognised_controller(journal.header.port)
         wiring = Wiring(controller.channel, controller.breath[0], controller.bite)
         name = QCoreApplication.translate("Recorder", "Recovered take {number}")
-        takes = takes_of(journal, project.score.tempo_map, wiring, name)
+        takes = takes_of(journal, project.score.tempo_map, wiring, name, taken=_names(project, journal.header.player))
         if not takes or journal.header.started in known:
             path.unlink(missing_ok=True)
             return
@@ -506,6 +507,12 @@ class Recorder(QObject):
             link, self._link = self._link, None
             link.stop()
             link.close()
+
+
+def _names(project: Project, player_id: str) -> tuple[str, ...]:
+    """What the takes of a player are called."""
+    recorded = project.takes.get(player_id)
+    return tuple(take.name for take in recorded.takes) if recorded is not None else ()
 
 
 def _whole(takes: tuple[Take, ...]) -> int:

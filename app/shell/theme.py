@@ -185,6 +185,10 @@ QToolButton:pressed {{ background: {t.sunken}; }}
 QToolButton:checked {{ background: {t.sunken}; border-color: {t.line_strong}; color: {t.accent}; }}
 QToolButton:focus {{ border-color: {t.accent}; }}
 QToolButton::menu-indicator {{ width: 0; height: 0; image: none; }}
+QToolButton[popupMode="1"] {{ padding-right: 15px; }}
+QToolButton::menu-button {{ border: none; width: 14px; }}
+QToolButton::menu-button:hover {{ background: {t.line}; }}
+QToolButton::menu-arrow {{ image: url("{marks.down}"); width: 12px; height: 12px; }}
 QPushButton {{ background: {t.raised}; color: {t.text}; border: 1px solid {t.line_strong}; border-radius: 4px;
   padding: 4px 12px; min-height: {LEAST_TARGET_PX - 8}px; }}
 QPushButton:hover {{ border-color: {t.text_dim}; }}

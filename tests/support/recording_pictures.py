@@ -27,6 +27,8 @@ from PySide6.QtWidgets import QApplication, QPushButton, QTreeWidget, QWidget
 from app.audio.playback import Playback
 from app.audio.sink import SilentSink
 from app.capture.recorder import SYSTEM_VARIABLE
+from app.project.autosave import Autosave
+from app.project.presence import Presence
 from app.shell.app import Program, make_application
 from app.shell.recording import Recorder
 from app.shell.settings import Settings
@@ -39,7 +41,7 @@ from widgets.dialogs.midi_devices import MidiDevicesDialog
 ROOT: Final = Path(__file__).parents[2]
 TARGET: Final = ROOT / "docs" / "pictures"
 PIECE: Final = ROOT / "tests" / "data" / "midi" / "ensemble" / "brass_quartet_lutkin_2tpt_tbn_tuba.mid"
-FIRST_BAR, LAST_BAR = 5, 9
+FIRST_BAR, LAST_BAR = 4, 8
 LATE_S, UNEVEN_S = 0.045, 0.009
 W = TypeVar("W", bound=QWidget)
 
@@ -97,10 +99,12 @@ class Film:
         make = lambda: Playback(UnheardDevices(application))  # noqa: E731
         self.program = Program(
             settings,
+            autosave=Autosave(Presence(folder / "recovery")),
             playback=make(),
             recorder=lambda session, files: Recorder(session, files, settings, make_playback=make),
         )
         self.session, self.window = self.program.session, self.program.window
+        self.session.noticed.connect(lambda message, severity: print(message.id, dict(message.arguments)))
         self.chance = random.Random(5)
 
     def wait(self, until: Callable[[], bool], most_s: float = 120.0) -> None:
@@ -126,8 +130,7 @@ class Film:
         width, height = image.size
         box = (crop[0] * width, crop[1] * height, crop[2] * width, crop[3] * height)
         image = image.crop(tuple(round(edge) for edge in box))  # type: ignore[arg-type]
-        # A quarter of the size; surfaces of one colour lose nothing by it.
-        image.quantize(256, dither=Image.Dither.NONE).save(path, optimize=True)
+        image.save(path, optimize=True)
         print(f"{path.relative_to(ROOT)}: {image.width} x {image.height}, {path.stat().st_size // 1024} KB")
 
     def play(self, played: Sequence[Played], now_s: Callable[[], float]) -> None:
@@ -139,7 +142,7 @@ class Film:
         """The part of the player in front as somebody might play it: a little uneven, breath by phrase."""
         chance = random.Random(seed)
         project, score = self.session.project, self.session.project.score
-        first, last = score.tick_of_bar(FIRST_BAR - 1), score.tick_of_bar(LAST_BAR - 1)
+        first, last = score.tick_of_bar(FIRST_BAR), score.tick_of_bar(LAST_BAR)
         notes = [note for note in project.part(project.players[0]).notes if first <= note.onset_tick < last]
         played: list[Played] = []
         for number, note in enumerate(notes):
@@ -231,27 +234,27 @@ def record(film: Film) -> None:
     session = film.session
     score, playback = session.project.score, session.playback
     assert playback is not None
-    start_s = score.tempo_map.seconds(float(score.tick_of_bar(FIRST_BAR - 1)))
-    end_s = score.tempo_map.seconds(float(score.tick_of_bar(LAST_BAR - 1)))
+    start_s = score.tempo_map.seconds(float(score.tick_of_bar(FIRST_BAR)))
+    end_s = score.tempo_map.seconds(float(score.tick_of_bar(LAST_BAR)))
     session.viewport.set_view("hands")
     session.listening.set(click=True)
     beat_s = score.tempo_map.seconds(float(session.project.felt_beat_ticks))
     player = session.project.players[0].id
     for number in range(3):
         session.set_playhead(start_s)
-        session.reveal(start_s)
+        film.window.timeline.axis.show(start_s - 4.0, end_s + 2.0)
         film.rest(0.5)
         played = film.part_played(number)
-        QTest.keyClick(film.window.palette_field, Qt.Key.Key_R, Qt.KeyboardModifier.ControlModifier)
+        session.actions["record.toggle"].trigger()
         film.wait(lambda: session.recording.running and playback.position_s() > session.recording.counted_from_s)
         film.play(played, playback.position_s)
         if number == 0:
             film.wait(lambda: session.playhead_s >= start_s - 2.0 * beat_s + 0.02)
-            film.picture("count-in", film.window, (0.0, 0.0, 1.0, 0.12))
+            film.picture("count-in", film.window, (0.0, 0.0, 0.8, 0.12))
             film.wait(lambda: session.playhead_s >= (start_s + end_s) / 2)
-            film.picture("recording", film.window)
+            film.picture("recording", film.window, (0.0, 0.0, 0.8, 0.72))
         film.wait(lambda: session.playhead_s >= end_s)
-        QTest.keyClick(film.window.palette_field, Qt.Key.Key_R, Qt.KeyboardModifier.ControlModifier)
+        session.actions["record.toggle"].trigger()
         count = number + 1
         film.wait(lambda count=count: len(_takes(film, player)) == count)  # type: ignore[misc]
     session.set_playhead(start_s)
@@ -267,17 +270,19 @@ def takes(film: Film) -> None:
     session = film.session
     panel = film.window.timeline
     score = session.project.score
-    first, last = score.tick_of_bar(FIRST_BAR - 1), score.tick_of_bar(LAST_BAR - 1)
+    first, last = score.tick_of_bar(FIRST_BAR), score.tick_of_bar(LAST_BAR)
+    for id in ("audio", "fingering", "breath", "acting", "curves", "problems"):
+        panel.lanes[id].set_folded(True)
     panel.takes.set_folded(False)
     film.rest(1.0)
     panel.axis.show(score.tempo_map.seconds(float(first)) - 1.0, score.tempo_map.seconds(float(last)) + 1.0)
     film.rest(2.0)
-    film.picture("takes", film.window, (0.0, 0.5, 1.0, 1.0))
+    film.picture("takes", film.window, (0.0, 0.455, 1.0, 1.0))
     for row, begin, end in ((1, 0.0, 0.3), (2, 0.3, 0.62)):
         swipe(film, row, first + begin * (last - first), first + end * (last - first))
         film.rest(0.5)
     film.rest(2.0)
-    film.picture("comp", film.window)
+    film.picture("comp", film.window, (0.0, 0.455, 1.0, 1.0))
 
 
 def swipe(film: Film, row: int, start_tick: float, end_tick: float) -> None:

@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QDialog, QDoubleSpinBox, QHBoxLayout, QLabel, QPus
 from app.audio.click import steady_clicks
 from app.audio.playback import Playback
 from app.audio.track import Mix
-from app.capture.latency import LEAST_HITS, Measured, hits, measured, placed
+from app.capture.latency import LATEST_S, LEAST_HITS, Measured, hits, measured, placed
 from app.capture.protocol import Events
 from widgets.common.session import Session
 
@@ -170,8 +170,9 @@ class LatencyDialog(QDialog):
         last = sum(click_s <= position_s for click_s in CLICKS_S) - 1
         self.chart.show_click(last - LEAD, last >= 0 and position_s - CLICKS_S[last] < _FLASH_S)
         found = hits(placed(self._events, self._heard), self._session.recording.wiring.breath)
-        clicked = CLICKS_S[LEAD : max(last + 1, LEAD)]
-        self.chart.show_measured(measured(clicked, found))
+        # A click that may still be hit is not missed.
+        over = sum(click_s + LATEST_S <= position_s for click_s in CLICKS_S)
+        self.chart.show_measured(measured(CLICKS_S[LEAD : max(over, LEAD)], found))
         if position_s > CLICKS_S[-1] + _AFTER_S:
             self._found = measured(CLICKS_S[LEAD:], found)
             self.chart.show_measured(self._found)

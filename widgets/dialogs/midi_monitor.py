@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from PySide6.QtCore import QCoreApplication, QEvent, Qt, QTimer
 from PySide6.QtGui import QFont
-from PySide6.QtWidgets import QFormLayout, QHBoxLayout, QLabel, QListWidget, QProgressBar, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QListWidget, QProgressBar, QVBoxLayout, QWidget
 
 from app.capture.heard import HeardLog, Line
 from app.capture.protocol import Events
@@ -43,10 +43,12 @@ class MidiMonitor(QWidget):
         self._list.setObjectName("midi_messages")
         self._list.setUniformItemSizes(True)
         self._list.setSelectionMode(QListWidget.SelectionMode.NoSelection)
-        meters = QFormLayout()
-        for meter, name in self._names.items():
-            meters.addRow(name, meter)
-        meters.addRow(self._from)
+        meters = QGridLayout()
+        meters.setColumnStretch(1, 1)
+        for row, (meter, name) in enumerate(self._names.items()):
+            meters.addWidget(name, row, 0)
+            meters.addWidget(meter, row, 1, Qt.AlignmentFlag.AlignVCenter)
+        meters.addWidget(self._from, 2, 0, 1, 2)
         line = QHBoxLayout()
         line.addWidget(self._note)
         line.addLayout(meters, 1)

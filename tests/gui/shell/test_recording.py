@@ -67,6 +67,15 @@ def test_each_pass_of_a_loop_is_a_take(studio: Studio) -> None:
     assert [take.played.pitches.tolist() for take in takes] == [[60], [64]]
     assert all(0.2 < take.played.onsets_s[0] < 0.5 for take in takes)
     assert [note.pitch for note in notes(studio)] == [64]
+    assert [take.name for take in takes] == ["Take 1", "Take 2"]
+    # Another recording goes on with the numbers.
+    studio.session.set_loop(None)
+    studio.session.set_playhead(0.0)
+    studio.press(Qt.Key.Key_R)
+    studio.blow(67, 0.2)
+    studio.press(Qt.Key.Key_R)
+    studio.wait(lambda: len(studio.session.project.takes[studio.session.project.players[0].id].takes) == 3)
+    assert studio.session.project.takes[studio.session.project.players[0].id].takes[2].name == "Take 3"
 
 
 def test_only_the_punch_range_is_taken_into_the_part(studio: Studio) -> None:

@@ -147,6 +147,7 @@ def test_a_lane_folds_and_unfolds_by_its_button(stage: Stage) -> None:
     QApplication.processEvents()
     assert lane.folded
     assert lane.height() < height
+    assert lane.header.x() == 0
     QTest.mouseClick(lane.fold_button, Qt.MouseButton.LeftButton)
     assert not lane.folded
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
-from app.audio.click import click_track
+from app.audio.click import click_track, steady_clicks
 from app.audio.track import RATE_HZ
 from app.score.model import Metre
 from tests.unit.audio.pieces import melody, piece
@@ -43,3 +44,11 @@ def test_a_pickup_is_counted_back_from_the_bar_line() -> None:
     found = beats(click_track(project, 0.0, 2.0))
     assert 0.75 in [at for at, high in found if high]
     assert [at for at, _ in found if at < 0.75] == pytest.approx([0.25])
+
+
+def test_steady_clicks_lie_at_their_times_the_first_ones_higher() -> None:
+    times_s = (0.5, 1.0, 1.5)
+    track = steady_clicks(times_s, high=1)
+    assert [piece.start / RATE_HZ for piece in track.pieces] == list(times_s)
+    high, *low = (int(np.argmax(np.abs(np.fft.rfft(piece.samples)))) for piece in track.pieces)
+    assert high > low[0] == low[1]
