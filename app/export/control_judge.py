@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Sequence, Set
 from typing import TypeAlias
 
 import msgspec
@@ -22,7 +22,12 @@ IntArray: TypeAlias = npt.NDArray[np.intp]
 
 
 class ControlMeasure(msgspec.Struct, frozen=True):
-    """Whether a control is in place at the judged frames, and stays there until it may leave."""
+    """Whether a control is in place at the judged frames, and stays there until it may leave.
+
+    ``stopped_short`` and ``held_stopped_short`` are those of the judged notes, and of the frames held, at which it
+    stays on the near side of a place that is out of the player's reach: neither right nor wrong, and told apart. How
+    far from there at most is ``most_short_mm``.
+    """
 
     judged: int
     right: int
@@ -30,6 +35,9 @@ class ControlMeasure(msgspec.Struct, frozen=True):
     short_right: int
     held_frames: int
     held_wrong: int
+    stopped_short: int = 0
+    held_stopped_short: int = 0
+    most_short_mm: float = 0.0
 
 
 def notes_of(notes: Sequence[FingeringEvent], first_s: float, last_s: float) -> list[FingeringEvent]:
@@ -67,9 +75,18 @@ class ControlJudge:
     fps, first_frame_s : float
     notes : sequence of FingeringEvent
         Ordered by onset.
+    out_of_reach : set of str
+        Ids of the notes for which a hand cannot bring what it carries to its place.
     """
 
-    def __init__(self, times_s: FloatArray, fps: float, first_frame_s: float, notes: Sequence[FingeringEvent]) -> None:
+    def __init__(
+        self,
+        times_s: FloatArray,
+        fps: float,
+        first_frame_s: float,
+        notes: Sequence[FingeringEvent],
+        out_of_reach: Set[str | None] = frozenset(),
+    ) -> None:
         self._times_s = times_s
         self._notes = notes
         starts = np.array([note.start_s for note in notes])
@@ -77,6 +94,7 @@ class ControlJudge:
         self._frames = np.ceil((starts - first_frame_s) * fps).astype(np.int64)
         self._inside = (self._frames >= 0) & (self._frames < len(times_s))
         self._short = self._ends - starts < 2.0 / fps
+        self._unreached = np.array([note.note_id in out_of_reach for note in notes], dtype=np.bool_)
 
     def targets(self, control: Control) -> FloatArray:
         """Value of a control that each note asks for."""
@@ -135,14 +153,22 @@ class ControlJudge:
         """Count the notes at whose judged frame a control is in place, and the frames at which it left too early."""
         targets = self.targets(control)
         long, short = self._inside & ~self._short, self._inside & self._short
-        right = np.zeros(len(targets), dtype=np.bool_)
-        right[self._inside] = in_place(control, values[self._frames[self._inside]], targets[self._inside])
-        held = wrong = 0
+        right, stopped = np.zeros((2, len(targets)), dtype=np.bool_)
+        at_onsets = values[self._frames[self._inside]]
+        right[self._inside] = in_place(control, at_onsets, targets[self._inside])
+        stopped[self._inside] = self._stops_short(
+            control, at_onsets, targets[self._inside], self._unreached[self._inside]
+        )
+        held = wrong = held_stopped = 0
+        most_short = 0.0
         for index in np.flatnonzero(long).tolist():
             span = self._span(self._notes[index].start_s, self._leaves_s(control, targets, index))
             there = in_place(control, values[span], targets[index])
+            short_of = self._stops_short(control, values[span], targets[index], self._unreached[index])
             held += len(there)
-            wrong += int((~there).sum())
+            wrong += int((~there & ~short_of).sum())
+            held_stopped += int(short_of.sum())
+            most_short = max(most_short, float(np.abs(values[span] - targets[index])[short_of].max(initial=0.0)))
         return ControlMeasure(
             judged=int(long.sum()),
             right=int(right[long].sum()),
@@ -150,7 +176,19 @@ class ControlJudge:
             short_right=int(right[short].sum()),
             held_frames=held,
             held_wrong=wrong,
+            stopped_short=int(stopped[long].sum()),
+            held_stopped_short=held_stopped,
+            most_short_mm=round(1000.0 * most_short * (control.travel_m or 0.0), 2),
         )
+
+    def _stops_short(
+        self, control: Control, values: FloatArray, targets: FloatArray, unreached: BoolArray
+    ) -> BoolArray:
+        """Where a control that carries a hand is out of its place on the near side, for a note that is out of reach."""
+        if not control.finger.endswith(".hand"):
+            return np.zeros(len(values), dtype=np.bool_)
+        near: BoolArray = np.abs(values - control.rest_value) < np.abs(targets - control.rest_value)
+        return near & unreached & ~in_place(control, values, targets)
 
     def _leaves_s(self, control: Control, targets: FloatArray, index: int) -> float:
         """The earliest time at which a control may leave the place of a note: its end, or shortly before.

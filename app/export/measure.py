@@ -167,7 +167,8 @@ def measure_player(
     blowing = sounding & ~_within(times_s, [(event.start_s, event.end_s) for event in plan.breaths])
     inhaling = [(event.start_s, event.end_s) for event in plan.breaths if event.kind == "breath"]
     traces = _trace(player, held, character, instrument, sounding, progress)
-    judge = ControlJudge(times_s, float(fps), first_frame_s, notes)
+    unreached = {problem.note_id for problem in plan.problems if problem.message.id == "contact.out_of_reach"}
+    judge = ControlJudge(times_s, float(fps), first_frame_s, notes, unreached)
     values = control_values(instrument, held) | _hole_values(instrument, traces)
     rotations = player.rotations(0, player.clip.frames)
     working = stations_of_notes(instrument, ((note.controls, note.fingers) for note in notes))

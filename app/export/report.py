@@ -99,7 +99,12 @@ def failures(player: PlayerReport) -> tuple[str, ...]:
         **measures.feet,
     }
     failed = [name for name, spread in spreads.items() if not spread.kept]
-    failed += [f"{name} at onsets" for name, control in measures.controls.items() if control.right < control.judged]
+    failed += [
+        f"{name} at onsets"
+        for name, control in measures.controls.items()
+        if control.right + control.stopped_short < control.judged
+    ]
+    failed += [f"{name} out of reach" for name, control in measures.controls.items() if control.held_stopped_short]
     failed += [f"{name} held" for name, control in measures.controls.items() if control.held_wrong]
     if measures.limits.beyond:
         failed.append(f"limits of {measures.limits.joint}")

@@ -24,13 +24,17 @@ TEMPLATES: Final[dict[str, str]] = {
     ),
     "note.overlaps": "note {note} still sounds for {overlap_ms} ms when {other} begins: it ends there",
     "contact.out_of_reach": (
-        "{label} is out of this player's reach: the hand stays {gap_mm} mm away; "
+        "{label} is out of this player's reach: {control} stops {gap_mm} mm short of it; "
         "take another fingering, or a character with longer arms"
     ),
     # The motion: contacts
     "contact.hand_off": (
         "the {side} hand comes off the instrument: it stays {gap_mm} mm from its place; "
         "lessen the pose correction or the gesture here, or take a character of another size"
+    ),
+    "contact.stops_short": (
+        "{control} stops {gap_mm} mm short of its place: the {side} hand comes no farther; "
+        "lessen the pose correction or the gesture here, or take a character with longer arms"
     ),
     "contact.finger_off": (
         "the {touch} misses {control} by {gap_mm} mm; "

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 
 import numpy as np
 
 from app.motion.body import BodyMotion
 from app.motion.contact import Carried
 from app.motion.curve import FloatArray
-from app.motion.posture import Trunk
+from app.motion.posture import Side, Trunk, exact_target
 from app.motion.reach import clavicle_of, forwards_axis
 from app.rig import quaternion
 from app.rig.hold import HandHold, Hold, Placed, hand_targets
@@ -20,6 +21,38 @@ Z_AXIS = np.array([0.0, 0.0, 1.0])
 
 ELBOW_OUT = 1.8
 """The elbow goes out by this multiple of the angle its shoulder comes forwards, so that the wrist stays straighter."""
+
+
+@dataclass(frozen=True)
+class Shoulder:
+    """A shoulder as chest and clavicle carry it.
+
+    Attributes
+    ----------
+    moved : (F, 4) float64
+        The clavicle in the chest's frame ...
+    clavicle : (F, 4) float64
+        ... and in the world.
+    joint_m : (F, 3) float64
+        The shoulder joint, where the arm begins.
+    """
+
+    moved: FloatArray
+    clavicle: FloatArray
+    joint_m: FloatArray
+
+
+def shoulder(skeleton: Skeleton, side: Side, body: Trunk, motion: BodyMotion) -> Shoulder:
+    """Where a shoulder is."""
+    sign = 1.0 if side == "left" else -1.0
+    joint, reaches_m = clavicle_of(skeleton, side)
+    moved = quaternion.multiply(
+        quaternion.from_axis_angle(Z_AXIS, sign * motion.shoulders_rad),
+        quaternion.from_axis_angle(forwards_axis(skeleton, side), motion.protraction_rad[side]),
+    )
+    clavicle = quaternion.multiply(body.chest, moved)
+    begins_m = body.chest_m + quaternion.rotate(body.chest, skeleton.offsets_m[joint])
+    return Shoulder(moved, clavicle, begins_m + quaternion.rotate(clavicle, reaches_m))
 
 
 def solve_arms(
@@ -53,23 +86,20 @@ def _solve_arm(
     side = hand.side
     limb = arm(skeleton, side)
     sign = 1.0 if side == "left" else -1.0
-    shoulder, clavicle = clavicle_of(skeleton, side)
-    moved = quaternion.multiply(
-        quaternion.from_axis_angle(Z_AXIS, sign * motion.shoulders_rad),
-        quaternion.from_axis_angle(forwards_axis(skeleton, side), motion.protraction_rad[side]),
-    )
-    clavicle_world = quaternion.multiply(body.chest, moved)
-    joint_m = body.chest_m + quaternion.rotate(body.chest, skeleton.offsets_m[shoulder])
-    root_m = joint_m + quaternion.rotate(clavicle_world, clavicle)
+    held = shoulder(skeleton, side, body, motion)
+    root_m = held.joint_m
     out = np.tan(motion.elbows_rad + ELBOW_OUT * motion.protraction_rad[side])[:, None] * np.array([sign, 0.0, 0.0])
     pole = quaternion.rotate(with_chest, hand.elbow_direction + out)
     if side in motion.elbow_held_rad:
         line = target_m - root_m
         line /= np.sqrt(np.einsum("fi,fi->f", line, line))[:, None]
         pole = quaternion.rotate(quaternion.from_axis_angle(line, sign * motion.elbow_held_rad[side]), pole)
-    pose = solve_limb(limb, root_m, clavicle_world, target_m, target_rotation, pole)
+    if hand.motion is not None:
+        target_m = exact_target(limb, root_m, target_m)
+    pose = solve_limb(limb, root_m, held.clavicle, target_m, target_rotation, pole)
+    joint, _ = clavicle_of(skeleton, side)
     return {
-        shoulder: moved,
+        joint: held.moved,
         limb.upper: pose.upper,
         limb.lower: pose.lower,
         limb.end: pose.end,

@@ -18,6 +18,7 @@ from app.motion.endpin import Stand
 from app.motion.model import Motion
 from app.motion.posture import Stance, Trunk, hips_path, solve_legs, trunk
 from app.motion.reach import TURN_RAD, Help, needed_help, shoulder_distance_m, softly_capped
+from app.motion.stop import stopped
 from app.rig import quaternion
 from app.rig.finger_poses import finger_rotations
 from app.rig.hold import Hold, Placed, hand_targets
@@ -43,6 +44,8 @@ DRAWS_RAD = {"neck": float(np.deg2rad(-8.0)), "head": float(np.deg2rad(14.0))}
 shoulder and lips no nearer to each other ..."""
 DRAW_DOWN_RAD, DRAW_RIGHT_RAD = float(np.deg2rad(6.0)), float(np.deg2rad(8.0))
 """... and the bell sinks and turns towards the far hand's shoulder."""
+DRAW_EASE = 0.1
+"""Head and instrument come to their farthest softly, within this share of it."""
 LEAST_DRAWN_M = 0.01
 """However little that brings, it is never divided by less."""
 
@@ -148,23 +151,27 @@ def poses(player: Player, curves: Curves, fps: Fraction, first_frame_s: float) -
     instrument_m = np.empty((frames, 3), dtype=np.float32)
     instrument = np.empty((frames, 4), dtype=np.float32)
     fingers = list(player.hold.finger_joints)
+    controls = {name: np.empty(frames, dtype=np.float32) for name in curves.controls}
     for part in _parts(frames):
         chunk = curves[part]
-        chunk_hips_m, local, carried = _pose(player, chunk)
+        chunk_hips_m, local, carried, stops = _pose(player, chunk)
+        chunk = replace(chunk, controls=stops)
         hips_m[part], instrument_m[part], instrument[part] = chunk_hips_m, carried.position_m, carried.rotation
         for joint, values in local.items():
             rotations[part, joint] = values
         rotations[part, fingers] = finger_rotations(player.hold, chunk.controls, len(chunk), chunk.placed, chunk.raised)
-    controls = curves.controls
+        for name, values in stops.items():
+            controls[name][part] = values
     if player.stand is not None:
-        controls = controls | {player.stand.endpin.node: player.stand.drawn_out(instrument_m, instrument)}
+        drawn_out = player.stand.drawn_out(instrument_m, instrument)
+        controls[player.stand.endpin.node] = drawn_out.astype(np.float32)
     return Motion(
         fps=fps,
         first_frame_s=first_frame_s,
         rotations=rotations,
         hips_m=hips_m,
         morphs={name: values.astype(np.float32) for name, values in curves.morphs.items()},
-        controls={name: values.astype(np.float32) for name, values in controls.items()},
+        controls=controls,
         instrument_position_m=instrument_m,
         instrument_rotation=instrument,
     )
@@ -194,18 +201,19 @@ def _upper(player: Player, curves: Curves) -> tuple[FloatArray, FloatArray, Trun
     return hips_m, hips, upper, carried
 
 
-def _pose(player: Player, curves: Curves) -> tuple[FloatArray, dict[int, FloatArray], Carried]:
-    """Hips, local rotations by joint (fingers apart) and instrument."""
+def _pose(player: Player, curves: Curves) -> tuple[FloatArray, dict[int, FloatArray], Carried, dict[str, FloatArray]]:
+    """Hips, local rotations by joint (fingers apart), instrument, and the controls as far as hands carry them."""
     skeleton, motion = player.skeleton, curves.body
     hips_m, hips, upper, carried = _upper(player, curves)
     local = {skeleton.index("hips"): hips} | upper.local
-    local |= solve_arms(skeleton, player.hold, upper, player.base, motion, carried, curves.controls, curves.placed)
+    controls = stopped(skeleton, player.hold, upper, motion, carried, curves.controls, curves.placed)
+    local |= solve_arms(skeleton, player.hold, upper, player.base, motion, carried, controls, curves.placed)
     local |= solve_legs(player.place, skeleton, hips_m, hips)
     looking = np.stack([motion.eyes_pitch_rad, motion.eyes_yaw_rad, np.zeros(len(curves))], axis=-1)
     for name in ("leftEye", "rightEye"):
         if name in skeleton.names:
             local[skeleton.index(name)] = quaternion.from_rotation_vector(looking)
-    return hips_m, local, carried
+    return hips_m, local, carried, controls
 
 
 def needs(player: Player, curves: Curves) -> Help:
@@ -214,7 +222,11 @@ def needs(player: Player, curves: Curves) -> Help:
     needed = needed_help(player.skeleton, player.hold, upper, carried, curves.controls, curves.placed)
     # The chest carries a lowered instrument: turning would take it along and bring no hand nearer.
     turning = 1.0 - curves.body.lowered
-    return replace(needed, turn_rad=needed.turn_rad * turning, short_m=needed.short_m * turning)
+    # What giving way cannot bring is not asked of it: its ease would be over before it had begun.
+    short_m = (
+        np.minimum(needed.short_m, (1.0 + DRAW_EASE) * player.drawn_m) if np.any(needed.short_m) else needed.short_m
+    )
+    return replace(needed, turn_rad=needed.turn_rad * turning, short_m=short_m * turning)
 
 
 def _spread(parts: list[Help], half: int) -> Help:
@@ -244,7 +256,7 @@ def helped(player: Player, motion: BodyMotion, help_given: Help) -> BodyMotion:
         turn += _with_room(np.maximum(asked, 0.0), most["right"])
         turn -= _with_room(np.maximum(-asked, 0.0), most["left"])
     if np.any(short_m):
-        draw = softly_capped(short_m / player.drawn_m, 1.0, 0.1) * np.abs(turn) / np.maximum(np.abs(asked), 1e-6)
+        draw = softly_capped(short_m / player.drawn_m, 1.0, DRAW_EASE) * np.abs(turn) / np.maximum(np.abs(asked), 1e-6)
         motion = _drawn(motion, draw, np.sign(asked))
     protraction = {
         side: _with_room(needed, help_given.most_protraction_rad[side]) if np.any(needed) else needed

@@ -2,7 +2,8 @@
 
 Messages, all problems of a player's motion: ``contact.hand_off`` (side, gap_mm): "the {side} hand comes off ...";
 ``contact.finger_off`` (touch, control, gap_mm): "the {touch} misses {control} ..."; ``contact.grip_off`` (touch,
-gap_mm): "the {touch} does not touch ..."; ``contact.lips_off`` (gap_mm): "the lips are {gap_mm} mm off ...";
+gap_mm): "the {touch} does not touch ..."; ``contact.stops_short`` (control, side,
+gap_mm): "{control} stops {gap_mm} mm short ..."; ``contact.lips_off`` (gap_mm): "the lips are {gap_mm} mm off ...";
 ``contact.foot_off`` (side, gap_mm): "the {side} foot leaves its place ...".
 """
 
@@ -27,7 +28,7 @@ from app.rig.model import Character, InstrumentModel
 from app.rig.skeleton import forward
 from app.rig.skinning import landmark_joints, landmark_positions
 from app.rig.stations import aside_m, only_at, stations_of_notes, worked_by
-from instrument_maps.model import Contact, Control, InstrumentMap
+from instrument_maps.model import Contact, Control
 
 FloatArray = npt.NDArray[np.float64]
 BoolArray = npt.NDArray[np.bool_]
@@ -48,7 +49,7 @@ JUDGED_PER_S = 15
 APART_S = 0.5
 """Two breaks of one contact that are nearer than this are one."""
 
-Kind = Literal["hand", "touch", "lips", "foot"]
+Kind = Literal["hand", "short", "touch", "lips", "foot"]
 
 
 @dataclass(frozen=True)
@@ -61,7 +62,7 @@ class Break:
     part : str
         Side of a hand or foot; part of a hand that touches; empty for the lips.
     control : str
-        What the touch works; empty where it grips or carries.
+        What the touch works or, where it stops short, the hand carries; else empty.
     start_s, end_s : float
     gap_m : float
         The farthest.
@@ -174,6 +175,12 @@ class ContactJudge:
             yield from _runs(
                 ("hand", hand.side, ""), times_s, gaps_m, gaps_m * 1000.0 > min(bounds_mm, default=GRIP_MM)
             )
+            if hand.motion is not None and hand.motion.control in self._playing.controls:
+                control = hand.motion.control
+                asked = {**controls, control: self._playing.controls[control].sample(times_s)}
+                asked_m, _ = hand_targets(hand, place_m, turn, asked, placed)
+                gaps_m = np.linalg.norm(asked_m - wanted_m, axis=1)
+                yield from _runs(("short", hand.side, control), times_s, gaps_m, gaps_m > SLIDE_M)
         nodes_m, node_turns = node_transforms(self._model, instrument, controls, len(frames))
         for index, contact in enumerate(instrument.contacts):
             node = self._model.node_names.index(contact.node)
@@ -238,14 +245,13 @@ def _runs(
         yield Break(*contact, float(times_s[run[0]]), float(times_s[run[-1]]), float(gaps_m[run].max()))
 
 
-def contact_problems(breaks: Iterable[Break], plan: PlayerPlan, instrument: InstrumentMap) -> tuple[Problem, ...]:
+def contact_problems(breaks: Iterable[Break], plan: PlayerPlan) -> tuple[Problem, ...]:
     """A problem for every while that a contact is broken, in the order of time.
 
-    A hand that its control carries out of reach is a problem of the notes already (`app.performance.reach`): it is not
-    told again.
+    A control that stops short of a note that is out of reach is a problem of that note already
+    (`app.performance.reach`): it is not told again.
     """
     problems = []
-    carried = {control.finger.split(".")[0] for control in instrument.controls if control.finger.endswith(".hand")}
     told = _united(
         [
             (problem.start_s - APART_S, problem.end_s + APART_S)
@@ -255,8 +261,7 @@ def contact_problems(breaks: Iterable[Break], plan: PlayerPlan, instrument: Inst
     )
     starts_s = np.array([event.start_s for event in plan.fingerings])
     for found in joined(breaks):
-        known = found.kind == "hand" and found.part in carried
-        if known and any(start_s <= found.start_s and found.end_s <= end_s for start_s, end_s in told):
+        if found.kind == "short" and any(start_s <= found.start_s and found.end_s <= end_s for start_s, end_s in told):
             continue
         note_id = None
         if found.kind != "foot":
@@ -294,6 +299,8 @@ def _message(found: Break) -> Message:
     gap_mm = round(1000.0 * found.gap_m)
     if found.kind == "hand":
         return Message("contact.hand_off", {"side": found.part, "gap_mm": gap_mm})
+    if found.kind == "short":
+        return Message("contact.stops_short", {"control": found.control, "side": found.part, "gap_mm": gap_mm})
     if found.kind == "lips":
         return Message("contact.lips_off", {"gap_mm": gap_mm})
     if found.kind == "foot":

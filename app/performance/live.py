@@ -345,8 +345,7 @@ class LiveMotion:
 
     def _name_breaks(self, track: _Track) -> None:
         breaks = [item for index in sorted(track.breaks) for item in track.breaks[index]]
-        instrument = None if track.playing is None else track.playing.instrument_map
-        problems = contact_problems(breaks, track.plan, instrument) if breaks and instrument is not None else ()
+        problems = contact_problems(breaks, track.plan)
         if problems != track.problems:
             track.problems = problems
             with self._lock:

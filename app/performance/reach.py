@@ -1,6 +1,7 @@
 """Whether a player's hands reach everything the fingerings ask for.
 
-Messages: ``contact.out_of_reach`` (label, gap_mm): "{label} is out of this player's reach ...", a problem of a note.
+Messages: ``contact.out_of_reach`` (label, control, gap_mm): "{label} is out of this player's reach: ...", a problem of
+a note. What the hand carries stops where the hand does (`app.motion.stop`).
 """
 
 from __future__ import annotations
@@ -77,7 +78,9 @@ def reached(player: Player, instrument: InstrumentMap, plan: PlayerPlan, before:
     problems = []
     for place, event in zip(places, plan.fingerings, strict=True):
         if place in far:
-            message = Message("contact.out_of_reach", {"label": event.label, "gap_mm": 5 * round(200.0 * far[place])})
+            control = max(sorted(carried), key=lambda name: event.controls.get(name, 0.0))
+            gap_mm = 5 * round(200.0 * far[place])
+            message = Message("contact.out_of_reach", {"label": event.label, "control": control, "gap_mm": gap_mm})
             problems.append(Problem(message, event.note_id, event.start_s, event.end_s))
     return Reached(asked, gaps_m, tuple(problems))
 
@@ -87,7 +90,7 @@ def _place(event: FingeringEvent, carried: frozenset[str]) -> Place:
 
 
 def _gaps_m(player: Player, instrument: InstrumentMap, plan: PlayerPlan, examples: list[FingeringEvent]) -> list[float]:
-    """How far a hand stays from its grip while each fingering is held, metres."""
+    """How far a hand stays from where each fingering has its grip, metres."""
     held = tuple(
         msgspec.structs.replace(
             event,
@@ -111,6 +114,10 @@ def _gaps_m(player: Player, instrument: InstrumentMap, plan: PlayerPlan, example
     times_s = motion.first_frame_s + np.arange(motion.frames) / float(fps)
     frames = [int(np.argmin(np.abs(times_s - (event.start_s + _NOTE_S / 2.0)))) for event in held]
     skeleton = character.skeleton
+    asked = {
+        control.name: np.array([event.controls.get(control.name, control.rest_value) for event in held])
+        for control in instrument.controls
+    }
     gaps = np.zeros(len(held))
     for hand in hold.hands:
         wrist = skeleton.index(f"{hand.side}Hand")
@@ -120,7 +127,7 @@ def _gaps_m(player: Player, instrument: InstrumentMap, plan: PlayerPlan, example
             hand,
             motion.instrument_position_m[frames].astype(np.float64),
             motion.instrument_rotation[frames].astype(np.float64),
-            {name: values[frames] for name, values in motion.controls.items()},
+            asked,
         )
         gaps = np.maximum(gaps, np.linalg.norm(reached_m - wanted_m, axis=1))
     return [float(gap) for gap in gaps]

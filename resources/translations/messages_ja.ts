@@ -664,12 +664,16 @@
             <translation>音符 {note} は {other} が始まってからも {overlap_ms} ms 鳴っているため、そこで終わらせます</translation>
         </message>
         <message>
-            <source>{label} is out of this player's reach: the hand stays {gap_mm} mm away; take another fingering, or a character with longer arms</source>
-            <translation>{label} はこの奏者の手が届きません（あと {gap_mm} mm）。別の運指か、腕の長いキャラクターにしてください</translation>
+            <source>{label} is out of this player's reach: {control} stops {gap_mm} mm short of it; take another fingering, or a character with longer arms</source>
+            <translation>{label} はこの奏者の手が届かず、{control}が {gap_mm} mm 手前で止まります。別の運指か、腕の長いキャラクターにしてください</translation>
         </message>
         <message>
             <source>the {side} hand comes off the instrument: it stays {gap_mm} mm from its place; lessen the pose correction or the gesture here, or take a character of another size</source>
             <translation>{side}手が楽器から離れています（本来の位置から {gap_mm} mm）。ここのポーズ補正やジェスチャーを弱めるか、体格の違うキャラクターを選んでください</translation>
+        </message>
+        <message>
+            <source>{control} stops {gap_mm} mm short of its place: the {side} hand comes no farther; lessen the pose correction or the gesture here, or take a character with longer arms</source>
+            <translation>{side}手がこれ以上届かず、{control}が本来の位置の {gap_mm} mm 手前で止まります。ここのポーズ補正やジェスチャーを弱めるか、腕の長いキャラクターを選んでください</translation>
         </message>
         <message>
             <source>the {touch} misses {control} by {gap_mm} mm; lessen the pose correction here, or take a character of another size</source>

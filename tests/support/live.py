@@ -72,6 +72,11 @@ class Played:
         """As of `Playing`."""
         return self.playing.body
 
+    @property
+    def controls(self) -> dict[str, object]:
+        """As of `Playing`: none, for nobody knows beforehand where they are asked to be."""
+        return {}
+
     def placed(self, times_s: npt.NDArray[np.float64]) -> dict[str, Placed]:
         """Where the fingers were."""
         frames = np.round((times_s - self.motion.first_frame_s) * FPS).astype(int)

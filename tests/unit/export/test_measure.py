@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Set
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
@@ -215,8 +216,10 @@ def control(**changes: object) -> Control:
     return msgspec.structs.replace(plain, **changes)
 
 
-def judge(notes: list[FingeringEvent], fps: float = 10.0, first_frame_s: float = -0.05) -> ControlJudge:
-    return ControlJudge(first_frame_s + np.arange(40) / fps, fps, first_frame_s, notes)
+def judge(
+    notes: list[FingeringEvent], fps: float = 10.0, first_frame_s: float = -0.05, out_of_reach: Set[str] = frozenset()
+) -> ControlJudge:
+    return ControlJudge(first_frame_s + np.arange(40) / fps, fps, first_frame_s, notes, out_of_reach)
 
 
 def test_a_note_is_judged_at_the_first_frame_at_or_after_its_onset() -> None:
@@ -240,6 +243,20 @@ def test_a_slide_is_judged_in_millimetres() -> None:
     notes = [event(1.0, 2.0, 0.5)]
     assert judge(notes).measure(slide, np.full(40, 0.5 + 0.0049 / 0.6)).right == 1
     assert judge(notes).measure(slide, np.full(40, 0.5 + 0.0051 / 0.6)).right == 0
+
+
+def test_what_stops_where_the_hand_ends_is_told_apart_from_what_is_wrong() -> None:
+    slide = control(kind="slide", finger="right.hand", motion=Motion((0.0, 0.0, 1.0), travel_m=0.6), max_speed_m_s=2.5)
+    notes, values = [event(1.0, 2.0, 0.9)], np.full(40, 0.8)
+    wrong = judge(notes).measure(slide, values)
+    assert (wrong.right, wrong.stopped_short, wrong.held_wrong, wrong.held_stopped_short) == (0, 0, 10, 0)
+    told = judge(notes, out_of_reach={"n"}).measure(slide, values)
+    assert (told.right, told.stopped_short, told.held_wrong, told.held_stopped_short) == (0, 1, 0, 10)
+    assert told.most_short_mm == pytest.approx(60.0)
+    # Beyond its place it is wrong all the same, and so is what no hand carries.
+    assert judge(notes, out_of_reach={"n"}).measure(slide, np.ones(40)).held_wrong == 10
+    pressed = msgspec.structs.replace(slide, finger="right.index")
+    assert judge(notes, out_of_reach={"n"}).measure(pressed, values).held_wrong == 10
 
 
 def test_leaving_too_early_is_found() -> None:

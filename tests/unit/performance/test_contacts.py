@@ -49,9 +49,8 @@ def judged(
 ) -> tuple[Problem, ...]:
     playing = playing or playing_of(performance, player)
     motion = motion or playing.motion(FPS, 0, whole_span(performance.time_frame, FPS).count)
-    instrument = performance.instrument(player)
-    judge = ContactJudge(playing, character_of(player), model_of(instrument))
-    return contact_problems(judge.breaks(motion), performance.plan(player), instrument)
+    judge = ContactJudge(playing, character_of(player), model_of(performance.instrument(player)))
+    return contact_problems(judge.breaks(motion), performance.plan(player))
 
 
 @pytest.mark.parametrize("path", [AIR, LUTKIN], ids=["slides", "valves"])

@@ -62,7 +62,9 @@ def test_soon_after_every_onset_the_controls_are_those_of_the_performance(instru
             end = int((event.end_s - seen.motion.first_frame_s) * FPS) - 1
             late = min(frame + FPS // 4, end)
             if event.end_s - event.start_s > 0.4:
-                assert seen.motion.controls[name][late] == pytest.approx(event.controls.get(name, 0.0), abs=0.01)
+                # Where the arm ends before the place, it stops where it stops for the performance too.
+                there = min(event.controls.get(name, 0.0), float(offline.controls[name][frame]))
+                assert seen.motion.controls[name][late] == pytest.approx(there, abs=0.01)
     assert compared > 25 * (instrument_id != "trombone_tenor_F_attachment")
 
 

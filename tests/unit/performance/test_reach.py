@@ -52,27 +52,30 @@ def test_long_arms_reach_everything() -> None:
 
 @pytest.mark.parametrize("index", [0, 3])
 def test_what_is_told_is_what_the_motion_shows(index: int) -> None:
-    """In the motion itself, the slide hand is off its grip at the notes told, and at no other."""
+    """In the motion itself, the slide stops as short as is told at the notes told, and at no other; the hand has it."""
     project = played_by("woman_adult")
     player = project.players[index]
     performance = Performance(project)
     motion = player_motion(performance, player, whole_span(performance.time_frame, FPS))
     hold = hold_of(player, performance.instrument(player))
     skeleton = character_of(player).skeleton
-    off_m = np.zeros(motion.frames)
     for hand in hold.hands:
         wrist = skeleton.index(f"{hand.side}Hand")
         reached_m, _ = forward(skeleton, motion.rotations, motion.hips_m, (wrist,)).of(wrist)
         wanted_m, _ = hand_targets(hand, motion.instrument_position_m, motion.instrument_rotation, motion.controls)
-        off_m = np.maximum(off_m, np.linalg.norm(reached_m - wanted_m, axis=1))
-    told = unreached(project, player.id)
+        assert np.linalg.norm(reached_m - wanted_m, axis=1).max() < 0.001
+    problems = performance.plan(player).problems
+    told = {item.note_id: item.message.arguments for item in problems if item.message.id == "contact.out_of_reach"}
     assert bool(told) == (index == 3)
+    travel_mm = 1000.0 * performance.instrument(player).control("slide").travel_m
     for event in performance.plan(player).fingerings:
         frame = int(np.ceil((event.start_s - motion.first_frame_s) * FPS))
+        short_mm = travel_mm * (event.controls.get("slide", 0.0) - float(motion.controls["slide"][frame]))
         if event.note_id in told:
-            assert off_m[frame] > 0.03
+            assert told[event.note_id]["control"] == "slide"
+            assert short_mm == pytest.approx(told[event.note_id]["gap_mm"], abs=15.0)
         else:
-            assert off_m[frame] < 0.02
+            assert abs(short_mm) < 5.0
 
 
 def test_another_fingering_settles_it() -> None:
