@@ -58,14 +58,14 @@ def _span(session: Session) -> tuple[int, int] | None:
     return session.recording.punch_ticks
 
 
-def _count_in(bars: int, text: str) -> Action:
+def _count_in(id: str, bars: int, text: str) -> Action:
     def run(session: Session, on: bool = True) -> None:
         recorder = recorder_of(session)
         if recorder is not None:
             recorder.set_count_in(bars)
 
     return Action(
-        f"record.count_in_{bars}",
+        id,
         text,
         run,
         "Record/Counting",
@@ -116,9 +116,9 @@ ACTIONS: tuple[Action, ...] = (
         enabled=lambda session: _can_record(session) and _span(session) is not None,
         checked=lambda session: session.recording.punch,
     ),
-    _count_in(0, QT_TRANSLATE_NOOP("Action", "No Count-in")),
-    _count_in(1, QT_TRANSLATE_NOOP("Action", "Count In One Bar")),
-    _count_in(2, QT_TRANSLATE_NOOP("Action", "Count In Two Bars")),
+    _count_in("record.count_in_0", 0, QT_TRANSLATE_NOOP("Action", "No Count-in")),
+    _count_in("record.count_in_1", 1, QT_TRANSLATE_NOOP("Action", "Count In One Bar")),
+    _count_in("record.count_in_2", 2, QT_TRANSLATE_NOOP("Action", "Count In Two Bars")),
     Action(
         "record.devices",
         QT_TRANSLATE_NOOP("Action", "Devices..."),
