@@ -479,6 +479,8 @@ class Recorder(QObject):
         """Takes that a crash tore off are brought in, beside the others; nothing else changes."""
         if self._state.running:
             self.stop()
+        # What was played for another project waits beside that one's file until it is opened again.
+        self._adopting.clear()
         self._state.set(armed="", punch=False, punch_ticks=None)
         if self._files.is_open:
             for path in journals_of(self._files.path, *self._files.recovery_stems):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QLabel
+from PySide6.QtWidgets import QApplication, QLabel
 
 from app.capture.journal import Header, JournalWriter
 from app.capture.protocol import Back, Lost, Written
@@ -139,6 +139,28 @@ def test_a_take_that_a_crash_tore_off_is_brought_in_when_its_project_is_opened(s
     studio.program.editor.files.save()
     studio.program.editor.files.open(path)
     assert len(studio.session.project.takes[player].takes) == 1
+
+
+def test_a_take_stays_with_its_project_when_another_is_opened_meanwhile(studio: Studio) -> None:
+    mine, other = studio.folder / "mine.suisou", studio.folder / "other.suisou"
+    for path in (other, mine):
+        studio.program.editor.questions.path = path  # type: ignore[attr-defined]
+        studio.program.editor.files.save_as()
+    studio.press(Qt.Key.Key_R)
+    studio.blow(60, 0.2)
+    # The same players, by their ids; the recorder says only afterwards that it has finished.
+    tell, studio.link.on_news = studio.link.on_news, lambda: None
+    studio.program.editor.files.open(other)
+    assert studio.link.writer is None
+    studio.link.on_news = tell
+    tell()
+    studio.wait(lambda: not studio.link.told)
+    QApplication.processEvents()
+    assert not studio.session.recording.running
+    assert not studio.session.project.takes
+    studio.program.editor.files.open(mine)
+    takes = studio.session.project.takes[studio.session.project.players[0].id].takes
+    assert [take.played.pitches.tolist() for take in takes] == [[60]]
 
 
 def test_without_a_device_it_is_said(studio: Studio) -> None:
