@@ -31,8 +31,6 @@ Controls = Mapping[str, npt.NDArray[np.floating]]
 LOW_HOVER = 0.123
 """In slow passages a finger waits as low as if its control had come so far: at the map's height, which is 1 / 1.3 of
 the highest (`app.rig.grip_problem.HOVER_MORE`)."""
-WAITING = 0.5
-"""A finger waits for a hand that will give way for it lifted by this share of what it was lifted on its way there."""
 
 
 def finger_rotations(
@@ -233,7 +231,7 @@ def _at_place(
     if lean is None:
         return _with_wrist(table, station, rotations, wrist_given(hand, []), wrist_given(hand, given))
     waits = 1.0 - next((weight for one, weight in given if one is lean), np.zeros(len(rotations)))
-    lifted = np.multiply.outer(waits, WAITING * station.away_m)
+    lifted = np.multiply.outer(waits, station.waits_m)
     own = wrist_given(hand, [(lean, np.ones(1))])
     return _with_wrist(table, station, rotations, own, wrist_given(hand, given), lifted)
 

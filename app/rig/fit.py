@@ -25,11 +25,12 @@ from app.errors import UsageError
 from app.rig import quaternion
 from app.rig.carriage import Upright, upright
 from app.rig.grip_beside import leans_beside
-from app.rig.grip_fingers import MOVED_VALUES, STILL_VALUES, Scene, finger_tables, lifted_ways, solve_tables
+from app.rig.grip_fingers import MOVED_VALUES, STILL_VALUES, Scene, finger_tables, solve_tables
 from app.rig.grip_judge import judge
 from app.rig.grip_lean import Leaning, lean_of, leanings, whole_hand
 from app.rig.grip_problem import Problem, grip_problem, joint_angles, travel, wrist_transform
 from app.rig.grip_search import search, search_knots
+from app.rig.grip_ways import lifted_ways
 from app.rig.hold import HandHold, Hold, NodeMotion, Reach, StationTable
 from app.rig.lips import fit_lips, needed_landmarks
 from app.rig.model import Character, InstrumentModel

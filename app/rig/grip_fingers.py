@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from copy import copy
 from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
 
-from app.rig import quaternion
-from app.rig.finger_poses import WAITING, raised_way, with_wrist
 from app.rig.grip_problem import (
     COUPLING_RAD,
     Problem,
@@ -31,7 +29,7 @@ from app.rig.hand import (
     wrist_from_joint,
     wrist_from_mesh,
 )
-from app.rig.hold import Chain, FingerTable, StationTable, mixed
+from app.rig.hold import Chain, FingerTable, StationTable
 from app.rig.model import InstrumentModel
 from app.rig.stations import Station, hover_m
 from instrument_maps.model import Control, InstrumentMap
@@ -56,11 +54,6 @@ OPEN_M, OPEN_SPREAD_M = (0.007, 0.0045), (0.0005, 0.0001)
 """A finger at another place keeps so far from a hole that it is to leave open; the second where it otherwise ..."""
 LEAST_OPEN_M = 0.0032
 """... comes nearer than this: the hole would not sound open."""
-WAYS = np.array([0.25, 0.5, 0.75])
-LIFTS_M = (0.0, 0.006, 0.012, 0.018, 0.024)
-WAY_CLEAR_M = 0.0025
-"""On its way from home to another place a finger is lifted by the first of these heights that brings it over what lies
-between."""
 MOVED_VALUES = np.linspace(0.0, 1.0, 17)
 """Values of a control that a finger stays on, or that carries its hand, at which it is solved ..."""
 HOVER_VALUES = np.linspace(0.0, 1.0, 9)
@@ -415,63 +408,6 @@ def _tip(problem: Problem, scene: Scene, one: Solved) -> tuple[int, FloatArray]:
     joint = {"proximal": 0, "middle": 1}.get(part.partition("_")[2], 2)
     carrier = transforms[0, 1 + 3 * one.number + joint]
     return joint, (point - carrier[:, 3]) @ carrier[:, :3]
-
-
-def lifted_ways(
-    problem: Problem, scene: Scene, tables: tuple[FingerTable, ...], wrists: Mapping[tuple[int, int], Scene]
-) -> tuple[FingerTable, ...]:
-    """Find how high fingers are lifted on their ways between home and their other stations."""
-    result = []
-    for number, table in enumerate(tables):
-        found = [table.stations[0]] if table.stations else []
-        for index, station in enumerate(table.stations[1:], 1):
-            place = problem.stations[number][index]
-            found.append(_lifted(problem, scene, table, number, index, place, wrists.get((number, index), scene)))
-            assert station.controls == found[-1].controls
-        result.append(replace(table, stations=tuple(found)))
-    return tuple(result)
-
-
-def _lifted(
-    problem: Problem, scene: Scene, table: FingerTable, number: int, index: int, place: Station, wrist: Scene
-) -> StationTable:
-    home, there = table.stations[0], table.stations[index]
-    chain = table.chain
-    if chain is None or home.tip_joint < 0 or there.tip_joint < 0 or set(home.controls) & set(there.controls):
-        return there
-    hand, instrument = problem.hand, scene.instrument_map
-    normals = [instrument.contacts[at].normal for at in (problem.stations[number][0].contacts[0], place.contacts[0])]
-    outwards = np.sum(normals, axis=0)
-    outwards = outwards / max(float(np.linalg.norm(outwards)), 1e-6)
-    away = outwards @ scene.basis[0]
-    # A hand that gives way goes along with the key: the finger has come by then.
-    own, at_home = ((one.position_m[:1], quaternion.from_matrix(one.basis[:1])) for one in (wrist, scene))
-    far = with_wrist(table, there, there.rotations[:1], own, at_home)
-    way = WAYS[:, None, None]
-    pose = mixed(np.repeat(home.rotations[:1], len(WAYS), axis=0), np.repeat(far, len(WAYS), axis=0), way)
-    carried = hand.all_points[1 + 3 * number : 4 + 3 * number, 3].sum(axis=0) > 0.5
-    skin = np.ascontiguousarray(hand.all_points[:, :, carried])
-    place_m, bases = nodes_at(scene.model, instrument, frozenset(), None, np.zeros(1))
-    # Its ways, and where it waits for a hand that gives way for it.
-    poses = pose if wrist is scene else np.concatenate([pose, far])
-    on_way = scene.over(np.zeros(len(poses)))
-    best, least = 0.0, np.inf
-    for lift in LIFTS_M:
-        rotations = np.tile(quaternion.IDENTITY, (len(poses), 16, 1))
-        fingers = rotations[:, 1 + 3 * number : 4 + 3 * number]
-        fingers[: len(WAYS)] = raised_way(table, 0, index, pose, WAYS, lift * away)
-        if wrist is not scene:
-            fingers[len(WAYS) :] = with_wrist(table, there, there.rotations[:1], own, at_home, WAITING * lift * away)
-        flesh = on_way.placed(skinned(wrist_from_mesh(hand, wrist_from_joint(hand, rotations)), skin))
-        deep = max(
-            float(inside_proxy(problem.proxies, place_m[0], bases[0], points, np.zeros(len(points)))[0].max())
-            for points in flesh
-        )
-        if deep < least - 0.0005:
-            best, least = lift, deep
-        if deep <= WAY_CLEAR_M:
-            break
-    return replace(there, away_m=best * away)
 
 
 def _chain(problem: Problem, number: int) -> Chain:

@@ -84,7 +84,9 @@ class StationTable:
     tip_m : (3,) float64
         What touches, in that joint's frame.
     away_m : (3,) float64
-        By how much a finger is lifted half way between home and here, in the wrist's frame.
+        By how much a finger is lifted half way between home and here, in the wrist's frame ...
+    waits_m : (3,) float64
+        ... and while it waits here for a hand that will give way for it.
     """
 
     controls: tuple[str, ...]
@@ -94,6 +96,7 @@ class StationTable:
     tip_joint: int = -1
     tip_m: FloatArray = field(default_factory=lambda: np.zeros(3))
     away_m: FloatArray = field(default_factory=lambda: np.zeros(3))
+    waits_m: FloatArray = field(default_factory=lambda: np.zeros(3))
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,122 @@
+"""How high fingers are lifted on the ways between their places, and where they wait for their hand to give way."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+
+import numpy as np
+import numpy.typing as npt
+
+from app.rig import quaternion
+from app.rig.finger_poses import LOW_HOVER, raised_way, with_wrist
+from app.rig.grip_fingers import Scene
+from app.rig.grip_problem import HOVER_MORE, Problem, nodes_at
+from app.rig.grip_residuals import inside_proxy
+from app.rig.hand import skinned, wrist_from_joint, wrist_from_mesh
+from app.rig.hold import FingerTable, StationTable, interpolated, mixed
+from app.rig.stations import MOST_HOVER_M, Station, hover_m
+
+FloatArray = npt.NDArray[np.float64]
+
+WAYS = np.arange(1, 16) / 16.0
+"""Places on a way that are looked at: a finger passes a narrow tube in a tenth of it."""
+LIFTS_M = np.linspace(0.0, 0.030, 11)
+WAY_CLEAR_M, WORTH_M = 0.0025, 0.0005
+"""On its way from home to another place, and where it waits for a hand that gives way for it there, a finger is lifted
+by the first of these heights that brings it over what lies between; or by the best, higher only where that is worth
+it."""
+
+
+def lifted_ways(
+    problem: Problem, scene: Scene, tables: tuple[FingerTable, ...], wrists: Mapping[tuple[int, int], Scene]
+) -> tuple[FingerTable, ...]:
+    """Find how high fingers are lifted on their ways between home and their other stations."""
+    result = []
+    for number, table in enumerate(tables):
+        found = [table.stations[0]] if table.stations else []
+        for index, station in enumerate(table.stations[1:], 1):
+            place = problem.stations[number][index]
+            found.append(_lifted(problem, scene, table, number, index, place, wrists.get((number, index), scene)))
+            assert station.controls == found[-1].controls
+        result.append(replace(table, stations=tuple(found)))
+    return tuple(result)
+
+
+def _lifted(
+    problem: Problem, scene: Scene, table: FingerTable, number: int, index: int, place: Station, wrist: Scene
+) -> StationTable:
+    home, there = table.stations[0], table.stations[index]
+    chain = table.chain
+    if chain is None or home.tip_joint < 0 or there.tip_joint < 0 or set(home.controls) & set(there.controls):
+        return there
+    instrument = scene.instrument_map
+    normals = [instrument.contacts[at].normal for at in (problem.stations[number][0].contacts[0], place.contacts[0])]
+    outwards = np.sum(normals, axis=0)
+    outwards = outwards / max(float(np.linalg.norm(outwards)), 1e-6)
+    away = outwards @ scene.basis[0]
+    near, come = _waiting(home), _waiting(there)
+    way = np.tile(WAYS, 2)
+
+    def on_way(waits: FloatArray) -> Callable[[float], FloatArray]:
+        ends = (np.repeat(end, len(WAYS), axis=0) for end in (near, waits))
+        pose = mixed(*ends, way[:, None, None])
+        return lambda lift: raised_way(table, 0, index, pose, way, lift * away)
+
+    if wrist is scene:
+        lift, _ = _least_lift(problem, scene, number, on_way(come), LIFTS_M)
+        return replace(there, away_m=lift * away)
+
+    # A hand that gives way goes along with the key: the finger has come by then.
+    own, at_home = ((one.position_m[:1], quaternion.from_matrix(one.basis[:1])) for one in (wrist, scene))
+
+    def waiting(lift: float) -> FloatArray:
+        return with_wrist(table, there, come, own, at_home, lift * away)
+
+    least, _ = _least_lift(problem, scene, number, waiting, LIFTS_M[: len(LIFTS_M) // 2 + 1])
+    # Where the way to there is not clear at any height, it is to a finger that waits higher; but not too far off.
+    most = max(least, MOST_HOVER_M - HOVER_MORE * hover_m(place, instrument))
+    best, deepest = (0.0, least), np.inf
+    for height in (one for one in LIFTS_M.tolist() if least <= one <= most):
+        lift, deep = _least_lift(problem, scene, number, on_way(waiting(height)), LIFTS_M)
+        clear = deep <= WAY_CLEAR_M
+        if clear or deep < deepest - WORTH_M:
+            best, deepest = (lift, height), deep
+        if clear:
+            break
+    return replace(there, away_m=best[0] * away, waits_m=best[1] * away)
+
+
+def _waiting(station: StationTable) -> FloatArray:
+    """Poses (2, n, 4) of a finger that waits, as high as it ever does and as low."""
+    low = LOW_HOVER if station.hovers else 0.0
+    return interpolated(station.values, station.rotations, np.array([0.0, low]))
+
+
+def _least_lift(
+    problem: Problem, scene: Scene, number: int, lifted: Callable[[float], FloatArray], lifts_m: FloatArray
+) -> tuple[float, float]:
+    """The first of some heights at which a finger's poses (K, n, 4) all keep clear of the instrument, or the best; and
+    how deep the deepest is there."""
+    hand = problem.hand
+    own = slice(1 + 3 * number, 4 + 3 * number)
+    carried = hand.all_points[own, 3].sum(axis=0) > 0.5
+    skin = np.ascontiguousarray(hand.all_points[:, :, carried])
+    place_m, bases = nodes_at(scene.model, scene.instrument_map, frozenset(), None, np.zeros(1))
+    best, least = 0.0, np.inf
+    for lift in lifts_m.tolist():
+        fingers = lifted(lift)
+        rotations = np.tile(quaternion.IDENTITY, (len(fingers), 16, 1))
+        rotations[:, own] = fingers
+        placed = scene.over(np.zeros(len(fingers)))
+        flesh = placed.placed(skinned(wrist_from_mesh(hand, wrist_from_joint(hand, rotations)), skin))
+        deep = max(
+            float(inside_proxy(problem.proxies, place_m[0], bases[0], points, np.zeros(len(points)))[0].max())
+            for points in flesh
+        )
+        clear = deep <= WAY_CLEAR_M
+        if clear or deep < least - WORTH_M:
+            best, least = lift, deep
+        if clear:
+            break
+    return best, least
