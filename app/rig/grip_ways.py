@@ -54,13 +54,13 @@ def _lifted(
     normals = [instrument.contacts[at].normal for at in (problem.stations[number][0].contacts[0], place.contacts[0])]
     outwards = np.sum(normals, axis=0)
     outwards = outwards / max(float(np.linalg.norm(outwards)), 1e-6)
-    away = outwards @ scene.basis[0]
+    away, off = outwards @ scene.basis[0], np.asarray(normals[1]) @ scene.basis[0]
     near, come = _waiting(home), _waiting(there)
     way = np.tile(WAYS, 2)
 
     def on_way(waits: FloatArray) -> Callable[[float], FloatArray]:
-        ends = (np.repeat(end, len(WAYS), axis=0) for end in (near, waits))
-        pose = mixed(*ends, way[:, None, None])
+        first, last = (np.repeat(end, len(WAYS), axis=0) for end in (near, waits))
+        pose = mixed(first, last, way[:, None, None])
         return lambda lift: raised_way(table, 0, index, pose, way, lift * away)
 
     if wrist is scene:
@@ -71,7 +71,7 @@ def _lifted(
     own, at_home = ((one.position_m[:1], quaternion.from_matrix(one.basis[:1])) for one in (wrist, scene))
 
     def waiting(lift: float) -> FloatArray:
-        return with_wrist(table, there, come, own, at_home, lift * away)
+        return with_wrist(table, there, come, own, at_home, lift * off)
 
     least, _ = _least_lift(problem, scene, number, waiting, LIFTS_M[: len(LIFTS_M) // 2 + 1])
     # Where the way to there is not clear at any height, it is to a finger that waits higher; but not too far off.
@@ -84,7 +84,7 @@ def _lifted(
             best, deepest = (lift, height), deep
         if clear:
             break
-    return replace(there, away_m=best[0] * away, waits_m=best[1] * away)
+    return replace(there, away_m=best[0] * away, waits_m=best[1] * off)
 
 
 def _waiting(station: StationTable) -> FloatArray:

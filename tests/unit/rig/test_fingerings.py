@@ -13,7 +13,7 @@ from app.performance.contacts import bound_mm
 from app.rig import proxy, quaternion, skinning
 from app.rig.character import bundled_character, characters
 from app.rig.finger_poses import finger_rotations
-from app.rig.hold import HandHold, Hold, Placed, hand_targets, wrist_given
+from app.rig.hold import FingerTable, HandHold, Hold, Placed, giving_for, hand_targets, wrist_given
 from app.rig.hold_file import hold_for
 from app.rig.instrument import bundled_instrument, node_transforms
 from app.rig.model import Character, InstrumentModel
@@ -22,6 +22,12 @@ from app.rig.stations import aside_m, asked_together, only_at, stations, station
 from instrument_maps.load import bundled_maps
 from instrument_maps.model import Contact, InstrumentMap
 from metadata.load import load_body
+
+WAITS_MM, WAY_MM = 3.0, 4.0
+"""A finger that waits keeps out of the instrument as all of the hand does; on its way it goes by in some hundredths
+of a second."""
+STILL_DEEPER_MM = {("man_adult", "ewi"): 5.0, ("woman_adult", "clarinet_A"): 4.5}
+"""Ways that no height brings clear yet: to the tab for low B flat, and to two side keys."""
 
 PAIRS = [(character, instrument) for character in characters() for instrument in bundled_maps()]
 
@@ -42,9 +48,9 @@ class Fingered:
     def __len__(self) -> int:
         return len(self.labels)
 
-    def posed(self) -> JointTransforms:
+    def posed(self, raised: float = 0.0) -> JointTransforms:
         rotations = np.tile(quaternion.IDENTITY, (len(self), len(self.character.skeleton.names), 1))
-        fingers = finger_rotations(self.hold, self.controls, len(self), self.placed)
+        fingers = finger_rotations(self.hold, self.controls, len(self), self.placed, raised)
         rotations[:, list(self.hold.finger_joints)] = fingers
         return forward(self.character.skeleton, rotations)
 
@@ -165,3 +171,38 @@ def test_giving_way_for_two_grows_with_both(fingered: Fingered) -> None:
             place, _ = hand_targets(alone, still, unturned, {}, placed)
             moved = place - wrist_given(hand, [])[0]
             np.testing.assert_allclose(moved, np.multiply.outer([0.0, 0.25, 1.0], lean.moved_m), atol=1e-12)
+
+
+def test_fingers_keep_out_of_the_instrument_on_their_ways_and_where_they_wait(fingered: Fingered) -> None:
+    """From home to every other place and back, waiting high or low, as long as the hand has not given way."""
+    most_mm = STILL_DEEPER_MM.get((fingered.character.id, fingered.instrument.id), WAY_MM)
+    shares = np.linspace(0.0, 1.0, 21)
+    still = {one.name: np.full(len(shares), one.rest_value) for one in fingered.instrument.controls}
+    for hand in fingered.hold.hands:
+        for table in hand.fingers:
+            for place in range(1, len(table.stations)):
+                home, there = np.zeros(len(shares)), np.full(len(shares), float(place))
+                placed = {
+                    table.finger: Placed(home, there, shares),
+                    giving_for(table.finger): Placed(home, there, home),
+                }
+                on_way = replace(fingered, labels=[f"{share:.2f}" for share in shares], controls=still, placed=placed)
+                for raised in (0.0, 1.0):
+                    deep_mm = _depths_mm(on_way, hand, table, raised)
+                    worst = int(np.argmax(deep_mm))
+                    assert deep_mm[worst] <= most_mm, (table.finger, place, on_way.labels[worst], raised)
+                    assert deep_mm[-1] <= WAITS_MM, (table.finger, place, raised)
+
+
+def _depths_mm(fingered: Fingered, hand: HandHold, table: FingerTable, raised: float) -> np.ndarray:
+    """How deep (F,) a finger is in the instrument."""
+    joints = fingered.posed(raised)
+    mark = fingered.character.landmarks[f"{hand.side}.hand"]
+    mesh = skinning.mesh_named(fingered.character, mark.mesh)
+    carried = np.isin(mesh.joints[mark.vertices], table.joints) * mesh.weights[mark.vertices]
+    part = skinning.patch(fingered.character, mesh, mark.vertices[carried.sum(axis=1) > 0.5])
+    skin = fingered.on_instrument(hand, joints, skinning.deform(part, joints))
+    bodies = proxy.bodies(fingered.instrument.proxy, fingered.model.node_names)
+    nodes, turns = node_transforms(fingered.model, fingered.instrument, fingered.controls, len(fingered))
+    placed = proxy.Nodes(nodes[0], quaternion.to_matrix(turns[0]))
+    return np.array([1000.0 * proxy.inside(bodies, placed, one, np.zeros(len(one)))[0].max() for one in skin])
