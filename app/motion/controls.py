@@ -7,8 +7,9 @@ moves, and in how much of a note, the instrument map says.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import lru_cache
+from types import MappingProxyType
 
 import numpy as np
 import numpy.typing as npt
@@ -99,22 +100,27 @@ def control_curve(fingerings: Sequence[FingeringEvent], control: Control, beat_t
 
 
 def control_curves(
-    fingerings: Sequence[FingeringEvent], controls: Iterable[Control], beat_ticks: int
+    fingerings: Sequence[FingeringEvent],
+    controls: Iterable[Control],
+    beat_ticks: int,
+    farthest: Mapping[str, float] = MappingProxyType({}),
 ) -> dict[str, Curve]:
-    """Curves of all controls of an instrument, by name."""
+    """Curves of all controls of an instrument, by name; some go no farther than ``farthest`` (values by name)."""
     starts = np.array([event.start_tick for event in fingerings], np.int64)
     ends = np.array([event.end_tick for event in fingerings], np.int64)
     rests = np.zeros(len(starts), dtype=np.bool_)
     rests[1:] = starts[1:] - ends[:-1] >= beat_ticks
-    return {control.name: _curve(fingerings, control, rests) for control in controls}
+    return {control.name: _curve(fingerings, control, rests, farthest.get(control.name, 1.0)) for control in controls}
 
 
-def _curve(fingerings: Sequence[FingeringEvent], control: Control, rests: npt.NDArray[np.bool_]) -> Curve:
+def _curve(
+    fingerings: Sequence[FingeringEvent], control: Control, rests: npt.NDArray[np.bool_], farthest: float
+) -> Curve:
     """One control's; ``rests`` (N,) says which notes a rest precedes that brings controls back to rest."""
     if not fingerings:
         return moves((), control.rest_value)
     name, rest = control.name, control.rest_value
-    targets = np.array([event.controls.get(name, rest) for event in fingerings])
+    targets = np.minimum([event.controls.get(name, rest) for event in fingerings], farthest)
     # Nothing happens where a control stays where it is: most keys do, in most notes.
     stays = (targets[1:] == targets[:-1]) & (~rests[1:] | (targets[1:] == rest))
     first = fingerings[0]

@@ -222,10 +222,11 @@ def prepare(
     parameters = _settled(parameters, carriage)
     posture = carrying(body, instrument_map.hold.possible(parameters.posture), carriage)
     tension = parameters.embouchure_tension
+    player = _player(parameters, instrument_map, character, hold, body, posture, before)
     if before is None:
         face, layers = Face.of(plan, tension), Layers.of(plan, body, beat_ticks)
         gaze = plan_gaze(plan, parameters.seed)
-        fingers = _fingers(plan, instrument_map, beat_ticks)
+        fingers = _fingers(plan, instrument_map, beat_ticks, player)
     else:
         old = before.plan
         face = Face.of(plan, tension, (before.face, old, before.parameters.embouchure_tension))
@@ -234,21 +235,10 @@ def prepare(
         seed = before.parameters.seed
         gaze = before.gaze if looks_same and seed == parameters.seed else plan_gaze(plan, parameters.seed)
         fingers = (before.controls, before.stations, before.raised)
-        if not same_events(plan, old, "fingerings"):
-            fingers = _fingers(plan, instrument_map, beat_ticks, before)
-    skeleton = character.skeleton
-    place = stance(skeleton, posture)
-    still = BodyMotion.still(posture)
-    player = Player(
-        skeleton=skeleton,
-        hold=hold,
-        place=place,
-        carriage=carriage,
-        lowered=instrument_map.hold.lowered(parameters.posture),
-        still=still,
-        base=trunk(skeleton, *hips_path(place, skeleton, still), still),
-        grip_of_lips_m=_grip_of_lips(hold.lips, body.embouchure[instrument_map.embouchure.kind]),
-    )
+        if before.player.farthest != player.farthest:
+            fingers = _fingers(plan, instrument_map, beat_ticks, player)
+        elif not same_events(plan, old, "fingerings"):
+            fingers = _fingers(plan, instrument_map, beat_ticks, player, before)
     return Playing(
         plan=plan,
         instrument_map=instrument_map,
@@ -257,7 +247,7 @@ def prepare(
         posture=posture,
         body=body,
         expressions={name: known[name] for name in face.expressions},
-        player=player.standing_on(instrument_map.endpin),
+        player=player,
         layers=layers,
         face=face,
         gaze=gaze,
@@ -267,8 +257,37 @@ def prepare(
     )
 
 
+def _player(
+    parameters: PlayerParameters,
+    instrument_map: InstrumentMap,
+    character: Character,
+    hold: Hold,
+    body: Body,
+    posture: Posture,
+    before: Playing | None,
+) -> Player:
+    """What does not change with time; that of ``before``, which knows already how far its hands come, where it is the
+    same body in the same posture."""
+    if before is not None:
+        same_body = before.player.hold is hold and before.player.skeleton is character.skeleton
+        if same_body and before.posture == posture and before.parameters.posture == parameters.posture:
+            return before.player
+    place = stance(character.skeleton, posture)
+    still = BodyMotion.still(posture)
+    return Player(
+        skeleton=character.skeleton,
+        hold=hold,
+        place=place,
+        carriage=instrument_map.hold.carriage(parameters.posture),
+        lowered=instrument_map.hold.lowered(parameters.posture),
+        still=still,
+        base=trunk(character.skeleton, *hips_path(place, character.skeleton, still), still),
+        grip_of_lips_m=_grip_of_lips(hold.lips, body.embouchure[instrument_map.embouchure.kind]),
+    ).standing_on(instrument_map.endpin)
+
+
 def _fingers(
-    plan: PlayerPlan, instrument_map: InstrumentMap, beat_ticks: int, before: Playing | None = None
+    plan: PlayerPlan, instrument_map: InstrumentMap, beat_ticks: int, player: Player, before: Playing | None = None
 ) -> tuple[dict[str, Curve], dict[str, Curve], Curve]:
     """Curves of the controls, of the places of the fingers and of how high they wait."""
     notes = plan.fingerings
@@ -276,11 +295,13 @@ def _fingers(
     controls = stations = None
     if before is not None and stretch is not None:
         own = stretch.notes(notes)
-        controls = spliced(before.controls, control_curves(own, instrument_map.controls, beat_ticks), stretch)
+        controls = spliced(
+            before.controls, control_curves(own, instrument_map.controls, beat_ticks, player.farthest), stretch
+        )
         if controls is not None:
             stations = spliced(before.stations, station_curves(own, instrument_map, controls), stretch)
     if controls is None:
-        controls = control_curves(notes, instrument_map.controls, beat_ticks)
+        controls = control_curves(notes, instrument_map.controls, beat_ticks, player.farthest)
     if stations is None:
         stations = station_curves(notes, instrument_map, controls)
     hovers = any(control.hover_m for control in instrument_map.controls)

@@ -44,8 +44,6 @@ DRAWS_RAD = {"neck": float(np.deg2rad(-8.0)), "head": float(np.deg2rad(14.0))}
 shoulder and lips no nearer to each other ..."""
 DRAW_DOWN_RAD, DRAW_RIGHT_RAD = float(np.deg2rad(6.0)), float(np.deg2rad(8.0))
 """... and the bell sinks and turns towards the far hand's shoulder."""
-DRAW_EASE = 0.1
-"""Head and instrument come to their farthest softly, within this share of it."""
 LEAST_DRAWN_M = 0.01
 """However little that brings, it is never divided by less."""
 
@@ -80,6 +78,12 @@ class Player:
     def drawn_m(self) -> float:
         """How much nearer a far hand comes when head and instrument give way."""
         return _drawn_m(self)
+
+    @cached_property
+    def farthest(self) -> dict[str, float]:
+        """How far out the controls go that carry a hand, with all help and the body still: 1 where it comes
+        everywhere. What goes no farther can slow down to where it stops."""
+        return _farthest(self)
 
 
 @dataclass(frozen=True)
@@ -222,11 +226,7 @@ def needs(player: Player, curves: Curves) -> Help:
     needed = needed_help(player.skeleton, player.hold, upper, carried, curves.controls, curves.placed)
     # The chest carries a lowered instrument: turning would take it along and bring no hand nearer.
     turning = 1.0 - curves.body.lowered
-    # What giving way cannot bring is not asked of it: its ease would be over before it had begun.
-    short_m = (
-        np.minimum(needed.short_m, (1.0 + DRAW_EASE) * player.drawn_m) if np.any(needed.short_m) else needed.short_m
-    )
-    return replace(needed, turn_rad=needed.turn_rad * turning, short_m=short_m * turning)
+    return replace(needed, turn_rad=needed.turn_rad * turning, short_m=needed.short_m * turning)
 
 
 def _spread(parts: list[Help], half: int) -> Help:
@@ -256,7 +256,7 @@ def helped(player: Player, motion: BodyMotion, help_given: Help) -> BodyMotion:
         turn += _with_room(np.maximum(asked, 0.0), most["right"])
         turn -= _with_room(np.maximum(-asked, 0.0), most["left"])
     if np.any(short_m):
-        draw = softly_capped(short_m / player.drawn_m, 1.0, DRAW_EASE) * np.abs(turn) / np.maximum(np.abs(asked), 1e-6)
+        draw = softly_capped(short_m / player.drawn_m, 1.0, 0.1) * np.abs(turn) / np.maximum(np.abs(asked), 1e-6)
         motion = _drawn(motion, draw, np.sign(asked))
     protraction = {
         side: _with_room(needed, help_given.most_protraction_rad[side]) if np.any(needed) else needed
@@ -310,6 +310,20 @@ def _drawn_m(player: Player) -> float:
             distances_m.append(shoulder_distance_m(player.skeleton, hand.side, upper, target_m))
         nearer.append(float(distances_m[0] - distances_m[1]))
     return max([*nearer, LEAST_DRAWN_M])
+
+
+def _farthest(player: Player) -> dict[str, float]:
+    one = np.ones(1)
+    result: dict[str, float] = {}
+    for hand in player.hold.hands:
+        if hand.motion is None:
+            continue
+        curves = Curves(player.still, {hand.motion.control: one}, {}, np.zeros(1))
+        body = helped(player, player.still, needs(player, curves))
+        _, _, upper, carried = _upper(player, replace(curves, body=body))
+        reached = stopped(player.skeleton, player.hold, upper, body, carried, curves.controls, {})
+        result[hand.motion.control] = float(reached[hand.motion.control][0])
+    return result
 
 
 def _with_room(help_rad: FloatArray, most_rad: FloatArray) -> FloatArray:

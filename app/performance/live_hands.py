@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections import deque
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -77,6 +78,7 @@ class LiveHands:
         self._reaches = {control.name: Reach.at_rest(control.rest_value) for control in instrument.controls}
         self._controls = {control.name: control for control in instrument.controls}
         hands = playing.player.hold.hands
+        self._farthest = playing.player.farthest
         self._carrying = [hand.motion.control for hand in hands if hand.motion is not None]
         leaning = {finger for hand in hands for lean in hand.leans for finger, _ in lean.places}
         posed = {table.finger for hand in hands for table in hand.fingers}
@@ -176,11 +178,14 @@ class LiveHands:
             working = fingers_at_work(self._instrument, fingering.controls, fingering.fingers)
             grip = self._grips[pitch, column] = _Grip(
                 fingering,
-                self._instrument.values(fingering),
-                dict(fingering.correction),
+                self._within_reach(self._instrument.values(fingering)),
+                self._within_reach(fingering.correction),
                 {name: station_for(own, working[name]) for name, own in self._places.items() if name in working},
             )
         return grip
+
+    def _within_reach(self, values: Mapping[str, float]) -> dict[str, float]:
+        return {name: min(value, self._farthest.get(name, 1.0)) for name, value in values.items()}
 
     def _take(self, now_s: float, grip: _Grip) -> None:
         """Take a grip: fingers go with the keys they go to."""

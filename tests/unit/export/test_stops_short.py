@@ -36,7 +36,7 @@ def test_the_small_body_keeps_its_slide_in_hand(instrument_id: str, posture: str
     sets = [word for name, value in settings.items() for word in ("--set", f"*.{name}={value}")]
     folder = tmp_path / "out"
     assert (
-        main(["export", str(tmp_path / "scale.mid"), "--to", str(folder), "--fps", "30", "--format", "fbx", *sets]) == 0
+        main(["export", str(tmp_path / "scale.mid"), "--to", str(folder), "--fps", "60", "--format", "fbx", *sets]) == 0
     )
     report = msgspec.json.decode((folder / "report.json").read_bytes(), type=Report)
     measures = report.players[0].measures

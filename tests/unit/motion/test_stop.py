@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from app.export.joints import angular_accelerations
 from app.motion.model import Motion
 from app.motion.perform import perform
 from app.motion.stop import EASE, LONGEST
@@ -59,6 +60,14 @@ def test_the_arm_is_never_quite_straight_and_the_slide_never_jumps() -> None:
     # It goes no faster than it would if the way were free.
     asked = np.abs(np.diff(near.controls["slide"])).max()
     assert np.abs(np.diff(motion.controls["slide"])).max() <= asked + 0.002
+
+
+def test_it_slows_down_to_where_the_arm_ends() -> None:
+    """It does not run into the end: the elbow, which stretches ever faster before it, stays within what elbows do."""
+    motion = played(1.0, [0.0, 1.0, 0.0, 1.0], note_s=0.5)
+    elbow = motion.rotations[:, [CHARACTER.skeleton.index("rightLowerArm")]].astype(np.float64)
+    most = load_body().limits["lowerArm"].acceleration_rad_s2
+    assert angular_accelerations(elbow[::2], FPS / 2).max() < most
 
 
 @pytest.mark.parametrize("slide_m", [0.2, 0.35, 0.42])
