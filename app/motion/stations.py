@@ -21,7 +21,7 @@ from app.rig.hold import Placed, giving_for
 from app.rig.stations import Station, kinds_of_notes, station_for, stations
 from instrument_maps.model import InstrumentMap
 
-TRAVEL_S = 0.16
+TRAVEL_S = 0.17
 """An unhurried way from one key to another."""
 AHEAD_S = 0.10
 """A finger that has time is over its key this long before it goes down."""
