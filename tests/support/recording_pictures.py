@@ -33,7 +33,7 @@ from app.shell.app import Program, make_application
 from app.shell.recording import Recorder
 from app.shell.settings import Settings
 from tests.gui.timeline.lane_hands import drag
-from tests.support.jack import jack_server
+from tests.support.jack import QUICK_FRAMES, jack_server
 from tests.support.wind_player import Played, WindPlayer
 from widgets.dialogs.latency import CLICKS_S, LEAD, LatencyDialog
 from widgets.dialogs.midi_devices import MidiDevicesDialog
@@ -306,7 +306,7 @@ def main() -> None:
     application = make_application()
     with (
         tempfile.TemporaryDirectory() as folder,
-        jack_server("suisou-pictures"),
+        jack_server("suisou-pictures", QUICK_FRAMES, is_in_step=True),
         closing(Wind()) as wind,
     ):
         film = Film(application, Path(folder), wind)
