@@ -77,7 +77,12 @@ class Wind:
         """Unplug."""
         assert self._process.stdin is not None
         self._process.stdin.close()
-        self._process.wait(10.0)
+        try:
+            self._process.wait(3.0)
+        except subprocess.TimeoutExpired:
+            # JACK may hold up who closes a port.
+            self._process.kill()
+            self._process.wait()
 
 
 def blow() -> None:
