@@ -11,6 +11,7 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from datetime import UTC, datetime
+from math import floor
 from pathlib import Path
 from typing import Final
 
@@ -48,6 +49,8 @@ from metadata.load import load_controllers, recognised_controller
 from metadata.model import Controller
 from widgets.common.session import Session, Severity
 
+EARLY_S: Final = 0.12
+"""So much before the beginning of a take a note may be struck that is meant for it."""
 SYNC_MS: Final = 40
 """How often the recorder is told what is heard."""
 _STILL_S: Final = 1e-6
@@ -452,7 +455,8 @@ class Recorder(QObject):
             if not brought:
                 return project
             chosen = _whole(takes)
-            start_tick, end_tick = round(takes[chosen].start_tick), round(takes[chosen].end_tick) + 1
+            take = takes[chosen]
+            start_tick, end_tick = floor(_first_tick(take)), round(take.end_tick) + 1
             if punch is not None:
                 start_tick, end_tick = max(start_tick, punch[0]), min(end_tick, punch[1])
             return comp(project, player_id, ids[chosen], start_tick, end_tick)
@@ -515,6 +519,13 @@ def _names(project: Project, player_id: str) -> tuple[str, ...]:
     """What the takes of a player are called."""
     recorded = project.takes.get(player_id)
     return tuple(take.name for take in recorded.takes) if recorded is not None else ()
+
+
+def _first_tick(take: Take) -> float:
+    """Where a take begins, or a note that was struck a little before: it was meant for that beginning."""
+    onsets_s, start_s = take.played.onsets_s, take.start_us / 1e6
+    early_s = onsets_s[(onsets_s >= start_s - EARLY_S) & (onsets_s < start_s)]
+    return take.tempo_map.ticks(float(early_s[0]) if len(early_s) else start_s)
 
 
 def _whole(takes: tuple[Take, ...]) -> int:

@@ -90,6 +90,17 @@ def test_only_the_punch_range_is_taken_into_the_part(studio: Studio) -> None:
     assert len(take.played) == 3
 
 
+def test_a_first_note_struck_a_little_early_is_in_the_part(studio: Studio) -> None:
+    studio.session.set_playhead(1.0)
+    studio.session.recording.set(count_in_bars=1)
+    studio.press(Qt.Key.Key_R)
+    studio.blow(60, 0.95)
+    studio.blow(62, 1.3)
+    studio.press(Qt.Key.Key_R)
+    studio.wait(lambda: bool(studio.session.project.takes))
+    assert [note.pitch for note in notes(studio)] == [60, 62]
+
+
 def test_stopping_the_transport_ends_the_take(studio: Studio) -> None:
     studio.press(Qt.Key.Key_R)
     studio.blow(60, 0.2)
