@@ -161,9 +161,14 @@ def _visits(
         before = sets[worked[first - 1]] if first and follows[first] else nothing
         after = sets[worked[end]] if end < len(fingerings) and follows[end] else nothing
         onset_s, last_onset_s, end_s = fingerings[first].start_s, fingerings[end - 1].start_s, fingerings[end - 1].end_s
-        down = [_down(controls[name], onset_s) for name in sorted(work - before)]
-        up = [_up(controls[name], last_onset_s, end_s) for name in sorted(work - after)]
-        found.append(_Visit(station_for(places, work), first, end, onset_s, end_s, _hull(down), _hull(up)))
+        down = {name: _down(controls[name], onset_s) for name in sorted(work)}
+        up = {name: _up(controls[name], last_onset_s, end_s) for name in sorted(work)}
+        # What it works at both of two notes comes up between them where there is a rest.
+        ended_s = fingerings[first - 1].end_s if first else -np.inf
+        next_s = fingerings[end].start_s if end < len(fingerings) else np.inf
+        downs = [span for name, span in down.items() if name not in before or ended_s <= span[0] < span[1]]
+        ups = [span for name, span in up.items() if name not in after or end_s <= span[0] < span[1] <= next_s]
+        found.append(_Visit(station_for(places, work), first, end, onset_s, end_s, _hull(downs), _hull(ups)))
     return found
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
@@ -26,6 +26,32 @@ WAY_CLEAR_M, WORTH_M = 0.0025, 0.0005
 """On its way from home to another place, and where it waits for a hand that gives way for it there, a finger is lifted
 by the first of these heights that brings it over what lies between; or by the best, higher only where that is worth
 it."""
+BACK, FROM_NEXT = 0.5, 0.1
+"""Where a way straight out of its keys is not clear, or leads too far off them, a finger goes off its home, this share
+of that back from the palm and this share away from the other key: around what stands up between the two, not over
+it."""
+
+
+@dataclass(frozen=True)
+class _Height:
+    """How high a finger is lifted on a way, and how deep in the instrument the deepest of it still is."""
+
+    lift_m: float
+    deep_m: float
+
+    @property
+    def clear(self) -> bool:
+        return self.deep_m <= WAY_CLEAR_M
+
+    @property
+    def near(self) -> bool:
+        """Clear, and no further off its keys than a finger that waits."""
+        return self.clear and self.lift_m <= MOST_HOVER_M
+
+    def betters(self, other: _Height) -> bool:
+        if self.clear and other.clear:
+            return self.lift_m < other.lift_m
+        return self.clear or (not other.clear and self.deep_m < other.deep_m - WORTH_M)
 
 
 def lifted_ways(
@@ -47,14 +73,44 @@ def _lifted(
     problem: Problem, scene: Scene, table: FingerTable, number: int, index: int, place: Station, wrist: Scene
 ) -> StationTable:
     home, there = table.stations[0], table.stations[index]
-    chain = table.chain
-    if chain is None or home.tip_joint < 0 or there.tip_joint < 0 or set(home.controls) & set(there.controls):
+    if table.chain is None or home.tip_joint < 0 or there.tip_joint < 0 or set(home.controls) & set(there.controls):
         return there
     instrument = scene.instrument_map
-    normals = [instrument.contacts[at].normal for at in (problem.stations[number][0].contacts[0], place.contacts[0])]
-    outwards = np.sum(normals, axis=0)
-    outwards = outwards / max(float(np.linalg.norm(outwards)), 1e-6)
-    away, off = outwards @ scene.basis[0], np.asarray(normals[1]) @ scene.basis[0]
+    off, out = (
+        np.asarray(instrument.contacts[at].normal)
+        for at in (place.contacts[0], problem.stations[number][0].contacts[0])
+    )
+    palm = next(seed for seed in instrument.hands if place.finger.startswith(f"{seed.hand}.")).palm_normal
+    back = _unit(out - BACK * _unit(np.asarray(palm)) - FROM_NEXT * off)
+    found, best = there, _Height(0.0, np.inf)
+    for away, waits in ((_unit(out + off), off), (back, back)):
+        lifted, height = _lifted_along(problem, scene, table, number, index, place, wrist, away, waits)
+        if height.betters(best):
+            found, best = lifted, height
+        if best.near:
+            break
+    return found
+
+
+def _unit(vector: FloatArray) -> FloatArray:
+    return vector / max(float(np.linalg.norm(vector)), 1e-6)
+
+
+def _lifted_along(
+    problem: Problem,
+    scene: Scene,
+    table: FingerTable,
+    number: int,
+    index: int,
+    place: Station,
+    wrist: Scene,
+    away: FloatArray,
+    off: FloatArray,
+) -> tuple[StationTable, _Height]:
+    """A station that a finger goes to lifted towards ``away``, and waits at towards ``off``, in the instrument's
+    frame; and how high."""
+    home, there = table.stations[0], table.stations[index]
+    away, off = away @ scene.basis[0], off @ scene.basis[0]
     near, come = _waiting(home), _waiting(there)
     way = np.tile(WAYS, 2)
 
@@ -64,8 +120,8 @@ def _lifted(
         return lambda lift: raised_way(table, 0, index, pose, way, lift * away)
 
     if wrist is scene:
-        lift, _ = _least_lift(problem, scene, number, on_way(come), LIFTS_M)
-        return replace(there, away_m=lift * away)
+        found = _Height(*_least_lift(problem, scene, number, on_way(come), LIFTS_M))
+        return replace(there, away_m=found.lift_m * away), found
 
     # A hand that gives way goes along with the key: the finger has come by then.
     own, at_home = ((one.position_m[:1], quaternion.from_matrix(one.basis[:1])) for one in (wrist, scene))
@@ -75,16 +131,15 @@ def _lifted(
 
     least, _ = _least_lift(problem, scene, number, waiting, LIFTS_M[: len(LIFTS_M) // 2 + 1])
     # Where the way to there is not clear at any height, it is to a finger that waits higher; but not too far off.
-    most = max(least, MOST_HOVER_M - HOVER_MORE * hover_m(place, instrument))
-    best, deepest = (0.0, least), np.inf
+    most = max(least, MOST_HOVER_M - HOVER_MORE * hover_m(place, scene.instrument_map))
+    found, best = _Height(0.0, np.inf), least
     for height in (one for one in LIFTS_M.tolist() if least <= one <= most):
-        lift, deep = _least_lift(problem, scene, number, on_way(waiting(height)), LIFTS_M)
-        clear = deep <= WAY_CLEAR_M
-        if clear or deep < deepest - WORTH_M:
-            best, deepest = (lift, height), deep
-        if clear:
+        one = _Height(*_least_lift(problem, scene, number, on_way(waiting(height)), LIFTS_M))
+        if one.betters(found):
+            found, best = one, height
+        if found.near:
             break
-    return replace(there, away_m=best[0] * away, waits_m=best[1] * off)
+    return replace(there, away_m=found.lift_m * away, waits_m=best * off), found
 
 
 def _waiting(station: StationTable) -> FloatArray:

@@ -121,6 +121,18 @@ def test_a_hand_stays_where_the_next_note_needs_it_again(made_up: InstrumentMap)
     assert values["key_G"].min() == 0.0
 
 
+def test_a_hand_has_given_way_by_the_onset_of_a_key_that_came_up_in_a_rest(made_up: InstrumentMap) -> None:
+    """The note before works the same key together with others: it comes up with them and goes down alone."""
+    rows = [(0.0, 0.25, {"hole_T": 1.0, "key_Reg": 1.0}), (1.0, 2.0, {"key_Reg": 1.0})]
+    events = fingerings(rows)
+    controls = control_curves(events, made_up.controls, TICKS)
+    assert controls["key_Reg"].sample(np.array([0.6]))[0] == 0.0
+    curves = station_curves(events, made_up, controls)
+    at_s = np.array([0.6, 1.0, 1.5])
+    assert share_at(sampled(curves[giving_for("left.thumb")], at_s), 1).tolist() == [0.0, 1.0, 1.0]
+    assert share_at(sampled(curves["left.thumb"], at_s), 1)[1:].tolist() == [1.0, 1.0]
+
+
 @pytest.mark.parametrize(("between", "kept"), [({"hole_T": 1.0}, True), ({"key_Reg": 1.0}, False)])
 def test_a_hand_does_not_stay_where_another_finger_goes_away_from_home_meanwhile(
     made_up: InstrumentMap, between: dict[str, float], kept: bool

@@ -26,8 +26,8 @@ from metadata.load import load_body
 WAITS_MM, WAY_MM = 3.0, 4.0
 """A finger that waits keeps out of the instrument as all of the hand does; on its way it goes by in some hundredths
 of a second."""
-STILL_DEEPER_MM = {("man_adult", "ewi"): 5.0, ("woman_adult", "clarinet_A"): 5.5}
-"""Ways that no height brings clear yet: to the tab for low B flat, and to the side keys."""
+STILL_DEEPER_MM = {("woman_adult", "clarinet_A"): 5.5}
+"""Ways that no height brings clear yet: to the side keys."""
 
 PAIRS = [(character, instrument) for character in characters() for instrument in bundled_maps()]
 
