@@ -32,8 +32,8 @@ QUICK_S = 0.6
 """Gestures shorter than this are smaller in proportion: nobody leans as far in half the time."""
 EXHALE_S = 3.0
 FULLEST = 1.4
-LEAST_DRAWN = 0.3
-"""However soon breaths follow each other, each has this much room: no breath goes unseen."""
+LEAST_DRAWN = 0.4
+"""However soon breaths follow each other, each has this much room: no breath goes unseen, also where a bell sinks."""
 BREATH_LEAD_S = 0.03
 """The inhalation is complete this long before the breath's end."""
 RESIDUE_SHARE = 0.6
