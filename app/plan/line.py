@@ -34,8 +34,17 @@ class Steps:
     ticks: FloatArray
     values: FloatArray
 
+    def __eq__(self, other: object) -> bool:
+        """Whether they are the same to the last bit, as lines are compared."""
+        if not isinstance(other, Steps):
+            return NotImplemented
+        return np.array_equal(self.ticks, other.ticks) and np.array_equal(self.values, other.values)
 
-@dataclass(frozen=True, eq=False)
+    def __hash__(self) -> int:
+        return hash((self.ticks.tobytes(), self.values.tobytes()))
+
+
+@dataclass(frozen=True)
 class Heard:
     """What a wind controller, or whoever drew the curves, says about how a line is played; None: nothing.
 

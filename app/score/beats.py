@@ -10,7 +10,6 @@ from typing import Final
 
 import numpy as np
 import numpy.typing as npt
-import scipy.fft
 
 from app.errors import AppError
 from app.score.tempo import TempoChange, TempoMap
@@ -77,6 +76,8 @@ def _likely_bpm(envelope: Floats, start_bpm: float) -> float:
 
     Librosa's own estimate correlates eight seconds around each of its frames, at this rate gigabytes for ten minutes.
     """
+    import scipy.fft  # heavy, like librosa, and only here
+
     size = scipy.fft.next_fast_len(2 * len(envelope), real=True)
     alike = scipy.fft.irfft(np.abs(scipy.fft.rfft(envelope, size)) ** 2, size)
     lags = np.arange(round(_FASTEST_US * _RATE_HZ / 1e6), min(round(_SLOWEST_US * _RATE_HZ / 1e6), len(envelope)))

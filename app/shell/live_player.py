@@ -36,7 +36,7 @@ class LivePlayer(QObject):
         self._of: tuple[object, ...] = ()
         """What the one that plays along was made from."""
         self._rest = QTimer(self, singleShot=True, interval=round(1000 * REST_S))
-        self._rest.timeout.connect(self.rest)
+        self._rest.timeout.connect(self._rested)
 
     def tell(self, time_s: float, raw: str, wiring: Wiring) -> None:
         """Something was played.
@@ -54,12 +54,18 @@ class LivePlayer(QObject):
             self._session.live_players.hear(playing.player_id, time_s, raw, wiring)
             self._rest.start()
 
-    def rest(self) -> None:
-        """Nobody plays any more."""
+    def silence(self) -> None:
+        """Nothing is heard from the device any more."""
+        if self._play_along is not None:
+            self._play_along.all_off(time.perf_counter())
+            self._rest.start()
+
+    def _rested(self) -> None:
+        """Show the player as the performance has them again, unless a take runs or a note is held."""
         if self._play_along is None:
             return
-        if self._session.recording.running:
-            self._play_along.all_off(time.perf_counter())
+        if self._session.recording.running or self._session.recording.pitch is not None:
+            self._rest.start()
             return
         self._session.live_players.end(self._play_along.player_id)
         self._play_along, self._of = None, ()

@@ -165,7 +165,7 @@ class Recorder(QObject):
         self._settings.midi_port = port
         self._state.set(port=port, connection="waiting" if port else "none", refusal=None)
         self._state.set_played(0.0, None)
-        self._live.rest()
+        self._live.silence()
         self._know(port)
         self._link.open(port or None)
 
@@ -242,7 +242,7 @@ class Recorder(QObject):
             case Lost():
                 state.set(connection="lost")
                 state.set_played(0.0, None)
-                self._live.rest()
+                self._live.silence()
                 id = "record.device_lost_running" if state.running else "record.device_lost"
                 self._session.notice(Message(id, {"device": told.port}), Severity.WARNING)
             case Refused():

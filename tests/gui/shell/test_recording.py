@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import time
+
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication, QLabel
 
 from app.capture.journal import Header, JournalWriter
 from app.capture.protocol import Back, Lost, Written
+from app.shell.live_player import REST_S
 from app.shell.recording import recorder_of
 from tests.support.recorder import EWI
 from tests.support.studio import Studio
@@ -99,6 +102,30 @@ def test_a_first_note_struck_a_little_early_is_in_the_part(studio: Studio) -> No
     studio.press(Qt.Key.Key_R)
     studio.wait(lambda: bool(studio.session.project.takes))
     assert [note.pitch for note in notes(studio)] == [60, 62]
+
+
+def test_who_is_recorded_plays_along_and_is_the_performance_again_afterwards(studio: Studio) -> None:
+    live = studio.session.live_players
+    player = studio.session.project.players[0].id
+    studio.wait(lambda: player in studio.session.performance.plans)
+    studio.press(Qt.Key.Key_R)
+    studio.blow(60, 0.2)
+    assert list(live.playing) == [player]
+    studio.press(Qt.Key.Key_R)
+    studio.wait(lambda: not live.playing)
+
+
+def test_a_held_note_is_played_as_long_as_it_is_held(studio: Studio) -> None:
+    live = studio.session.live_players
+    player = studio.session.project.players[0].id
+    studio.wait(lambda: player in studio.session.performance.plans)
+    studio.link.play(bytes((0x90, 60, 90)))
+    studio.wait(lambda: bool(live.playing))
+    end_s = time.monotonic() + REST_S + 0.5
+    studio.wait(lambda: time.monotonic() > end_s)
+    assert list(live.playing) == [player]
+    studio.link.say(Lost(EWI, studio.clock.ns))
+    studio.wait(lambda: not live.playing)
 
 
 def test_stopping_the_transport_ends_the_take(studio: Studio) -> None:
