@@ -16,6 +16,9 @@ from tests.gui.conftest import delete_now
 from tests.support.long_session import LongDay, footprint, larger_piece
 
 WARM_UP, ROUNDS = 2, 2
+DRAWN = ("widgets.viewport.renderer._Solid", "vispy.gloo.")
+"""One for each level of detail that was drawn of the figures that are there: which, the speed of drawing decides. They go
+with the figures."""
 MOST_MB = 48.0
 """Caches of what is drawn fill up for some rounds more: thirty rounds grew by nothing after the fifth."""
 
@@ -46,7 +49,11 @@ def test_after_some_rounds_everything_is_as_it_was(program: Program, tmp_path: P
     after = footprint()
     assert after.widgets_by_class - before.widgets_by_class == {}
     # What is about to be drawn or told may differ by one.
-    grown = {name: count for name, count in (after.values - before.values).items() if count >= ROUNDS}
+    grown = {
+        name: count
+        for name, count in (after.values - before.values).items()
+        if count >= ROUNDS and not name.startswith(DRAWN)
+    }
     assert grown == {}
     for name in ("threads", "files", "processes", "timers", "widgets", "objects"):
         assert getattr(after, name) <= getattr(before, name), (name, str(before), str(after))
