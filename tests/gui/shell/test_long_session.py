@@ -17,8 +17,8 @@ from tests.support.long_session import LongDay, footprint, larger_piece
 
 WARM_UP, ROUNDS = 2, 2
 DRAWN = ("widgets.viewport.renderer._Solid", "vispy.gloo.")
-"""One for each level of detail that was drawn of the figures that are there: which, the speed of drawing decides. They go
-with the figures."""
+"""One for each level of detail that was drawn of the figures that are there: which, the speed of drawing decides. They
+go with the figures."""
 MOST_MB = 48.0
 """Caches of what is drawn fill up for some rounds more: thirty rounds grew by nothing after the fifth."""
 
