@@ -8,8 +8,8 @@ import numpy as np
 import numpy.typing as npt
 
 from app.export.materials import phong
-from app.formats.fbx.join import join_meshes
-from app.formats.fbx.scene import FbxBone, FbxClip, FbxMesh, FbxMorph, FbxScene
+from app.formats.join import join_meshes
+from app.formats.scene import Bone, Clip, MorphTarget, Scene, SkinnedMesh
 from app.motion.model import Motion
 from app.rig.model import Character, Mesh, Skeleton
 
@@ -18,7 +18,7 @@ HIPS = "hips"
 """The joint whose translation a motion gives."""
 
 
-def character_scene(character: Character, motion: Motion, clip: str, creator: str) -> FbxScene:
+def character_scene(character: Character, motion: Motion, clip: str, creator: str) -> Scene:
     """The scene of one player.
 
     Parameters
@@ -33,7 +33,7 @@ def character_scene(character: Character, motion: Motion, clip: str, creator: st
 
     Returns
     -------
-    FbxScene
+    Scene
         One mesh of all the character's meshes, vertices in their order (so that landmarks hold in the file); it has
         every morph target of the character, and the clip weighs those that the motion moves.
     """
@@ -42,7 +42,7 @@ def character_scene(character: Character, motion: Motion, clip: str, creator: st
     world_from_bone[:, :3, 3] *= CENTIMETRES
     meshes = [skinned_mesh(mesh, mesh.name, mesh.joints, mesh.weights, world_from_bone) for mesh in character.meshes]
     (name,) = mesh_names([character.id], skeleton.names)
-    return FbxScene(
+    return Scene(
         bones=skeleton_bones(skeleton),
         meshes=(join_meshes(meshes, name),),
         clip=character_clip(character, motion, clip),
@@ -50,19 +50,19 @@ def character_scene(character: Character, motion: Motion, clip: str, creator: st
     )
 
 
-def skeleton_bones(skeleton: Skeleton) -> tuple[FbxBone, ...]:
+def skeleton_bones(skeleton: Skeleton) -> tuple[Bone, ...]:
     """The joints at rest: unturned, because the skeleton is normalised."""
     unturned = np.array([0.0, 0.0, 0.0, 1.0])
     return tuple(
-        FbxBone(name, parent, offset * CENTIMETRES, unturned)
+        Bone(name, parent, offset * CENTIMETRES, unturned)
         for name, parent, offset in zip(skeleton.names, skeleton.parents, skeleton.offsets_m, strict=True)
     )
 
 
-def character_clip(character: Character, motion: Motion, name: str) -> FbxClip:
+def character_clip(character: Character, motion: Motion, name: str) -> Clip:
     """What the joints and the face do. The root stays at the origin; only the hips are moved."""
     targets = {morph.name for mesh in character.meshes for morph in mesh.morphs}
-    return FbxClip(
+    return Clip(
         name=name,
         fps=motion.fps,
         frames=motion.frames,
@@ -78,11 +78,11 @@ def skinned_mesh(
     joints: npt.NDArray[np.int32],
     weights: npt.NDArray[np.float32],
     world_from_bone_bind: npt.NDArray[np.floating],
-) -> FbxMesh:
+) -> SkinnedMesh:
     """A mesh bound to bones. Texture coordinates turn from glTF's (v down) to FBX's (v up)."""
     uvs = mesh.uvs.astype(np.float64)
     uvs[:, 1] = 1.0 - uvs[:, 1]
-    return FbxMesh(
+    return SkinnedMesh(
         name=name,
         vertices_cm=mesh.positions_m.astype(np.float64) * CENTIMETRES,
         faces=mesh.triangles,
@@ -94,7 +94,9 @@ def skinned_mesh(
         weights=weights,
         world_from_bone_bind=world_from_bone_bind,
         morphs=tuple(
-            FbxMorph(morph.name, morph.vertices, morph.deltas_m.astype(np.float64) * CENTIMETRES, morph.normal_deltas)
+            MorphTarget(
+                morph.name, morph.vertices, morph.deltas_m.astype(np.float64) * CENTIMETRES, morph.normal_deltas
+            )
             for morph in mesh.morphs
         ),
     )

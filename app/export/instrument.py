@@ -10,8 +10,8 @@ import numpy as np
 import numpy.typing as npt
 
 from app.export.character import CENTIMETRES, mesh_names, skinned_mesh
-from app.formats.fbx.join import join_meshes
-from app.formats.fbx.scene import FbxBone, FbxClip, FbxScene
+from app.formats.join import join_meshes
+from app.formats.scene import Bone, Clip, Scene
 from app.motion.model import Motion
 from app.rig import quaternion
 from app.rig.instrument import part_transform, part_values
@@ -23,7 +23,7 @@ FloatArray = npt.NDArray[np.float64]
 
 def instrument_scene(
     instrument: InstrumentMap, model: InstrumentModel, motion: Motion, clip: str, creator: str
-) -> FbxScene:
+) -> Scene:
     """The scene of a player's instrument.
 
     Parameters
@@ -41,7 +41,7 @@ def instrument_scene(
     binds[:, :3, 3] = model.node_positions_m * CENTIMETRES
     (name,) = mesh_names([instrument.id], (bone.name for bone in bones))
     meshes = [skinned_mesh(mesh, mesh.name, mesh.joints, mesh.weights, binds) for mesh in model.meshes]
-    return FbxScene(
+    return Scene(
         bones=bones,
         meshes=(join_meshes(meshes, name),),
         clip=instrument_clip(instrument, model, motion, clip),
@@ -49,13 +49,13 @@ def instrument_scene(
     )
 
 
-def instrument_bones(instrument: InstrumentMap, model: InstrumentModel) -> tuple[FbxBone, ...]:
+def instrument_bones(instrument: InstrumentMap, model: InstrumentModel) -> tuple[Bone, ...]:
     """One bone per node; a node that a control moves is named after the control."""
     by_node = {part.node: part.name for part in instrument.moving_parts}
     unturned = np.array([0.0, 0.0, 0.0, 1.0])
     root_m = model.node_positions_m[0]
     return tuple(
-        FbxBone(
+        Bone(
             name=by_node.get(node, node),
             parent=-1 if index == 0 else 0,
             translation_cm=(model.node_positions_m[index] - (root_m if index else 0.0)) * CENTIMETRES,
@@ -65,7 +65,7 @@ def instrument_bones(instrument: InstrumentMap, model: InstrumentModel) -> tuple
     )
 
 
-def instrument_clip(instrument: InstrumentMap, model: InstrumentModel, motion: Motion, name: str) -> FbxClip:
+def instrument_clip(instrument: InstrumentMap, model: InstrumentModel, motion: Motion, name: str) -> Clip:
     """Where the instrument is and what its parts do."""
     rotations = np.zeros((motion.frames, len(model.node_names), 4))
     rotations[..., 3] = 1.0
@@ -78,4 +78,4 @@ def instrument_clip(instrument: InstrumentMap, model: InstrumentModel, motion: M
         position_m = quaternion.rotate(rotation, rest_m) + moved_m
         translations_cm[node] = position_m * CENTIMETRES
         rotations[:, node] = rotation
-    return FbxClip(name, motion.fps, motion.frames, rotations, translations_cm)
+    return Clip(name, motion.fps, motion.frames, rotations, translations_cm)

@@ -27,7 +27,7 @@ from app.export.control_judge import (
 from app.export.joints import anatomical_angles, angular_accelerations
 from app.export.penetration import Hands
 from app.export.playback import Playback, Surface
-from app.formats.fbx.scene import FbxScene
+from app.formats.scene import Scene
 from app.performance.contacts import FEET_MM, LIPS_MM, TOUCH_MM, bound_mm
 from app.plan.model import BreathEvent, PlayerPlan
 from app.rig.lips import meeting
@@ -126,8 +126,8 @@ class _Traces:
 
 
 def measure_player(
-    player_scene: FbxScene,
-    instrument_scene: FbxScene,
+    player_scene: Scene,
+    instrument_scene: Scene,
     character: Character,
     instrument: InstrumentMap,
     plan: PlayerPlan,
@@ -140,7 +140,7 @@ def measure_player(
 
     Parameters
     ----------
-    player_scene, instrument_scene : FbxScene
+    player_scene, instrument_scene : Scene
         Both with a clip.
     character : Character
         For its landmarks: vertex numbers of the meshes in the file.

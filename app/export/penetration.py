@@ -15,7 +15,7 @@ import numpy.typing as npt
 
 from app.export.playback import Playback, Surface
 from app.export.proxy import signed_distance
-from app.formats.fbx.scene import FbxMesh
+from app.formats.scene import SkinnedMesh
 from instrument_maps.model import Proxy
 
 FloatArray = npt.NDArray[np.float64]
@@ -45,13 +45,13 @@ class Hands:
     ----------
     playback : Playback
         Of the player.
-    mesh : FbxMesh
+    mesh : SkinnedMesh
     vertices : (V,) integer array
         Those of hands and fingers.
     proxy : sequence of Proxy
     """
 
-    def __init__(self, playback: Playback, mesh: FbxMesh, vertices: IntArray, proxy: Sequence[Proxy]) -> None:
+    def __init__(self, playback: Playback, mesh: SkinnedMesh, vertices: IntArray, proxy: Sequence[Proxy]) -> None:
         self._surface = Surface(playback, mesh, vertices)
         self._by_node: dict[str, list[Proxy]] = {}
         for body in proxy:

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from app.export.joints import world_transforms
-from app.formats.fbx.scene import FbxClip, FbxMesh, FbxScene
+from app.formats.scene import Clip, Scene, SkinnedMesh
 from app.rig import quaternion
 
 FloatArray = npt.NDArray[np.float64]
@@ -21,8 +21,8 @@ METRES = 0.01
 class Playback:
     """A scene with a clip, as any reader of the file would play it."""
 
-    scene: FbxScene
-    clip: FbxClip
+    scene: Scene
+    clip: Clip
 
     @cached_property
     def bone_names(self) -> tuple[str, ...]:
@@ -61,12 +61,12 @@ class Surface:
     Parameters
     ----------
     playback : Playback
-    mesh : FbxMesh
+    mesh : SkinnedMesh
         One of its scene's.
     vertices : (V,) integer array
     """
 
-    def __init__(self, playback: Playback, mesh: FbxMesh, vertices: IntArray) -> None:
+    def __init__(self, playback: Playback, mesh: SkinnedMesh, vertices: IntArray) -> None:
         weights = _dense_weights(mesh, vertices, len(playback.bone_names))
         self._bones = np.flatnonzero(weights.any(axis=0))
         self._weights = weights[:, self._bones]
@@ -96,7 +96,7 @@ class Surface:
         return result
 
 
-def _dense_weights(mesh: FbxMesh, vertices: IntArray, bones: int) -> FloatArray:
+def _dense_weights(mesh: SkinnedMesh, vertices: IntArray, bones: int) -> FloatArray:
     """Weights (V, J) with sum 1, as a reader normalises them."""
     weights = np.zeros((len(vertices), bones))
     rows = np.arange(len(vertices))
@@ -106,7 +106,7 @@ def _dense_weights(mesh: FbxMesh, vertices: IntArray, bones: int) -> FloatArray:
     return weights
 
 
-def _touching_morphs(clip: FbxClip, mesh: FbxMesh, vertices: IntArray) -> list[tuple[FloatArray, FloatArray]]:
+def _touching_morphs(clip: Clip, mesh: SkinnedMesh, vertices: IntArray) -> list[tuple[FloatArray, FloatArray]]:
     """Weight curve (F,) and displacement (V, 3) in metres of every morph that moves one of the vertices."""
     once, copies = np.unique(vertices, return_inverse=True)
     place = np.full(len(mesh.vertices_cm), -1)

@@ -8,9 +8,13 @@ Values that hold arrays compare and hash by identity, so that caches can be keye
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
+
+if TYPE_CHECKING:
+    from app.rig.figure import OwnSkeleton
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,6 +112,8 @@ class Character:
         Inverse bind matrices; skinning is ``world_from_joint @ joint_from_mesh @ position``.
     meshes : tuple of Mesh
     landmarks : dict of str to Landmark
+    own : OwnSkeleton or None
+        The skeleton of the file it came from; None: the file's skeleton is this one.
     """
 
     id: str
@@ -115,6 +121,7 @@ class Character:
     joint_from_mesh: npt.NDArray[np.float64]
     meshes: tuple[Mesh, ...]
     landmarks: dict[str, Landmark]
+    own: OwnSkeleton | None = None
 
 
 @dataclass(frozen=True, eq=False)

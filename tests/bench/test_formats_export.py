@@ -20,14 +20,14 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from app.formats.bvh import write_bvh
-from app.formats.fbx import FbxBone, FbxClip, FbxMaterial, FbxMesh, FbxMorph, FbxScene, write_scene
+from app.formats.fbx import Bone, Clip, MorphTarget, PhongMaterial, Scene, SkinnedMesh, write_scene
 
 BONES, FRAMES, FPS = 60, 10_800, 60
 TOOL = Path(__file__).parent.parent / "support" / "blender_reference.py"
 RUNS = 5
 
 
-def _scene() -> FbxScene:
+def _scene() -> Scene:
     """What `blender_reference.py` makes: a box on every bone, two shapes on one, turning bones, two that move."""
     parents = [-1] + [0 if number % 4 == 0 else number - 1 for number in range(1, BONES)]
     offsets = np.random.default_rng(1).normal(scale=10, size=(BONES, 3))
@@ -43,26 +43,26 @@ def _scene() -> FbxScene:
     corners = np.stack(np.meshgrid([-1.5, 1.5], [-1.5, 1.5], [-1.5, 1.5], indexing="ij"), axis=-1).reshape(-1, 3)
     sides = np.array([(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)])
     shape = np.tile([0.0, -5.0, 0.0], (8, 1))
-    mesh = FbxMesh(
+    mesh = SkinnedMesh(
         "Body",
         (binds[:, None, :3, 3] + corners).reshape(-1, 3),
         (8 * np.arange(BONES)[:, None, None] + sides).reshape(-1, 4),
         np.tile(corners / np.linalg.norm(corners, axis=1, keepdims=True), (BONES, 1)),
         np.zeros((8 * BONES, 2)),
-        (FbxMaterial("M_Body", (0.8, 0.8, 0.8)),),
+        (PhongMaterial("M_Body", (0.8, 0.8, 0.8)),),
         None,
         np.repeat(np.arange(BONES), 8)[:, None],
         np.ones((8 * BONES, 1)),
         binds,
-        tuple(FbxMorph(name, np.arange(40, 48), shape) for name in ("jawOpen", "browInnerUp")),
+        tuple(MorphTarget(name, np.arange(40, 48), shape) for name in ("jawOpen", "browInnerUp")),
     )
     weights = {"jawOpen": 0.5 - 0.5 * np.cos(3 * seconds[:, 0]), "browInnerUp": 0.5 + 0.4 * np.sin(2 * seconds[:, 0])}
     bones = tuple(
-        FbxBone(f"bone_{number:02d}", parent, offsets[number], np.array([0.0, 0.0, 0.0, 1.0]))
+        Bone(f"bone_{number:02d}", parent, offsets[number], np.array([0.0, 0.0, 0.0, 1.0]))
         for number, parent in enumerate(parents)
     )
-    clip = FbxClip("Take", Fraction(FPS), FRAMES, rotations.astype(np.float32), {0: moves, 1: moves}, weights)
-    return FbxScene(bones, (mesh,), clip)
+    clip = Clip("Take", Fraction(FPS), FRAMES, rotations.astype(np.float32), {0: moves, 1: moves}, weights)
+    return Scene(bones, (mesh,), clip)
 
 
 def _median_s(run: Callable[[], None]) -> float:

@@ -8,10 +8,10 @@ import numpy as np
 import numpy.typing as npt
 
 from app.formats.fbx.encode import Element, Property
-from app.formats.fbx.scene import FbxMesh, FbxMorph, FloatArray
+from app.formats.scene import FloatArray, MorphTarget, SkinnedMesh
 
 
-def geometry(mesh: FbxMesh) -> tuple[Element, ...]:
+def geometry(mesh: SkinnedMesh) -> tuple[Element, ...]:
     """Children of a Geometry record of class Mesh."""
     faces = np.array(mesh.faces, dtype=np.int32)
     faces[:, -1] = -faces[:, -1] - 1  # a negative index ends a polygon
@@ -32,7 +32,7 @@ def geometry(mesh: FbxMesh) -> tuple[Element, ...]:
     )
 
 
-def morph_geometry(morph: FbxMorph) -> tuple[Element, ...]:
+def morph_geometry(morph: MorphTarget) -> tuple[Element, ...]:
     """Children of a Geometry record of class Shape: what moves, and by how much."""
     normals = morph.normal_deltas if morph.normal_deltas is not None else np.zeros_like(morph.position_deltas_cm)
     return (
@@ -43,7 +43,7 @@ def morph_geometry(morph: FbxMorph) -> tuple[Element, ...]:
     )
 
 
-def skin_clusters(mesh: FbxMesh) -> Iterator[tuple[int, npt.NDArray[np.int32], npt.NDArray[np.float64]]]:
+def skin_clusters(mesh: SkinnedMesh) -> Iterator[tuple[int, npt.NDArray[np.int32], npt.NDArray[np.float64]]]:
     """Bone, its vertices in order and their weights, for every bone that moves any vertex."""
     vertex_count = len(mesh.vertices_cm)
     weights = np.asarray(mesh.weights, dtype=np.float64)
@@ -71,20 +71,20 @@ def _layer(name: str, version: int, mapping: str, reference: str, *values: tuple
     )
 
 
-def _normal_layer(mesh: FbxMesh) -> Element:
+def _normal_layer(mesh: SkinnedMesh) -> Element:
     normals = mesh.normals
     if len(normals) == len(mesh.vertices_cm):
         normals = normals[mesh.faces.ravel()]
     return _layer("LayerElementNormal", 101, "ByPolygonVertex", "Direct", ("Normals", _flat(normals)))
 
 
-def _smoothing_layer(mesh: FbxMesh) -> Element:
+def _smoothing_layer(mesh: SkinnedMesh) -> Element:
     # One smoothing group for all: the edges are where the normals say.
     groups = np.ones(len(mesh.faces), dtype=np.int32)
     return _layer("LayerElementSmoothing", 102, "ByPolygon", "Direct", ("Smoothing", groups))
 
 
-def _uv_layer(mesh: FbxMesh, uvs: FloatArray) -> Element:
+def _uv_layer(mesh: SkinnedMesh, uvs: FloatArray) -> Element:
     if len(uvs) == len(mesh.vertices_cm):
         indices = mesh.faces.ravel().astype(np.int32)
     else:
@@ -92,7 +92,7 @@ def _uv_layer(mesh: FbxMesh, uvs: FloatArray) -> Element:
     return _layer("LayerElementUV", 101, "ByPolygonVertex", "IndexToDirect", ("UV", _flat(uvs)), ("UVIndex", indices))
 
 
-def _material_layer(mesh: FbxMesh) -> Element:
+def _material_layer(mesh: SkinnedMesh) -> Element:
     if mesh.face_materials is None:
         return _layer(
             "LayerElementMaterial", 101, "AllSame", "IndexToDirect", ("Materials", np.zeros(1, dtype=np.int32))

@@ -25,8 +25,8 @@ from app.formats.fbx import ticks
 from app.formats.fbx.decode import read_elements
 from app.formats.fbx.encode import Element
 from app.formats.fbx.graph import FbxObject, Float64Array, ObjectGraph, numbers, properties_of
-from app.formats.fbx.scene import FbxBone, FbxClip, FbxMaterial, FbxMesh, FbxMorph, FbxScene, check_scene
 from app.formats.fbx.write import EULER_ORDER
+from app.formats.scene import Bone, Clip, MorphTarget, PhongMaterial, Scene, SkinnedMesh, check_scene
 
 # Frames times bones, and vertices times influences: far beyond any real file, small enough for any computer.
 _MOST_VALUES = 2**25
@@ -37,7 +37,7 @@ _NOT_SUPPORTED = (
 )  # fmt: skip
 
 
-def read_scene(path: str | os.PathLike[str]) -> FbxScene:
+def read_scene(path: str | os.PathLike[str]) -> Scene:
     """Read a file as `write_scene` writes it.
 
     Normals and UVs come per corner, everything else as it went in, in float64 (curves in float32's precision).
@@ -55,7 +55,7 @@ def read_scene(path: str | os.PathLike[str]) -> FbxScene:
     return decode_scene(data, file)
 
 
-def decode_scene(data: bytes, file: str) -> FbxScene:
+def decode_scene(data: bytes, file: str) -> Scene:
     """Scene of a file's bytes, as `read_scene`."""
     root = read_elements(data, file)
     graph = ObjectGraph(root, file)
@@ -63,7 +63,7 @@ def decode_scene(data: bytes, file: str) -> FbxScene:
     meshes = tuple(_mesh(graph, model, bone_of_model) for model in graph.of_kind("Model", "Mesh"))
     clip = _clip(graph, root, bones, bone_of_model)
     creator = root.child("Creator")
-    scene = FbxScene(bones, meshes, clip, graph.only(creator, str) if creator is not None else "")
+    scene = Scene(bones, meshes, clip, graph.only(creator, str) if creator is not None else "")
     try:
         check_scene(scene)
     except ValueError as error:
@@ -74,7 +74,7 @@ def decode_scene(data: bytes, file: str) -> FbxScene:
 # ------------------------------------------------------------------------------------------------------------ bones
 
 
-def _bones(graph: ObjectGraph) -> tuple[tuple[FbxBone, ...], dict[int, int]]:
+def _bones(graph: ObjectGraph) -> tuple[tuple[Bone, ...], dict[int, int]]:
     """Bones with parents first, and the index of each model."""
     models = graph.of_kind("Model", "LimbNode")
     is_bone = {model.id for model in models}
@@ -86,7 +86,7 @@ def _bones(graph: ObjectGraph) -> tuple[tuple[FbxBone, ...], dict[int, int]]:
             raise FileError("fbx.unsupported", file=graph.file, what=f"a node above the bone {model.name}")
         parent_of[model.id] = bone_above[0] if bone_above else 0
     index: dict[int, int] = {0: -1}
-    bones: list[FbxBone] = []
+    bones: list[Bone] = []
     for model in models:
         chain = [model.id]
         while parent_of[chain[-1]] and parent_of[chain[-1]] not in index:
@@ -101,10 +101,10 @@ def _bones(graph: ObjectGraph) -> tuple[tuple[FbxBone, ...], dict[int, int]]:
     return tuple(bones), index
 
 
-def _bone(graph: ObjectGraph, model: FbxObject, parent: int) -> FbxBone:
+def _bone(graph: ObjectGraph, model: FbxObject, parent: int) -> Bone:
     translation, rotation = _placement(graph, model)
     quaternion = euler.quaternions(rotation[::-1], EULER_ORDER)
-    return FbxBone(model.name, parent, translation, quaternion)
+    return Bone(model.name, parent, translation, quaternion)
 
 
 def _placement(graph: ObjectGraph, model: FbxObject) -> tuple[Float64Array, Float64Array]:
@@ -124,7 +124,7 @@ def _placement(graph: ObjectGraph, model: FbxObject) -> tuple[Float64Array, Floa
 # ----------------------------------------------------------------------------------------------------------- meshes
 
 
-def _mesh(graph: ObjectGraph, model: FbxObject, bone_of_model: dict[int, int]) -> FbxMesh:
+def _mesh(graph: ObjectGraph, model: FbxObject, bone_of_model: dict[int, int]) -> SkinnedMesh:
     if any(np.concatenate(_placement(graph, model))):
         raise FileError("fbx.unsupported", file=graph.file, what=f"place of the mesh {model.name}")
     shapes = graph.below(model, "Geometry", "Mesh")
@@ -135,7 +135,7 @@ def _mesh(graph: ObjectGraph, model: FbxObject, bone_of_model: dict[int, int]) -
     faces = _faces(graph, element, model.name)
     normals = graph.floats(_layer(graph, element, "LayerElementNormal", "ByPolygonVertex"), "Normals", 3)
     joint_indices, weights, binds = _skin(graph, shapes[0], len(vertices), bone_of_model)
-    return FbxMesh(
+    return SkinnedMesh(
         name=model.name,
         vertices_cm=vertices,
         faces=faces,
@@ -183,7 +183,7 @@ def _face_materials(graph: ObjectGraph, element: Element, face_count: int) -> np
     return np.repeat(indices, face_count) if len(indices) == 1 else indices
 
 
-def _material(material: FbxObject) -> FbxMaterial:
+def _material(material: FbxObject) -> PhongMaterial:
     properties = {name: numbers(values) for name, values in properties_of(material.element).items()}
 
     def color(name: str) -> tuple[float, float, float]:
@@ -193,7 +193,7 @@ def _material(material: FbxObject) -> FbxMaterial:
     def number(name: str, otherwise: float) -> float:
         return next(iter(properties.get(name, [])), otherwise)
 
-    return FbxMaterial(
+    return PhongMaterial(
         material.name,
         color("DiffuseColor"),
         color("SpecularColor"),
@@ -248,7 +248,7 @@ def _bind_pose(graph: ObjectGraph, bone_of_model: dict[int, int]) -> Float64Arra
     return binds
 
 
-def _morphs(graph: ObjectGraph, shape: FbxObject) -> tuple[FbxMorph, ...]:
+def _morphs(graph: ObjectGraph, shape: FbxObject) -> tuple[MorphTarget, ...]:
     morphs = []
     for deformer in graph.below(shape, "Deformer", "BlendShape"):
         for channel in graph.below(deformer, "Deformer", "BlendShapeChannel"):
@@ -258,16 +258,14 @@ def _morphs(graph: ObjectGraph, shape: FbxObject) -> tuple[FbxMorph, ...]:
             element = targets[0].element
             normals = graph.floats(element, "Normals", 3) if element.child("Normals") is not None else None
             indices = graph.integers(element, "Indexes")
-            morphs.append(FbxMorph(channel.name, indices, graph.floats(element, "Vertices", 3), normals))
+            morphs.append(MorphTarget(channel.name, indices, graph.floats(element, "Vertices", 3), normals))
     return tuple(morphs)
 
 
 # -------------------------------------------------------------------------------------------------------- animation
 
 
-def _clip(
-    graph: ObjectGraph, root: Element, bones: tuple[FbxBone, ...], bone_of_model: dict[int, int]
-) -> FbxClip | None:
+def _clip(graph: ObjectGraph, root: Element, bones: tuple[Bone, ...], bone_of_model: dict[int, int]) -> Clip | None:
     stacks = graph.of_kind("AnimationStack", "")
     if not stacks:
         return None
@@ -296,7 +294,7 @@ def _clip(
             weights[name] = weight
         else:
             raise FileError("fbx.unsupported", file=graph.file, what=f"animation of {to_property}")
-    return FbxClip(stacks[0].name, fps, frames, rotations, translations, weights)
+    return Clip(stacks[0].name, fps, frames, rotations, translations, weights)
 
 
 def _curves(graph: ObjectGraph, stack: FbxObject, fps: Fraction) -> tuple[int, dict[tuple[int, str], Float64Array]]:

@@ -8,7 +8,7 @@ import numpy as np
 
 from app.formats.fbx import encode, ticks
 from app.formats.fbx.encode import Element, Property
-from app.formats.fbx.scene import FbxClip
+from app.formats.scene import Clip
 
 
 def integer(name: str, value: int) -> Element:
@@ -62,7 +62,7 @@ def header(creator: str) -> Element:
     )
 
 
-def global_settings(clip: FbxClip | None, last_tick: int) -> Element:
+def global_settings(clip: Clip | None, last_tick: int) -> Element:
     """Axes (Y up, right-handed), unit (centimetres), frame rate and time span."""
     axes = (
         ("UpAxis", 1), ("UpAxisSign", 1), ("FrontAxis", 2), ("FrontAxisSign", 1), ("CoordAxis", 0),

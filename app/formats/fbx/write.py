@@ -17,7 +17,6 @@ from app.formats.euler import euler_degrees
 from app.formats.fbx import encode, ticks
 from app.formats.fbx.encode import Element, PackedArray, Property, encode_elements, pack_array, write_elements
 from app.formats.fbx.geometry import geometry, morph_geometry, skin_clusters
-from app.formats.fbx.scene import FbxBone, FbxClip, FbxMaterial, FbxMesh, FbxScene, FloatArray, check_scene
 from app.formats.fbx.sections import (
     definitions,
     documents,
@@ -28,6 +27,7 @@ from app.formats.fbx.sections import (
     property_row,
     takes,
 )
+from app.formats.scene import Bone, Clip, FloatArray, PhongMaterial, Scene, SkinnedMesh, check_scene
 
 # FBX calls this order XYZ: x turns first, so the matrix is Rz Ry Rx.
 EULER_ORDER = "ZYX"
@@ -39,13 +39,13 @@ _KEY_FLAGS = np.array([0x6104], dtype=np.int32)
 _KEY_DATA = np.array([0.0, 0.0, 9.419963346924634e-30, 0.0], dtype=np.float32)
 
 
-def write_scene(path: str | os.PathLike[str], scene: FbxScene) -> None:
+def write_scene(path: str | os.PathLike[str], scene: Scene) -> None:
     """Write a scene as a binary FBX file, whole or not at all.
 
     Parameters
     ----------
     path : str or path-like
-    scene : FbxScene
+    scene : Scene
 
     Raises
     ------
@@ -59,12 +59,12 @@ def write_scene(path: str | os.PathLike[str], scene: FbxScene) -> None:
         write_elements(stream, elements)
 
 
-def encode_scene(scene: FbxScene) -> bytes:
+def encode_scene(scene: Scene) -> bytes:
     """Bytes that `write_scene` writes; the same scene always gives the same."""
     return encode_elements(scene_elements(scene))
 
 
-def scene_elements(scene: FbxScene) -> tuple[Element, ...]:
+def scene_elements(scene: Scene) -> tuple[Element, ...]:
     """Top level of the file, in the order that every reader expects."""
     check_scene(scene)
     graph = _Graph()
@@ -126,12 +126,12 @@ def _vector(name: str, values: FloatArray) -> Element:
 # --------------------------------------------------------------------------------------------- skeleton and meshes
 
 
-def _add_skeleton_and_meshes(graph: _Graph, scene: FbxScene) -> None:
+def _add_skeleton_and_meshes(graph: _Graph, scene: Scene) -> None:
     for bone in scene.bones:
         _add_bone(graph, bone)
     if scene.meshes:
         binds = _unconnected_binds(scene)
-        materials: dict[FbxMaterial, int] = {}
+        materials: dict[PhongMaterial, int] = {}
         mesh_ids = [_add_mesh(graph, mesh, binds, materials) for mesh in scene.meshes]
         nodes = [_pose_node(graph.bone_ids[index], bind) for index, bind in enumerate(binds)]
         nodes = [_pose_node(mesh_id, np.eye(4)) for mesh_id in mesh_ids] + nodes
@@ -139,7 +139,7 @@ def _add_skeleton_and_meshes(graph: _Graph, scene: FbxScene) -> None:
         graph.add("Pose", "BindPose", "Pose", "BindPose", (*header, *nodes))
 
 
-def _add_bone(graph: _Graph, bone: FbxBone) -> None:
+def _add_bone(graph: _Graph, bone: Bone) -> None:
     flags = (Element("TypeFlags", ("Skeleton",)),)
     attribute = graph.add("NodeAttribute", bone.name, "NodeAttribute", "LimbNode", flags)
     rotation = euler_degrees(np.asarray(bone.rotation_xyzw)[None, None], EULER_ORDER)[0, ::-1, 0]
@@ -164,7 +164,7 @@ def _model(translation_cm: FloatArray, rotation_degrees: FloatArray) -> tuple[El
     )
 
 
-def _unconnected_binds(scene: FbxScene) -> npt.NDArray[np.float64]:
+def _unconnected_binds(scene: Scene) -> npt.NDArray[np.float64]:
     """Bind transforms (J, 4, 4) in which no bone that changes its place lies exactly on its parent's y axis.
 
     Blender takes the child at the end of that axis for connected and then drops its location keys, so such a bone is
@@ -181,7 +181,9 @@ def _unconnected_binds(scene: FbxScene) -> npt.NDArray[np.float64]:
     return binds
 
 
-def _add_mesh(graph: _Graph, mesh: FbxMesh, binds: npt.NDArray[np.float64], materials: dict[FbxMaterial, int]) -> int:
+def _add_mesh(
+    graph: _Graph, mesh: SkinnedMesh, binds: npt.NDArray[np.float64], materials: dict[PhongMaterial, int]
+) -> int:
     model = graph.add("Model", mesh.name, "Model", "Mesh", _model(np.zeros(3), np.zeros(3)))
     graph.connect(model, 0)
     shape = graph.add("Geometry", mesh.name, "Geometry", "Mesh", geometry(mesh))
@@ -196,7 +198,7 @@ def _add_mesh(graph: _Graph, mesh: FbxMesh, binds: npt.NDArray[np.float64], mate
     return model
 
 
-def _material(material: FbxMaterial) -> tuple[Element, ...]:
+def _material(material: PhongMaterial) -> tuple[Element, ...]:
     def color(name: str, rgb: tuple[float, float, float]) -> Element:
         return property_row(name, "Color", "", "A", *(float(value) for value in rgb))
 
@@ -224,7 +226,7 @@ def _material(material: FbxMaterial) -> tuple[Element, ...]:
     )
 
 
-def _add_skin(graph: _Graph, mesh: FbxMesh, shape: int, binds: npt.NDArray[np.float64]) -> None:
+def _add_skin(graph: _Graph, mesh: SkinnedMesh, shape: int, binds: npt.NDArray[np.float64]) -> None:
     skin_children = (integer("Version", 101), Element("Link_DeformAcuracy", (50.0,)))
     skin = graph.add("Deformer", mesh.name, "Deformer", "Skin", skin_children)
     graph.connect(skin, shape)
@@ -252,7 +254,7 @@ def _pose_node(node: int, world_from_node: FloatArray) -> Element:
     return Element("PoseNode", (), (Element("Node", (np.int64(node),)), _matrix("Matrix", world_from_node)))
 
 
-def _add_morphs(graph: _Graph, mesh: FbxMesh, shape: int) -> None:
+def _add_morphs(graph: _Graph, mesh: SkinnedMesh, shape: int) -> None:
     # Unreal cuts the deformer's name off the front of a channel's name, so it must not be one.
     deformer = graph.add("Deformer", f"{mesh.name}_morphs", "Deformer", "BlendShape", (integer("Version", 100),))
     graph.connect(deformer, shape)
@@ -272,7 +274,7 @@ def _add_morphs(graph: _Graph, mesh: FbxMesh, shape: int) -> None:
 # -------------------------------------------------------------------------------------------------------- animation
 
 
-def _add_clip(graph: _Graph, scene: FbxScene, clip: FbxClip) -> int:
+def _add_clip(graph: _Graph, scene: Scene, clip: Clip) -> int:
     """Stack, layer and all curves; returns the tick of the last key."""
     key_ticks = ticks.frame_ticks(clip.fps, clip.frames)
     last_tick = int(key_ticks[-1])

@@ -11,22 +11,22 @@ from pathlib import Path
 
 import numpy as np
 
-from app.formats.fbx import FbxBone, FbxClip, FbxMaterial, FbxMesh, FbxMorph, FbxScene, encode_scene
+from app.formats.fbx import Bone, Clip, MorphTarget, PhongMaterial, Scene, SkinnedMesh, encode_scene
 from app.formats.fbx.decode import read_elements
 from app.formats.fbx.dump import text
 
 GOLDEN = Path(__file__).with_name("scene.txt")
 
 
-def _scene() -> FbxScene:
+def _scene() -> Scene:
     """Exact numbers only, so that no computer's arithmetic shows."""
     identity = np.array([0.0, 0.0, 0.0, 1.0])
-    bones = (FbxBone("root", -1, np.zeros(3), identity), FbxBone("slide", 0, np.array([0.0, 0.0, 20.0]), identity))
+    bones = (Bone("root", -1, np.zeros(3), identity), Bone("slide", 0, np.array([0.0, 0.0, 20.0]), identity))
     binds = np.tile(np.eye(4), (2, 1, 1))
     binds[1, 2, 3] = 20.0
-    brass = FbxMaterial("Brass", (0.75, 0.5, 0.25), (1.0, 0.5, 0.5), 64.0)
-    glass = FbxMaterial("Glass", (0.0, 0.5, 1.0), opacity=0.5)
-    mesh = FbxMesh(
+    brass = PhongMaterial("Brass", (0.75, 0.5, 0.25), (1.0, 0.5, 0.5), 64.0)
+    glass = PhongMaterial("Glass", (0.0, 0.5, 1.0), opacity=0.5)
+    mesh = SkinnedMesh(
         "Brass",
         np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 20]]),
         np.array([[0, 1, 2], [0, 2, 3]]),
@@ -37,9 +37,9 @@ def _scene() -> FbxScene:
         np.array([[0, 1], [0, 1], [0, 1], [1, 0]]),
         np.array([[1.0, 0.0], [0.5, 0.5], [0.5, 0.5], [1.0, 0.0]]),
         binds,
-        (FbxMorph("jawOpen", np.array([1, 3]), np.array([[0.0, 1, 0], [0, 0, 1]])),),
+        (MorphTarget("jawOpen", np.array([1, 3]), np.array([[0.0, 1, 0], [0, 0, 1]])),),
     )
-    clip = FbxClip(
+    clip = Clip(
         "Performance",
         Fraction(30000, 1001),
         3,
@@ -47,7 +47,7 @@ def _scene() -> FbxScene:
         {1: np.array([[0.0, 0, 20], [0, 0, 30], [0, 0, 40]])},
         {"jawOpen": np.array([0.0, 0.5, 1.0])},
     )
-    return FbxScene(bones, (mesh,), clip, "Suisou")
+    return Scene(bones, (mesh,), clip, "Suisou")
 
 
 def test_the_text_of_a_file_is_what_it_was() -> None:

@@ -7,37 +7,37 @@ from fractions import Fraction
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from app.formats.fbx.scene import FbxBone, FbxClip, FbxMaterial, FbxMesh, FbxMorph, FbxScene
+from app.formats.scene import Bone, Clip, MorphTarget, PhongMaterial, Scene, SkinnedMesh
 
 
-def random_scene(seed: int, vertices: int = 60, frames: int = 7) -> FbxScene:
+def random_scene(seed: int, vertices: int = 60, frames: int = 7) -> Scene:
     """A chain of four bones that bends a cloud of vertices with two morphs."""
     random = np.random.default_rng(seed)
     bones = tuple(
-        FbxBone(name, parent, random.uniform(-3, 3, 3), np.array([0.0, 0.0, 0.0, 1.0]))
+        Bone(name, parent, random.uniform(-3, 3, 3), np.array([0.0, 0.0, 0.0, 1.0]))
         for name, parent in (("root", -1), ("a", 0), ("b", 1), ("c", 1))
     )
     binds = np.tile(np.eye(4), (4, 1, 1))
     binds[:, :3, :3] = Rotation.random(4, random_state=seed).as_matrix()
     binds[:, :3, 3] = random.uniform(-3, 3, (4, 3))
     weights = random.uniform(0.1, 1, (vertices, 2))
-    mesh = FbxMesh(
+    mesh = SkinnedMesh(
         name="cloud",
         vertices_cm=random.uniform(-5, 5, (vertices, 3)),
         faces=np.arange(vertices // 3 * 3).reshape(-1, 3),
         normals=np.tile([0.0, 1.0, 0.0], (vertices, 1)),
         uvs=None,
-        materials=(FbxMaterial("plain", (1.0, 1.0, 1.0)),),
+        materials=(PhongMaterial("plain", (1.0, 1.0, 1.0)),),
         face_materials=None,
         joint_indices=random.integers(0, 4, (vertices, 2)),
         weights=weights / weights.sum(axis=1, keepdims=True),
         world_from_bone_bind=binds,
         morphs=tuple(
-            FbxMorph(name, np.arange(first, vertices, 3), random.uniform(-1, 1, (len(range(first, vertices, 3)), 3)))
+            MorphTarget(name, np.arange(first, vertices, 3), random.uniform(-1, 1, (len(range(first, vertices, 3)), 3)))
             for name, first in (("smile", 0), ("frown", 1))
         ),
     )
-    clip = FbxClip(
+    clip = Clip(
         name="clip",
         fps=Fraction(30),
         frames=frames,
@@ -45,10 +45,10 @@ def random_scene(seed: int, vertices: int = 60, frames: int = 7) -> FbxScene:
         translations_cm={1: random.uniform(-2, 2, (frames, 3))},
         morph_weights={"smile": random.uniform(0, 1, frames)},
     )
-    return FbxScene(bones, (mesh,), clip)
+    return Scene(bones, (mesh,), clip)
 
 
-def slow_positions_m(scene: FbxScene, frame: int) -> np.ndarray:
+def slow_positions_m(scene: Scene, frame: int) -> np.ndarray:
     """Deformed vertices of the first mesh, one by one, straight from the definition."""
     clip, mesh = scene.clip, scene.meshes[0]
     assert clip is not None

@@ -19,7 +19,7 @@ from app.export.measure import Measured, greatest_correlations, measure_player
 from app.export.penetration import Hands
 from app.export.playback import Playback, Surface
 from app.export.proxy import signed_distance
-from app.formats.fbx.scene import FbxScene
+from app.formats.scene import Scene
 from app.performance.bodies import body_of, character_of, model_of
 from app.performance.ensemble import Performance
 from app.performance.motion import player_motion
@@ -50,7 +50,7 @@ class Case:
         self.player_scene = character_scene(self.character, motion, "x", "test")
         self.held_scene = instrument_scene(self.instrument, model_of(self.instrument), motion, "x", "test")
 
-    def measure(self, player_scene: FbxScene | None = None, held_scene: FbxScene | None = None) -> Measured:
+    def measure(self, player_scene: Scene | None = None, held_scene: Scene | None = None) -> Measured:
         body = body_of(self.player)
         return measure_player(
             player_scene or self.player_scene,
@@ -69,7 +69,7 @@ def case(request: pytest.FixtureRequest) -> Case:
     return Case(request.param)
 
 
-def moved(scene: FbxScene, bone: int, offset_cm: np.ndarray, frames: slice = slice(None)) -> FbxScene:
+def moved(scene: Scene, bone: int, offset_cm: np.ndarray, frames: slice = slice(None)) -> Scene:
     assert scene.clip is not None
     translations = dict(scene.clip.translations_cm)
     translations[bone] = np.array(translations[bone], np.float64)

@@ -7,7 +7,7 @@ from fractions import Fraction
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from app.formats.fbx import FbxBone, FbxClip, FbxMaterial, FbxMesh, FbxMorph, FbxScene
+from app.formats.fbx import Bone, Clip, MorphTarget, PhongMaterial, Scene, SkinnedMesh
 from tests.support.readers import Expected
 
 BONES = (
@@ -46,7 +46,7 @@ def rotations(seed: int, frames: int, joints: int, amplitude_rad: float) -> np.n
     return Rotation.from_rotvec(vectors.reshape(-1, 3)).as_quat().reshape(frames, joints, 4)
 
 
-def world_from_bones(bones: tuple[FbxBone, ...], translations: np.ndarray, quaternions: np.ndarray) -> np.ndarray:
+def world_from_bones(bones: tuple[Bone, ...], translations: np.ndarray, quaternions: np.ndarray) -> np.ndarray:
     """World transforms (F, J, 4, 4) from local ones, joint by joint with scipy's matrices."""
     frames, joints, _ = translations.shape
     result = np.zeros((frames, joints, 4, 4))
@@ -58,10 +58,10 @@ def world_from_bones(bones: tuple[FbxBone, ...], translations: np.ndarray, quate
     return result
 
 
-def _rest_bones(seed: int, rest_amplitude_rad: float) -> tuple[FbxBone, ...]:
+def _rest_bones(seed: int, rest_amplitude_rad: float) -> tuple[Bone, ...]:
     rest = rotations(seed, 1, len(BONES), rest_amplitude_rad)[0]
     return tuple(
-        FbxBone(name, parent, np.array(offset, dtype=float), rest[joint])
+        Bone(name, parent, np.array(offset, dtype=float), rest[joint])
         for joint, (name, parent, offset) in enumerate(BONES)
     )
 
@@ -83,7 +83,7 @@ def _sphere(center: np.ndarray, radius: float) -> tuple[np.ndarray, np.ndarray, 
     return center + radius * directions, np.array(outward), directions
 
 
-def _mesh(name: str, joints: list[int], binds: np.ndarray, morph_names: tuple[str, ...], seed: int) -> FbxMesh:
+def _mesh(name: str, joints: list[int], binds: np.ndarray, morph_names: tuple[str, ...], seed: int) -> SkinnedMesh:
     """A ball around each joint, blended into the parent's and two more joints."""
     generator = np.random.default_rng(seed)
     vertices, faces, normals, indices = [], [], [], []
@@ -98,14 +98,14 @@ def _mesh(name: str, joints: list[int], binds: np.ndarray, morph_names: tuple[st
     weights /= weights.sum(axis=1, keepdims=True)
     all_faces = np.concatenate(faces)
     morphs = tuple(
-        FbxMorph(morph, np.arange(k, 12 * len(joints), 3), generator.normal(size=(4 * len(joints), 3)))
+        MorphTarget(morph, np.arange(k, 12 * len(joints), 3), generator.normal(size=(4 * len(joints), 3)))
         for k, morph in enumerate(morph_names)
     )
     materials = (
-        FbxMaterial(f"{name}_front", (0.8, 0.5, 0.4)),
-        FbxMaterial(f"{name}_back", (0.1, 0.2, 0.3), opacity=0.5),
+        PhongMaterial(f"{name}_front", (0.8, 0.5, 0.4)),
+        PhongMaterial(f"{name}_back", (0.1, 0.2, 0.3), opacity=0.5),
     )
-    return FbxMesh(
+    return SkinnedMesh(
         name=name,
         vertices_cm=np.concatenate(vertices),
         faces=all_faces,
@@ -120,7 +120,7 @@ def _mesh(name: str, joints: list[int], binds: np.ndarray, morph_names: tuple[st
     )
 
 
-def character(fps: Fraction, frames: int = 49, amplitude_rad: float = 0.6) -> FbxScene:
+def character(fps: Fraction, frames: int = 49, amplitude_rad: float = 0.6) -> Scene:
     """Twenty-two bones, three skinned meshes bound in another pose than the rest, morphs on two of them."""
     bones = _rest_bones(11, 0.3)
     bind_rotations = rotations(12, 1, len(bones), 0.2)
@@ -133,7 +133,7 @@ def character(fps: Fraction, frames: int = 49, amplitude_rad: float = 0.6) -> Fb
         _mesh("Shirt", [2, 3, 7, 13], binds, (), 3),
     )
     time = np.arange(frames)
-    clip = FbxClip(
+    clip = Clip(
         "Performance",
         fps,
         frames,
@@ -144,27 +144,27 @@ def character(fps: Fraction, frames: int = 49, amplitude_rad: float = 0.6) -> Fb
         },
         {"jawOpen": 0.5 - 0.5 * np.cos(0.2 * time), "browInnerUp": np.linspace(0, 1, frames)},
     )
-    return FbxScene(bones, meshes, clip, "Suisou test")
+    return Scene(bones, meshes, clip, "Suisou test")
 
 
-def instrument(fps: Fraction, frames: int = 49) -> FbxScene:
+def instrument(fps: Fraction, frames: int = 49) -> Scene:
     """One root and rigid moving parts, two of them straight above their parent."""
     identity = np.array([0.0, 0.0, 0.0, 1.0])
     parts = (("root", -1, (0, 0, 0)), ("valve_1", 0, (0, 8, 0)), ("valve_2", 0, (3, 8, 0)), ("slide", 0, (0, 0, 20)),
              ("water_key", 3, (0, 5, 0)))  # fmt: skip
-    bones = tuple(FbxBone(name, parent, np.array(place, dtype=float), identity) for name, parent, place in parts)
+    bones = tuple(Bone(name, parent, np.array(place, dtype=float), identity) for name, parent, place in parts)
     offsets = np.array([bone.translation_cm for bone in bones])
     quaternions = np.tile(identity, (frames, len(bones), 1))
     quaternions[:, 0] = rotations(21, frames, 1, 0.8)[:, 0]
     binds = world_from_bones(bones, offsets[None], quaternions[:1] * 0 + identity)[0]
     vertices, faces, normals = zip(*(_sphere(place, 1.5) for place in binds[:, :3, 3]), strict=True)
-    mesh = FbxMesh(
+    mesh = SkinnedMesh(
         "Brass",
         np.concatenate(vertices),
         np.concatenate([triangles + 12 * number for number, triangles in enumerate(faces)]),
         np.concatenate(normals),
         None,
-        (FbxMaterial("Brass", (0.8, 0.6, 0.2), (0.9, 0.8, 0.5), 80.0),),
+        (PhongMaterial("Brass", (0.8, 0.6, 0.2), (0.9, 0.8, 0.5), 80.0),),
         None,
         np.repeat(np.arange(len(bones)), 12)[:, None],
         np.ones((12 * len(bones), 1)),
@@ -177,10 +177,10 @@ def instrument(fps: Fraction, frames: int = 49) -> FbxScene:
         3: offsets[3] + np.column_stack([0 * time, 0 * time, 30 + 30 * np.sin(0.15 * time)]),
         4: offsets[4] + np.column_stack([0 * time, np.sin(0.3 * time), 0 * time]),
     }
-    return FbxScene(bones, (mesh,), FbxClip("Performance", fps, frames, quaternions, moves))
+    return Scene(bones, (mesh,), Clip("Performance", fps, frames, quaternions, moves))
 
 
-def expected(scene: FbxScene) -> Expected:
+def expected(scene: Scene) -> Expected:
     """What every reader should find in a scene's file."""
     assert scene.clip is not None
     clip = scene.clip

@@ -11,7 +11,16 @@ import numpy as np
 import pytest
 
 from app.errors import FileError
-from app.formats.fbx import FbxMaterial, FbxMesh, FbxMorph, FbxScene, encode_scene, join_meshes, read_scene, write_scene
+from app.formats.fbx import (
+    MorphTarget,
+    PhongMaterial,
+    Scene,
+    SkinnedMesh,
+    encode_scene,
+    join_meshes,
+    read_scene,
+    write_scene,
+)
 from app.formats.fbx.decode import read_elements
 from app.formats.fbx.encode import Element, Property, encode_elements
 from app.formats.fbx.read import decode_scene
@@ -19,14 +28,14 @@ from app.formats.fbx.write import scene_elements
 from tests.unit.formats import scenes
 
 
-def _dense(mesh: FbxMesh, bones: int) -> np.ndarray:
+def _dense(mesh: SkinnedMesh, bones: int) -> np.ndarray:
     weights = np.zeros((len(mesh.vertices_cm), bones))
     for slot in range(mesh.weights.shape[1]):
         np.add.at(weights, (np.arange(len(weights)), mesh.joint_indices[:, slot]), mesh.weights[:, slot])
     return weights
 
 
-def _assert_same_mesh(given: FbxMesh, found: FbxMesh, bones: int) -> None:
+def _assert_same_mesh(given: SkinnedMesh, found: SkinnedMesh, bones: int) -> None:
     corners = given.faces.ravel()
     np.testing.assert_array_equal(found.vertices_cm, given.vertices_cm)
     np.testing.assert_array_equal(found.faces, given.faces)
@@ -74,7 +83,7 @@ def test_a_scene_comes_back(make: object, fps: Fraction, tmp_path: Path) -> None
 
 
 def test_a_scene_without_mesh_or_clip_comes_back(tmp_path: Path) -> None:
-    scene = FbxScene(scenes.character(Fraction(24)).bones)
+    scene = Scene(scenes.character(Fraction(24)).bones)
     write_scene(tmp_path / "bones.fbx", scene)
     found = read_scene(tmp_path / "bones.fbx")
     assert [bone.name for bone in found.bones] == [bone.name for bone in scene.bones]
@@ -108,17 +117,17 @@ def test_moving_bones_are_bound_beside_their_parents_axis_and_others_stay() -> N
     assert 5e-4 <= np.linalg.norm(found[hips, :3, 3] - given[hips, :3, 3]) <= 2e-3
 
 
-def _mesh(scene: FbxScene, **changes: object) -> FbxScene:
+def _mesh(scene: Scene, **changes: object) -> Scene:
     return replace(scene, meshes=(replace(scene.meshes[0], **changes),))  # type: ignore[arg-type]
 
 
-def _clip(scene: FbxScene, **changes: object) -> FbxScene:
+def _clip(scene: Scene, **changes: object) -> Scene:
     assert scene.clip is not None
     return replace(scene, clip=replace(scene.clip, **changes))  # type: ignore[arg-type]
 
 
 GOOD = scenes.instrument(Fraction(24), frames=4)
-MORPH = FbxMorph("a", np.array([0]), np.zeros((1, 3)))
+MORPH = MorphTarget("a", np.array([0]), np.zeros((1, 3)))
 CONTRADICTIONS = {
     "no bone": replace(GOOD, bones=()),
     "two roots": replace(GOOD, bones=(*GOOD.bones[:-1], replace(GOOD.bones[-1], parent=-1))),
@@ -272,5 +281,5 @@ def test_joining_shares_materials_and_fills_in_uvs_and_normals() -> None:
     np.testing.assert_array_equal(joined.normals, np.concatenate([mesh.normals[corners]] * 2))
     assert joined.uvs is not None
     np.testing.assert_array_equal(joined.uvs, np.concatenate([mesh.uvs, np.zeros_like(mesh.uvs)]))
-    none = join_meshes([plain, replace(plain, materials=(FbxMaterial("b", (0, 0, 0)),))], "None")
+    none = join_meshes([plain, replace(plain, materials=(PhongMaterial("b", (0, 0, 0)),))], "None")
     assert none.uvs is None

@@ -13,37 +13,37 @@ from typing import TypeVar
 import numpy as np
 import numpy.typing as npt
 
-from app.formats.fbx.scene import FbxMaterial, FbxMesh, FbxMorph, FloatArray, IntArray
+from app.formats.scene import FloatArray, IntArray, MorphTarget, PhongMaterial, SkinnedMesh
 
 Number = TypeVar("Number", bound=np.generic)
 
 
-def join_meshes(meshes: Sequence[FbxMesh], name: str) -> FbxMesh:
+def join_meshes(meshes: Sequence[SkinnedMesh], name: str) -> SkinnedMesh:
     """One mesh of all vertices, in the order given.
 
     Parameters
     ----------
-    meshes : sequence of FbxMesh
+    meshes : sequence of SkinnedMesh
         At least one, with polygons of the same number of corners, bound in the same pose.
     name : str
 
     Returns
     -------
-    FbxMesh
+    SkinnedMesh
         Vertex v of the nth mesh becomes v plus the vertex counts of the meshes before it. Equal materials become one,
         morphs of one name become one. Normals are per vertex if all were. Where only some have UVs, the others get
         zeros.
     """
     counts = [len(mesh.vertices_cm) for mesh in meshes]
     starts = (np.cumsum(counts) - counts).tolist()
-    materials: dict[FbxMaterial, int] = {}
+    materials: dict[PhongMaterial, int] = {}
     for mesh in meshes:
         for material in mesh.materials:
             materials.setdefault(material, len(materials))
     width = max(mesh.joint_indices.shape[1] for mesh in meshes)
     by_corner = any(len(mesh.normals) != len(mesh.vertices_cm) for mesh in meshes)
     uvs_by_corner = any(mesh.uvs is not None and len(mesh.uvs) != len(mesh.vertices_cm) for mesh in meshes)
-    return FbxMesh(
+    return SkinnedMesh(
         name=name,
         vertices_cm=np.concatenate([mesh.vertices_cm for mesh in meshes]),
         faces=np.concatenate([mesh.faces + start for mesh, start in zip(meshes, starts, strict=True)]),
@@ -60,15 +60,15 @@ def join_meshes(meshes: Sequence[FbxMesh], name: str) -> FbxMesh:
     )
 
 
-def _spread(mesh: FbxMesh, values: FloatArray, by_corner: bool) -> FloatArray:
+def _spread(mesh: SkinnedMesh, values: FloatArray, by_corner: bool) -> FloatArray:
     return values[mesh.faces.ravel()] if by_corner and len(values) == len(mesh.vertices_cm) else values
 
 
-def _uvs(mesh: FbxMesh, by_corner: bool) -> FloatArray:
+def _uvs(mesh: SkinnedMesh, by_corner: bool) -> FloatArray:
     return _spread(mesh, np.zeros((len(mesh.vertices_cm), 2)) if mesh.uvs is None else mesh.uvs, by_corner)
 
 
-def _face_materials(mesh: FbxMesh, materials: dict[FbxMaterial, int]) -> IntArray:
+def _face_materials(mesh: SkinnedMesh, materials: dict[PhongMaterial, int]) -> IntArray:
     own = np.zeros(len(mesh.faces), dtype=np.int64) if mesh.face_materials is None else mesh.face_materials
     return np.array([materials[material] for material in mesh.materials])[own]
 
@@ -77,20 +77,20 @@ def _widened(values: npt.NDArray[Number], width: int) -> npt.NDArray[Number]:
     return np.pad(values, ((0, 0), (0, width - values.shape[1])))
 
 
-def _morphs(meshes: Sequence[FbxMesh], starts: Sequence[int]) -> tuple[FbxMorph, ...]:
-    parts: dict[str, list[tuple[FbxMorph, int]]] = {}
+def _morphs(meshes: Sequence[SkinnedMesh], starts: Sequence[int]) -> tuple[MorphTarget, ...]:
+    parts: dict[str, list[tuple[MorphTarget, int]]] = {}
     for mesh, start in zip(meshes, starts, strict=True):
         for morph in mesh.morphs:
             parts.setdefault(morph.name, []).append((morph, start))
     return tuple(_joined_morph(name, morphs) for name, morphs in parts.items())
 
 
-def _joined_morph(name: str, parts: Sequence[tuple[FbxMorph, int]]) -> FbxMorph:
+def _joined_morph(name: str, parts: Sequence[tuple[MorphTarget, int]]) -> MorphTarget:
     normals = [
         np.zeros_like(morph.position_deltas_cm) if morph.normal_deltas is None else morph.normal_deltas
         for morph, _ in parts
     ]
-    return FbxMorph(
+    return MorphTarget(
         name,
         np.concatenate([morph.vertex_indices + start for morph, start in parts]),
         np.concatenate([morph.position_deltas_cm for morph, _ in parts]),

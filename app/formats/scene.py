@@ -1,4 +1,4 @@
-"""What an FBX file holds, as plain values: bones, skinned meshes, morphs, materials, one clip.
+"""What an animation file holds, as plain values: bones, skinned meshes, morphs, materials, one clip.
 
 Space: centimetres, right-handed, Y up. Quaternions are xyzw, matrices act on column vectors. Nothing is scaled.
 """
@@ -17,7 +17,7 @@ IntArray = npt.NDArray[np.integer]
 
 
 @dataclass(frozen=True, eq=False)
-class FbxBone:
+class Bone:
     """A joint of the skeleton.
 
     Attributes
@@ -37,7 +37,7 @@ class FbxBone:
 
 
 @dataclass(frozen=True, eq=False)
-class FbxMorph:
+class MorphTarget:
     """A morph target (blend shape).
 
     Attributes
@@ -57,7 +57,7 @@ class FbxMorph:
 
 
 @dataclass(frozen=True)
-class FbxMaterial:
+class PhongMaterial:
     """A Phong surface; colours are linear RGB from 0 to 1, shininess is the Phong exponent."""
 
     name: str
@@ -68,7 +68,7 @@ class FbxMaterial:
 
 
 @dataclass(frozen=True, eq=False)
-class FbxMesh:
+class SkinnedMesh:
     """A mesh that the bones deform, in world space in its bind pose.
 
     Attributes
@@ -82,7 +82,7 @@ class FbxMesh:
         Per vertex or per corner. A mesh with as many corners as vertices counts as given per vertex.
     uvs : ndarray, shape (V, 2) or (T * N, 2), or None
         Per vertex or per corner; v points up (glTF's points down).
-    materials : tuple of FbxMaterial
+    materials : tuple of PhongMaterial
         At least one.
     face_materials : ndarray of int, shape (T,), or None
         Index into `materials`; None: all faces have the first.
@@ -92,7 +92,7 @@ class FbxMesh:
     world_from_bone_bind : ndarray, shape (J, 4, 4)
         Where every bone of the scene was when the mesh was bound; the same for all meshes of a scene, and not
         necessarily the bones' rest pose.
-    morphs : tuple of FbxMorph
+    morphs : tuple of MorphTarget
     """
 
     name: str
@@ -100,16 +100,16 @@ class FbxMesh:
     faces: IntArray
     normals: FloatArray
     uvs: FloatArray | None
-    materials: tuple[FbxMaterial, ...]
+    materials: tuple[PhongMaterial, ...]
     face_materials: IntArray | None
     joint_indices: IntArray
     weights: FloatArray
     world_from_bone_bind: FloatArray
-    morphs: tuple[FbxMorph, ...] = ()
+    morphs: tuple[MorphTarget, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
-class FbxClip:
+class Clip:
     """A baked animation: a key on every frame, the first at time zero.
 
     Attributes
@@ -135,26 +135,26 @@ class FbxClip:
 
 
 @dataclass(frozen=True, eq=False)
-class FbxScene:
+class Scene:
     """A character or an instrument, and what it does.
 
     Attributes
     ----------
-    bones : tuple of FbxBone
+    bones : tuple of Bone
         Parents first; exactly one root, the first.
-    meshes : tuple of FbxMesh
-    clip : FbxClip or None
+    meshes : tuple of SkinnedMesh
+    clip : Clip or None
     creator : str
         Program and version that made the file.
     """
 
-    bones: tuple[FbxBone, ...]
-    meshes: tuple[FbxMesh, ...] = ()
-    clip: FbxClip | None = None
+    bones: tuple[Bone, ...]
+    meshes: tuple[SkinnedMesh, ...] = ()
+    clip: Clip | None = None
     creator: str = "Suisou"
 
 
-def check_scene(scene: FbxScene) -> None:
+def check_scene(scene: Scene) -> None:
     """Refuse a scene that no file could hold.
 
     Raises
@@ -183,7 +183,7 @@ def check_scene(scene: FbxScene) -> None:
             raise ValueError(f"weights of morphs that no mesh has: {', '.join(unknown)}")
 
 
-def _check_mesh(mesh: FbxMesh, bone_count: int) -> None:
+def _check_mesh(mesh: SkinnedMesh, bone_count: int) -> None:
     vertex_count = len(mesh.vertices_cm)
     if mesh.faces.ndim != 2 or mesh.faces.shape[1] < 3:
         raise ValueError(f"mesh {mesh.name!r}: faces of shape {mesh.faces.shape}")
@@ -216,7 +216,7 @@ def _check_mesh(mesh: FbxMesh, bone_count: int) -> None:
         raise ValueError(f"mesh {mesh.name!r}: not all its values are finite")
 
 
-def _check_morphs(mesh: FbxMesh, vertex_count: int) -> None:
+def _check_morphs(mesh: SkinnedMesh, vertex_count: int) -> None:
     if len({morph.name for morph in mesh.morphs}) != len(mesh.morphs):
         raise ValueError(f"mesh {mesh.name!r}: two morphs of one name")
     for morph in mesh.morphs:
@@ -228,12 +228,12 @@ def _check_morphs(mesh: FbxMesh, vertex_count: int) -> None:
             raise ValueError(f"mesh {mesh.name!r}: morph {morph.name!r} has not one delta per vertex")
 
 
-def _check_indices(mesh: FbxMesh, what: str, indices: IntArray, count: int) -> None:
+def _check_indices(mesh: SkinnedMesh, what: str, indices: IntArray, count: int) -> None:
     if indices.size and not 0 <= indices.min() <= indices.max() < count:
         raise ValueError(f"mesh {mesh.name!r}: {what} beyond 0..{count - 1}")
 
 
-def _check_clip(clip: FbxClip, bone_count: int) -> None:
+def _check_clip(clip: Clip, bone_count: int) -> None:
     if clip.frames < 1 or clip.fps <= 0:
         raise ValueError(f"a clip of {clip.frames} frames at {clip.fps} frames/s")
     curves: dict[str, tuple[FloatArray, tuple[int, ...]]] = {}

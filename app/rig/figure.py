@@ -1,0 +1,85 @@
+"""A figure as its own file has it: bones under their own names, the rest pose they were built in, meshes, morphs.
+
+A `Figure` becomes a `Character` when its bones are known as joints (`app.rig.humanoid`); the character remembers by
+`OwnSkeleton` where its joints came from, so that a motion can be given back to the very bones of the file.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Literal, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from app.rig.model import Mesh
+
+FloatArray = npt.NDArray[np.float64]
+Origin: TypeAlias = Literal["vrm0", "vrm1", "gltf", "fbx"]
+"""What kind of file a figure came from."""
+
+
+@dataclass(frozen=True, eq=False)
+class Figure:
+    """Bones and meshes at rest, in metres, Y up, facing +Z; scales of bones are multiplied out.
+
+    Attributes
+    ----------
+    file : str
+        For messages.
+    origin : Origin
+    bone_names : tuple of str
+        As in the file, each once.
+    parents : tuple of int
+        A parent before its children; -1: a root.
+    translations_m : (B, 3) float64
+    rotations : (B, 4) float64
+        ``parent_from_bone`` at rest.
+    meshes : tuple of Mesh
+        Vertices where they are in the world at rest; `Mesh.joints` are indices of bones.
+    humanoid : mapping of str to int
+        Bones whose VRM 1.0 joint the file itself says; empty where it says nothing.
+    expressions : mapping of str to mapping of str to float
+        What the file's own expressions (VRM presets, by their VRM 1.0 names) are: weights 0..1 of its morphs.
+    """
+
+    file: str
+    origin: Origin
+    bone_names: tuple[str, ...]
+    parents: tuple[int, ...]
+    translations_m: FloatArray
+    rotations: FloatArray
+    meshes: tuple[Mesh, ...]
+    humanoid: Mapping[str, int] = field(default_factory=dict)
+    expressions: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+
+    @property
+    def morph_names(self) -> tuple[str, ...]:
+        """Names of the morphs of all meshes, each once, in the file's order."""
+        return tuple(dict.fromkeys(morph.name for mesh in self.meshes for morph in mesh.morphs))
+
+
+@dataclass(frozen=True, eq=False)
+class OwnSkeleton:
+    """Where a character's joints came from.
+
+    Attributes
+    ----------
+    figure : Figure
+    bone_of_joint : tuple of int
+        By joint of the character's skeleton: the bone of the figure, or -1 for a joint that the file lacks and that
+        was supplied (a finger of a mitten, our root).
+    joint_from_bone : (J, 4) float64
+        In the T-pose, as a rotation: ``world_from_bone = world_from_joint * joint_from_bone`` in every pose.
+    t_pose : (B, 4) float64
+        ``parent_from_bone`` of the figure's bones in the T-pose; bones that are no joint keep their rest rotation.
+    morphs : mapping of str to mapping of str to float
+        By ARKit name: weights of the figure's morphs that make it.
+    """
+
+    figure: Figure
+    bone_of_joint: tuple[int, ...]
+    joint_from_bone: FloatArray
+    t_pose: FloatArray
+    morphs: Mapping[str, Mapping[str, float]]
