@@ -7,7 +7,6 @@ from collections.abc import Iterable
 import numpy as np
 import numpy.typing as npt
 
-from app.export.materials import phong
 from app.formats.join import join_meshes
 from app.formats.scene import Bone, Clip, MorphTarget, Scene, SkinnedMesh
 from app.motion.model import Motion
@@ -88,7 +87,7 @@ def skinned_mesh(
         faces=mesh.triangles,
         normals=mesh.normals,
         uvs=uvs,
-        materials=tuple(phong(material) for material in mesh.materials),
+        materials=mesh.materials,
         face_materials=mesh.triangle_materials,
         joint_indices=joints,
         weights=weights,

@@ -13,7 +13,7 @@ from typing import TypeVar
 import numpy as np
 import numpy.typing as npt
 
-from app.formats.scene import FloatArray, IntArray, MorphTarget, PhongMaterial, SkinnedMesh
+from app.formats.scene import FloatArray, IntArray, Material, MorphTarget, SkinnedMesh
 
 Number = TypeVar("Number", bound=np.generic)
 
@@ -36,7 +36,7 @@ def join_meshes(meshes: Sequence[SkinnedMesh], name: str) -> SkinnedMesh:
     """
     counts = [len(mesh.vertices_cm) for mesh in meshes]
     starts = (np.cumsum(counts) - counts).tolist()
-    materials: dict[PhongMaterial, int] = {}
+    materials: dict[Material, int] = {}
     for mesh in meshes:
         for material in mesh.materials:
             materials.setdefault(material, len(materials))
@@ -68,7 +68,7 @@ def _uvs(mesh: SkinnedMesh, by_corner: bool) -> FloatArray:
     return _spread(mesh, np.zeros((len(mesh.vertices_cm), 2)) if mesh.uvs is None else mesh.uvs, by_corner)
 
 
-def _face_materials(mesh: SkinnedMesh, materials: dict[PhongMaterial, int]) -> IntArray:
+def _face_materials(mesh: SkinnedMesh, materials: dict[Material, int]) -> IntArray:
     own = np.zeros(len(mesh.faces), dtype=np.int64) if mesh.face_materials is None else mesh.face_materials
     return np.array([materials[material] for material in mesh.materials])[own]
 

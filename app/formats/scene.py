@@ -57,14 +57,14 @@ class MorphTarget:
 
 
 @dataclass(frozen=True)
-class PhongMaterial:
-    """A Phong surface; colours are linear RGB from 0 to 1, shininess is the Phong exponent."""
+class Material:
+    """A metallic-roughness surface as in glTF 2.0: linear base colour RGBA, metallic and roughness from 0 to 1."""
 
     name: str
-    diffuse_rgb: tuple[float, float, float]
-    specular_rgb: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    shininess: float = 20.0
-    opacity: float = 1.0
+    base_color: tuple[float, float, float, float]
+    metallic: float = 0.0
+    roughness: float = 1.0
+    double_sided: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,7 +82,7 @@ class SkinnedMesh:
         Per vertex or per corner. A mesh with as many corners as vertices counts as given per vertex.
     uvs : ndarray, shape (V, 2) or (T * N, 2), or None
         Per vertex or per corner; v points up (glTF's points down).
-    materials : tuple of PhongMaterial
+    materials : tuple of Material
         At least one.
     face_materials : ndarray of int, shape (T,), or None
         Index into `materials`; None: all faces have the first.
@@ -100,7 +100,7 @@ class SkinnedMesh:
     faces: IntArray
     normals: FloatArray
     uvs: FloatArray | None
-    materials: tuple[PhongMaterial, ...]
+    materials: tuple[Material, ...]
     face_materials: IntArray | None
     joint_indices: IntArray
     weights: FloatArray

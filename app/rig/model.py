@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
+from app.formats.scene import Material
+
 if TYPE_CHECKING:
     from app.rig.figure import OwnSkeleton
 
@@ -41,17 +43,6 @@ class Skeleton:
             return self.names.index(name)
         except ValueError:
             raise KeyError(name) from None
-
-
-@dataclass(frozen=True)
-class Material:
-    """A plain surface: linear base colour RGBA 0..1, metallic and roughness 0..1."""
-
-    name: str
-    base_color: tuple[float, float, float, float]
-    metallic: float
-    roughness: float
-    double_sided: bool = False
 
 
 @dataclass(frozen=True, eq=False)

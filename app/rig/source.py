@@ -16,8 +16,9 @@ import numpy.typing as npt
 
 from app.errors import FileError
 from app.formats.gltf import GltfMaterial, GltfModel, GltfNode, GltfPrimitive, read_glb
+from app.formats.scene import Material
 from app.rig import quaternion
-from app.rig.model import Material, Mesh, Morph
+from app.rig.model import Mesh, Morph
 
 FloatArray = npt.NDArray[np.float64]
 

@@ -20,7 +20,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from app.formats.bvh import write_bvh
-from app.formats.fbx import Bone, Clip, MorphTarget, PhongMaterial, Scene, SkinnedMesh, write_scene
+from app.formats.fbx import Bone, Clip, Material, MorphTarget, Scene, SkinnedMesh, write_scene
 
 BONES, FRAMES, FPS = 60, 10_800, 60
 TOOL = Path(__file__).parent.parent / "support" / "blender_reference.py"
@@ -49,7 +49,7 @@ def _scene() -> Scene:
         (8 * np.arange(BONES)[:, None, None] + sides).reshape(-1, 4),
         np.tile(corners / np.linalg.norm(corners, axis=1, keepdims=True), (BONES, 1)),
         np.zeros((8 * BONES, 2)),
-        (PhongMaterial("M_Body", (0.8, 0.8, 0.8)),),
+        (Material("M_Body", (0.8, 0.8, 0.8, 1.0)),),
         None,
         np.repeat(np.arange(BONES), 8)[:, None],
         np.ones((8 * BONES, 1)),

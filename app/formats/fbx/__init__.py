@@ -3,13 +3,13 @@
 from app.formats.fbx.read import read_scene
 from app.formats.fbx.write import encode_scene, write_scene
 from app.formats.join import join_meshes
-from app.formats.scene import Bone, Clip, MorphTarget, PhongMaterial, Scene, SkinnedMesh
+from app.formats.scene import Bone, Clip, Material, MorphTarget, Scene, SkinnedMesh
 
 __all__ = [
     "Bone",
     "Clip",
+    "Material",
     "MorphTarget",
-    "PhongMaterial",
     "Scene",
     "SkinnedMesh",
     "encode_scene",

@@ -25,8 +25,9 @@ from app.formats.fbx import ticks
 from app.formats.fbx.decode import read_elements
 from app.formats.fbx.encode import Element
 from app.formats.fbx.graph import FbxObject, Float64Array, ObjectGraph, numbers, properties_of
+from app.formats.fbx.materials import Phong, metallic_roughness
 from app.formats.fbx.write import EULER_ORDER
-from app.formats.scene import Bone, Clip, MorphTarget, PhongMaterial, Scene, SkinnedMesh, check_scene
+from app.formats.scene import Bone, Clip, Material, MorphTarget, Scene, SkinnedMesh, check_scene
 
 # Frames times bones, and vertices times influences: far beyond any real file, small enough for any computer.
 _MOST_VALUES = 2**25
@@ -183,7 +184,7 @@ def _face_materials(graph: ObjectGraph, element: Element, face_count: int) -> np
     return np.repeat(indices, face_count) if len(indices) == 1 else indices
 
 
-def _material(material: FbxObject) -> PhongMaterial:
+def _material(material: FbxObject) -> Material:
     properties = {name: numbers(values) for name, values in properties_of(material.element).items()}
 
     def color(name: str) -> tuple[float, float, float]:
@@ -193,13 +194,8 @@ def _material(material: FbxObject) -> PhongMaterial:
     def number(name: str, otherwise: float) -> float:
         return next(iter(properties.get(name, [])), otherwise)
 
-    return PhongMaterial(
-        material.name,
-        color("DiffuseColor"),
-        color("SpecularColor"),
-        number("Shininess", 20.0),
-        number("Opacity", 1.0),
-    )
+    surface = Phong(color("DiffuseColor"), color("SpecularColor"), number("Shininess", 20.0), number("Opacity", 1.0))
+    return metallic_roughness(material.name, surface)
 
 
 def _skin(

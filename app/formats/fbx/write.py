@@ -17,6 +17,7 @@ from app.formats.euler import euler_degrees
 from app.formats.fbx import encode, ticks
 from app.formats.fbx.encode import Element, PackedArray, Property, encode_elements, pack_array, write_elements
 from app.formats.fbx.geometry import geometry, morph_geometry, skin_clusters
+from app.formats.fbx.materials import phong
 from app.formats.fbx.sections import (
     definitions,
     documents,
@@ -27,7 +28,7 @@ from app.formats.fbx.sections import (
     property_row,
     takes,
 )
-from app.formats.scene import Bone, Clip, FloatArray, PhongMaterial, Scene, SkinnedMesh, check_scene
+from app.formats.scene import Bone, Clip, FloatArray, Material, Scene, SkinnedMesh, check_scene
 
 # FBX calls this order XYZ: x turns first, so the matrix is Rz Ry Rx.
 EULER_ORDER = "ZYX"
@@ -131,7 +132,7 @@ def _add_skeleton_and_meshes(graph: _Graph, scene: Scene) -> None:
         _add_bone(graph, bone)
     if scene.meshes:
         binds = _unconnected_binds(scene)
-        materials: dict[PhongMaterial, int] = {}
+        materials: dict[Material, int] = {}
         mesh_ids = [_add_mesh(graph, mesh, binds, materials) for mesh in scene.meshes]
         nodes = [_pose_node(graph.bone_ids[index], bind) for index, bind in enumerate(binds)]
         nodes = [_pose_node(mesh_id, np.eye(4)) for mesh_id in mesh_ids] + nodes
@@ -181,9 +182,7 @@ def _unconnected_binds(scene: Scene) -> npt.NDArray[np.float64]:
     return binds
 
 
-def _add_mesh(
-    graph: _Graph, mesh: SkinnedMesh, binds: npt.NDArray[np.float64], materials: dict[PhongMaterial, int]
-) -> int:
+def _add_mesh(graph: _Graph, mesh: SkinnedMesh, binds: npt.NDArray[np.float64], materials: dict[Material, int]) -> int:
     model = graph.add("Model", mesh.name, "Model", "Mesh", _model(np.zeros(3), np.zeros(3)))
     graph.connect(model, 0)
     shape = graph.add("Geometry", mesh.name, "Geometry", "Mesh", geometry(mesh))
@@ -198,7 +197,9 @@ def _add_mesh(
     return model
 
 
-def _material(material: PhongMaterial) -> tuple[Element, ...]:
+def _material(surface: Material) -> tuple[Element, ...]:
+    material = phong(surface)
+
     def color(name: str, rgb: tuple[float, float, float]) -> Element:
         return property_row(name, "Color", "", "A", *(float(value) for value in rgb))
 

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from app.formats.fbx import Bone, Clip, MorphTarget, PhongMaterial, Scene, SkinnedMesh, encode_scene
+from app.formats.fbx import Bone, Clip, Material, MorphTarget, Scene, SkinnedMesh, encode_scene
 from app.formats.fbx.decode import read_elements
 from app.formats.fbx.dump import text
 
@@ -24,8 +24,8 @@ def _scene() -> Scene:
     bones = (Bone("root", -1, np.zeros(3), identity), Bone("slide", 0, np.array([0.0, 0.0, 20.0]), identity))
     binds = np.tile(np.eye(4), (2, 1, 1))
     binds[1, 2, 3] = 20.0
-    brass = PhongMaterial("Brass", (0.75, 0.5, 0.25), (1.0, 0.5, 0.5), 64.0)
-    glass = PhongMaterial("Glass", (0.0, 0.5, 1.0), opacity=0.5)
+    brass = Material("Brass", (0.75, 0.5, 0.25, 1.0), 0.5, 0.5)
+    glass = Material("Glass", (0.0, 0.5, 1.0, 0.5), 0.0, 1.0)
     mesh = SkinnedMesh(
         "Brass",
         np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 20]]),

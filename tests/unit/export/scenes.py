@@ -7,7 +7,7 @@ from fractions import Fraction
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from app.formats.scene import Bone, Clip, MorphTarget, PhongMaterial, Scene, SkinnedMesh
+from app.formats.scene import Bone, Clip, Material, MorphTarget, Scene, SkinnedMesh
 
 
 def random_scene(seed: int, vertices: int = 60, frames: int = 7) -> Scene:
@@ -27,7 +27,7 @@ def random_scene(seed: int, vertices: int = 60, frames: int = 7) -> Scene:
         faces=np.arange(vertices // 3 * 3).reshape(-1, 3),
         normals=np.tile([0.0, 1.0, 0.0], (vertices, 1)),
         uvs=None,
-        materials=(PhongMaterial("plain", (1.0, 1.0, 1.0)),),
+        materials=(Material("plain", (1.0, 1.0, 1.0, 1.0)),),
         face_materials=None,
         joint_indices=random.integers(0, 4, (vertices, 2)),
         weights=weights / weights.sum(axis=1, keepdims=True),

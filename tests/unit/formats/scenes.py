@@ -7,7 +7,7 @@ from fractions import Fraction
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from app.formats.fbx import Bone, Clip, MorphTarget, PhongMaterial, Scene, SkinnedMesh
+from app.formats.fbx import Bone, Clip, Material, MorphTarget, Scene, SkinnedMesh
 from tests.support.readers import Expected
 
 BONES = (
@@ -102,8 +102,8 @@ def _mesh(name: str, joints: list[int], binds: np.ndarray, morph_names: tuple[st
         for k, morph in enumerate(morph_names)
     )
     materials = (
-        PhongMaterial(f"{name}_front", (0.8, 0.5, 0.4)),
-        PhongMaterial(f"{name}_back", (0.1, 0.2, 0.3), opacity=0.5),
+        Material(f"{name}_front", (0.8, 0.5, 0.4, 1.0), 0.0, 0.55),
+        Material(f"{name}_back", (0.1, 0.2, 0.3, 0.5), 0.25, 0.7),
     )
     return SkinnedMesh(
         name=name,
@@ -164,7 +164,7 @@ def instrument(fps: Fraction, frames: int = 49) -> Scene:
         np.concatenate([triangles + 12 * number for number, triangles in enumerate(faces)]),
         np.concatenate(normals),
         None,
-        (PhongMaterial("Brass", (0.8, 0.6, 0.2), (0.9, 0.8, 0.5), 80.0),),
+        (Material("Brass", (0.8, 0.6, 0.2, 1.0), 1.0, 0.35, True),),
         None,
         np.repeat(np.arange(len(bones)), 12)[:, None],
         np.ones((12 * len(bones), 1)),

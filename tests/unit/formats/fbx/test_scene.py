@@ -12,8 +12,8 @@ import pytest
 
 from app.errors import FileError
 from app.formats.fbx import (
+    Material,
     MorphTarget,
-    PhongMaterial,
     Scene,
     SkinnedMesh,
     encode_scene,
@@ -35,6 +35,11 @@ def _dense(mesh: SkinnedMesh, bones: int) -> np.ndarray:
     return weights
 
 
+def _surface(material: Material) -> np.ndarray:
+    """What a Phong surface can tell: not whether both sides show."""
+    return np.array([*material.base_color, material.metallic, material.roughness])
+
+
 def _assert_same_mesh(given: SkinnedMesh, found: SkinnedMesh, bones: int) -> None:
     corners = given.faces.ravel()
     np.testing.assert_array_equal(found.vertices_cm, given.vertices_cm)
@@ -45,7 +50,9 @@ def _assert_same_mesh(given: SkinnedMesh, found: SkinnedMesh, bones: int) -> Non
     else:
         assert found.uvs is not None
         np.testing.assert_array_equal(found.uvs, given.uvs[corners])
-    assert found.materials == given.materials
+    for given_surface, found_surface in zip(given.materials, found.materials, strict=True):
+        assert found_surface.name == given_surface.name
+        np.testing.assert_allclose(_surface(found_surface), _surface(given_surface), atol=1e-9)
     face_materials = np.zeros(len(given.faces)) if given.face_materials is None else given.face_materials
     np.testing.assert_array_equal(found.face_materials, face_materials)
     np.testing.assert_allclose(_dense(found, bones), _dense(given, bones), atol=1e-15)
@@ -281,5 +288,5 @@ def test_joining_shares_materials_and_fills_in_uvs_and_normals() -> None:
     np.testing.assert_array_equal(joined.normals, np.concatenate([mesh.normals[corners]] * 2))
     assert joined.uvs is not None
     np.testing.assert_array_equal(joined.uvs, np.concatenate([mesh.uvs, np.zeros_like(mesh.uvs)]))
-    none = join_meshes([plain, replace(plain, materials=(PhongMaterial("b", (0, 0, 0)),))], "None")
+    none = join_meshes([plain, replace(plain, materials=(Material("b", (0, 0, 0, 1)),))], "None")
     assert none.uvs is None
