@@ -570,7 +570,7 @@ def r_blender(a):
             for kb in k.key_blocks[1:]:
                 wts.setdefault(kb.name, []).append(kb.value)
     moving = {n for n in pos[0] if any(max(abs(x - y) for x, y in zip(p[n], pos[0][n])) > 1e-4 for p in pos)} if pos else set()
-    return {'bones': bones or [o.name for o in bpy.data.objects], 'parent': par, 'animated': len(moving), 'duration': dur, 'fps': fps, 'pos': pos, 'weights': wts,
+    return {'bones': bones or [o.name for o in bpy.data.objects], 'parent': par, 'animated': len(moving), 'duration': dur, 'fps': None if ext in ('.glb', '.gltf') else fps, 'pos': pos, 'weights': wts,
             'note': 'Blender %s; "animated" counts joints that moved in the sampled frames%s' % (bpy.app.version_string, '; %d connected bones were disconnected' % nconn if nconn else '')}
 
 

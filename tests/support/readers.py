@@ -28,9 +28,13 @@ QUICK_FBX = ("structure", "ufbx")
 SLOW_FBX = ("fbxsdk", "blender", "assimp", "three", "pufbx")
 QUICK_BVH = ("bvhio",)
 SLOW_BVH = ("blender", "assimp", "three", "bvh", "pybvh")
+QUICK_GLB = ("gltf",)
+SLOW_GLB = ("gltfvalid", "three", "blender")
+QUICK_USD = ("usd",)
 
-_MODULES = {"ufbx": "ufbx", "pufbx": "pufbx", "blender": "bpy", "bvhio": "bvhio", "bvh": "bvh", "pybvh": "pybvh"}
-_NODE_MODULES = {"fbxsdk": "fbx2gltf", "three": "three"}
+_MODULES = {"ufbx": "ufbx", "pufbx": "pufbx", "blender": "bpy", "bvhio": "bvhio", "bvh": "bvh", "pybvh": "pybvh",
+            "usd": "pxr"}  # fmt: skip
+_NODE_MODULES = {"fbxsdk": "fbx2gltf", "three": "three", "gltfvalid": "gltf-validator"}
 
 # FBX2glTF samples at these rates only, so at others it cannot say how many frames there are.
 _SDK_RATES = (24, 30, 60)
@@ -64,7 +68,7 @@ class Expected:
 @functools.cache
 def installed(reader: str) -> bool:
     """Whether a reader is there to be asked."""
-    if reader == "structure":
+    if reader in ("structure", "gltf"):  # built in
         return True
     if reader == "assimp":
         return shutil.which("assimp") is not None
@@ -123,7 +127,7 @@ def _differences(reader: str, found: dict[str, object], expected: Expected) -> l
     problems = []
     parents = found["parent"]
     assert isinstance(parents, dict)
-    if reader != "pybvh":  # gives no hierarchy
+    if reader not in ("pybvh", "gltfvalid"):  # give no hierarchy
         wrong = [
             name
             for name, parent in expected.parents.items()

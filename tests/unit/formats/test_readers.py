@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import subprocess
+from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
@@ -13,7 +14,19 @@ import pytest
 
 from app.formats.bvh import write_bvh
 from app.formats.fbx import write_scene
-from tests.support.readers import QUICK_BVH, QUICK_FBX, SLOW_BVH, SLOW_FBX, Expected, installed, judge
+from app.formats.gltf.write import write_glb
+from app.formats.scene import Scene
+from tests.support.readers import (
+    QUICK_BVH,
+    QUICK_FBX,
+    QUICK_GLB,
+    SLOW_BVH,
+    SLOW_FBX,
+    SLOW_GLB,
+    Expected,
+    installed,
+    judge,
+)
 from tests.unit.formats import scenes
 
 RATES = [Fraction(24), Fraction(25), Fraction(30000, 1001), Fraction(30), Fraction(60)]
@@ -136,3 +149,26 @@ def test_bvh_by(reader: str, fps: Fraction, tmp_path: Path) -> None:
     _needed(reader)
     wanted = _write_bvh(tmp_path / "player.bvh", fps)
     judge(tmp_path / "player.bvh", wanted, [reader])
+
+
+# -------------------------------------------------------------------------------------------------------------- GLB
+
+
+@pytest.mark.parametrize("make", [scenes.character, scenes.instrument])
+@pytest.mark.parametrize("fps", RATES + ODD_RATES, ids=_rate_name)
+def test_glb_by_quick_readers(make: Callable[[Fraction], Scene], fps: Fraction, tmp_path: Path) -> None:
+    scene = make(fps)
+    write_glb(tmp_path / "scene.glb", scene)
+    judge(tmp_path / "scene.glb", scenes.expected(scene), QUICK_GLB)
+
+
+@pytest.mark.readers
+@pytest.mark.parametrize("make", [scenes.character, scenes.instrument])
+@pytest.mark.parametrize("fps", RATES, ids=_rate_name)
+@pytest.mark.parametrize("reader", SLOW_GLB)
+def test_glb_by(reader: str, fps: Fraction, make: Callable[[Fraction], Scene], tmp_path: Path) -> None:
+    """The validator of the format's makers finds no error, and other programs find the same motion."""
+    _needed(reader)
+    scene = make(fps)
+    write_glb(tmp_path / "scene.glb", scene)
+    judge(tmp_path / "scene.glb", scenes.expected(scene), [reader])

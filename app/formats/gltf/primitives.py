@@ -1,0 +1,83 @@
+"""Meshes of a scene in the form glTF stores them: triangles of one material, whose vertices have one normal each."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.formats.scene import FloatArray, IntArray, SkinnedMesh
+
+
+@dataclass(frozen=True, eq=False)
+class Primitive:
+    """The faces of one material.
+
+    Attributes
+    ----------
+    material : int
+        Index into the mesh's materials.
+    vertices : ndarray of int, shape (V,)
+        The mesh's vertex that each of these is, in the mesh's order; one comes several times where its corners have
+        different normals or UVs.
+    normals : ndarray, shape (V, 3)
+        Unit length.
+    uvs : ndarray, shape (V, 2), or None
+        v points down.
+    triangles : ndarray of int, shape (T, 3)
+    """
+
+    material: int
+    vertices: IntArray
+    normals: FloatArray
+    uvs: FloatArray | None
+    triangles: IntArray
+
+
+def primitives(mesh: SkinnedMesh) -> tuple[Primitive, ...]:
+    """One primitive for each material that has a face, with the vertices that it uses."""
+    faces, corners = len(mesh.faces), mesh.faces.shape[1]
+    own = np.zeros(faces, dtype=np.int64) if mesh.face_materials is None else mesh.face_materials
+    result = []
+    for material in range(len(mesh.materials)):
+        chosen = np.flatnonzero(own == material)
+        if len(chosen):
+            # A polygon as a fan of triangles, by the places of its corners among all the mesh's corners.
+            first = chosen[:, None] * corners
+            fan = [np.concatenate([first, first + k, first + k + 1], axis=1) for k in range(1, corners - 1)]
+            result.append(_primitive(mesh, material, np.stack(fan, axis=1).reshape(-1, 3)))
+    return tuple(result)
+
+
+def _primitive(mesh: SkinnedMesh, material: int, triangles: IntArray) -> Primitive:
+    """Of triangles whose corners are numbered through the mesh."""
+    places = triangles.ravel()
+    vertices = mesh.faces.ravel()[places]
+    count = len(mesh.vertices_cm)
+    by_corner = [
+        np.asarray(values, dtype=np.float64)
+        for values in (mesh.normals, mesh.uvs)
+        if values is not None and len(values) != count
+    ]
+    if by_corner:
+        rows = np.concatenate([vertices[:, None], *(values[places] for values in by_corner)], axis=1)
+        _, kept, indices = np.unique(rows, axis=0, return_index=True, return_inverse=True)
+    else:
+        _, kept, indices = np.unique(vertices, return_index=True, return_inverse=True)
+
+    def own(values: FloatArray) -> FloatArray:
+        return np.asarray(values[vertices[kept]] if len(values) == count else values[places[kept]], dtype=np.float64)
+
+    normals = own(mesh.normals)
+    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+    uvs = None if mesh.uvs is None else own(mesh.uvs).copy()
+    if uvs is not None:
+        uvs[:, 1] = 1.0 - uvs[:, 1]
+    return Primitive(
+        material=material,
+        vertices=vertices[kept],
+        # A degenerate triangle may have no normal; glTF wants one all the same.
+        normals=np.where(lengths > 0, normals / np.where(lengths > 0, lengths, 1.0), [0.0, 1.0, 0.0]),
+        uvs=uvs,
+        triangles=indices.reshape(-1, 3),
+    )
