@@ -1,23 +1,35 @@
-"""A character and its motion as the scene of a file: centimetres, one root at the origin, the player facing +Z."""
+"""A character and its motion as the scene of a file: centimetres, one root, the player at the origin facing +Z."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 import numpy.typing as npt
 
+from app.export.own_skeleton import own_weights
+from app.export.target import (
+    BoneMotion,
+    TargetSkeleton,
+    bone_motion,
+    matrices,
+    normalised_target,
+    world_placements,
+)
 from app.formats.join import join_meshes
 from app.formats.scene import Bone, Clip, MorphTarget, Scene, SkinnedMesh
 from app.motion.model import Motion
-from app.rig.model import Character, Mesh, Skeleton
+from app.rig.figure import Figure
+from app.rig.model import Character, Mesh
 
 CENTIMETRES = 100.0
 HIPS = "hips"
 """The joint whose translation a motion gives."""
 
 
-def character_scene(character: Character, motion: Motion, clip: str, creator: str) -> Scene:
+def character_scene(
+    character: Character, motion: Motion, clip: str, creator: str, target: TargetSkeleton | None = None
+) -> Scene:
     """The scene of one player.
 
     Parameters
@@ -29,46 +41,107 @@ def character_scene(character: Character, motion: Motion, clip: str, creator: st
         Name of the animation.
     creator : str
         Program and version.
+    target : TargetSkeleton, optional
+        The skeleton to write on; ours if absent.
 
     Returns
     -------
     Scene
-        One mesh of all the character's meshes, vertices in their order (so that landmarks hold in the file); it has
-        every morph target of the character, and the clip weighs those that the motion moves.
+        On the skeleton of the character's own file: that file's meshes and morphs. On any other one mesh of all the
+        character's meshes, vertices in their order (so that landmarks hold in the file), with every morph target of
+        the character. The clip weighs the morphs that the motion moves.
     """
-    skeleton = character.skeleton
-    world_from_bone = np.linalg.inv(character.joint_from_mesh)
-    world_from_bone[:, :3, 3] *= CENTIMETRES
-    meshes = [skinned_mesh(mesh, mesh.name, mesh.joints, mesh.weights, world_from_bone) for mesh in character.meshes]
-    (name,) = mesh_names([character.id], skeleton.names)
+    target = normalised_target(character.skeleton) if target is None else target
+    if target.choice == "own" and character.own is not None:
+        meshes, weights = _own_meshes(character.own.figure, target), own_weights(motion.morphs, character.own)
+    else:
+        meshes, weights = (_joined_mesh(character, target),), motion.morphs
+    there = {morph.name for mesh in meshes for morph in mesh.morphs}
     return Scene(
-        bones=skeleton_bones(skeleton),
-        meshes=(join_meshes(meshes, name),),
-        clip=character_clip(character, motion, clip),
+        bones=skeleton_bones(target),
+        meshes=meshes,
+        clip=character_clip(
+            character, motion, clip, target, {name: weight for name, weight in weights.items() if name in there}
+        ),
         creator=creator,
     )
 
 
-def skeleton_bones(skeleton: Skeleton) -> tuple[Bone, ...]:
-    """The joints at rest: unturned, because the skeleton is normalised."""
-    unturned = np.array([0.0, 0.0, 0.0, 1.0])
+def skeleton_bones(target: TargetSkeleton) -> tuple[Bone, ...]:
+    """The bones at rest."""
     return tuple(
-        Bone(name, parent, offset * CENTIMETRES, unturned)
-        for name, parent, offset in zip(skeleton.names, skeleton.parents, skeleton.offsets_m, strict=True)
+        Bone(name, parent, offset * CENTIMETRES, rotation)
+        for name, parent, offset, rotation in zip(
+            target.names, target.parents, target.offsets_m, target.rest, strict=True
+        )
     )
 
 
-def character_clip(character: Character, motion: Motion, name: str) -> Clip:
-    """What the joints and the face do. The root stays at the origin; only the hips are moved."""
-    targets = {morph.name for mesh in character.meshes for morph in mesh.morphs}
+def character_clip(
+    character: Character,
+    motion: Motion,
+    name: str,
+    target: TargetSkeleton,
+    morph_weights: Mapping[str, npt.NDArray[np.float32]],
+) -> Clip:
+    """What the bones and the face do. Our own root stays at the origin; only the hips are moved."""
+    if target.choice == "suisou":  # every bone is its joint: there is nothing to work out
+        hips = character.skeleton.index(HIPS)
+        bones = BoneMotion(motion.rotations, {hips: motion.hips_m.astype(np.float64)})
+    else:
+        bones = bone_motion(target, character.skeleton, motion)
     return Clip(
         name=name,
         fps=motion.fps,
         frames=motion.frames,
-        rotations_xyzw=motion.rotations,
-        translations_cm={character.skeleton.index(HIPS): motion.hips_m.astype(np.float64) * CENTIMETRES},
-        morph_weights={target: weights for target, weights in motion.morphs.items() if target in targets},
+        rotations_xyzw=bones.rotations,
+        translations_cm={bone: places_m * CENTIMETRES for bone, places_m in bones.translations_m.items()},
+        morph_weights=morph_weights,
     )
+
+
+def _own_meshes(figure: Figure, target: TargetSkeleton) -> tuple[SkinnedMesh, ...]:
+    """The meshes of a figure, bound where its bones are at rest."""
+    binds = matrices(*world_placements(target.parents, target.offsets_m * CENTIMETRES, target.rest))
+    added = len(target.names) - len(figure.bone_names)
+    names = mesh_names([mesh.name for mesh in figure.meshes], target.names)
+    return tuple(
+        skinned_mesh(mesh, name, mesh.joints + np.int32(added), mesh.weights, binds)
+        for mesh, name in zip(figure.meshes, names, strict=True)
+    )
+
+
+def _joined_mesh(character: Character, target: TargetSkeleton) -> SkinnedMesh:
+    """All meshes of a character as one, on the bones of a target; a joint without a bone goes with the one above."""
+    bone_of_joint = np.zeros(len(character.skeleton.names), np.int32)
+    for joint, parent in enumerate(character.skeleton.parents):
+        above = int(bone_of_joint[parent]) if parent >= 0 else 0
+        bone_of_joint[joint] = target.bone_of_joint.get(joint, above)
+    binds = _binds(character, target)
+    meshes = [
+        skinned_mesh(mesh, mesh.name, bone_of_joint[mesh.joints], mesh.weights, binds) for mesh in character.meshes
+    ]
+    (name,) = mesh_names([character.id], target.names)
+    return join_meshes(meshes, name)
+
+
+def _binds(character: Character, target: TargetSkeleton) -> npt.NDArray[np.floating]:
+    """Where the bones were when the meshes were bound, centimetres: with their joints, the others on their parents."""
+    world_from_joint = np.linalg.inv(character.joint_from_mesh)
+    world_from_joint[:, :3, 3] *= CENTIMETRES
+    if target.choice == "suisou":
+        return world_from_joint
+    steady = matrices(target.offsets_m * CENTIMETRES, target.t_pose)
+    turned = matrices(np.zeros((len(target.names), 3)), target.joint_from_bone)
+    binds = np.empty((len(target.names), 4, 4))
+    for bone, (parent, joint) in enumerate(zip(target.parents, target.joint_of_bone, strict=True)):
+        if joint >= 0:
+            binds[bone] = world_from_joint[joint] @ turned[bone]
+        elif bone in target.tied:
+            binds[bone] = binds[target.tied[bone]]
+        else:
+            binds[bone] = binds[parent] @ steady[bone] if parent >= 0 else steady[bone]
+    return binds
 
 
 def skinned_mesh(

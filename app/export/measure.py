@@ -13,7 +13,6 @@ from dataclasses import dataclass
 
 import msgspec
 import numpy as np
-import numpy.typing as npt
 
 from app.export.control_judge import (
     BoolArray,
@@ -24,14 +23,16 @@ from app.export.control_judge import (
     control_values,
     notes_of,
 )
+from app.export.joint_playback import JointPlayback
 from app.export.joints import anatomical_angles, angular_accelerations
 from app.export.penetration import Hands
 from app.export.playback import Playback, Surface
+from app.export.target import TargetSkeleton, normalised_target
 from app.formats.scene import Scene
 from app.performance.contacts import FEET_MM, LIPS_MM, TOUCH_MM, bound_mm
 from app.plan.model import BreathEvent, PlayerPlan
 from app.rig.lips import meeting
-from app.rig.model import Character, Landmark
+from app.rig.model import Character
 from app.rig.stations import MOST_HOVER_M, aside_m, only_at, stations, stations_of_notes, worked_by
 from instrument_maps.model import ROOT, Contact, InstrumentMap
 from metadata.model import Body, SkeletonProfile
@@ -135,6 +136,7 @@ def measure_player(
     profile: SkeletonProfile,
     first_frame_s: float,
     progress: Callable[[float], None] = lambda share: None,
+    target: TargetSkeleton | None = None,
 ) -> Measured:
     """Measure what was read back of one player's two files.
 
@@ -153,6 +155,8 @@ def measure_player(
         Time of the file's first frame.
     progress : callable
         Told the share 0..1 that is done; what it raises stops the work.
+    target : TargetSkeleton, optional
+        The skeleton the player's file is on; ours if absent.
     """
     if player_scene.clip is None or instrument_scene.clip is None:
         raise ValueError("a file without a clip cannot be measured")
@@ -166,11 +170,11 @@ def measure_player(
     # A catch breath comes out of a note's tail: the note sounds on, but the lips have stopped.
     blowing = sounding & ~_within(times_s, [(event.start_s, event.end_s) for event in plan.breaths])
     inhaling = [(event.start_s, event.end_s) for event in plan.breaths if event.kind == "breath"]
-    traces = _trace(player, held, character, instrument, sounding, progress)
+    joints = JointPlayback(player, target or normalised_target(character.skeleton), character)
+    traces = _trace(joints, held, character, instrument, sounding, progress)
     unreached = {problem.note_id for problem in plan.problems if problem.message.id == "contact.out_of_reach"}
     judge = ControlJudge(times_s, float(fps), first_frame_s, notes, unreached)
     values = control_values(instrument, held) | _hole_values(instrument, traces)
-    rotations = player.rotations(0, player.clip.frames)
     working = stations_of_notes(instrument, ((note.controls, note.fingers) for note in notes))
     measures = PlayerMeasures(
         sounding_frames=int(sounding.sum()),
@@ -184,9 +188,9 @@ def measure_player(
         bones=_spread(traces.bone_deviation_m, BONES_MM),
         penetration=_spread(traces.depth_m[sounding], PENETRATION_MM),
         controls={control.name: judge.measure(control, values[control.name]) for control in instrument.controls},
-        limits=_limits(rotations, player.bone_names, body, profile),
-        acceleration=_acceleration(rotations, player.bone_names, body, profile, float(fps)),
-        breaths=_breaths(plan.breaths, times_s, player, traces.torso),
+        limits=_limits(joints.rotations, joints.names, body, profile),
+        acceleration=_acceleration(joints.rotations, joints.names, body, profile, float(fps)),
+        breaths=_breaths(plan.breaths, times_s, joints.curve("jawOpen"), traces.torso),
         hovering=_hovering(instrument, traces, judge, working),
     )
     return Measured(measures, traces.torso)
@@ -204,7 +208,7 @@ def greatest_correlations(players: Mapping[str, FloatArray]) -> dict[str, float]
 
 
 def _trace(
-    player: Playback,
+    joints: JointPlayback,
     held: Playback,
     character: Character,
     instrument: InstrumentMap,
@@ -212,21 +216,20 @@ def _trace(
     progress: Callable[[float], None],
 ) -> _Traces:
     """One walk over all frames, a chunk at a time."""
+    player = joints.playback
     frames = player.clip.frames
     wanted = {contact.part for contact in instrument.contacts} | {*_SOLES, _LIPS, _UPPER_LIP}
-    surfaces = {name: _landmark_surface(player, character, name) for name in sorted(wanted)}
-    hands = _hands(player, character, instrument)
+    surfaces = {name: Surface(player, *joints.surface(character.landmarks[name])) for name in sorted(wanted)}
+    hands = [Hands(player, *joints.surface(character.landmarks[name]), instrument.proxy) for name in _HANDS]
     bone_of_node = {part.node: part.name for part in instrument.moving_parts} | {ROOT: held.bone_names[0]}
     node_bones = {node: held.bone_names.index(bone) for node, bone in bone_of_node.items()}
     landmarks = {name: np.empty((frames, 3)) for name in surfaces}
     nodes = {node: np.empty((frames, 4, 4)) for node in node_bones}
     torso, depth_m, deviation_m = np.empty((frames, 2)), np.zeros(frames), np.empty(frames)
-    low = player.bone_names.index(_TORSO[0])
-    # VRM leaves the neck optional; the head is next above it.
-    high = player.bone_names.index(_TORSO[1] if _TORSO[1] in player.bone_names else "head")
+    low = joints.bone(_TORSO[0])
+    high = joints.bone(_TORSO[1], "head")  # VRM leaves the neck optional; the head is next above it.
     lengths_m = np.linalg.norm(player.rest_m, axis=1)
     parents = np.array(player.parents)
-    rigid = np.array([parent > 0 for parent in player.parents])
     for first in range(0, frames, _CHUNK):
         last = min(first + _CHUNK, frames)
         span = slice(first, last)
@@ -236,11 +239,11 @@ def _trace(
         held_world = held.world(first, last)
         for node, bone in node_bones.items():
             nodes[node][span] = held_world[:, bone]
-        joints_m = world[..., :3, 3]
-        upright = joints_m[:, high] - joints_m[:, low]
+        bones_m = world[..., :3, 3]
+        upright = bones_m[:, high] - bones_m[:, low]
         torso[span] = np.arctan2(upright[:, [0, 2]], upright[:, 1:2])
-        bones_m = np.linalg.norm(joints_m - joints_m[:, parents], axis=-1)
-        deviation_m[span] = np.abs(bones_m - lengths_m)[:, rigid].max(axis=1)
+        found_m = np.linalg.norm(bones_m - bones_m[:, parents], axis=-1)
+        deviation_m[span] = np.abs(found_m - lengths_m)[:, joints.rigid].max(axis=1)
         if sounding[span].any():
             for part in hands:
                 depth_m[span] = np.maximum(
@@ -248,27 +251,6 @@ def _trace(
                 )
         progress(last / frames)
     return _Traces(landmarks, nodes, torso, deviation_m, depth_m)
-
-
-def _vertices(character: Character, landmark: Landmark) -> npt.NDArray[np.int64]:
-    """A landmark's vertices in the file's mesh, where the character's meshes stand one after the other."""
-    start = 0
-    for mesh in character.meshes:
-        if mesh.name == landmark.mesh:
-            break
-        start += len(mesh.positions_m)
-    return landmark.vertices.astype(np.int64) + start
-
-
-def _landmark_surface(playback: Playback, character: Character, name: str) -> Surface:
-    return Surface(playback, playback.scene.meshes[0], _vertices(character, character.landmarks[name]))
-
-
-def _hands(playback: Playback, character: Character, instrument: InstrumentMap) -> list[Hands]:
-    return [
-        Hands(playback, playback.scene.meshes[0], _vertices(character, character.landmarks[name]), instrument.proxy)
-        for name in _HANDS
-    ]
 
 
 def _within(times_s: FloatArray, spans: Sequence[tuple[float, float]]) -> BoolArray:
@@ -469,10 +451,9 @@ def _acceleration(
 
 
 def _breaths(
-    events: Sequence[BreathEvent], times_s: FloatArray, player: Playback, torso_rad: FloatArray
+    events: Sequence[BreathEvent], times_s: FloatArray, jaw: FloatArray, torso_rad: FloatArray
 ) -> BreathMeasure:
     """Whether during each breath the jaw opens and the torso leans back against what was just before."""
-    jaw = np.asarray(player.clip.morph_weights.get("jawOpen", np.zeros(len(times_s))), np.float64)
     planned = opened = back = shown = 0
     for event in events:
         first, last = np.searchsorted(times_s, [event.start_s - 1e-9, event.end_s + 1e-9])

@@ -1212,6 +1212,10 @@
             <translation>{part}: 最大 {voices} 音が重なるため、{voices} 人で分担します</translation>
         </message>
         <message>
+            <source>{file} has several root bones ({bones}); Unreal takes only one, so the bone {root} was put above them</source>
+            <translation>{file} にはルートボーンが複数あります（{bones}）。Unreal はルートを 1 つしか受け付けないため、その上にボーン {root} を加えました</translation>
+        </message>
+        <message>
             <source>{file}: {detail}</source>
             <translation>{file}: {detail}</translation>
         </message>

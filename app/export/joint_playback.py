@@ -1,0 +1,118 @@
+"""What the joints of the normalised character do in a file, whatever skeleton the file is on."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cached_property
+
+import numpy as np
+import numpy.typing as npt
+
+from app.export.playback import Playback
+from app.export.target import TargetSkeleton
+from app.formats.scene import SkinnedMesh
+from app.rig import quaternion
+from app.rig.figure import OwnSkeleton
+from app.rig.model import Character, Landmark
+
+FloatArray = npt.NDArray[np.float64]
+
+_CHUNK = 4096
+_HIPS = "hips"
+
+
+class JointPlayback:
+    """Joints read from the bones of a file: ``world_from_joint = world_from_bone * inverse(joint_from_bone)``.
+
+    Bones are found by their names in the file. A joint that no bone shows does not turn on its parent.
+
+    Parameters
+    ----------
+    playback : Playback
+        Of the file.
+    target : TargetSkeleton
+        What its bones mean.
+    character : Character
+    """
+
+    def __init__(self, playback: Playback, target: TargetSkeleton, character: Character) -> None:
+        self.playback = playback
+        self._target = target
+        self._character = character
+        place = {name: bone for bone, name in enumerate(playback.bone_names)}
+        absent = [name for name in target.names if name not in place]
+        if absent:
+            raise ValueError(f"the file lacks bones of the skeleton that it was written on: {', '.join(absent)}")
+        self._bones = {joint: place[target.names[bone]] for joint, bone in target.bone_of_joint.items()}
+        self._moved = {place[target.names[bone]] for bone in target.tied}
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of all joints."""
+        return self._character.skeleton.names
+
+    def bone(self, *joints: str) -> int:
+        """The file's bone of the first of these joints that has one; KeyError where none has."""
+        for name in joints:
+            if name in self.names and self.names.index(name) in self._bones:
+                return self._bones[self.names.index(name)]
+        raise KeyError(joints[0])
+
+    @cached_property
+    def rigid(self) -> npt.NDArray[np.bool_]:
+        """Bones (B,) whose length must stay: all but the hips, their roots and what is tied to another bone."""
+        moved = self._moved | {self.bone(_HIPS)}
+        parents = self.playback.parents
+        return np.array([parent >= 0 and bone not in moved for bone, parent in enumerate(parents)])
+
+    @cached_property
+    def rotations(self) -> FloatArray:
+        """``parent_from_joint`` of all joints at all frames (F, J, 4)."""
+        frames = self.playback.clip.frames
+        if self._target.choice == "suisou" and self.playback.bone_names == self.names:
+            return self.playback.rotations(0, frames)
+        result = np.empty((frames, len(self.names), 4))
+        for first in range(0, frames, _CHUNK):
+            span = slice(first, min(first + _CHUNK, frames))
+            result[span] = self._joint_rotations(span)
+        return result
+
+    def curve(self, morph: str) -> FloatArray:
+        """Weight (F,) of a morph by its ARKit name; zeros where nothing in the file shows it."""
+        curves = self.playback.clip.morph_weights
+        frames = self.playback.clip.frames
+        parts: Mapping[str, float] = {morph: 1.0}
+        if self._target.choice == "own" and self._character.own is not None:
+            parts = self._character.own.morphs.get(morph, {})
+        shown = [np.asarray(curves[name], np.float64) / part for name, part in parts.items() if name in curves and part]
+        return np.minimum(np.max(shown, axis=0), 1.0) if shown else np.zeros(frames)
+
+    def surface(self, landmark: Landmark) -> tuple[SkinnedMesh, npt.NDArray[np.int64]]:
+        """The file's mesh that a landmark is on, and the landmark's vertices there.
+
+        A file on the character's own skeleton has its meshes one by one, any other has them joined, in their order.
+        """
+        meshes, start = self.playback.scene.meshes, 0
+        own: OwnSkeleton | None = self._character.own if self._target.choice == "own" else None
+        for index, mesh in enumerate(self._character.meshes):
+            if mesh.name == landmark.mesh:
+                return meshes[index if own is not None else 0], landmark.vertices.astype(np.int64) + start
+            start += 0 if own is not None else len(mesh.positions_m)
+        raise KeyError(landmark.mesh)
+
+    def _joint_rotations(self, span: slice) -> FloatArray:
+        turns = self.playback.rotations(span.start, span.stop).swapaxes(0, 1)
+        bones = np.empty_like(turns)
+        for bone, parent in enumerate(self.playback.parents):
+            bones[bone] = quaternion.multiply(bones[parent], turns[bone]) if parent >= 0 else turns[bone]
+        world: list[FloatArray] = []
+        result = np.tile(quaternion.IDENTITY, (span.stop - span.start, len(self.names), 1))
+        for joint, parent in enumerate(self._character.skeleton.parents):
+            above = world[parent] if parent >= 0 else result[:, 0]
+            if joint not in self._bones:
+                world.append(above)
+                continue
+            own = self._target.joint_from_bone[self._target.bone_of_joint[joint]]
+            world.append(quaternion.multiply(bones[self._bones[joint]], quaternion.conjugate(own)))
+            result[:, joint] = quaternion.multiply(quaternion.conjugate(above), world[joint])
+        return result

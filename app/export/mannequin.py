@@ -1,0 +1,241 @@
+"""The core bones of Unreal Engine 5's mannequin as a target, with the proportions of the character.
+
+Rest rotations are an asset's, where a file of it is given: then a rotation means the same on both, and an animation of
+one can be played on the other. Without a file the axes are those the mannequin has by convention (see `_AXES`), which
+are near but not the same; Unreal's IK retargeter is the way to the asset then.
+
+The mannequin has neither eyes nor a jaw: what they carry goes with the head.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+import numpy.typing as npt
+
+from app.export.own_skeleton import limb_twist
+from app.export.target import TargetSkeleton, Twist, local_placements
+from app.rig import quaternion
+from app.rig.model import Skeleton
+from app.rig.skeleton import rest_positions
+
+FloatArray = npt.NDArray[np.float64]
+
+_FINGERS: Final = (("index", "Index"), ("middle", "Middle"), ("ring", "Ring"), ("pinky", "Little"))
+_METACARPAL: Final = 0.3
+"""How far from the wrist to the knuckle a metacarpal begins."""
+
+
+@dataclass(frozen=True)
+class _Bone:
+    """A bone of the mannequin: it is a joint, or stands ``along`` the way between two, or is tied to another bone."""
+
+    name: str
+    parent: str
+    axes: str
+    joint: str = ""
+    between: tuple[str, str] = ("", "")
+    along: float = 0.0
+    twists: bool = False
+    tied: str = ""
+
+
+def _side(x: str, side: str) -> Iterator[_Bone]:
+    arm, leg = f"arm_{x}", f"leg_{x}"
+    yield _Bone(f"clavicle_{x}", "spine_05", arm, f"{side}Shoulder")
+    yield _Bone(f"upperarm_{x}", f"clavicle_{x}", arm, f"{side}UpperArm")
+    yield from _limb_twists("upperarm", x, arm, (f"{side}UpperArm", f"{side}LowerArm"), (1 / 3, 2 / 3))
+    yield _Bone(f"lowerarm_{x}", f"upperarm_{x}", arm, f"{side}LowerArm")
+    yield from _limb_twists("lowerarm", x, arm, (f"{side}LowerArm", f"{side}Hand"), (2 / 3, 1 / 3))
+    hand = f"hand_{x}"
+    yield _Bone(hand, f"lowerarm_{x}", hand, f"{side}Hand")
+    for index, joint in enumerate(("Metacarpal", "Proximal", "Distal"), start=1):
+        parent = hand if index == 1 else f"thumb_0{index - 1}_{x}"
+        yield _Bone(f"thumb_0{index}_{x}", parent, hand, f"{side}Thumb{joint}")
+    for finger, joint in _FINGERS:
+        first = f"{side}{joint}Proximal"
+        yield _Bone(f"{finger}_metacarpal_{x}", hand, hand, between=(f"{side}Hand", first), along=_METACARPAL)
+        parent = f"{finger}_metacarpal_{x}"
+        for index, part in enumerate(("Proximal", "Intermediate", "Distal"), start=1):
+            yield _Bone(f"{finger}_0{index}_{x}", parent, hand, f"{side}{joint}{part}")
+            parent = f"{finger}_0{index}_{x}"
+    yield _Bone(f"thigh_{x}", "pelvis", leg, f"{side}UpperLeg")
+    yield from _limb_twists("thigh", x, leg, (f"{side}UpperLeg", f"{side}LowerLeg"), (1 / 3, 2 / 3))
+    yield _Bone(f"calf_{x}", f"thigh_{x}", leg, f"{side}LowerLeg")
+    yield from _limb_twists("calf", x, leg, (f"{side}LowerLeg", f"{side}Foot"), (2 / 3, 1 / 3))
+    yield _Bone(f"foot_{x}", f"calf_{x}", f"foot_{x}", f"{side}Foot")
+    yield _Bone(f"ball_{x}", f"foot_{x}", f"foot_{x}", f"{side}Toes")
+
+
+def _limb_twists(name: str, x: str, axes: str, between: tuple[str, str], along: tuple[float, float]) -> Iterator[_Bone]:
+    for index, share in enumerate(along, start=1):
+        yield _Bone(f"{name}_twist_0{index}_{x}", f"{name}_{x}", axes, between=between, along=share, twists=True)
+
+
+_BONES: Final = (
+    _Bone("root", "", "root"),
+    _Bone("pelvis", "root", "trunk", "hips"),
+    _Bone("spine_01", "pelvis", "trunk", "spine"),
+    _Bone("spine_02", "spine_01", "trunk", between=("spine", "chest"), along=0.5),
+    _Bone("spine_03", "spine_02", "trunk", "chest"),
+    _Bone("spine_04", "spine_03", "trunk", between=("chest", "upperChest"), along=0.5),
+    _Bone("spine_05", "spine_04", "trunk", "upperChest"),
+    _Bone("neck_01", "spine_05", "trunk", "neck"),
+    _Bone("neck_02", "neck_01", "trunk", between=("neck", "head"), along=0.5),
+    _Bone("head", "neck_02", "trunk", "head"),
+    *_side("l", "left"),
+    *_side("r", "right"),
+    _Bone("ik_foot_root", "root", "root"),
+    _Bone("ik_foot_l", "ik_foot_root", "", tied="foot_l"),
+    _Bone("ik_foot_r", "ik_foot_root", "", tied="foot_r"),
+    _Bone("ik_hand_root", "root", "root"),
+    _Bone("ik_hand_gun", "ik_hand_root", "", tied="hand_r"),
+    _Bone("ik_hand_l", "ik_hand_gun", "", tied="hand_l"),
+    _Bone("ik_hand_r", "ik_hand_gun", "", tied="hand_r"),
+    _Bone("interaction", "root", "root"),
+    _Bone("center_of_mass", "root", "root"),
+)
+MANNEQUIN: Final[Mapping[str, str]] = {bone.name: bone.parent for bone in _BONES}
+"""Parent of every bone; that of the root is empty."""
+
+_AXES: Final[Mapping[str, tuple[tuple[float, float, float], tuple[float, float, float]]]] = {
+    # In Unreal (X to the character's left, Y forward, Z up): where a bone's X and Z axes point in the T-pose. X lies
+    # along the bone, limbs bend about Z. Right bones are the left ones mirrored with all three axes reversed.
+    "root": ((1.0, 0.0, 0.0), (0.0, 0.0, 1.0)),
+    "trunk": ((0.0, 0.0, 1.0), (-1.0, 0.0, 0.0)),
+    "arm_l": ((1.0, 0.0, 0.0), (0.0, 0.0, -1.0)),
+    "hand_l": ((1.0, 0.0, 0.0), (0.0, -1.0, 0.0)),
+    "leg_l": ((0.0, 0.0, 1.0), (1.0, 0.0, 0.0)),
+    "foot_l": ((0.0, 0.0, 1.0), (1.0, 0.0, 0.0)),
+    "arm_r": ((1.0, 0.0, 0.0), (0.0, 0.0, 1.0)),
+    "hand_r": ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0)),
+    "leg_r": ((0.0, 0.0, -1.0), (1.0, 0.0, 0.0)),
+    "foot_r": ((0.0, 0.0, -1.0), (1.0, 0.0, 0.0)),
+}
+_STRAIGHT: Final = ("root", "foot_l", "foot_r")
+"""Axes that stay as they are; all others have X turned along the bone."""
+
+
+@dataclass(frozen=True, eq=False)
+class MannequinAxes:
+    """Rotations of an asset's bones, by their names.
+
+    Attributes
+    ----------
+    rest : mapping of str to (4,) float64
+        ``parent_from_bone`` at rest.
+    t_pose : mapping of str to (4,) float64
+        ``world_from_bone`` in the T-pose.
+    """
+
+    rest: Mapping[str, FloatArray]
+    t_pose: Mapping[str, FloatArray]
+
+
+def mannequin_target(skeleton: Skeleton, asset: MannequinAxes | None = None) -> TargetSkeleton:
+    """The mannequin's bones with the proportions of a character's skeleton.
+
+    Parameters
+    ----------
+    skeleton : Skeleton
+    asset : MannequinAxes, optional
+        Of the mannequin it is for; bones that the asset lacks have the axes of the convention.
+    """
+    names = tuple(MANNEQUIN)
+    parents = tuple(names.index(bone.parent) if bone.parent else -1 for bone in _BONES)
+    joint_of_bone = tuple(skeleton.names.index(bone.joint) if bone.joint in skeleton.names else -1 for bone in _BONES)
+    tied = {index: names.index(bone.tied) for index, bone in enumerate(_BONES) if bone.tied}
+    places = _places(skeleton, joint_of_bone, tied)
+    turned = _conventional(places, tied)
+    if asset is not None:
+        for name, rotation in asset.t_pose.items():
+            turned[names.index(name)] = rotation
+        for bone, other in tied.items():
+            turned[bone] = turned[other]
+    offsets, t_pose = local_placements(parents, places, turned)
+    rest = t_pose.copy()
+    if asset is not None:
+        for name, rotation in asset.rest.items():
+            rest[names.index(name)] = rotation
+    joint_from_bone = np.where((np.array(joint_of_bone) >= 0)[:, None], turned, quaternion.IDENTITY)
+    twists = _twists(skeleton, places)
+    joint_from_bone[list(twists)] = turned[list(twists)]
+    return TargetSkeleton("ue5", names, parents, offsets, rest, t_pose, joint_of_bone, joint_from_bone, twists, tied)
+
+
+def _places(skeleton: Skeleton, joint_of_bone: tuple[int, ...], tied: Mapping[int, int]) -> FloatArray:
+    """World positions (B, 3) of the bones in the T-pose."""
+    joints = rest_positions(skeleton)
+    places = np.zeros((len(_BONES), 3))
+    for index, bone in enumerate(_BONES):
+        if joint_of_bone[index] >= 0:
+            places[index] = joints[joint_of_bone[index]]
+        elif bone.joint:  # toes: the only joint of ours here that a body may lack
+            ankle = joints[skeleton.index(bone.joint.replace("Toes", "Foot"))]
+            places[index] = ankle + ankle[1] * np.array([0.0, -0.8, 1.5])
+        elif bone.along:
+            start, end = (joints[skeleton.index(name)] for name in bone.between)
+            places[index] = start + bone.along * (end - start)
+        elif index in tied:
+            places[index] = places[tied[index]]
+    return places
+
+
+def _conventional(places: FloatArray, tied: Mapping[int, int]) -> FloatArray:
+    """World rotations (B, 4) of the bones in the T-pose by the axes of the convention."""
+    names = tuple(MANNEQUIN)
+    turned = np.tile(quaternion.IDENTITY, (len(_BONES), 1))
+    for index, bone in enumerate(_BONES):
+        if index in tied:
+            turned[index] = turned[tied[index]]
+            continue
+        x, z = (_from_unreal(axis) for axis in _AXES[bone.axes])
+        if bone.axes not in _STRAIGHT and (way := _way(bone, places, names)) is not None:
+            x = np.copysign(1.0, way @ x) * way
+        y = np.cross(z, x)
+        turned[index] = quaternion.from_frames(x, y / np.linalg.norm(y))
+    return turned
+
+
+def _from_unreal(axis: tuple[float, float, float]) -> FloatArray:
+    """A direction in our space: Unreal's Y is our Z."""
+    return np.array([axis[0], axis[2], axis[1]])
+
+
+def _way(bone: _Bone, places: FloatArray, names: tuple[str, ...]) -> FloatArray | None:
+    """The direction a bone lies along: to the next one of its chain; a last one goes on as the one before."""
+    index = names.index(bone.name)
+    chain = [
+        child
+        for child, other in enumerate(_BONES)
+        if other.parent == bone.name and other.axes[:-2] in (bone.axes[:-2], "foot") and not other.twists
+    ]
+    if bone.axes == "trunk" and bone.name in ("pelvis", "head"):
+        return None
+    if bone.axes.startswith("hand") and bone.name.startswith("hand"):
+        chain = [child for child in chain if names[child].startswith("middle")]
+    if bone.twists or not chain:
+        if bone.parent not in names or bone.axes != _BONES[names.index(bone.parent)].axes:
+            return None
+        parent = names.index(bone.parent)
+        if bone.twists:
+            return _way(_BONES[parent], places, names)
+        way = places[index] - places[parent]
+    else:
+        way = places[chain[0]] - places[index]
+    length = float(np.linalg.norm(way))
+    return way / length if length > 1e-6 else None
+
+
+def _twists(skeleton: Skeleton, places: FloatArray) -> dict[int, Twist]:
+    joints = rest_positions(skeleton)
+    found = {}
+    for index, bone in enumerate(_BONES):
+        if bone.twists:
+            base, end = (skeleton.index(name) for name in bone.between)
+            way = joints[end] - joints[base]
+            found[index] = limb_twist(skeleton, base, end, way / np.linalg.norm(way), bone.along)
+    return found

@@ -1,0 +1,134 @@
+"""The skeleton of a character's own file as a target: names, hierarchy and rest pose as they are there."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from typing import Final
+
+import numpy as np
+import numpy.typing as npt
+
+from app.errors import Message
+from app.export.target import TargetSkeleton, Twist, world_placements
+from app.rig import quaternion
+from app.rig.figure import Figure, OwnSkeleton
+from app.rig.model import Character, Skeleton
+
+FloatArray = npt.NDArray[np.float64]
+
+TWIST_NAME: Final = re.compile(r"twist|roll(?!er)", re.IGNORECASE)
+"""Bones of such names along a limb share its twist: Unreal, MetaHuman and Character Creator say twist
+(``lowerarm_twist_01_l``, ``CC_Base_L_ForearmTwist01``), HumanIK and MotionBuilder say roll (``LeftForeArmRoll``)."""
+LIMBS: Final = {
+    f"{side}{bone}": f"{side}{end}"
+    for side in ("left", "right")
+    for bone, end in (
+        ("UpperArm", "LowerArm"),
+        ("LowerArm", "Hand"),
+        ("UpperLeg", "LowerLeg"),
+        ("LowerLeg", "Foot"),
+    )
+}
+"""The long bones, and the joint where each ends."""
+_TWISTS_AT_ITS_END: Final = ("LowerArm", "LowerLeg")
+"""A forearm's skin turns with the hand; an upper arm's twist comes from its own shoulder."""
+
+
+def own_target(character: Character) -> TargetSkeleton:
+    """The skeleton of a character's own file; the character must have one.
+
+    Unreal takes one root only: where the file has several, a bone ``root`` at the origin is put above them, and
+    ``skeleton.root_added`` says so.
+    """
+    own = character.own
+    if own is None:
+        raise ValueError(f"character {character.id!r} has no skeleton of another file")
+    figure = own.figure
+    _, t_turned = world_placements(figure.parents, figure.translations_m, own.t_pose)
+    joint_of_bone = [-1] * len(figure.bone_names)
+    joint_from_bone = np.tile(quaternion.IDENTITY, (len(figure.bone_names), 1))
+    for joint, bone in enumerate(own.bone_of_joint):
+        if bone >= 0:
+            joint_of_bone[bone] = joint
+            joint_from_bone[bone] = own.joint_from_bone[joint]
+    twists = _twists(own, character.skeleton, joint_of_bone)
+    for bone in twists:
+        joint_from_bone[bone] = t_turned[bone]
+    target = TargetSkeleton(
+        "own",
+        figure.bone_names,
+        figure.parents,
+        figure.translations_m,
+        figure.rotations,
+        own.t_pose,
+        tuple(joint_of_bone),
+        joint_from_bone,
+        twists,
+    )
+    return target if figure.parents.count(-1) == 1 else _with_root(target, figure)
+
+
+def own_weights(morphs: Mapping[str, npt.NDArray[np.float32]], own: OwnSkeleton) -> dict[str, npt.NDArray[np.float32]]:
+    """Curves of a figure's own morphs that make the curves of ARKit's: sums, from 0 to 1."""
+    sums: dict[str, npt.NDArray[np.float32]] = {}
+    there = set(own.figure.morph_names)
+    for name, curve in morphs.items():
+        for morph, factor in own.morphs.get(name, {}).items():
+            if morph in there:
+                sums[morph] = sums.get(morph, np.zeros(len(curve), np.float32)) + np.float32(factor) * curve
+    return {morph: np.clip(curve, 0.0, 1.0) for morph, curve in sums.items()}
+
+
+def _twists(own: OwnSkeleton, skeleton: Skeleton, joint_of_bone: list[int]) -> dict[int, Twist]:
+    """The twist bones of the figure's limbs; how far along the limb one stands is its share of the twist."""
+    figure = own.figure
+    positions, _ = world_placements(figure.parents, figure.translations_m, own.t_pose)
+    found = {}
+    for bone, name in enumerate(figure.bone_names):
+        if joint_of_bone[bone] >= 0 or not TWIST_NAME.search(name):
+            continue
+        above = figure.parents[bone]
+        while above >= 0 and joint_of_bone[above] < 0:
+            above = figure.parents[above]
+        if above < 0 or skeleton.names[joint_of_bone[above]] not in LIMBS:
+            continue
+        base = joint_of_bone[above]
+        end = skeleton.index(LIMBS[skeleton.names[base]])
+        if own.bone_of_joint[end] < 0:
+            continue
+        way = positions[own.bone_of_joint[end]] - positions[above]
+        length = float(np.linalg.norm(way))
+        if length < 1e-4:
+            continue
+        axis = way / length
+        along = float(np.clip((positions[bone] - positions[above]) @ axis / length, 0.0, 1.0))
+        found[bone] = limb_twist(skeleton, base, end, axis, along)
+    return found
+
+
+def limb_twist(skeleton: Skeleton, base: int, end: int, axis: FloatArray, along: float) -> Twist:
+    """The twist of a bone that stands ``along`` (0..1) a limb from ``base`` to ``end``."""
+    if skeleton.names[base].endswith(_TWISTS_AT_ITS_END):
+        return Twist(base, end, axis, along)
+    return Twist(base, base, axis, along - 1.0)
+
+
+def _with_root(target: TargetSkeleton, figure: Figure) -> TargetSkeleton:
+    name = "root"
+    while name in target.names:
+        name += "_"
+    unturned = quaternion.IDENTITY[None]
+    tops = ", ".join(bone for bone, parent in zip(target.names, target.parents, strict=True) if parent < 0)
+    return TargetSkeleton(
+        "own",
+        (name, *target.names),
+        (-1, *(parent + 1 for parent in target.parents)),
+        np.concatenate([np.zeros((1, 3)), target.offsets_m]),
+        np.concatenate([unturned, target.rest]),
+        np.concatenate([unturned, target.t_pose]),
+        (-1, *target.joint_of_bone),
+        np.concatenate([unturned, target.joint_from_bone]),
+        {bone + 1: twist for bone, twist in target.twists.items()},
+        messages=(Message("skeleton.root_added", {"file": figure.file, "root": name, "bones": tops}),),
+    )
