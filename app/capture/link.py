@@ -19,18 +19,21 @@ import msgspec
 from app.capture.journal import Header
 from app.capture.protocol import (
     NEWS,
+    Back,
     Command,
     Finished,
     Leave,
+    Lost,
     News,
     NotStarted,
     Open,
+    Opened,
     Refused,
     Restarted,
-    Send,
     Start,
     Stop,
     Sync,
+    SystemEnded,
     framed,
     read_framed,
 )
@@ -62,7 +65,7 @@ class RecorderLink:
         self._child: subprocess.Popen[bytes] | None = None
         self._is_leaving = False
         self._is_closed = False
-        self._open = Open(None, None)
+        self._open: Open | None = None
         self._take: Start | None = None
         self._is_begun = False
         self._is_stopping = False
@@ -84,7 +87,7 @@ class RecorderLink:
     @property
     def port(self) -> str | None:
         """The port that is listened to, or as soon as it is there."""
-        return self._open.port
+        return self._open.port if self._open is not None else None
 
     @property
     def is_recording(self) -> bool:
@@ -93,29 +96,16 @@ class RecorderLink:
 
     def open(self, port: str | None) -> None:
         """Listen to a port, and again whenever it comes back: `Opened`, `Refused`, `Lost`, `Back`."""
-        self._reopen(msgspec.structs.replace(self._open, port=port))
-
-    def open_output(self, port: str | None) -> None:
-        """Send to a port."""
-        self._reopen(msgspec.structs.replace(self._open, output=port))
-
-    def _reopen(self, wanted: Open) -> None:
         with self._lock:
-            if wanted == self._open:
+            if port == self.port:
                 return
-            had_port = self._open != Open(None, None)
-            self._open = wanted
-            if not had_port:
-                self._tell(wanted)
+            before, self._open = self._open, None if port is None else Open(port)
+            if before is None and self._open is not None:
+                self._tell(self._open)
             elif self._tell(Leave()):
                 # The next recorder opens it: a port in use is only closed by the end of its process.
                 self._is_leaving = True
                 self._end_surely()
-
-    def send(self, message: bytes) -> None:
-        """Send a message to the output; `Refused` where it cannot be."""
-        with self._lock:
-            self._tell(Send(message))
 
     def start(self, path: str | os.PathLike[str], header: Header) -> None:
         """Begin a journal, which must not be there: `Written`, or `NotStarted`. One that runs is finished first."""
@@ -217,7 +207,7 @@ class RecorderLink:
                 # What no recorder has begun must not be there.
                 began_ns = resumed_ns if self._is_begun else None
                 self._is_begun = self._tell(msgspec.structs.replace(self._take, resumed_ns=began_ns)) or self._is_begun
-            if self._open != Open(None, None):
+            if self._open is not None:
                 self._tell(self._open)
             for point in self._unsent:
                 self._tell(point)
@@ -242,9 +232,21 @@ class RecorderLink:
         with contextlib.suppress(EOFError, OSError, msgspec.MsgspecError):
             while True:
                 told = read_framed(child.stdout, NEWS)
+                if isinstance(told, SystemEnded):
+                    with self._lock:
+                        self._is_leaving = True
+                    continue
                 if isinstance(told, Finished | NotStarted):
                     self._take_ended(told)
+                elif isinstance(told, Lost | Opened | Back):
+                    self._port_changed(told)
                 self._put(told)
+
+    def _port_changed(self, told: Lost | Opened | Back) -> None:
+        with self._lock:
+            # Another may have been chosen since.
+            if told.port == self.port:
+                self._open = Open(told.port, is_lost=isinstance(told, Lost))
 
     def _take_ended(self, told: Finished | NotStarted) -> None:
         with self._lock:
@@ -270,7 +272,8 @@ def _started(system: str) -> subprocess.Popen[bytes]:
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         env=environment,
-        creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),
+        # Only Windows has these; elsewhere see `app.capture.recorder.take_precedence`.
+        creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0) | getattr(subprocess, "HIGH_PRIORITY_CLASS", 0),
     )
 
 

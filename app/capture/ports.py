@@ -16,6 +16,7 @@ from typing import Any, Final, TypeAlias
 
 import msgspec
 
+from app.capture.jack import ServerWatch
 from app.errors import AppError
 
 Heard: TypeAlias = Callable[[tuple[list[int], float], object], None]
@@ -107,15 +108,21 @@ class MidiSystem:
                 with contextlib.suppress(rtmidi.RtMidiError):
                     self.name, self._api = name, api
                     self._inputs, self._outputs = rtmidi.MidiIn(api, CLIENT), rtmidi.MidiOut(api, CLIENT)
+                    self._watch = ServerWatch() if name == "jack" else None
                     return
         raise PortError("capture.no_system")
+
+    @property
+    def has_ended(self) -> bool:
+        """Whether it has gone since, with all of its ports: what it lists is of the past."""
+        return self._watch is not None and self._watch.has_ended
 
     def inputs(self) -> tuple[Port, ...]:
         """What can be listened to now."""
         return named(self._inputs.get_ports(), self.name)
 
     def outputs(self) -> tuple[Port, ...]:
-        """What can be sent to now."""
+        """What could be sent to now."""
         return named(self._outputs.get_ports(), self.name)
 
     def open_input(self, port: Port, heard: Heard) -> Any:
@@ -135,13 +142,6 @@ class MidiSystem:
             midi.set_callback(heard)
         return midi
 
-    def open_output(self, port: Port) -> Any:
-        """Send to a port. Raises PortError as `open_input`."""
-        with self._refusal(port):
-            midi = self._rtmidi.MidiOut(self._api, CLIENT)
-            midi.open_port(port.index, "out")
-        return midi
-
     @contextlib.contextmanager
     def _refusal(self, port: Port) -> Iterator[None]:
         try:
@@ -151,6 +151,8 @@ class MidiSystem:
 
     def close(self) -> None:
         """Let go of the system."""
+        if self._watch is not None:
+            self._watch.close()
         self._inputs.delete()
         self._outputs.delete()
 

@@ -19,17 +19,11 @@ class _Told(msgspec.Struct, frozen=True, tag=True, array_like=True, gc=False):
 
 
 class Open(_Told, frozen=True):
-    """Listen to one port, again whenever it comes back, and send to another; the first command that a recorder gets,
-    and only once (see `app.capture.recorder`)."""
+    """Listen to a port, again whenever it comes back; to a recorder this is said only once (see
+    `app.capture.recorder`). ``is_lost``: it was listened to and went away."""
 
-    port: str | None
-    output: str | None
-
-
-class Send(_Told, frozen=True):
-    """Send a message to the output."""
-
-    message: bytes
+    port: str
+    is_lost: bool = False
 
 
 class Start(_Told, frozen=True):
@@ -111,6 +105,10 @@ class Restarted(_Told, frozen=True):
     reason: Message
 
 
+class SystemEnded(_Told, frozen=True):
+    """The MIDI system has gone, with all of its ports: this recorder ends, another one waits for the system."""
+
+
 class Events(_Told, frozen=True):
     """What was played: moments of `time.perf_counter_ns` and the bytes of the messages (of channels only)."""
 
@@ -131,8 +129,10 @@ class Finished(_Told, frozen=True):
     count: int
 
 
-Command: TypeAlias = Open | Send | Start | Sync | Stop | Leave
-News: TypeAlias = Ports | Opened | Lost | Back | Refused | NotStarted | Restarted | Events | Written | Finished
+Command: TypeAlias = Open | Start | Sync | Stop | Leave
+News: TypeAlias = (
+    Ports | Opened | Lost | Back | Refused | NotStarted | Restarted | Events | Written | Finished | SystemEnded
+)
 
 COMMANDS: Final = msgspec.msgpack.Decoder(Command)
 NEWS: Final = msgspec.msgpack.Decoder(News)

@@ -7,19 +7,22 @@ Threads: the driver's calls `_heard`, which stamps and hands on and nothing else
 journal, one reads the commands. The main thread opens the port and looks twice a second which are there.
 
 A recorder opens its port once. To listen to another the editor starts another recorder: a port from which events
-come cannot be closed (`app.capture.ports.close_lost`).
+come cannot be closed (`app.capture.ports.close_lost`). So it does when the MIDI system itself went away.
 """
 
 from __future__ import annotations
 
 import contextlib
+import gc
 import os
 import signal
 import sys
 import threading
 import time
 import traceback
+from collections.abc import Callable
 from itertools import groupby
+from pathlib import Path
 from queue import Empty, SimpleQueue
 from types import TracebackType
 from typing import IO, Any, Final, TypeAlias
@@ -40,10 +43,10 @@ from app.capture.protocol import (
     Opened,
     Ports,
     Refused,
-    Send,
     Start,
     Stop,
     Sync,
+    SystemEnded,
     Written,
     framed,
     read_framed,
@@ -57,6 +60,8 @@ _NO_SYSTEM_LOOK_S: Final = 2.0
 _TO_DISK_S: Final = 0.25
 _SWITCH_S: Final = 0.0005
 """How long a thread of ours may keep the driver's from stamping."""
+_PRIORITY: Final = -10
+"""Where there is no real time: as Unix counts it, less is before others."""
 
 Heard: TypeAlias = tuple[int, bytes]
 """A moment of `time.perf_counter_ns` and a message."""
@@ -74,32 +79,41 @@ class Recorder:
     journal : SimpleQueue
         What is put into it is written.
     wanted_system : str
+    on_open : callable
+        Called when a port was opened: the driver's threads are there.
+
+    Attributes
+    ----------
+    has_ended : bool
+        The MIDI system has gone: another recorder is to go on.
     """
 
     def __init__(
-        self, news: SimpleQueue[News | Heard | None], journal: SimpleQueue[Any], wanted_system: str = ""
+        self,
+        news: SimpleQueue[News | Heard | None],
+        journal: SimpleQueue[Any],
+        wanted_system: str = "",
+        on_open: Callable[[], None] = lambda: None,
     ) -> None:
         self._news, self._journal = news, journal
-        self._wanted_system = wanted_system
+        self._wanted_system, self._on_open = wanted_system, on_open
         self._system: MidiSystem | None = None
         self._has_ports = False
         self._tried_at_s = -_NO_SYSTEM_LOOK_S
         self._told: News | None = None
         self._refused: list[Message] = []
-        self._asked = Open(None, None)
+        self._asked: Open | None = None
         self._input: Any = None
         self._identity = ""
         self._was_open = False
-        self._output: Any = None
+        self.has_ended = False
 
     def obey(self, command: Command) -> None:
         """Do what the editor asks."""
         match command:
             case Open():
-                self._asked = command
+                self._asked, self._was_open = command, command.is_lost
                 self.look()
-            case Send(message=message):
-                self._send(message)
             case Start(resumed_ns=None):
                 self._journal.put(command)
                 if self._input is None:
@@ -112,18 +126,19 @@ class Recorder:
         system = self._answering()
         if system is None:
             return
+        if system.has_ended:
+            self._end()
+            return
         inputs, outputs = system.inputs(), system.outputs()
         self._lose(inputs)
         self._tell(Ports(_names(inputs), _names(outputs), system.name))
         if self._input is None:
-            # The output first: see `MidiSystem.open_input`.
-            self._open_output(system, outputs)
             self._open(system, inputs)
         self._has_ports = bool(inputs or outputs)
 
     def _answering(self) -> MidiSystem | None:
-        """The system, tried anew now and then where none answers. A JACK server that has gone looks like one without
-        ports, or, to who has one open, as before: then the device is to be chosen again."""
+        """The system, tried anew now and then where none answers. A JACK server that is not there looks like one
+        without ports."""
         is_sure = self._system is not None and (self._has_ports or self._system.name != "jack")
         now_s = time.perf_counter()
         if not is_sure and now_s >= self._tried_at_s + _NO_SYSTEM_LOOK_S:
@@ -140,23 +155,31 @@ class Recorder:
     def _leave_system(self) -> None:
         if self._system is not None:
             self._system.close()
-        if self._output is not None:
-            close_lost(self._output)
-        self._system = self._output = None
+        self._system = None
 
     def _lose(self, inputs: tuple[Port, ...]) -> None:
         if self._input is not None and self._identity not in {port.identity for port in inputs}:
-            ns = time.perf_counter_ns()
             close_lost(self._input)
             self._input = None
-            assert self._asked.port is not None
-            self._journal.put(("lost", ns))
-            self._news.put(Lost(self._asked.port, ns))
+            self._tell_lost()
+
+    def _tell_lost(self) -> None:
+        assert self._asked is not None
+        ns = time.perf_counter_ns()
+        self._journal.put(("lost", ns))
+        self._news.put(Lost(self._asked.port, ns))
+
+    def _end(self) -> None:
+        """The system has gone: what was had of it can only be left, which ends with the process."""
+        if self._input is not None:
+            self._tell_lost()
+        self._news.put(SystemEnded())
+        self.has_ended = True
 
     def _open(self, system: MidiSystem, inputs: tuple[Port, ...]) -> None:
-        name = self._asked.port
-        if name is None:
+        if self._asked is None:
             return
+        name = self._asked.port
         port = next((port for port in inputs if port.name == name), None)
         if port is None:
             if not self._was_open:
@@ -164,6 +187,7 @@ class Recorder:
             return
         try:
             self._input = system.open_input(port, self._heard)
+            self._on_open()
         except PortError as error:
             self._refuse(error.message)
             return
@@ -173,24 +197,6 @@ class Recorder:
         self._news.put(Back(name, ns) if self._was_open else Opened(name, ns))
         self._was_open = True
         self._refused.clear()
-
-    def _open_output(self, system: MidiSystem, outputs: tuple[Port, ...]) -> None:
-        port = next((port for port in outputs if port.name == self._asked.output), None)
-        if self._output is None and port is not None:
-            try:
-                self._output = system.open_output(port)
-            except PortError as error:
-                self._refuse(error.message)
-
-    def _send(self, message: bytes) -> None:
-        detail = "not open"
-        if self._output is not None:
-            try:
-                self._output.send_message(message)
-                return
-            except (OSError, ValueError) as error:
-                detail = str(error)
-        self._news.put(Refused(Message("capture.not_sent", {"port": self._asked.output or "", "detail": detail})))
 
     def _heard(self, event: tuple[list[int], float], _: object) -> None:
         ns = time.perf_counter_ns()
@@ -361,13 +367,35 @@ def _end_at_once(kind: type[BaseException], error: BaseException | None, trace: 
     os._exit(1)
 
 
+def take_precedence() -> None:
+    """Run before the window and whatever else computes, as far as the system lets us.
+
+    All of the process's threads: were only the driver's quick, it would wait for Python's lock while another that holds
+    it waits for the processor. Those that a driver's library makes do not always take after ours, so this is called
+    again when a port was opened. On Windows whoever starts the process says so.
+    """
+    with contextlib.suppress(PermissionError):
+        if sys.platform == "linux":
+            first = os.sched_param(os.sched_get_priority_min(os.SCHED_RR))
+            for task in (int(path.name) for path in Path("/proc/self/task").iterdir()):
+                # One may have ended since.
+                with contextlib.suppress(ProcessLookupError):
+                    if os.sched_getscheduler(task) == os.SCHED_OTHER:
+                        os.sched_setscheduler(task, os.SCHED_RR, first)
+        elif hasattr(os, "setpriority"):
+            os.setpriority(os.PRIO_PROCESS, 0, _PRIORITY)
+
+
 def main() -> None:
     """Record for whoever started this process."""
     sys.excepthook = _end_at_once
     threading.excepthook = lambda failed: _end_at_once(failed.exc_type, failed.exc_value, failed.exc_traceback)
     # Ctrl-C in the terminal is meant for the editor, which ends this process by ending.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    take_precedence()
     sys.setswitchinterval(_SWITCH_S)
+    # What is loaded stays: no stamp waits until all of it was looked through for garbage.
+    gc.freeze()
     output = _private_output()
     news: SimpleQueue[News | Heard | None] = SimpleQueue()
     journal: SimpleQueue[Any] = SimpleQueue()
@@ -377,7 +405,7 @@ def main() -> None:
     reading = threading.Thread(target=_read_commands, args=(commands,), name="commands", daemon=True)
     for thread in (writing, sending, reading):
         thread.start()
-    recorder = Recorder(news, journal, os.environ.get(SYSTEM_VARIABLE, ""))
+    recorder = Recorder(news, journal, os.environ.get(SYSTEM_VARIABLE, ""), take_precedence)
     next_look_s = time.perf_counter()
     command: Command | None = None
     while True:
@@ -389,6 +417,9 @@ def main() -> None:
         except Empty:
             recorder.look()
             next_look_s = time.perf_counter() + _LOOK_S
+        if recorder.has_ended:
+            command = Leave()
+            break
     journal.put(command)
     writing.join()
     news.put(None)

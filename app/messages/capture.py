@@ -18,7 +18,6 @@ TEMPLATES: Final[dict[str, str]] = {
     "capture.port_refused": (
         "{port} cannot be opened ({detail}): another program may be using it; close it there, and it is opened here"
     ),
-    "capture.not_sent": "nothing could be sent to {port} ({detail})",
     "capture.not_written": (
         "{file} cannot be written: {reason}; recording goes on and is written as soon as there is room"
     ),

@@ -212,12 +212,6 @@ class Recorder(QObject):
             # Nothing was said, or somebody edited the settings by hand.
             return Wiring(controller.channel, controller.breath[0], controller.bite)
 
-    def send_to(self, output: str | None) -> None:
-        """Send to a port."""
-        self.begin()
-        assert self._link is not None
-        self._link.open_output(output)
-
     # News
 
     def poll(self) -> None:

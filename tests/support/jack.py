@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import shutil
+import signal
 import subprocess
 import sys
 import time
@@ -35,11 +36,13 @@ def require_jack() -> None:
 
 
 @contextmanager
-def jack_server(name: str, period_frames: int = PATIENT_FRAMES, *, is_in_step: bool = False) -> Iterator[None]:
+def jack_server(
+    name: str, period_frames: int = PATIENT_FRAMES, *, is_in_step: bool = False, is_realtime: bool = False
+) -> Iterator[None]:
     """A dummy server that this process and its children use, as long as the block runs."""
     require_jack()
     before = os.environ.get(_VARIABLE)
-    server = Server(name, period_frames, is_in_step=is_in_step)
+    server = Server(name, period_frames, is_in_step=is_in_step, is_realtime=is_realtime)
     try:
         os.environ[_VARIABLE] = server.start()
         yield
@@ -52,10 +55,11 @@ def jack_server(name: str, period_frames: int = PATIENT_FRAMES, *, is_in_step: b
 
 
 class Server:
-    """A server that can be started and stopped."""
+    """A server that can be started and stopped; in real time, as musicians run theirs, where the system permits it."""
 
-    def __init__(self, name: str, period_frames: int, *, is_in_step: bool) -> None:
+    def __init__(self, name: str, period_frames: int, *, is_in_step: bool, is_realtime: bool = False) -> None:
         self.name, self.period_frames, self.is_in_step = name, period_frames, is_in_step
+        self.is_realtime = is_realtime
         self._process: subprocess.Popen[bytes] | None = None
 
     def start(self) -> str:
@@ -77,19 +81,17 @@ class Server:
         pytest.fail(f"JACK's dummy server does not start (status {self._process and self._process.poll()})")
 
     def _started(self, name: str) -> subprocess.Popen[bytes]:
+        how = ["--realtime" if self.is_realtime else "--no-realtime", *(["--sync"] if self.is_in_step else [])]
         return subprocess.Popen(
-            [
-                *("jackd", "-n", name, "--no-realtime", *(("--sync",) if self.is_in_step else ())),
-                *("-d", "dummy", "-p", str(self.period_frames), "-r", str(RATE_HZ)),
-            ],
+            ["jackd", "-n", name, *how, "-d", "dummy", "-p", str(self.period_frames), "-r", str(RATE_HZ)],
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
         )
 
-    def stop(self) -> None:
+    def stop(self, by: signal.Signals = signal.SIGTERM) -> None:
         """End it."""
         if self._process is not None:
-            self._process.terminate()
+            self._process.send_signal(by)
             try:
                 self._process.wait(5.0)
             except subprocess.TimeoutExpired:

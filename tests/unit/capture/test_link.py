@@ -28,7 +28,7 @@ from app.capture.protocol import (
     Written,
 )
 from app.formats.locks import is_locked
-from tests.support.jack import PATIENT_FRAMES, RATE_HZ, jack_server
+from tests.support.jack import PATIENT_FRAMES, RATE_HZ, Server, jack_server
 from tests.support.listening import PATIENCE_S, Ear
 from tests.support.wind_player import PlayerProcess, WindPlayer, phrase
 
@@ -165,26 +165,6 @@ def test_a_take_goes_on_when_another_port_is_opened(ear: Ear, tmp_path: Path) ->
     assert back_ns is not None
 
 
-def test_a_message_is_sent_to_an_output(ear: Ear) -> None:
-    import rtmidi
-
-    heard: list[list[int]] = []
-    synth = rtmidi.MidiIn(rtmidi.API_UNIX_JACK, "Synth")
-    synth.open_virtual_port("in")
-    synth.set_callback(lambda event, _: heard.append(event[0]))
-    try:
-        ear.wait(Ports, lambda told: "Synth:in" in told.outputs)
-        ear.link.open_output("Synth:in")
-        end_s = time.monotonic() + PATIENCE_S
-        while not heard and time.monotonic() < end_s:
-            ear.link.send(b"\x90\x3c\x40")
-            time.sleep(0.1)
-        assert heard[0] == [0x90, 0x3C, 0x40]
-    finally:
-        synth.close_port()
-        synth.delete()
-
-
 def test_a_killed_recorder_is_started_again_and_goes_on(ear: Ear, tmp_path: Path) -> None:
     path = tmp_path / "take"
     with WindPlayer() as player:
@@ -313,6 +293,54 @@ def test_without_a_server_it_says_so_once_and_prints_nothing(
         assert len(ear.of(Refused)) == 1
         assert ear.of(Ports) == [Ports((), (), "")]
     assert capfd.readouterr() == ("", "")
+
+
+@pytest.mark.parametrize("by", [signal.SIGTERM, signal.SIGKILL])
+def test_a_server_that_ends_in_the_middle(by: signal.Signals, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = tmp_path / "take"
+    server = Server("suisou-ends", PATIENT_FRAMES, is_in_step=False)
+    name = server.start()
+    monkeypatch.setenv("JACK_DEFAULT_SERVER", name)
+    try:
+        with RecorderLink() as link:
+            ear = Ear(link)
+            with PlayerProcess("EWI", 0.002) as player:
+                started(opened(ear, player.name), path)
+                player.start()
+                ear.wait_for_messages(2)
+                server.stop(by)
+                ear.wait(Lost)
+                assert ear.wait(Refused).reason.id == "capture.no_system"
+            assert server.start() == name
+            with PlayerProcess("EWI", 0.003) as player:
+                ear.wait(Back)
+                player.start()
+                ear.wait_for_messages(5)
+                journal = finished(ear, path)
+    finally:
+        server.stop()
+    assert [message[1] for message in journal.messages] == [0, 1, 0, 1, 2]
+    ((lost_ns, back_ns),) = journal.gaps
+    assert back_ns is not None
+    assert journal.times_ns[1] < lost_ns < back_ns < journal.times_ns[2]
+    assert not ear.of(Restarted)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="Linux")
+def test_the_recorder_has_precedence_where_the_system_permits_it(ear: Ear) -> None:
+    permitted = subprocess.run(
+        [sys.executable, "-c", "import os; os.sched_setscheduler(0, os.SCHED_RR, os.sched_param(1))"],
+        stderr=subprocess.DEVNULL,
+        check=False,
+    )
+    with WindPlayer() as player:
+        opened(ear, player.name)
+        child = ear.link._child
+        assert child is not None
+        time.sleep(0.1)
+        tasks = [int(path.name) for path in Path(f"/proc/{child.pid}/task").iterdir()]
+        assert len(tasks) > 5
+        assert {os.sched_getscheduler(task) == os.SCHED_OTHER for task in tasks} == {permitted.returncode != 0}
 
 
 def test_a_recorder_in_which_something_fails_is_started_again(capfd: pytest.CaptureFixture[str]) -> None:

@@ -20,7 +20,7 @@ from app.capture.protocol import (
     Opened,
     Ports,
     Refused,
-    Send,
+    SystemEnded,
     read_framed,
 )
 from app.capture.recorder import Recorder, send_news
@@ -31,16 +31,12 @@ class Device:
 
     def __init__(self) -> None:
         self.is_closed = False
-        self.sent: list[bytes] = []
 
     def close_port(self) -> None:
         self.is_closed = True
 
     def delete(self) -> None:
         assert self.is_closed
-
-    def send_message(self, message: bytes) -> None:
-        self.sent.append(bytes(message))
 
 
 class System:
@@ -49,12 +45,12 @@ class System:
     def __init__(self, *names: str) -> None:
         self.name = "alsa"
         self.is_closed = False
+        self.has_ended = False
         self.listed = {name: f"{name} 20:0" for name in names}
         self.listed_outputs: tuple[str, ...] = ()
         self.busy: set[str] = set()
         self.opened: list[Device] = []
         self.heard: Any = None
-        self.order: list[str] = []
 
     def inputs(self) -> tuple[Port, ...]:
         return tuple(Port(name, identity, index) for index, (name, identity) in enumerate(self.listed.items()))
@@ -66,13 +62,6 @@ class System:
         if port.name in self.busy:
             raise PortError("capture.port_refused", port=port.name, detail="in use")
         self.heard = heard
-        return self._open("input")
-
-    def open_output(self, port: Port) -> Device:
-        return self._open("output")
-
-    def _open(self, what: str) -> Device:
-        self.order.append(what)
         self.opened.append(Device())
         return self.opened[-1]
 
@@ -127,7 +116,7 @@ def test_devices_are_told_when_they_change(monkeypatch: pytest.MonkeyPatch) -> N
 def test_a_lost_port_is_opened_again_when_it_comes_back(monkeypatch: pytest.MonkeyPatch) -> None:
     system = System("EWI")
     bench = Bench(monkeypatch, system)
-    bench.recorder.obey(Open("EWI", None))
+    bench.recorder.obey(Open("EWI"))
     assert bench.kinds() == [Ports, Opened]
     identity = system.listed.pop("EWI")
     bench.recorder.look()
@@ -144,7 +133,7 @@ def test_a_lost_port_is_opened_again_when_it_comes_back(monkeypatch: pytest.Monk
 def test_one_that_came_back_unseen_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
     system = System("EWI")
     bench = Bench(monkeypatch, system)
-    bench.recorder.obey(Open("EWI", None))
+    bench.recorder.obey(Open("EWI"))
     bench.told()
     system.listed["EWI"] = "EWI 24:0"
     bench.recorder.look()
@@ -155,7 +144,7 @@ def test_a_port_in_use_elsewhere_is_told_once_and_opened_when_it_is_free(monkeyp
     system = System("EWI")
     system.busy.add("EWI")
     bench = Bench(monkeypatch, system)
-    bench.recorder.obey(Open("EWI", None))
+    bench.recorder.obey(Open("EWI"))
     for _ in range(3):
         bench.recorder.look()
     (refused,) = [told for told in bench.told() if isinstance(told, Refused)]
@@ -168,32 +157,12 @@ def test_a_port_in_use_elsewhere_is_told_once_and_opened_when_it_is_free(monkeyp
 def test_a_port_that_is_not_there_yet_is_told_once_and_opened_when_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
     system = System()
     bench = Bench(monkeypatch, system)
-    bench.recorder.obey(Open("EWI", None))
+    bench.recorder.obey(Open("EWI"))
     bench.recorder.look()
     assert [told.reason.id for told in bench.told() if isinstance(told, Refused)] == ["capture.port_not_here"]
     system.listed["EWI"] = "EWI 20:0"
     bench.recorder.look()
     assert bench.kinds() == [Ports, Opened]
-
-
-def test_the_output_is_opened_before_the_input(monkeypatch: pytest.MonkeyPatch) -> None:
-    system = System("EWI")
-    system.listed_outputs = ("Synth",)
-    bench = Bench(monkeypatch, system)
-    bench.recorder.obey(Open("EWI", "Synth"))
-    assert system.order == ["output", "input"]
-    bench.recorder.obey(Send(b"\x90\x3c\x40"))
-    assert system.opened[0].sent == [b"\x90\x3c\x40"]
-
-
-def test_what_cannot_be_sent_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
-    bench = Bench(monkeypatch, System("EWI"))
-    bench.recorder.obey(Open("EWI", "Synth"))
-    bench.told()
-    bench.recorder.obey(Send(b"\x90\x3c\x40"))
-    (refused,) = bench.told()
-    assert isinstance(refused, Refused)
-    assert refused.reason.id == "capture.not_sent"
 
 
 def test_a_system_that_comes_later_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -224,10 +193,25 @@ def test_a_jack_server_without_ports_is_asked_anew(monkeypatch: pytest.MonkeyPat
     assert bench.told()[-1] == Ports(("EWI",), (), "alsa")
 
 
+def test_a_system_that_goes_away_is_left_to_another_recorder(monkeypatch: pytest.MonkeyPatch) -> None:
+    system = System("EWI")
+    bench = Bench(monkeypatch, system)
+    bench.recorder.obey(Open("EWI"))
+    assert bench.kinds() == [Ports, Opened]
+    system.has_ended = True
+    bench.recorder.look()
+    assert bench.kinds() == [Lost, SystemEnded]
+    assert bench.marks() == ["back", "lost"]
+    assert bench.recorder.has_ended
+    again = Bench(monkeypatch, System("EWI"))
+    again.recorder.obey(Open("EWI", is_lost=True))
+    assert again.kinds() == [Ports, Back]
+
+
 def test_what_is_heard_goes_to_the_disk_and_to_the_editor(monkeypatch: pytest.MonkeyPatch) -> None:
     system = System("EWI")
     bench = Bench(monkeypatch, system)
-    bench.recorder.obey(Open("EWI", None))
+    bench.recorder.obey(Open("EWI"))
     bench.told()
     bench.marks()
     system.heard(([0x90, 60, 80], 0.1), None)
