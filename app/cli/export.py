@@ -1,4 +1,4 @@
-"""``suisou export``: a MIDI file or a project to FBX and BVH files of its players."""
+"""``suisou export``: a MIDI file or a project to animation files of its players."""
 
 from __future__ import annotations
 
@@ -9,12 +9,13 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from types import FrameType
-from typing import TYPE_CHECKING, Final, Literal
+from typing import TYPE_CHECKING
 
 from app.cli.options import Commands, add_source_options, frame_rate, open_project, whole_number
 from app.cli.progress import Progress
 from app.cli.summary import summary
 from app.errors import UsageError
+from app.export.formats import FILE_FORMATS, USUAL_FORMATS, Format
 from app.messages import text
 from app.project.parameters import select_players
 from app.version import program_version
@@ -23,22 +24,24 @@ if TYPE_CHECKING:
     from app.performance.ensemble import Performance
     from app.performance.span import FrameSpan
 
-Format = Literal["fbx", "bvh"]
-FORMATS: Final[tuple[Format, ...]] = ("fbx", "bvh")
-
 
 def add_command(commands: Commands) -> None:
     """Declare the sub-command."""
     command = commands.add_parser(
         "export",
-        help="write the players and their instruments as FBX and BVH",
+        help="write the players and their instruments as FBX, BVH or GLB",
         description="Writes per player a character that plays its part and its instrument, and a report.json that says "
         "what the files hold. Either all files appear or none.",
     )
     add_source_options(command)
     command.add_argument("--to", type=Path, required=True, metavar="DIR", help="folder for the files; made if needed")
     command.add_argument(
-        "--format", dest="formats", action="append", choices=FORMATS, help="repeatable (default: both)"
+        "--format",
+        dest="formats",
+        action="extend",
+        type=file_formats,
+        metavar="FORMAT",
+        help=f"{', '.join(FILE_FORMATS)}; repeatable, or several with commas (default: {','.join(USUAL_FORMATS)})",
     )
     command.add_argument(
         "--fps",
@@ -52,6 +55,22 @@ def add_command(commands: Commands) -> None:
     command.add_argument("--from-bar", type=whole_number, metavar="N", help="first bar, as printed (a pickup is bar 0)")
     command.add_argument("--to-bar", type=whole_number, metavar="N", help="last bar, inclusive")
     command.set_defaults(run=export)
+
+
+def file_formats(text: str) -> list[Format]:
+    """Formats from ``fbx`` or ``fbx,glb``.
+
+    Raises
+    ------
+    argparse.ArgumentTypeError
+        Nothing, or something that is no format.
+    """
+    names = [name.strip().casefold() for name in text.split(",")]
+    unknown = [name for name in names if name not in FILE_FORMATS]
+    if unknown:
+        possible = ", ".join(FILE_FORMATS)
+        raise argparse.ArgumentTypeError(f"{', '.join(map(repr, unknown))}: possible formats are {possible}")
+    return [name for name in FILE_FORMATS if name in names]
 
 
 def export(arguments: argparse.Namespace) -> None:
@@ -68,7 +87,7 @@ def export(arguments: argparse.Namespace) -> None:
         performance=performance,
         players=tuple(project.players[index] for index in chosen),
         folder=arguments.to,
-        formats=frozenset[Format](arguments.formats or FORMATS),
+        formats=frozenset(arguments.formats or USUAL_FORMATS),
         span=_span(performance, arguments),
         bars=_bars(performance, arguments),
         source=arguments.file.name,

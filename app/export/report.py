@@ -33,7 +33,7 @@ class PlayerReport(msgspec.Struct, frozen=True):
     stage: StagePlace
     notes: int
     measures: PlayerMeasures | None
-    """None where no FBX was asked for: there is nothing to deform in a BVH file."""
+    """None where no FBX was asked for: that is the file that is read back and measured."""
     sway_correlation: float | None
     """Greatest correlation of the torso's sideways motion with another exported player's; None where there is none."""
     lean_correlation: float | None

@@ -10,7 +10,6 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
 
 import msgspec
 
@@ -18,14 +17,14 @@ from app.errors import Cancelled, FileError, Message
 from app.export.character import character_scene
 from app.export.control_judge import FloatArray
 from app.export.folder import files_into
+from app.export.formats import FILE_FORMATS, Format, Held
 from app.export.instrument import instrument_scene
 from app.export.measure import Measured, greatest_correlations, measure_player
 from app.export.report import PlayerReport, Report, StagePlace, UnplayedPart, encode_report
-from app.export.skeleton import character_bvh
 from app.formats.atomic import atomic_write
-from app.formats.bvh import encode_bvh
 from app.formats.fbx.read import read_scene
-from app.formats.fbx.write import write_scene
+from app.formats.scene import Scene
+from app.motion.model import Motion
 from app.performance.bodies import body_of, character_of, model_of
 from app.performance.ensemble import Performance
 from app.performance.motion import player_motion
@@ -34,14 +33,14 @@ from app.project.model import Player
 from app.project.names import file_stems
 from metadata.load import load_skeleton
 
-Format = Literal["fbx", "bvh"]
 Progress = Callable[[float, str], None]
 """Told the share 0..1 that is done and whose work it is."""
 
 MOST_FRAMES = 432_000
 """Two hours at 60 frames/s: a player's motion and its file are in memory as a whole."""
 
-_SHARES = {"motion": 0.1, "fbx": 0.3, "bvh": 0.1, "measures": 0.5}
+_MOTION_WORK, _MEASURES_WORK = 1.0, 5.0
+"""Beside `FileFormat.work`."""
 
 
 @dataclass(frozen=True)
@@ -55,7 +54,7 @@ class Request:
         Those to export; names of files come from all the players, so that they do not depend on the choice.
     folder : path
     formats : frozenset of str
-        ``"fbx"``, ``"bvh"``.
+        Of `FILE_FORMATS`.
     span : FrameSpan
     bars : (int, int) or None
         First and last bar asked for, for the report.
@@ -124,12 +123,14 @@ def file_names(performance: Performance, formats: frozenset[Format]) -> dict[str
     """Names of the files of every player: by player id, then by what they hold."""
     names: dict[str, dict[str, str]] = {}
     for player_id, stem in _stems(performance).items():
-        files = names[player_id] = {}
-        if "fbx" in formats:
-            files["character_fbx"] = f"{stem}.fbx"
-            files["instrument_fbx"] = f"{stem}_{performance.project.player(player_id).instrument_id}.fbx"
-        if "bvh" in formats:
-            files["character_bvh"] = f"{stem}.bvh"
+        instrument = performance.project.player(player_id).instrument_id
+        held_stems: dict[Held, str] = {"character": stem, "instrument": f"{stem}_{instrument}"}
+        names[player_id] = {
+            f"{held}_{name}": f"{held_stems[held]}{kind.suffix}"
+            for name, kind in FILE_FORMATS.items()
+            if name in formats
+            for held in kind.holds
+        }
     return names
 
 
@@ -142,27 +143,19 @@ def _export_player(
 ) -> tuple[PlayerReport, Measured | None]:
     told(0.0)
     performance = request.performance
-    motion = player_motion(performance, player, request.span, progress=lambda share: told(_SHARES["motion"] * share))
-    done = _SHARES["motion"]
+    wanted = {name: kind for name, kind in FILE_FORMATS.items() if name in request.formats}
+    work = _MOTION_WORK + sum(kind.work for kind in wanted.values()) + _MEASURES_WORK * ("fbx" in wanted)
+    motion = player_motion(performance, player, request.span, progress=lambda share: told(_MOTION_WORK / work * share))
+    scenes = _scenes(request, player, motion, stem, {held for kind in wanted.values() for held in kind.holds})
+    done = _MOTION_WORK
+    for name, kind in wanted.items():
+        for held in kind.holds:
+            kind.write(folder / files[f"{held}_{name}"], scenes[held])
+        done += kind.work
+        told(done / work)
+    del motion, scenes  # the files are measured, not what they were made from
     measured = None
-    if "fbx" in request.formats:
-        instrument = performance.instrument(player)
-        write_scene(
-            folder / files["character_fbx"], character_scene(character_of(player), motion, stem, request.creator)
-        )
-        write_scene(
-            folder / files["instrument_fbx"],
-            instrument_scene(instrument, model_of(instrument), motion, stem, request.creator),
-        )
-        done += _SHARES["fbx"]
-        told(done)
-    if "bvh" in request.formats:
-        with atomic_write(folder / files["character_bvh"]) as stream:
-            stream.write(encode_bvh(character_bvh(character_of(player), motion)))
-        done += _SHARES["bvh"]
-        told(done)
-    del motion  # the files are measured, not what they were made from
-    if "fbx" in request.formats:
+    if "fbx" in wanted:
         measured = measure_player(
             read_scene(folder / files["character_fbx"]),
             read_scene(folder / files["instrument_fbx"]),
@@ -172,10 +165,21 @@ def _export_player(
             body_of(player),
             load_skeleton(body_of(player).skeleton),
             request.span.first_frame_s,
-            lambda share: told(done + (1.0 - done) * share),
+            lambda share: told((done + _MEASURES_WORK * share) / work),
         )
     told(1.0)
     return _player_report(request, player, files, measured), measured
+
+
+def _scenes(request: Request, player: Player, motion: Motion, stem: str, held: set[Held]) -> dict[Held, Scene]:
+    """The scenes that some format asked for can hold."""
+    instrument = request.performance.instrument(player)
+    scenes: dict[Held, Scene] = {}
+    if "character" in held:
+        scenes["character"] = character_scene(character_of(player), motion, stem, request.creator)
+    if "instrument" in held:
+        scenes["instrument"] = instrument_scene(instrument, model_of(instrument), motion, stem, request.creator)
+    return scenes
 
 
 def _stems(performance: Performance) -> dict[str, str]:

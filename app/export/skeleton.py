@@ -1,72 +1,101 @@
-"""A character's motion as a BVH clip: the same joints from the hips on, in centimetres."""
+"""A character's scene as a BVH clip: the joints from the one that moves on, in centimetres."""
 
 from __future__ import annotations
 
 import numpy as np
 import numpy.typing as npt
 
-from app.export.character import CENTIMETRES, HIPS
+from app.export.joints import world_transforms
 from app.formats.bvh import BvhClip
-from app.motion.model import Motion
+from app.formats.scene import Clip, Scene
 from app.rig import quaternion
-from app.rig.model import Character
 
 FloatArray = npt.NDArray[np.float64]
 
 OWN_VERTEX = 0.5
 """A vertex belongs to the joint that holds more than this share of it."""
+_SHORTEST_CM = 1.0
 
 
-def character_bvh(character: Character, motion: Motion) -> BvhClip:
-    """The skeleton below the root, whose (resting) transform goes into the hips.
+def scene_bvh(scene: Scene) -> BvhClip:
+    """The skeleton from the bone that is moved (the hips) on, with the motion of all bones above it in its own.
+
+    BVH moves its root only, so that what another bone is moved by is left out.
 
     Parameters
     ----------
-    character : Character
-    motion : Motion
-        Of this character's skeleton.
+    scene : Scene
+        With a clip.
     """
-    skeleton = character.skeleton
-    hips = skeleton.index(HIPS)
-    if hips != 1 or skeleton.parents.count(0) != 1:
-        raise ValueError(f"{character.id}: {HIPS} must be the only child of the root")
-    root_rotation = motion.rotations[:, 0].astype(np.float64)
-    rotations = motion.rotations[:, 1:].copy()
-    rotations[:, 0] = quaternion.multiply(root_rotation, rotations[:, 0])
-    hips_m = quaternion.rotate(root_rotation, motion.hips_m) + skeleton.offsets_m[0]
-    offsets_cm = skeleton.offsets_m[1:] * CENTIMETRES
+    clip = scene.clip
+    if clip is None:
+        raise ValueError("a scene without a clip has no motion")
+    first = min(clip.translations_cm, default=0)
+    chosen = _below(scene, first)
+    place = {bone: index for index, bone in enumerate(chosen)}
+    translation_cm, rotation = _world(scene, clip, first)
+    rotations = np.asarray(clip.rotations_xyzw)[:, chosen].copy()
+    rotations[:, 0] = rotation
+    offsets_cm = np.stack([np.asarray(scene.bones[bone].translation_cm, np.float64) for bone in chosen])
     offsets_cm[0] = 0.0
     return BvhClip(
-        names=skeleton.names[1:],
-        parents=tuple(parent - 1 for parent in skeleton.parents[1:]),
+        names=tuple(scene.bones[bone].name for bone in chosen),
+        parents=tuple(-1 if bone == first else place[scene.bones[bone].parent] for bone in chosen),
         offsets_cm=offsets_cm,
-        end_sites_cm={joint - 1: end * CENTIMETRES for joint, end in end_sites_m(character).items()},
-        fps=motion.fps,
-        root_translation_cm=hips_m * CENTIMETRES,
+        end_sites_cm={place[bone]: end for bone, end in _end_sites_cm(scene, chosen).items()},
+        fps=clip.fps,
+        root_translation_cm=translation_cm,
         rotations_xyzw=rotations,
     )
 
 
-def end_sites_m(character: Character) -> dict[int, FloatArray]:
-    """Where the bones of the joints without a child end, in the joint's frame: as far along the way to the joint as
-    the surface it carries goes."""
-    skeleton = character.skeleton
-    leaves = set(range(len(skeleton.names))) - set(skeleton.parents)
+def _below(scene: Scene, first: int) -> list[int]:
+    """A bone and all that hang on it, parents first."""
+    chosen = {first}
+    for index, bone in enumerate(scene.bones):
+        if bone.parent in chosen:
+            chosen.add(index)
+    return sorted(chosen)
+
+
+def _world(scene: Scene, clip: Clip, bone: int) -> tuple[FloatArray, FloatArray]:
+    """Place (F, 3) and rotation (F, 4) of a bone in the world."""
+    place, rotation = np.zeros((clip.frames, 3)), np.tile([0.0, 0.0, 0.0, 1.0], (clip.frames, 1))
+    while bone >= 0:
+        own = np.asarray(clip.rotations_xyzw[:, bone], np.float64)
+        moved = np.asarray(clip.translations_cm.get(bone, scene.bones[bone].translation_cm), np.float64)
+        place = quaternion.rotate(own, place) + moved
+        rotation = quaternion.multiply(own, rotation)
+        bone = scene.bones[bone].parent
+    return place, rotation
+
+
+def _end_sites_cm(scene: Scene, chosen: list[int]) -> dict[int, FloatArray]:
+    """Where the bones without a child end, in the bone's frame: as far along the way to the bone as the surface that it
+    carries goes."""
+    parents = [bone.parent for bone in scene.bones]
+    world_from_rest = world_transforms(
+        tuple(parents),
+        np.stack([np.asarray(bone.translation_cm, np.float64) for bone in scene.bones])[None],
+        np.stack([np.asarray(bone.rotation_xyzw, np.float64) for bone in scene.bones])[None],
+    )[0]
     ends = {}
-    for joint in sorted(leaves):
-        offset = skeleton.offsets_m[joint]
-        direction = offset / np.linalg.norm(offset)
-        lengths = [float(np.max(points @ direction)) for points in _own_points_m(character, joint)]
-        ends[joint] = direction * max([*lengths, 0.01])
+    for bone in sorted(set(chosen) - set(parents)):
+        rest = world_from_rest[bone]
+        way = rest[:3, :3].T @ (rest[:3, 3] - world_from_rest[parents[bone], :3, 3])
+        length = np.linalg.norm(way)
+        direction = way / length if length > 0 else np.array([0.0, 1.0, 0.0])
+        lengths = [float(np.max(points @ direction)) for points in _own_points_cm(scene, bone)]
+        ends[bone] = direction * max([*lengths, _SHORTEST_CM])
     return ends
 
 
-def _own_points_m(character: Character, joint: int) -> list[FloatArray]:
-    """Vertices that a joint carries, in its frame, of every mesh that has some."""
-    joint_from_mesh = character.joint_from_mesh[joint]
+def _own_points_cm(scene: Scene, bone: int) -> list[FloatArray]:
+    """Vertices that a bone carries, in its frame, of every mesh that has some."""
     found = []
-    for mesh in character.meshes:
-        own = np.where(mesh.joints == joint, mesh.weights, 0.0).sum(axis=1) > OWN_VERTEX
+    for mesh in scene.meshes:
+        own = np.where(mesh.joint_indices == bone, mesh.weights, 0.0).sum(axis=1) > OWN_VERTEX
         if own.any():
-            found.append(mesh.positions_m[own] @ joint_from_mesh[:3, :3].T + joint_from_mesh[:3, 3])
+            bind = np.asarray(mesh.world_from_bone_bind[bone], np.float64)
+            found.append((mesh.vertices_cm[own] - bind[:3, 3]) @ bind[:3, :3])
     return found

@@ -76,6 +76,10 @@
         <translation>BVH（体の動き）</translation>
     </message>
     <message>
+        <source>GLB (characters and instruments)</source>
+        <translation>GLB（キャラクターと楽器）</translation>
+    </message>
+    <message>
         <source> beats</source>
         <translation> 拍</translation>
     </message>

@@ -17,6 +17,7 @@ from PySide6.QtWidgets import (
     QDoubleSpinBox,
     QFileDialog,
     QFormLayout,
+    QGridLayout,
     QHBoxLayout,
     QLabel,
     QLineEdit,
@@ -30,8 +31,9 @@ from PySide6.QtWidgets import (
 )
 
 from app.errors import AppError, Message
+from app.export.formats import FILE_FORMATS, USUAL_FORMATS, Format
 from app.export.report import Report
-from app.export.run import REPORT, Format, Request, export, file_names
+from app.export.run import REPORT, Request, export, file_names
 from app.performance.ensemble import Performance
 from app.performance.span import bars_span, whole_span
 from widgets.common.session import Session
@@ -42,6 +44,7 @@ from widgets.common.tokens import LEAST_TARGET_PX
 RATES = tuple(map(Fraction, ("24", "25", "30000/1001", "30", "48", "50", "60000/1001", "60", "120")))
 SHOW_MS = 50
 """Progress is shown this often."""
+_FORMAT_COLUMNS = 2
 _WHOLE, _BARS, _SELECTION = "whole", "bars", "selection"
 
 
@@ -86,10 +89,10 @@ class ExportDialog(QDialog):
         self._everybody.setObjectName("export_everybody")
         self._everybody.setAutoDefault(False)
         self._everybody.clicked.connect(self._toggle_everybody)
-        self._formats: dict[Format, QCheckBox] = {"fbx": QCheckBox(), "bvh": QCheckBox()}
+        self._formats: dict[Format, QCheckBox] = {name: QCheckBox() for name in FILE_FORMATS}
         for name, box in self._formats.items():
             box.setObjectName(f"export_{name}")
-            box.setChecked(True)
+            box.setChecked(name in USUAL_FORMATS)
         self._range = QComboBox()
         self._range.setObjectName("export_range")
         self._first_bar, self._last_bar = QSpinBox(), QSpinBox()
@@ -168,11 +171,11 @@ class ExportDialog(QDialog):
         top.addWidget(self._everybody)
         left.addLayout(top)
         left.addWidget(self._players, 1)
-        formats = QHBoxLayout()
-        formats.setSpacing(18)
-        for box in self._formats.values():
-            formats.addWidget(box)
-        formats.addStretch()
+        formats = QGridLayout()
+        formats.setHorizontalSpacing(18)
+        for index, box in enumerate(self._formats.values()):
+            formats.addWidget(box, *divmod(index, _FORMAT_COLUMNS))
+        formats.setColumnStretch(_FORMAT_COLUMNS, 1)
         bars = QHBoxLayout()
         bars.addWidget(self._range, 1)
         bars.addWidget(self._first_bar)
@@ -369,6 +372,7 @@ class ExportDialog(QDialog):
         self._everybody.setText(self.tr("All or none"))
         self._formats["fbx"].setText(self.tr("FBX (characters and instruments)"))
         self._formats["bvh"].setText(self.tr("BVH (body motion)"))
+        self._formats["glb"].setText(self.tr("GLB (characters and instruments)"))
         self._preroll.setSuffix(self.tr(" beats"))
         choice = self._range.currentData() or _WHOLE
         self._range.blockSignals(True)

@@ -78,6 +78,8 @@ def test_help_and_version(run: Run) -> None:
         ["export", QUARTET],
         ["export", QUARTET, "--to", "x", "--fps", "fast"],
         ["export", QUARTET, "--to", "x", "--format", "obj"],
+        ["export", QUARTET, "--to", "x", "--format", "fbx,obj"],
+        ["export", QUARTET, "--to", "x", "--format", ""],
         ["export", QUARTET, "--to", "x", "--from-bar", "0.5"],
         ["export", QUARTET, "--to", "x", "--from-bar", "9", "--to-bar", "3"],
         ["export", QUARTET, "--to", "x", "--from-bar", "99999"],

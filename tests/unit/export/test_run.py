@@ -20,6 +20,7 @@ from app.cli import main
 from app.export.playback import Playback
 from app.formats.bvh import read_bvh
 from app.formats.fbx.read import read_scene
+from app.formats.gltf import read_glb
 from metadata.model import ARKIT_MORPHS
 from tests.support import readers
 
@@ -170,6 +171,23 @@ def test_a_second_run_has_the_same_bits_and_a_cut_the_wholes_frames(
     np.testing.assert_allclose(
         np.abs(cut_scene.clip.rotations_xyzw), np.abs(whole_scene.clip.rotations_xyzw[span]), atol=2e-6
     )
+
+
+def test_several_formats_at_once_and_nothing_to_measure_without_fbx(tmp_path: Path) -> None:
+    arguments = ("--fps", "25", "--from-bar", "2", "--to-bar", "2", "--player", PLAYERS[0])
+    report = export(tmp_path / "out", *arguments, "--format", "glb, BVH", "--format", "bvh")
+    (player,) = report["players"]
+    assert player["files"] == {
+        "character_bvh": "Trumpet 1.bvh",
+        "character_glb": "Trumpet 1.glb",
+        "instrument_glb": "Trumpet 1_trumpet_Bb.glb",
+    }
+    assert player["measures"] is None
+    written = {path.name for path in (tmp_path / "out").iterdir()}
+    assert written == {*player["files"].values(), "report.json"}
+    model = read_glb(tmp_path / "out" / "Trumpet 1.glb")
+    assert {node.name for node in model.nodes} >= {"root", "hips", "rightIndexDistal"}
+    assert set(ARKIT_MORPHS) <= {morph.name for morph in model.meshes[0].primitives[0].morphs}
 
 
 @pytest.mark.parametrize("rate", ["24", "25", "29.97"])

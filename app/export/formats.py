@@ -1,0 +1,70 @@
+"""The kinds of file that a player's character and instrument are written to."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final, Literal
+
+from app.formats.scene import Scene
+
+Format = Literal["fbx", "bvh", "glb"]
+Held = Literal["character", "instrument"]
+
+
+@dataclass(frozen=True)
+class FileFormat:
+    """A kind of file.
+
+    Attributes
+    ----------
+    suffix : str
+        With its dot.
+    holds : tuple of str
+        Whose scenes it can hold, each in a file of its own.
+    work : float
+        How long a player's files take to write, beside those of the other formats.
+    write : callable
+        Writes a scene that has a clip.
+    """
+
+    suffix: str
+    holds: tuple[Held, ...]
+    work: float
+    write: Callable[[Path, Scene], None]
+
+
+# The writers are loaded when something is written: the command line names the formats in its help.
+
+
+def _fbx(path: Path, scene: Scene) -> None:
+    from app.formats.fbx.write import write_scene
+
+    write_scene(path, scene)
+
+
+def _bvh(path: Path, scene: Scene) -> None:
+    from app.export.skeleton import scene_bvh
+    from app.formats.atomic import atomic_write
+    from app.formats.bvh import encode_bvh
+
+    with atomic_write(path) as stream:
+        stream.write(encode_bvh(scene_bvh(scene)))
+
+
+def _glb(path: Path, scene: Scene) -> None:
+    from app.formats.gltf.write import write_glb
+
+    write_glb(path, scene)
+
+
+FILE_FORMATS: Final[Mapping[Format, FileFormat]] = {
+    "fbx": FileFormat(".fbx", ("character", "instrument"), 3.0, _fbx),
+    "bvh": FileFormat(".bvh", ("character",), 1.0, _bvh),
+    "glb": FileFormat(".glb", ("character", "instrument"), 2.0, _glb),
+}
+"""In the order in which they are written and listed."""
+
+USUAL_FORMATS: Final[tuple[Format, ...]] = ("fbx", "bvh")
+"""What is written if nobody says otherwise."""
