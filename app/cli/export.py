@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 from app.cli.options import Commands, add_source_options, frame_rate, open_project, whole_number
 from app.cli.progress import Progress
-from app.cli.summary import summary
+from app.cli.summary import project_summary, summary
 from app.errors import UsageError
 from app.export.formats import FILE_FORMATS, USUAL_FORMATS, Format
 from app.messages import text
@@ -34,7 +34,15 @@ def add_command(commands: Commands) -> None:
         "what the files hold. Either all files appear or none.",
     )
     add_source_options(command)
-    command.add_argument("--to", type=Path, required=True, metavar="DIR", help="folder for the files; made if needed")
+    place = command.add_mutually_exclusive_group(required=True)
+    place.add_argument("--to", type=Path, metavar="DIR", help="folder for the files; made if needed")
+    place.add_argument(
+        "--unreal",
+        type=Path,
+        metavar="PROJECT",
+        help="an Unreal project (its .uproject file or folder): sources go beside its content, with the sound and a "
+        "plug-in whose menu imports them",
+    )
     command.add_argument(
         "--format",
         dest="formats",
@@ -77,8 +85,14 @@ def export(arguments: argparse.Namespace) -> None:
     """Write the files and print what they hold."""
     from app.export.run import Request
     from app.export.run import export as write
+    from app.export.unreal.project import find_project
+    from app.export.unreal.run import export_into
     from app.performance.ensemble import Performance
 
+    if arguments.unreal is not None and arguments.formats:
+        raise UsageError("unreal.formats")
+    # What is wrong with it is told before anything is read.
+    unreal = None if arguments.unreal is None else find_project(arguments.unreal)
     project = open_project(arguments)
     performance = Performance(project)
     chosen = select_players(arguments.players, [player.name for player in project.players])
@@ -86,7 +100,7 @@ def export(arguments: argparse.Namespace) -> None:
     request = Request(
         performance=performance,
         players=tuple(project.players[index] for index in chosen),
-        folder=arguments.to,
+        folder=arguments.to if unreal is None else unreal.folder,
         formats=frozenset(arguments.formats or USUAL_FORMATS),
         span=_span(performance, arguments),
         bars=_bars(performance, arguments),
@@ -95,10 +109,13 @@ def export(arguments: argparse.Namespace) -> None:
     )
     try:
         with _terminable():
-            report = write(request, text, progress=progress)
+            if unreal is None:
+                told = summary(write(request, text, progress=progress), arguments.to)
+            else:
+                told = project_summary(export_into(request, unreal, text, progress=progress), unreal)
     finally:
         progress.clear()
-    print(summary(report, arguments.to))
+    print(told)
 
 
 @contextmanager

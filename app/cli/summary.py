@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from pathlib import Path
+from collections.abc import Callable, Iterable
+from pathlib import Path, PurePosixPath
+from typing import TYPE_CHECKING
 
 from app.export.measure import PlayerMeasures, Spread
 from app.export.report import PlayerReport, Report, failures
+from app.messages import text
 from app.performance.contacts import GRIP_MM, TOUCH_MM
+
+if TYPE_CHECKING:
+    from app.export.unreal.project import UnrealProject
+    from app.export.unreal.run import Written
 
 _HEAD = ("player", "notes", "controls", "fingers mm", "grips mm", "lips mm", "feet mm", "into mm", "breaths", "sway")
 
@@ -19,6 +25,44 @@ def summary(report: Report, folder: Path) -> str:
         f"{files} files in {folder}: {report.frames} frames at {report.fps_exact} frames/s; "
         f"the sound starts at {-report.first_frame_s:.3f} s"
     ]
+    return "\n".join([*lines, *_judgement(report)])
+
+
+def project_summary(written: Written, project: UnrealProject) -> str:
+    """The tree of what is in an Unreal project now, and what `summary` says of it."""
+    plan, report = written.plan, written.report
+    engine = f"Unreal Engine {project.engine}" if project.version is not None else "its engine's version is not told"
+    lines = [
+        f"{project.file} ({engine}): {report.frames} frames at {report.fps_exact} frames/s; "
+        "the sound starts with the first one",
+        *tree(plan.written, lambda path: " (replaced)" if path in plan.replaced else ""),
+    ]
+    lines += [f"removed: {path}" for path in plan.removed]
+    lines += [text(message) for message in plan.kept]
+    lines += [
+        f"in Unreal: Suisou > Import Performance, or Update Performance; the assets come to {plan.layout.content}"
+    ]
+    return "\n".join([*lines, *_judgement(report)])
+
+
+def tree(paths: Iterable[PurePosixPath], mark: Callable[[PurePosixPath], str] = lambda path: "") -> list[str]:
+    """Files as a tree, two blanks a level; folders have a slash."""
+    lines: list[str] = []
+    before: tuple[str, ...] = ()
+    for path in paths:
+        folders = path.parts[:-1]
+        same = 0
+        while same < min(len(folders), len(before)) and folders[same] == before[same]:
+            same += 1
+        lines += [f"{'  ' * (depth + 1)}{folders[depth]}/" for depth in range(same, len(folders))]
+        lines.append(f"{'  ' * len(path.parts)}{path.name}{mark(path)}")
+        before = folders
+    return lines
+
+
+def _judgement(report: Report) -> list[str]:
+    """The table of measures, what is not played and what to look at."""
+    lines: list[str] = []
     if any(player.measures is not None for player in report.players):
         lines += ["", *columns([_HEAD, *(_row(player) for player in report.players)])]
         lines += ["(greatest distance at any frame of a sounding note, on the meshes read back; * beyond its bound)"]
@@ -32,7 +76,7 @@ def summary(report: Report, folder: Path) -> str:
     if report.warnings:
         lines += ["", "to look at:"]
         lines += [f"  {warning}" for warning in report.warnings]
-    return "\n".join(lines)
+    return lines
 
 
 def columns(rows: Iterable[tuple[str, ...]]) -> list[str]:

@@ -26,6 +26,7 @@ from app.messages import (
     skeletons,
     tables,
     takes,
+    unreal,
     work,
 )
 
@@ -45,6 +46,7 @@ TEMPLATES: Final[dict[str, str]] = {
     **skeletons.TEMPLATES,
     **tables.TEMPLATES,
     **takes.TEMPLATES,
+    **unreal.TEMPLATES,
     **work.TEMPLATES,
 }
 

@@ -76,10 +76,6 @@
             <translation>{port} を開けません ({detail})。ほかのプログラムが使用している可能性があります。そちらで閉じると、ここで開きます</translation>
         </message>
         <message>
-            <source>nothing could be sent to {port} ({detail})</source>
-            <translation>{port} へ送信できませんでした ({detail})</translation>
-        </message>
-        <message>
             <source>{file} cannot be written: {reason}; recording goes on and is written as soon as there is room</source>
             <translation>{file} に書き込めません: {reason}。録音は続いており、空きができしだい書き込みます</translation>
         </message>
@@ -1370,6 +1366,66 @@
         <message>
             <source>No beat can be heard in this take.</source>
             <translation>このテイクからは拍を検出できません。</translation>
+        </message>
+        <message>
+            <source>{file} is not there; choose the .uproject file, or the folder that it is in</source>
+            <translation>{file} がありません。.uproject ファイルか、それがあるフォルダーを選んでください</translation>
+        </message>
+        <message>
+            <source>{file} is no Unreal project; choose the .uproject file, or the folder that it is in</source>
+            <translation>{file} は Unreal プロジェクトではありません。.uproject ファイルか、それがあるフォルダーを選んでください</translation>
+        </message>
+        <message>
+            <source>{file} holds several Unreal projects ({names}); choose one of the .uproject files</source>
+            <translation>{file} には Unreal プロジェクトが複数あります ({names})。いずれかの .uproject ファイルを選んでください</translation>
+        </message>
+        <message>
+            <source>{file} cannot be read as an Unreal project: {detail}</source>
+            <translation>{file} を Unreal プロジェクトとして読み込めません: {detail}</translation>
+        </message>
+        <message>
+            <source>{file} belongs to Unreal Engine {version}; version {least} or newer is needed</source>
+            <translation>{file} は Unreal Engine {version} のプロジェクトです。バージョン {least} 以降が必要です</translation>
+        </message>
+        <message>
+            <source>{file} is write-protected; nothing was written; allow writing into the project's folder and export again</source>
+            <translation>{file} は書き込み禁止です。何も書き出していません。プロジェクトのフォルダーへの書き込みを許可してから、もう一度書き出してください</translation>
+        </message>
+        <message>
+            <source>{file} is damaged ({detail}), so that nobody knows which files are whose; nothing was written; move its folder away, then export again</source>
+            <translation>{file} が壊れていて ({detail})、どのファイルがこのプログラムのものか分かりません。何も書き出していません。そのフォルダーを別の場所に移してから、もう一度書き出してください</translation>
+        </message>
+        <message>
+            <source>{file} is not from this program and would be replaced; nothing was written; move it or rename it, then export again</source>
+            <translation>{file} はこのプログラムが作ったものではなく、上書きされてしまいます。何も書き出していません。移動するか名前を変えてから、もう一度書き出してください</translation>
+        </message>
+        <message>
+            <source>{file} was changed by somebody since it was exported; nothing was written; move it away to keep it, or delete it, then export again</source>
+            <translation>{file} は書き出した後に変更されています。何も書き出していません。残すなら別の場所に移し、不要なら削除してから、もう一度書き出してください</translation>
+        </message>
+        <message>
+            <source>{file} is not needed any more, but was changed by somebody and is left alone</source>
+            <translation>{file} はもう不要ですが、変更されているため、そのまま残します</translation>
+        </message>
+        <message>
+            <source>{file} is a plug-in of that name that is not from this program; nothing was written; move it away, then export again</source>
+            <translation>{file} は同名の別のプラグインです。何も書き出していません。別の場所に移してから、もう一度書き出してください</translation>
+        </message>
+        <message>
+            <source>{file} was written wrongly ({what}: {found}, not {wanted}); nothing was changed in the project; please report this</source>
+            <translation>{file} が正しく書き出されませんでした ({what}: {wanted} ではなく {found})。プロジェクトは変更していません。この問題を報告してください</translation>
+        </message>
+        <message>
+            <source>--format is for a folder of files; an Unreal project gets what Unreal reads</source>
+            <translation>--format はフォルダーへの書き出し用です。Unreal プロジェクトには Unreal が読み込むファイルを書き出します</translation>
+        </message>
+        <message>
+            <source>{file}: another export into it is under way; wait until it has finished, then export again</source>
+            <translation>{file} には別の書き出しが進行中です。終わってから、もう一度書き出してください</translation>
+        </message>
+        <message>
+            <source>{file} cannot be replaced: {reason}; everything is as it was; close the program that has it open, then export again</source>
+            <translation>{file} を置き換えられません: {reason}。すべて元のままです。このファイルを開いているプログラムを閉じてから、もう一度書き出してください</translation>
         </message>
         <message>
             <source>opening</source>

@@ -1,0 +1,208 @@
+"""A tree of files that changes as a whole or not at all.
+
+What is new is written beside its place, on the same disk; only then does it take its names, and what it replaces is
+kept until all of it has. An error in between gives everything back. A process that was killed meanwhile leaves its
+folder, from which the next one restores what was there before.
+
+Messages
+--------
+file.cannot_write (file, reason)
+tree.busy (file)
+    Somebody else writes into the same tree just now.
+tree.refused (file, reason)
+    The system did not let a file be replaced or removed; everything is as it was.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import re
+import secrets
+import shutil
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Final
+
+from app.errors import FileError
+from app.formats.locks import is_locked, lock
+
+_SCRATCH: Final = re.compile(r"\.[0-9a-f]{16}\.partial")
+_NEW, _OLD, _LOCK = "new", "old", "lock"
+
+
+@dataclass
+class TreeChange:
+    """What is to become of a tree.
+
+    Attributes
+    ----------
+    new : path
+        A folder to write into, laid out as the tree.
+    removed : list of path
+        Files to take away, relative to the tree.
+    last : list of path
+        Of the new files those that take their names last, relative to the tree: what vouches for the others.
+    """
+
+    new: Path
+    removed: list[Path] = field(default_factory=list)
+    last: list[Path] = field(default_factory=list)
+
+
+@contextlib.contextmanager
+def tree_into(root: Path, scratch: Path) -> Iterator[TreeChange]:
+    """Change a tree of files when the block is done; if it raises, nothing has changed.
+
+    Parameters
+    ----------
+    root : path
+        An existing folder.
+    scratch : path
+        Where to write meanwhile: a folder in ``root`` or itself; made if it is not there, and taken away again if
+        nothing comes to be in it.
+
+    Yields
+    ------
+    TreeChange
+
+    Raises
+    ------
+    FileError
+        ``file.cannot_write``, ``tree.busy``, ``tree.refused``.
+    """
+    had_scratch = scratch.is_dir()
+    try:
+        scratch.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise FileError("file.cannot_write", file=os.fspath(scratch), reason=_reason(error)) from error
+    partial = scratch / f".{secrets.token_hex(8)}.partial"
+    try:
+        recover(root, scratch)
+        try:
+            (partial / _NEW).mkdir(parents=True)
+            stream = (partial / _LOCK).open("xb")
+        except OSError as error:
+            raise FileError("file.cannot_write", file=os.fspath(scratch), reason=_reason(error)) from error
+        with stream:
+            with contextlib.suppress(OSError):  # a file system without locks
+                lock(stream)
+            change = TreeChange(partial / _NEW)
+            yield change
+            _commit(root, partial, change)
+    finally:
+        shutil.rmtree(partial, ignore_errors=True)
+        if not had_scratch:
+            with contextlib.suppress(OSError):  # it is in use now
+                scratch.rmdir()
+
+
+def recover(root: Path, scratch: Path) -> None:
+    """Give back what a killed process had taken out of a tree, and sweep what it left.
+
+    Raises
+    ------
+    FileError
+        ``tree.busy``: it is alive; ``tree.refused``: the system refuses.
+    """
+    if not scratch.is_dir():
+        return
+    for partial in sorted(path for path in scratch.iterdir() if _SCRATCH.fullmatch(path.name) and path.is_dir()):
+        # Between making the folder and locking it, it has nothing to give back.
+        if is_locked(partial / _LOCK):
+            raise FileError("tree.busy", file=os.fspath(root))
+        _give_back(root, partial)
+        shutil.rmtree(partial, ignore_errors=True)
+
+
+def files_below(folder: Path) -> list[Path]:
+    """All files below a folder, relative to it, in order."""
+    return sorted(path.relative_to(folder) for path in folder.rglob("*") if path.is_file())
+
+
+def _commit(root: Path, partial: Path, change: TreeChange) -> None:
+    coming = [path for path in files_below(change.new) if path not in change.last] + change.last
+    at = root
+    try:
+        for path in [*coming, *change.removed]:
+            at = root / path
+            if at.is_dir():
+                raise IsADirectoryError(f"{path.name} is a folder")
+            if at.exists():
+                # A second name rather than a move: at every moment each file is there, old or new.
+                _second_name(at, partial / _OLD / path)
+        _write_list(partial, coming)
+        for path in coming:
+            at = root / path
+            at.parent.mkdir(parents=True, exist_ok=True)
+            (change.new / path).replace(at)
+        for path in change.removed:
+            at = root / path
+            at.unlink(missing_ok=True)
+            _prune(at.parent, root)
+    except OSError as error:
+        _give_back(root, partial)
+        raise FileError("tree.refused", file=os.fspath(at), reason=_reason(error)) from error
+    except BaseException:
+        _give_back(root, partial)
+        raise
+    # From here on there is nothing to give back.
+    (partial / _LIST).unlink(missing_ok=True)
+
+
+_LIST = "coming.txt"
+
+
+def _write_list(partial: Path, coming: list[Path]) -> None:
+    """Note what will take its name: with this file there, the tree may be half old and half new."""
+    draft = partial / f"{_LIST}.draft"
+    draft.write_text("\n".join(path.as_posix() for path in coming), encoding="utf-8")
+    draft.replace(partial / _LIST)
+
+
+def _give_back(root: Path, partial: Path) -> None:
+    """Make the tree what it was before its change began."""
+    if not (partial / _LIST).is_file():
+        return
+    coming = [Path(line) for line in (partial / _LIST).read_text(encoding="utf-8").splitlines()]
+    old = files_below(partial / _OLD) if (partial / _OLD).is_dir() else []
+    at = root
+    try:
+        for path in coming:
+            # What has not moved yet is still among the new ones.
+            if path not in old and not (partial / _NEW / path).exists():
+                at = root / path
+                at.unlink(missing_ok=True)
+            _prune((root / path).parent, root)
+        for path in old:
+            at = root / path
+            at.parent.mkdir(parents=True, exist_ok=True)
+            (partial / _OLD / path).replace(at)
+    except OSError as error:
+        raise FileError("tree.refused", file=os.fspath(at), reason=_reason(error)) from error
+    (partial / _LIST).unlink(missing_ok=True)
+
+
+def _second_name(file: Path, name: Path) -> None:
+    name.parent.mkdir(parents=True, exist_ok=True)
+    try:
+        os.link(file, name)
+    except OSError:
+        shutil.copy2(file, name)
+
+
+def _prune(folder: Path, root: Path) -> None:
+    """Take away folders that nothing is in any more."""
+    while folder != root:
+        try:
+            folder.rmdir()
+        except FileNotFoundError:
+            pass  # it was never made; what is above it may have been
+        except OSError:
+            return
+        folder = folder.parent
+
+
+def _reason(error: OSError) -> str:
+    return error.strerror or str(error)

@@ -1,0 +1,99 @@
+"""What a written file must be before it may take its place in a project, asked of the file itself.
+
+Messages
+--------
+unreal.file_wrong (file, what, found, wanted)
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+import numpy.typing as npt
+import soundfile
+
+from app.errors import FileError
+from app.formats.fbx.decode import read_elements
+from app.formats.fbx.graph import numbers, properties_of
+from app.formats.fbx.read import decode_scene
+
+_SETTINGS: Final = {
+    "UpAxis": 1.0,
+    "UpAxisSign": 1.0,
+    "FrontAxis": 2.0,
+    "FrontAxisSign": 1.0,
+    "CoordAxis": 0.0,
+    "CoordAxisSign": 1.0,
+    "UnitScaleFactor": 1.0,
+}
+"""Y up, right-handed, facing +Z, in centimetres: what Unreal's importer is told to convert from."""
+_SAME_CM: Final = 0.01
+
+
+@dataclass(frozen=True, eq=False)
+class Expected:
+    """What a file must hold.
+
+    Attributes
+    ----------
+    fps : Fraction
+    frames : int
+    bones : sequence of str
+        All of them, the root first.
+    low_cm, high_cm : ndarray, shape (3,)
+        The box around the mesh, which tells its scale and its axes.
+    morphs : frozenset of str
+    """
+
+    fps: Fraction
+    frames: int
+    bones: Sequence[str]
+    low_cm: npt.NDArray[np.float64]
+    high_cm: npt.NDArray[np.float64]
+    morphs: frozenset[str]
+
+
+def check_fbx(path: Path, expected: Expected) -> None:
+    """Raise ``unreal.file_wrong`` where a file is not what it must be."""
+    data = path.read_bytes()
+    file = os.fspath(path)
+    settings = read_elements(data, file).child("GlobalSettings")
+    found = {} if settings is None else {name: numbers(row) for name, row in properties_of(settings).items()}
+    for name, value in _SETTINGS.items():
+        _same(path, name, found.get(name, []), [value])
+    scene = decode_scene(data, file)
+    clip = scene.clip
+    _same(path, "frame rate", None if clip is None else str(clip.fps), str(expected.fps))
+    _same(path, "frames", None if clip is None else clip.frames, expected.frames)
+    _same(path, "bones", [bone.name for bone in scene.bones], list(expected.bones))
+    vertices = np.concatenate([mesh.vertices_cm for mesh in scene.meshes])
+    for what, box, wanted in (
+        ("low corner", vertices.min(axis=0), expected.low_cm),
+        ("high corner", vertices.max(axis=0), expected.high_cm),
+    ):
+        if np.abs(box - wanted).max() > _SAME_CM:
+            _wrong(path, what, np.round(box, 3).tolist(), np.round(wanted, 3).tolist())
+    morphs = {morph.name for mesh in scene.meshes for morph in mesh.morphs}
+    _same(path, "morph targets", sorted(morphs), sorted(expected.morphs))
+
+
+def check_wave(path: Path, rate_hz: int, channels: int, samples: int) -> None:
+    """Raise ``unreal.file_wrong`` where a recording is not a WAV file of 16-bit PCM as long as it must be."""
+    with soundfile.SoundFile(path) as file:
+        found = (file.format, file.subtype, file.samplerate, file.channels, file.frames)
+    _same(path, "sound", list(found), ["WAV", "PCM_16", rate_hz, channels, samples])
+
+
+def _same(path: Path, what: str, found: object, wanted: object) -> None:
+    if found != wanted:
+        _wrong(path, what, found, wanted)
+
+
+def _wrong(path: Path, what: str, found: object, wanted: object) -> None:
+    raise FileError("unreal.file_wrong", file=path.name, what=what, found=str(found), wanted=str(wanted))

@@ -1,0 +1,242 @@
+"""``performance.json``: everything that whoever builds a scene of an export has to know, for scripts to read.
+
+Times are seconds of the animation, whose frame 0 is at 0, and frames of it where a frame is meant. A player's ``stage``
+is in metres as in ``report.json``, the ``place`` in Unreal's centimetres and degrees.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Final
+
+import msgspec
+
+from app.export.report import StagePlace
+from app.export.unreal.layout import FigurePlace, Layout
+from app.export.unreal.manifest import OwnFile
+from app.performance.ensemble import Performance
+from app.performance.span import FrameSpan
+from app.project.casting import StagePosition
+from app.project.model import Player
+
+SCHEMA: Final = 1
+"""Rises when a script that knows the schema before would misread the file."""
+
+
+class Rate(msgspec.Struct, frozen=True):
+    """Frames per second as a fraction."""
+
+    numerator: int
+    denominator: int
+
+
+class Place(msgspec.Struct, frozen=True):
+    """Where an actor stands in Unreal, which is left-handed with Z up: our (x, y, z) in metres is (100 x, 100 z,
+    100 y) there, so that a turn from +Z towards +X is a negative yaw."""
+
+    x_cm: float
+    y_cm: float
+    z_cm: float
+    yaw_deg: float
+
+
+class Figure(msgspec.Struct, frozen=True):
+    """A skeletal mesh and what it does: its file, beside this one, and its assets. ``bones`` are all of the file's, the
+    root first."""
+
+    file: str
+    mesh: str
+    skeleton: str
+    animation: str
+    bones: tuple[str, ...]
+
+
+class Cast(msgspec.Struct, frozen=True):
+    """A player and the instrument."""
+
+    name: str
+    part: str
+    instrument_id: str
+    character_id: str
+    stage: StagePlace
+    place: Place
+    character: Figure
+    instrument: Figure
+
+
+class Sound(msgspec.Struct, frozen=True):
+    """What is heard. ``offset_s`` is the time of the animation at which the file begins."""
+
+    file: str
+    asset: str
+    source: str
+    """``"recording"`` or ``"synthesiser"``."""
+    offset_s: float
+    duration_s: float
+    rate_hz: int
+    channels: int
+
+
+class Tempo(msgspec.Struct, frozen=True):
+    """A tempo from a tick on."""
+
+    tick: int
+    s: float
+    quarters_per_minute: float
+
+
+class Metre(msgspec.Struct, frozen=True):
+    """A time signature from a tick on."""
+
+    tick: int
+    s: float
+    numerator: int
+    denominator: int
+
+
+class Bar(msgspec.Struct, frozen=True):
+    """The beginning of a bar that the animation shows; a pickup is bar 0. ``frame`` is the nearest."""
+
+    number: int
+    tick: int
+    s: float
+    frame: int
+
+
+class Cue(msgspec.Struct, frozen=True):
+    """A lead-in that a player gives: the nod begins at ``start_s``, everybody enters at ``entry_s``."""
+
+    player: str
+    start_s: float
+    entry_s: float
+    frame: int
+
+
+class Description(msgspec.Struct, frozen=True):
+    """The whole file. ``first_frame_s`` is the performance's second, counted from tick 0, that frame 0 shows; ``files``
+    are what the assets come from, by their path beside this file."""
+
+    schema: int
+    made_by: str
+    piece: str
+    title: str
+    content: str
+    sequence: str
+    rate: Rate
+    frames: int
+    first_frame_s: float
+    bars_exported: tuple[int, int] | None
+    sound: Sound
+    players: tuple[Cast, ...]
+    ticks_per_quarter: int
+    pickup_ticks: int
+    tempo: tuple[Tempo, ...]
+    metres: tuple[Metre, ...]
+    bars: tuple[Bar, ...]
+    cues: tuple[Cue, ...]
+    files: dict[str, OwnFile]
+
+
+def describe(
+    performance: Performance,
+    players: tuple[Player, ...],
+    layout: Layout,
+    span: FrameSpan,
+    bars: tuple[int, int] | None,
+    creator: str,
+    title: str,
+    bones: Mapping[str, tuple[str, ...]],
+    sound: Sound,
+    files: Mapping[str, OwnFile],
+) -> Description:
+    """Describe an export.
+
+    Parameters
+    ----------
+    bones : mapping of str to tuple of str
+        By the file that has them.
+    """
+    project = performance.project
+    score, clock = project.score, performance.piece.clock
+    rate = span.fps
+
+    def after_s(tick: float) -> float:
+        return round(clock.seconds(float(tick)) - span.first_frame_s, 6)
+
+    def frame(s: float) -> int:
+        return math.floor(s * rate.numerator / rate.denominator + 0.5)
+
+    def figure(place: FigurePlace) -> Figure:
+        file = place.file.as_posix()
+        return Figure(file, place.mesh, place.skeleton, place.animation, bones[file])
+
+    def cast(player: Player) -> Cast:
+        stage = player.stage
+        return Cast(
+            name=player.name,
+            part=project.part(player).name,
+            instrument_id=player.instrument_id,
+            character_id=player.character_id,
+            stage=StagePlace(round(stage.x_m, 4), round(stage.z_m, 4), round(math.degrees(stage.turn_rad), 3)),
+            place=place_of(stage),
+            character=figure(layout.characters[player.id]),
+            instrument=figure(layout.instruments[player.id]),
+        )
+
+    last = max(score.end_tick - 1, 0)
+    numbers = range(0 if score.pickup_ticks else 1, score.bar_of_tick(last) + 1)
+    starts = [(number, score.tick_of_bar(number)) for number in numbers]
+    told = [Bar(number, tick, after_s(tick), frame(after_s(tick))) for number, tick in starts]
+    cues = [
+        Cue(
+            player.name,
+            round(cue.start_s - span.first_frame_s, 6),
+            round(cue.end_s - span.first_frame_s, 6),
+            frame(cue.end_s - span.first_frame_s),
+        )
+        for player in players
+        for cue in performance.plan(player).cues
+    ]
+    return Description(
+        schema=SCHEMA,
+        made_by=creator,
+        piece=layout.piece,
+        title=title,
+        content=layout.content,
+        sequence=layout.sequence,
+        rate=Rate(rate.numerator, rate.denominator),
+        frames=span.count,
+        first_frame_s=span.first_frame_s,
+        bars_exported=bars,
+        sound=sound,
+        players=tuple(cast(player) for player in players),
+        ticks_per_quarter=score.ticks_per_quarter,
+        pickup_ticks=score.pickup_ticks,
+        tempo=tuple(
+            Tempo(change.tick, after_s(change.tick), round(60e6 / change.microseconds_per_quarter, 6))
+            for change in score.tempo_map.changes
+        ),
+        metres=tuple(
+            Metre(metre.tick, after_s(metre.tick), metre.numerator, metre.denominator) for metre in score.metres
+        ),
+        bars=tuple(bar for bar in told if 0 <= bar.frame < span.count),
+        cues=tuple(sorted((cue for cue in cues if 0 <= cue.frame < span.count), key=lambda cue: cue.entry_s)),
+        files=dict(files),
+    )
+
+
+def place_of(stage: StagePosition) -> Place:
+    """A player's place as Unreal has it."""
+    turn_deg = math.degrees(math.remainder(stage.turn_rad, math.tau))
+    return Place(
+        x_cm=round(100.0 * stage.x_m, 3) + 0.0,
+        y_cm=round(100.0 * stage.z_m, 3) + 0.0,
+        z_cm=0.0,
+        yaw_deg=-round(turn_deg, 4) + 0.0,
+    )
+
+
+def encode_description(description: Description) -> bytes:
+    """Indented JSON, UTF-8."""
+    return msgspec.json.format(msgspec.json.encode(description), indent=1) + b"\n"

@@ -1,0 +1,117 @@
+"""Where everything of a piece is in an Unreal project: sources beside the content, assets under ``/Game/Suisou``."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path, PurePosixPath
+from typing import Final
+
+from app.export.unreal.names import asset_name, unique
+from app.project.model import Project
+
+SOURCES: Final = "SuisouSource"
+"""Folder of the sources. Not in ``Content``, which Unreal may watch for new files to import by itself."""
+CONTENT: Final = "/Game/Suisou"
+PLUGIN: Final = "Plugins/Suisou"
+DESCRIPTION, REPORT, MANIFEST = "performance.json", "report.json", "manifest.json"
+
+
+@dataclass(frozen=True)
+class FigurePlace:
+    """Where a character or an instrument is.
+
+    Attributes
+    ----------
+    file : path
+        Relative to the piece's sources.
+    mesh, skeleton, animation : str
+        Paths of the assets, without an extension.
+    """
+
+    file: PurePosixPath
+    mesh: str
+    skeleton: str
+    animation: str
+
+
+@dataclass(frozen=True)
+class Layout:
+    """Where a piece is.
+
+    Attributes
+    ----------
+    piece : str
+        Name of its folders.
+    characters, instruments : mapping of str to FigurePlace
+        By player id; of all the players, so that names do not depend on who is exported.
+    sound_file : path
+        Relative to the piece's sources.
+    sound, sequence : str
+        Paths of the assets.
+    """
+
+    piece: str
+    characters: dict[str, FigurePlace]
+    instruments: dict[str, FigurePlace]
+    sound_file: PurePosixPath
+    sound: str
+    sequence: str
+
+    @property
+    def sources(self) -> PurePosixPath:
+        """The folder of the piece's sources, relative to the project's."""
+        return PurePosixPath(SOURCES, self.piece)
+
+    @property
+    def content(self) -> str:
+        """The folder of the piece's assets."""
+        return f"{CONTENT}/{self.piece}"
+
+    def files(self, player_ids: tuple[str, ...]) -> tuple[PurePosixPath, ...]:
+        """Everything that an export of some players writes, relative to the piece's sources, in order."""
+        figures = [place[player_id].file for player_id in player_ids for place in (self.characters, self.instruments)]
+        own = (PurePosixPath(name) for name in (DESCRIPTION, REPORT, MANIFEST))
+        return tuple(sorted([*figures, self.sound_file, *own]))
+
+
+def piece_name(source: str, folder: Path) -> str:
+    """The name of a piece's folders.
+
+    Parameters
+    ----------
+    source : str
+        Name of the piece's file.
+    folder : path
+        The project's folder: what differs from a piece that is there only in upper and lower case is that one.
+    """
+    name = asset_name(Path(source).stem, "Piece")
+    sources = folder / SOURCES
+    there = sorted(path.name for path in sources.iterdir()) if sources.is_dir() else []
+    return next((other for other in there if other.casefold() == name.casefold()), name)
+
+
+def layout_of(project: Project, piece: str) -> Layout:
+    """Where everything of a project's piece is."""
+    players = project.players
+    own = unique(asset_name(player.name, "Player") for player in players)
+    held = [f"{name}_{asset_name(player.instrument_id, 'held')}" for name, player in zip(own, players, strict=True)]
+    names = unique([*own, *held])
+    content = f"{CONTENT}/{piece}"
+
+    def places(kind: str, names: tuple[str, ...]) -> dict[str, FigurePlace]:
+        return {
+            player.id: FigurePlace(
+                PurePosixPath(kind, f"SK_{name}.fbx"),
+                *(f"{content}/{kind}/{name}/{prefix}_{name}" for prefix in ("SK", "SKEL", "A")),
+            )
+            for player, name in zip(players, names, strict=True)
+        }
+
+    return Layout(
+        piece=piece,
+        characters=places("Characters", names[: len(players)]),
+        instruments=places("Instruments", names[len(players) :]),
+        sound_file=PurePosixPath("Audio", f"S_{piece}.wav"),
+        sound=f"{content}/Audio/S_{piece}",
+        sequence=f"{content}/LS_{piece}",
+    )

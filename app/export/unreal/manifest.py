@@ -1,0 +1,124 @@
+"""Which files are ours: a list in each folder that we write into, with what each file held when we wrote it.
+
+Messages
+--------
+unreal.manifest (file, detail), unreal.in_the_way, unreal.changed (file); ``unreal.kept`` (file), a warning
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass
+from pathlib import Path, PurePosixPath, PureWindowsPath
+from typing import Final
+
+import msgspec
+
+from app.errors import FileError, Message
+from app.export.unreal.layout import MANIFEST
+
+SCHEMA: Final = 1
+_TEXTS: Final = frozenset((".json", ".py", ".uplugin"))
+
+
+class OwnFile(msgspec.Struct, frozen=True):
+    """What a file of ours held. Line ends of texts count as ``\\n``: version control may have changed them."""
+
+    bytes: int
+    sha256: str
+
+
+class Manifest(msgspec.Struct, frozen=True):
+    """The files of a folder that are ours, by their path in it. The manifest itself is ours too."""
+
+    schema: int
+    made_by: str
+    files: dict[str, OwnFile]
+
+
+@dataclass(frozen=True)
+class Changes:
+    """What writing into a folder does to what is there.
+
+    Attributes
+    ----------
+    replaced, removed : tuple of path
+        In the folder.
+    kept : tuple of Message
+        Leftovers that somebody has changed.
+    """
+
+    replaced: tuple[PurePosixPath, ...]
+    removed: tuple[PurePosixPath, ...]
+    kept: tuple[Message, ...]
+
+
+def own_file(path: Path) -> OwnFile:
+    """What a file holds."""
+    if path.suffix.lower() in _TEXTS:
+        data = path.read_bytes().replace(b"\r\n", b"\n")
+        return OwnFile(len(data), hashlib.sha256(data).hexdigest())
+    with path.open("rb") as stream:
+        return OwnFile(path.stat().st_size, hashlib.file_digest(stream, "sha256").hexdigest())
+
+
+def changes(folder: Path, coming: Collection[PurePosixPath]) -> Changes:
+    """What becomes of a folder when some files are written into it.
+
+    Raises
+    ------
+    FileError
+        Something that would be replaced is not ours, or is not as we left it; the manifest is damaged.
+    """
+    own = read_manifest(folder)
+    replaced = []
+    for path in sorted(coming):
+        there = folder / path
+        if path == PurePosixPath(MANIFEST):
+            if there.exists():
+                replaced.append(path)
+        elif there.exists() or there.is_symlink():
+            known = own.get(path)
+            if known is None or not there.is_file():
+                raise FileError("unreal.in_the_way", file=os.fspath(there))
+            if own_file(there) != known:
+                raise FileError("unreal.changed", file=os.fspath(there))
+            replaced.append(path)
+    removed, kept = [], []
+    for path, known in sorted(own.items()):
+        there = folder / path
+        if path not in coming and there.is_file():
+            if own_file(there) == known:
+                removed.append(path)
+            else:
+                kept.append(Message("unreal.kept", {"file": os.fspath(there)}))
+    return Changes(tuple(replaced), tuple(removed), tuple(kept))
+
+
+def read_manifest(folder: Path) -> dict[PurePosixPath, OwnFile]:
+    """The files of a folder that are ours; none where there is no manifest."""
+    path = folder / MANIFEST
+    if not path.exists():
+        return {}
+    try:
+        manifest = msgspec.json.decode(path.read_bytes(), type=Manifest)
+    except (msgspec.DecodeError, UnicodeDecodeError) as error:
+        raise FileError("unreal.manifest", file=os.fspath(path), detail=str(error)) from error
+    for name in manifest.files:
+        if not _inside(name):
+            raise FileError("unreal.manifest", file=os.fspath(path), detail=repr(name))
+    return {PurePosixPath(name): own for name, own in manifest.files.items()}
+
+
+def encode_manifest(files: Mapping[str, OwnFile], creator: str) -> bytes:
+    """The manifest of some files, as indented JSON."""
+    manifest = Manifest(SCHEMA, creator, dict(sorted(files.items())))
+    return msgspec.json.format(msgspec.json.encode(manifest), indent=1) + b"\n"
+
+
+def _inside(name: str) -> bool:
+    """Whether a path stays in its folder on every system: somebody may have written the manifest by hand."""
+    path = PureWindowsPath(name)
+    return bool(path.parts) and not (path.anchor or ".." in path.parts or "\\" in name)

@@ -1,0 +1,85 @@
+"""Names of Unreal assets, made of whatever a piece or a player is called.
+
+They are ASCII letters, digits and ``_``. Unreal allows more, but command lines, version control, packaging and other
+people's scripts do not: what a person reads in the sequence is the name as it stands, what files and assets are called
+is this. Kana are spelt out (Nihon-shiki, as Unicode names them); what has no spelling here (kanji, emoji) leaves a mark
+of eight digits made from the whole name, so that two such names stay two and the same one stays the same.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import re
+import unicodedata
+from collections.abc import Iterable
+from typing import Final
+
+LONGEST: Final = 32
+"""Characters of a name: with the project's own path and the prefixes Windows' 260 are far."""
+
+# Device names of Windows ("Naming Files, Paths, and Namespaces", Microsoft Learn), and Unreal's own word for no name.
+_RESERVED: Final = re.compile(r"(con|prn|aux|nul|none|(com|lpt)[0-9])", re.IGNORECASE)
+_KANA: Final = re.compile(r"(?:HIRAGANA|KATAKANA) LETTER (SMALL )?([A-Z]+)")
+_NO_SPELLING: Final = re.compile(r"[LNSC]")
+"""Categories of characters that a name loses something with; marks and punctuation it does not miss."""
+
+
+def asset_name(text: str, otherwise: str) -> str:
+    """The name of an asset or of its folder, without a prefix.
+
+    Parameters
+    ----------
+    text : str
+        What the thing is called; anything.
+    otherwise : str
+        Word to begin with where nothing of the text can be spelt, or where it would be a reserved name.
+    """
+    spelt, whole = _spelt(text)
+    name = re.sub(r"_+", "_", re.sub(r"[^A-Za-z0-9]", "_", spelt)).strip("_")
+    if not name or _RESERVED.fullmatch(name):
+        whole = whole and bool(name)
+        name = f"{otherwise}_{name}".rstrip("_")
+    if whole and len(name) <= LONGEST:
+        return name
+    mark = hashlib.sha256(unicodedata.normalize("NFC", text).encode("utf-8", "surrogatepass")).hexdigest()[:8]
+    return f"{name[: LONGEST - 9].rstrip('_')}_{mark}"
+
+
+def unique(names: Iterable[str]) -> tuple[str, ...]:
+    """The names in their order, with numbers where two would be one to a system that knows no case."""
+    taken: set[str] = set()
+    result = []
+    for name in names:
+        candidate, number = name, 1
+        while candidate.casefold() in taken:
+            number += 1
+            candidate = f"{name}_{number}"
+        taken.add(candidate.casefold())
+        result.append(candidate)
+    return tuple(result)
+
+
+def _spelt(text: str) -> tuple[str, bool]:
+    """The text in ASCII, and whether nothing of it was lost."""
+    spelt: list[str] = []
+    whole, double = True, False
+    for character in unicodedata.normalize("NFKC", text):
+        kana = _KANA.match(unicodedata.name(character, ""))
+        if kana is not None:
+            small, sound = bool(kana[1]), kana[2].lower()
+            if small and sound == "tu":
+                double = True
+                continue
+            if small and sound in ("ya", "yu", "yo") and spelt and spelt[-1].endswith("i"):
+                spelt[-1] = spelt[-1][:-1]
+            spelt.append(sound[0] + sound if double else sound)
+        elif character.isascii():
+            spelt.append(character)
+        elif character == "ー":
+            pass  # a long vowel
+        else:
+            plain = unicodedata.normalize("NFKD", character).encode("ascii", "ignore").decode()
+            whole = whole and (bool(plain) or not _NO_SPELLING.match(unicodedata.category(character)))
+            spelt.append(plain or "_")
+        double = False
+    return "".join(spelt), whole

@@ -1,0 +1,70 @@
+"""The plug-in that imports in Unreal, put into a project that has none or an older one of ours.
+
+The project's own file is not touched: a plug-in in its folder is on by itself, and asks for those that it needs.
+
+Messages
+--------
+unreal.plugin_foreign (file)
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from importlib.resources import files
+from importlib.resources.abc import Traversable
+from pathlib import Path, PurePosixPath
+from typing import Final
+
+from app.errors import FileError
+from app.export.unreal.layout import MANIFEST, PLUGIN
+
+DESCRIPTOR: Final = "Suisou.uplugin"
+CREATED_BY: Final = "Suisou"
+
+
+def plugin_files() -> dict[PurePosixPath, bytes]:
+    """What the plug-in consists of, by path in its folder."""
+    return dict(sorted(_below(files("resources") / "unreal" / "Suisou", PurePosixPath())))
+
+
+def wanted_plugin(folder: Path) -> dict[PurePosixPath, bytes]:
+    """The files of the plug-in that a project's folder needs: all, or none where it has them.
+
+    Raises
+    ------
+    FileError
+        ``unreal.plugin_foreign``: there is one that is not ours.
+    """
+    own = plugin_files()
+    place = folder / PLUGIN
+    if not place.exists():
+        return own
+    there = _version((place / DESCRIPTOR).read_bytes()) if (place / DESCRIPTOR).is_file() else None
+    if there is None and any(path.name != MANIFEST for path in place.iterdir()):
+        raise FileError("unreal.plugin_foreign", file=os.fspath(place))
+    known = _version(own[PurePosixPath(DESCRIPTOR)])
+    return own if there is None or (known is not None and there < known) else {}
+
+
+def _version(descriptor: bytes) -> int | None:
+    """The version of a plug-in of ours; None of another's."""
+    try:
+        content = json.loads(descriptor.decode("utf-8-sig"))
+    except ValueError:
+        return None
+    if not isinstance(content, dict) or content.get("CreatedBy") != CREATED_BY:
+        return None
+    version = content.get("Version")
+    return version if isinstance(version, int) else None
+
+
+def _below(folder: Traversable, path: PurePosixPath) -> list[tuple[PurePosixPath, bytes]]:
+    found: list[tuple[PurePosixPath, bytes]] = []
+    for entry in folder.iterdir():
+        if entry.is_dir():
+            if entry.name != "__pycache__":
+                found += _below(entry, path / entry.name)
+        else:
+            found.append((path / entry.name, entry.read_bytes()))
+    return found

@@ -1,0 +1,112 @@
+"""The folder of an Unreal project: recognised, and whether it can be written to.
+
+Messages
+--------
+unreal.not_found, unreal.no_project, unreal.several, unreal.not_a_project, unreal.too_old, unreal.read_only
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+from app.errors import FileError
+
+LEAST_ENGINE: Final = (5, 2)
+"""Before, a sequence had other functions to add tracks."""
+_MOST_BYTES: Final = 16 << 20
+
+
+@dataclass(frozen=True)
+class UnrealProject:
+    """A project of Unreal Engine.
+
+    Attributes
+    ----------
+    file : path
+        The ``.uproject`` file.
+    engine : str
+        Its ``EngineAssociation`` as it stands: ``"5.6"``, the id of an engine built from its sources, or empty.
+    version : (int, int) or None
+        Of the engine; None where the file does not tell.
+    """
+
+    file: Path
+    engine: str
+    version: tuple[int, int] | None
+
+    @property
+    def folder(self) -> Path:
+        """Where the project is."""
+        return self.file.parent
+
+    @property
+    def name(self) -> str:
+        """What the project is called."""
+        return self.file.stem
+
+
+def find_project(path: Path) -> UnrealProject:
+    """The project that a person means by its file or its folder.
+
+    Raises
+    ------
+    FileError
+        See the module.
+    """
+    try:
+        found = _project_file(path)
+        content = _content(found)
+    except OSError as error:
+        raise FileError("file.cannot_read", file=os.fspath(path), reason=error.strerror or str(error)) from error
+    engine = content.get("EngineAssociation", "")
+    if not isinstance(engine, str):
+        raise FileError("unreal.not_a_project", file=os.fspath(found), detail="EngineAssociation is no text")
+    numbers = re.match(r"(\d{1,4})\.(\d{1,4})(?:\D|$)", engine)
+    version = None if numbers is None else (int(numbers[1]), int(numbers[2]))
+    if version is not None and version < LEAST_ENGINE:
+        least = ".".join(map(str, LEAST_ENGINE))
+        raise FileError("unreal.too_old", file=os.fspath(found), version=engine, least=least)
+    return UnrealProject(found, engine, version)
+
+
+def require_writable(project: UnrealProject) -> None:
+    """Raise ``unreal.read_only`` where nothing can be written into a project's folder.
+
+    The ``.uproject`` file itself may well be write-protected, as version control leaves it: it is not touched.
+    """
+    if not os.access(project.folder, os.W_OK | os.X_OK):
+        raise FileError("unreal.read_only", file=os.fspath(project.folder))
+
+
+def _project_file(path: Path) -> Path:
+    if path.is_dir():
+        found = sorted(file for file in path.iterdir() if file.suffix.lower() == ".uproject" and file.is_file())
+        if not found:
+            raise FileError("unreal.no_project", file=os.fspath(path))
+        if len(found) > 1:
+            raise FileError("unreal.several", file=os.fspath(path), names=", ".join(file.name for file in found))
+        return found[0].absolute()
+    if not path.exists():
+        raise FileError("unreal.not_found", file=os.fspath(path))
+    if path.suffix.lower() != ".uproject" or not path.is_file():
+        raise FileError("unreal.no_project", file=os.fspath(path))
+    return path.absolute()
+
+
+def _content(file: Path) -> dict[str, object]:
+    """What a project's file says. Unreal writes UTF-8, or UTF-16 where there is more than ASCII in it."""
+    with file.open("rb") as stream:
+        data = stream.read(_MOST_BYTES)
+    try:
+        wide = data.startswith((b"\xff\xfe", b"\xfe\xff"))
+        content = json.loads(data.decode("utf-16" if wide else "utf-8-sig"))
+    except (ValueError, RecursionError) as error:
+        raise FileError("unreal.not_a_project", file=os.fspath(file), detail=str(error)) from error
+    if isinstance(content, dict) and isinstance(content.get("FileVersion"), int):
+        return content
+    raise FileError("unreal.not_a_project", file=os.fspath(file), detail="it has no FileVersion")

@@ -1,0 +1,282 @@
+"""A performance into the folder of an Unreal project: all of it, or nothing.
+
+Sources of the piece (FBX, sound, description, report, manifest) go to ``SuisouSource/<Piece>``, the plug-in that
+imports them to ``Plugins/Suisou``. Exporting again updates in place and takes away what of ours is not needed any more;
+what somebody else made or changed is never touched.
+
+Messages: those of `app.export.run`, `app.export.tree` and the other modules here.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path, PurePosixPath
+
+import msgspec
+import numpy as np
+import soundfile
+
+from app.audio.mix import mixdown
+from app.audio.track import RATE_HZ
+from app.errors import Cancelled, FileError, Message
+from app.export.character import CENTIMETRES, skeleton_bones
+from app.export.instrument import instrument_bones
+from app.export.report import Report, encode_report
+from app.export.run import REPORT as EXPORTED_REPORT
+from app.export.run import Progress, Request, export
+from app.export.tree import TreeChange, files_below, recover, tree_into
+from app.export.unreal.check import Expected, check_fbx, check_wave
+from app.export.unreal.description import Sound, describe, encode_description
+from app.export.unreal.layout import (
+    DESCRIPTION,
+    MANIFEST,
+    PLUGIN,
+    REPORT,
+    SOURCES,
+    Layout,
+    layout_of,
+    piece_name,
+)
+from app.export.unreal.manifest import Changes, changes, encode_manifest, own_file
+from app.export.unreal.plugin import wanted_plugin
+from app.export.unreal.project import UnrealProject, require_writable
+from app.performance.bodies import character_of, model_of
+from app.performance.ensemble import Performance
+from app.performance.span import FrameSpan
+from app.rig.model import Mesh
+
+_SHARES = {"files": 0.8, "sound": 0.15, "checks": 0.05}
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What an export into a project will do there.
+
+    Attributes
+    ----------
+    layout : Layout
+    written : tuple of path
+        Every file of the piece and of the plug-in that will be written, relative to the project's folder, in order.
+    replaced, removed : tuple of path
+        Of those that are there.
+    kept : tuple of Message
+        Leftovers that somebody has changed.
+    plugin : mapping of path to bytes
+        The plug-in's files, by path in its folder; none if the project has it.
+    """
+
+    layout: Layout
+    written: tuple[PurePosixPath, ...]
+    replaced: tuple[PurePosixPath, ...]
+    removed: tuple[PurePosixPath, ...]
+    kept: tuple[Message, ...]
+    plugin: dict[PurePosixPath, bytes]
+
+
+@dataclass(frozen=True)
+class Written:
+    """What an export into a project has done: its plan, and the report of what the files hold."""
+
+    plan: Plan
+    report: Report
+
+
+def plan_export(performance: Performance, player_ids: tuple[str, ...], source: str, project: UnrealProject) -> Plan:
+    """What an export of some players would do in a project; nothing is written.
+
+    Parameters
+    ----------
+    source : str
+        Name of the piece's file, after which its folders are called.
+
+    Raises
+    ------
+    FileError
+        Something is in the way; see `app.export.unreal.manifest` and `app.export.unreal.plugin`.
+    """
+    require_writable(project)
+    layout = layout_of(performance.project, piece_name(source, project.folder))
+    plugin = wanted_plugin(project.folder)
+    try:
+        done = [(layout.sources, layout.files(player_ids))]
+        if plugin:
+            done.append((PurePosixPath(PLUGIN), (*plugin, PurePosixPath(MANIFEST))))
+        found: list[tuple[PurePosixPath, Changes]] = [
+            (folder, changes(project.folder / folder, coming)) for folder, coming in done
+        ]
+    except OSError as error:
+        reason = error.strerror or str(error)
+        raise FileError("file.cannot_read", file=os.fspath(project.folder), reason=reason) from error
+    return Plan(
+        layout=layout,
+        written=tuple(sorted(folder / path for folder, coming in done for path in coming)),
+        replaced=tuple(sorted(folder / path for folder, change in found for path in change.replaced)),
+        removed=tuple(sorted(folder / path for folder, change in found for path in change.removed)),
+        kept=tuple(message for _, change in found for message in change.kept),
+        plugin=plugin,
+    )
+
+
+def export_into(
+    request: Request,
+    project: UnrealProject,
+    wording: Callable[[Message], str],
+    stop_wanted: Callable[[], bool] = lambda: False,
+    progress: Progress = lambda share, label: None,
+) -> Written:
+    """Write a performance into a project.
+
+    Parameters
+    ----------
+    request : Request
+        Its folder and its formats do not count.
+    project : UnrealProject
+    wording : callable
+        Words a message for the report.
+    stop_wanted, progress : callable
+
+    Raises
+    ------
+    FileError
+        See the module; nothing has changed then.
+    Cancelled
+    """
+    recover(project.folder, project.folder / SOURCES)
+    player_ids = tuple(player.id for player in request.players)
+    plan = plan_export(request.performance, player_ids, request.source, project)
+    with tree_into(project.folder, project.folder / SOURCES) as change:
+        sources = change.new / plan.layout.sources
+        report = _figures(request, plan.layout, sources, wording, stop_wanted, progress)
+        sound = _sound(request, plan.layout, sources, stop_wanted, progress)
+        bones = _checked(request, plan.layout, sources, sound, stop_wanted, progress)
+        with_files = {path.as_posix(): own_file(sources / path) for path in files_below(sources)}
+        description = describe(
+            request.performance,
+            request.players,
+            plan.layout,
+            request.span,
+            request.bars,
+            request.creator,
+            request.performance.project.score.title,
+            bones,
+            sound,
+            with_files,
+        )
+        (sources / REPORT).write_bytes(encode_report(report))
+        (sources / DESCRIPTION).write_bytes(encode_description(description))
+        _vouch(change, plan.layout.sources, request.creator, {})
+        change.last.insert(0, Path(plan.layout.sources / DESCRIPTION))
+        if plan.plugin:
+            _vouch(change, PurePosixPath(PLUGIN), request.creator, plan.plugin)
+        change.removed += [Path(path) for path in plan.removed]
+    progress(1.0, "")
+    return Written(plan, report)
+
+
+def _vouch(change: TreeChange, folder: PurePosixPath, creator: str, content: dict[PurePosixPath, bytes]) -> None:
+    """Write a folder's remaining files and the list of all of them."""
+    place = change.new / folder
+    for path, data in content.items():
+        (place / path).parent.mkdir(parents=True, exist_ok=True)
+        (place / path).write_bytes(data)
+    files = {path.as_posix(): own_file(place / path) for path in files_below(place)}
+    (place / MANIFEST).write_bytes(encode_manifest(files, creator))
+    change.last.append(Path(folder / MANIFEST))
+
+
+def _figures(
+    request: Request,
+    layout: Layout,
+    sources: Path,
+    wording: Callable[[Message], str],
+    stop_wanted: Callable[[], bool],
+    progress: Progress,
+) -> Report:
+    """Write the FBX files under their names in the project; the report knows them by these."""
+    draft = sources / "draft"
+    report = export(
+        replace(request, folder=draft, formats=frozenset(("fbx",))),
+        wording,
+        stop_wanted,
+        lambda share, label: progress(_SHARES["files"] * share, label),
+    )
+    told = []
+    for player, written in zip(request.players, report.players, strict=True):
+        names = {}
+        for what, place in (("character_fbx", layout.characters), ("instrument_fbx", layout.instruments)):
+            names[what] = place[player.id].file.as_posix()
+            (sources / names[what]).parent.mkdir(parents=True, exist_ok=True)
+            (draft / written.files[what]).replace(sources / names[what])
+        told.append(msgspec.structs.replace(written, files=names))
+    (draft / EXPORTED_REPORT).unlink()
+    draft.rmdir()
+    return msgspec.structs.replace(report, players=tuple(told))
+
+
+def _sound(
+    request: Request, layout: Layout, sources: Path, stop_wanted: Callable[[], bool], progress: Progress
+) -> Sound:
+    """Write what is heard from the first frame to the last."""
+    project, span = request.performance.project, request.span
+    block = mixdown(
+        project,
+        span.first_frame_s,
+        span.end_s,
+        RATE_HZ,
+        lambda share: progress(_SHARES["files"] + _SHARES["sound"] * share, layout.sound_file.name),
+        stop_wanted,
+    )
+    file = sources / layout.sound_file
+    file.parent.mkdir(parents=True, exist_ok=True)
+    soundfile.write(file, block, RATE_HZ, subtype="PCM_16")
+    return Sound(
+        file=layout.sound_file.as_posix(),
+        asset=layout.sound,
+        source="synthesiser" if project.audio is None else "recording",
+        offset_s=0.0,
+        duration_s=len(block) / RATE_HZ,
+        rate_hz=RATE_HZ,
+        channels=block.shape[1],
+    )
+
+
+def _checked(
+    request: Request,
+    layout: Layout,
+    sources: Path,
+    sound: Sound,
+    stop_wanted: Callable[[], bool],
+    progress: Progress,
+) -> dict[str, tuple[str, ...]]:
+    """Read every file that was written and hold it against what it must be; the bones of each."""
+    check_wave(sources / sound.file, RATE_HZ, sound.channels, round(sound.duration_s * RATE_HZ))
+    bones: dict[str, tuple[str, ...]] = {}
+    for index, player in enumerate(request.players):
+        instrument = request.performance.instrument(player)
+        character, model = character_of(player), model_of(instrument)
+        for place, named, meshes in (
+            (layout.characters[player.id], skeleton_bones(character.skeleton), character.meshes),
+            (layout.instruments[player.id], instrument_bones(instrument, model), model.meshes),
+        ):
+            if stop_wanted():
+                raise Cancelled("work.stopped")
+            file = place.file.as_posix()
+            bones[file] = tuple(bone.name for bone in named)
+            check_fbx(sources / file, _expected(request.span, bones[file], meshes))
+        done = (index + 1) / len(request.players)
+        progress(_SHARES["files"] + _SHARES["sound"] + _SHARES["checks"] * done, player.name)
+    return bones
+
+
+def _expected(span: FrameSpan, bones: tuple[str, ...], meshes: tuple[Mesh, ...]) -> Expected:
+    positions_cm = np.concatenate([mesh.positions_m for mesh in meshes]).astype(np.float64) * CENTIMETRES
+    return Expected(
+        fps=span.fps,
+        frames=span.count,
+        bones=bones,
+        low_cm=positions_cm.min(axis=0),
+        high_cm=positions_cm.max(axis=0),
+        morphs=frozenset(morph.name for mesh in meshes for morph in mesh.morphs),
+    )

@@ -1,0 +1,138 @@
+"""A tree of files that changes as a whole, whatever happens meanwhile."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from app.errors import FileError
+from app.export.tree import recover, tree_into
+from app.formats.locks import lock
+
+BEFORE = {"src/a/one": "old one", "src/a/two": "old two", "src/gone/three": "old three", "src/theirs": "theirs"}
+AFTER = {"src/a/one": "new one", "src/a/two": "new two", "src/b/four": "new four", "src/theirs": "theirs"}
+
+
+def contents(root: Path) -> dict[str, str]:
+    return {path.relative_to(root).as_posix(): path.read_text() for path in root.rglob("*") if path.is_file()}
+
+
+def folders(root: Path) -> set[str]:
+    return {path.relative_to(root).as_posix() for path in root.rglob("*") if path.is_dir()}
+
+
+@pytest.fixture
+def root(tmp_path: Path) -> Path:
+    root = tmp_path / "project"
+    for name, text in BEFORE.items():
+        (root / name).parent.mkdir(parents=True, exist_ok=True)
+        (root / name).write_text(text)
+    return root
+
+
+def change(root: Path, error: type[BaseException] | None = None) -> None:
+    with tree_into(root, root / "src") as tree:
+        for name in ("src/a/one", "src/a/two", "src/b/four"):
+            (tree.new / name).parent.mkdir(parents=True, exist_ok=True)
+            (tree.new / name).write_text(f"new {Path(name).name}")
+        tree.removed.append(Path("src/gone/three"))
+        tree.last.append(Path("src/a/one"))
+        if error is not None:
+            raise error
+
+
+def test_it_changes_as_a_whole(root: Path) -> None:
+    change(root)
+    assert contents(root) == AFTER
+    assert folders(root) == {"src", "src/a", "src/b"}
+
+
+@pytest.mark.parametrize("error", [KeyboardInterrupt, ValueError])
+def test_an_error_changes_nothing(root: Path, error: type[BaseException]) -> None:
+    with pytest.raises(error):
+        change(root, error)
+    assert contents(root) == BEFORE
+
+
+def test_a_folder_made_for_a_failure_goes_again(tmp_path: Path) -> None:
+    (tmp_path / "project").mkdir()
+    with pytest.raises(LookupError), tree_into(tmp_path / "project", tmp_path / "project" / "src"):
+        raise LookupError
+    assert list((tmp_path / "project").iterdir()) == []
+
+
+@pytest.mark.parametrize("refused", range(1, 4))
+def test_what_is_refused_halfway_is_given_back(root: Path, monkeypatch: pytest.MonkeyPatch, refused: int) -> None:
+    """As on Windows, where a file that a program has open cannot be replaced."""
+    replace, moved = Path.replace, []
+
+    def refusing(source: Path, target: Path) -> Path:
+        if "new" in source.parts:
+            moved.append(target)
+            if len(moved) == refused:
+                raise PermissionError(13, "in use", str(target))
+        return replace(source, target)
+
+    monkeypatch.setattr(Path, "replace", refusing)
+    with pytest.raises(FileError) as caught:
+        change(root)
+    assert caught.value.message.id == "tree.refused"
+    assert caught.value.message.arguments["file"] == str(moved[-1])
+    assert contents(root) == BEFORE
+    assert folders(root) == {"src", "src/a", "src/gone"}
+
+
+def test_a_folder_in_the_way_is_found_before_anything_moves(root: Path) -> None:
+    (root / "src/b/four").mkdir(parents=True)
+    with pytest.raises(FileError) as caught:
+        change(root)
+    assert caught.value.message.id == "tree.refused"
+    assert contents(root) == BEFORE
+
+
+KILLED = """
+import os, sys
+from pathlib import Path
+sys.path.insert(0, sys.argv[3])
+from tests.unit.export import test_tree
+replace, unlink, left = Path.replace, Path.unlink, [int(sys.argv[2])]
+def dying(call):
+    def wrapped(path, *arguments, **named):
+        if "new" in path.parts or path.name == "three":
+            left[0] -= 1
+            if left[0] == 0:
+                os._exit(9)
+        return call(path, *arguments, **named)
+    return wrapped
+Path.replace, Path.unlink = dying(replace), dying(unlink)
+test_tree.change(Path(sys.argv[1]))
+"""
+
+
+@pytest.mark.parametrize("moment", range(1, 5))
+def test_what_a_killed_process_had_begun_is_given_back(root: Path, moment: int) -> None:
+    here = Path(__file__).parents[3]
+    done = subprocess.run([sys.executable, "-c", KILLED, str(root), str(moment), str(here)], check=False)
+    assert done.returncode == 9
+    assert contents(root) != AFTER
+    recover(root, root / "src")
+    assert contents(root) == BEFORE
+    assert folders(root) == {"src", "src/a", "src/gone"}
+    change(root)
+    assert contents(root) == AFTER
+
+
+@pytest.mark.skipif(os.name != "posix", reason="a second handle of one process shares the lock elsewhere")
+def test_two_at_once_are_told(root: Path) -> None:
+    partial = root / "src" / f".{'0' * 16}.partial"
+    partial.mkdir()
+    with (partial / "lock").open("wb") as stream:
+        assert lock(stream)
+        with pytest.raises(FileError) as caught:
+            change(root)
+    assert caught.value.message.id == "tree.busy"
+    assert partial.is_dir()

@@ -1,0 +1,85 @@
+"""An Unreal project to export into, and a short export."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from dataclasses import replace
+from fractions import Fraction
+from pathlib import Path
+
+import msgspec
+import pytest
+
+from app.export.run import Request
+from app.export.unreal.project import UnrealProject, find_project
+from app.export.unreal.run import Written, export_into
+from app.messages import text
+from app.performance.ensemble import Performance
+from app.performance.span import bars_span
+from app.project.model import AudioTrack, Project, map_choices, project_from_score
+from app.score.read import read_midi
+from instrument_maps.library import all_maps
+
+QUARTET = Path(__file__).parents[4] / "resources" / "examples" / "quartet.mid"
+
+
+def quartet() -> Project:
+    maps = all_maps()
+    return project_from_score(read_midi(QUARTET, maps=map_choices(maps.values())), maps)
+
+
+def request_of(
+    project: Project, players: tuple[str, ...] = ("Trumpet 1",), source: str = "quartet.mid", last_bar: int = 1
+) -> Request:
+    performance = Performance(project)
+    chosen = tuple(player for player in project.players if player.name in players)
+    assert len(chosen) == len(players)
+    return Request(
+        performance=performance,
+        players=chosen,
+        folder=Path("nowhere"),
+        formats=frozenset(),
+        span=bars_span(performance, Fraction(12), (1, last_bar), 0.0),
+        bars=(1, last_bar),
+        source=source,
+        creator="Suisou test",
+    )
+
+
+def renamed(project: Project, names: list[str]) -> Project:
+    players = zip(project.players, names, strict=True)
+    return replace(project, players=tuple(msgspec.structs.replace(player, name=name) for player, name in players))
+
+
+def with_recording(project: Project, path: Path, offset_s: float) -> Project:
+    return replace(project, audio=AudioTrack(str(path), offset_s))
+
+
+@pytest.fixture
+def unreal(tmp_path: Path) -> UnrealProject:
+    """A project with something of the artist's in every folder that an export writes to."""
+    folder = tmp_path / "Game"
+    files = {
+        "Game.uproject": json.dumps({"FileVersion": 3, "EngineAssociation": "5.6"}),
+        "Content/Suisou/quartet/BP_Mine.uasset": "mine",
+        "Plugins/Other/Other.uplugin": "{}",
+        "SuisouSource/notes.txt": "mine",
+        "SuisouSource/quartet/Audio/mine.wav": "mine",
+    }
+    for name, content in files.items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_text(content)
+    return find_project(folder)
+
+
+Export = Callable[[Request], Written]
+
+
+@pytest.fixture
+def export(unreal: UnrealProject) -> Export:
+    return lambda request: export_into(request, unreal, text)
+
+
+def tree_of(folder: Path) -> dict[str, bytes]:
+    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
