@@ -1,6 +1,6 @@
-"""Loading characters: our own glTF binaries and any humanoid with the VRM 1.0 extension.
+"""Loading characters: our own glTF binaries as they are, everybody else's as figures (`app.rig.figure_character`).
 
-Rest rotations are removed: joint frames become parallel to the world, the bind pose stays what it was.
+In our own, rest rotations are removed: joint frames become parallel to the world, the bind pose stays what it was.
 
 Messages
 --------
@@ -24,18 +24,16 @@ import numpy as np
 import numpy.typing as npt
 
 from app.errors import UsageError
+from app.rig.figure import Figure
+from app.rig.figure_character import REQUIRED_JOINTS, figure_character
 from app.rig.landmarks import found_landmarks
 from app.rig.model import Character, Landmark, Mesh, Skeleton
+from app.rig.read_figure import read_figure
 from app.rig.source import Source, build_mesh, invalid, moved_mesh, read_source
+from metadata.load import load_skeleton
+from metadata.model import ARKIT_MORPHS
 
 FloatArray = npt.NDArray[np.float64]
-_HALF = (
-    *("UpperArm", "LowerArm", "Hand", "UpperLeg", "LowerLeg", "Foot"),
-    *("ThumbMetacarpal", "ThumbProximal", "ThumbDistal"),
-    *(f + bone for f in ("Index", "Middle", "Ring", "Little") for bone in ("Proximal", "Intermediate", "Distal")),
-)
-REQUIRED_JOINTS = ("hips", "spine", "head", *(side + part for side in ("left", "right") for part in _HALF))
-"""Joints a body cannot play without."""
 
 
 @cache
@@ -59,25 +57,36 @@ def _loaded(path: Path) -> Character:
 
 
 def load_character(path: Path) -> Character:
-    """Load a character from a glTF binary.
+    """Load a character from a file: VRM, glTF or FBX.
 
     Raises
     ------
     FileError
-        The file cannot be read, is no glTF 2.0 binary, or holds no humanoid that can play.
+        The file cannot be read, or holds no humanoid that can play.
     """
-    source = read_source(path)
     try:
-        return _build(source, path)
+        if path.suffix.lower() == ".glb":
+            source = read_source(path)
+            if _extras(source):
+                return _build(source, path)
+        figure = read_figure(path)
+        return figure_character(figure, path.stem, *_named(figure))
     except (KeyError, IndexError, TypeError, ValueError) as error:
         raise invalid(path, f"damaged: {error!r}") from error
+
+
+def _named(figure: Figure) -> tuple[Mapping[str, int], Mapping[str, Mapping[str, float]]]:
+    """Joints that the file itself names, else bones called as joints are; morphs called as ARKit calls them."""
+    joints = [joint.name for joint in load_skeleton().joints]
+    bones = {name: bone for bone, name in enumerate(figure.bone_names) if name in joints and name != "root"}
+    return figure.humanoid or bones, {name: {name: 1.0} for name in figure.morph_names if name in ARKIT_MORPHS}
 
 
 def _build(source: Source, path: Path) -> Character:
     skeleton, joint_of, world_from_node = _skeleton(source)
     missing = [name for name in REQUIRED_JOINTS if name not in skeleton.names]
     if missing:
-        raise invalid(path, f"not a humanoid with all fingers; missing: {', '.join(missing)}")
+        raise invalid(path, f"not a humanoid; missing: {', '.join(missing)}")
     count = len(skeleton.names)
     # joint_from_mesh of a joint no skin names: as if bound at rest.
     joint_from_mesh = np.tile(np.eye(4), (count, 1, 1))

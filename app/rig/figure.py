@@ -13,6 +13,7 @@ from typing import Literal, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
+from app.errors import Message
 from app.rig.model import Mesh
 
 FloatArray = npt.NDArray[np.float64]
@@ -42,6 +43,8 @@ class Figure:
         Bones whose VRM 1.0 joint the file itself says; empty where it says nothing.
     expressions : mapping of str to mapping of str to float
         What the file's own expressions (VRM presets, by their VRM 1.0 names) are: weights 0..1 of its morphs.
+    notes : tuple of Message
+        What the reader had to guess.
     """
 
     file: str
@@ -53,6 +56,7 @@ class Figure:
     meshes: tuple[Mesh, ...]
     humanoid: Mapping[str, int] = field(default_factory=dict)
     expressions: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    notes: tuple[Message, ...] = ()
 
     @property
     def morph_names(self) -> tuple[str, ...]:

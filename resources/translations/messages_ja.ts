@@ -488,6 +488,18 @@
             <translation>{file}: {what} には対応していません</translation>
         </message>
         <message>
+            <source>{file} is not an FBX file</source>
+            <translation>{file} は FBX ファイルではありません</translation>
+        </message>
+        <message>
+            <source>{file} is damaged ({detail}); export it again</source>
+            <translation>{file} は壊れています（{detail}）。もう一度書き出してください</translation>
+        </message>
+        <message>
+            <source>{file} describes more data than any character has; export the character alone</source>
+            <translation>{file} のデータ量は、キャラクターとしてあり得ない大きさです。キャラクターだけを書き出してください</translation>
+        </message>
+        <message>
             <source>{file} contradicts itself: {detail}</source>
             <translation>{file} の内容が矛盾しています: {detail}</translation>
         </message>
@@ -1234,6 +1246,26 @@
         <message>
             <source>{file} describes more data than any character has</source>
             <translation>{file} のデータ量は、キャラクターとしてあり得ない大きさです</translation>
+        </message>
+        <message>
+            <source>{file} is neither VRM, glTF nor FBX</source>
+            <translation>{file} は VRM、glTF、FBX のいずれでもありません</translation>
+        </message>
+        <message>
+            <source>{file} has no bones: a character needs a skeleton to play with</source>
+            <translation>{file} にはボーンがありません。演奏するにはスケルトンのあるキャラクターが必要です</translation>
+        </message>
+        <message>
+            <source>{file} makes its figure {height_m} m tall, so its unit is wrong: sizes are taken times {factor}</source>
+            <translation>{file} のキャラクターの身長が {height_m} m になるため、単位が誤っているとみなし、大きさを {factor} 倍して読み込みます</translation>
+        </message>
+        <message>
+            <source>{file} makes its figure {height_m} m tall; if that is not meant, export it in the right unit</source>
+            <translation>{file} のキャラクターの身長は {height_m} m です。意図したものでなければ、正しい単位で書き出し直してください</translation>
+        </message>
+        <message>
+            <source>{file} cannot play: no bone was found for {joints}; name those bones by hand</source>
+            <translation>{file} は演奏できません。次の関節に当たるボーンが見つかりません：{joints}。ボーンを手動で指定してください</translation>
         </message>
         <message>
             <source>{file} is not valid; problems: {count}</source>

@@ -1,4 +1,4 @@
-"""The bundled characters, and files of others built here: rest rotations, no root, damaged, no fingers."""
+"""The bundled characters, and files of others built here: rest rotations, no root, damaged, no foot."""
 
 import json
 import struct
@@ -42,21 +42,23 @@ def test_an_unknown_character_is_refused() -> None:
 
 
 def _humanoid(tmp_path: Path, turned: bool, drop: str = "") -> Path:
-    """A stick figure with one skinned point per joint, its nodes turned at rest or not."""
+    """A stick figure as tall as ours with one skinned point per joint, its nodes turned at rest or not."""
     profile = load_skeleton()
+    ours = bundled_character("man_adult").skeleton
+    places = dict(zip(ours.names, rest_positions(ours), strict=True))
     generator = np.random.default_rng(8)
     nodes: list[dict] = []
     place: dict[str, int] = {}
     world: list[np.ndarray] = []
     for joint in profile.joints:
-        if joint.name in ("root", drop):
+        if joint.name in ("root", "jaw", drop):
             continue
         parent = place.get(joint.parent, -1)
         turn = Rotation.random(random_state=generator) if turned else Rotation.identity()
         up = world[parent] if parent >= 0 else np.eye(4)
         matrix = np.eye(4)
         # The place in the world is the same, turned or not.
-        matrix[:3, :3], matrix[:3, 3] = turn.as_matrix(), (len(nodes) % 7 * 0.1, len(nodes) * 0.05, 0.02)
+        matrix[:3, :3], matrix[:3, 3] = turn.as_matrix(), places[joint.name]
         local = np.linalg.inv(up) @ matrix
         place[joint.name] = len(nodes)
         world.append(matrix)
@@ -128,7 +130,8 @@ def test_rest_rotations_of_a_stranger_are_removed_and_its_skin_stays(tmp_path: P
     mesh = character.meshes[0]
     still = forward(skeleton, np.tile(STILL, (1, len(skeleton.names), 1)))
     skin = deform(patch(character, mesh, np.arange(len(mesh.positions_m))), still)[0]
-    np.testing.assert_allclose(skin, mesh.positions_m, atol=1e-6)
+    floor = mesh.positions_m[:, 1].min()
+    np.testing.assert_allclose(skin, mesh.positions_m - [0.0, floor, 0.0], atol=1e-6)
     # A quarter turn of the elbow about the world's Y carries the hand's point about the elbow.
     elbow, hand = skeleton.index("leftLowerArm"), skeleton.index("leftHand")
     rotations = np.tile(STILL, (1, len(skeleton.names), 1))
@@ -136,13 +139,24 @@ def test_rest_rotations_of_a_stranger_are_removed_and_its_skin_stays(tmp_path: P
     rotations[0, elbow] = quarter.as_quat()
     moved = deform(patch(character, mesh, np.arange(len(mesh.positions_m))), forward(skeleton, rotations))[0]
     vertex = int(np.flatnonzero(mesh.joints[:, 0] == hand)[0])
-    expected = rest[elbow] + quarter.apply(mesh.positions_m[vertex] - rest[elbow])
+    expected = rest[elbow] + quarter.apply(skin[vertex] - rest[elbow])
     np.testing.assert_allclose(moved[vertex], expected, atol=1e-6)
 
 
-def test_a_body_without_all_fingers_is_refused_by_name(tmp_path: Path) -> None:
-    with pytest.raises(FileError, match="leftIndexDistal"):
-        load_character(_humanoid(tmp_path, turned=False, drop="leftIndexDistal"))
+def test_a_body_without_a_foot_is_refused_by_name(tmp_path: Path) -> None:
+    with pytest.raises(FileError, match="leftFoot"):
+        load_character(_humanoid(tmp_path, turned=False, drop="leftFoot"))
+
+
+def test_a_body_without_a_phalanx_gets_one_in_our_own_proportions(tmp_path: Path) -> None:
+    ours = bundled_character("man_adult").skeleton
+    character = load_character(_humanoid(tmp_path, turned=True, drop="leftIndexDistal"))
+    joint = character.skeleton.index("leftIndexDistal")
+    assert character.own is not None
+    assert character.own.bone_of_joint[joint] == -1
+    np.testing.assert_allclose(
+        character.skeleton.offsets_m[joint], ours.offsets_m[ours.index("leftIndexDistal")], atol=2e-3
+    )
 
 
 def test_damage_is_a_file_error(tmp_path: Path) -> None:

@@ -1,0 +1,297 @@
+"""FBX files of other programs -> plain values: nodes, meshes, skins, morphs. What ours need is `app.formats.fbx.read`.
+
+Any version and both encodings are read by the library ufbx, which knows pre-rotations, pivots, geometric transforms,
+units and axes. It runs in a process of its own (`foreign_child`): what a damaged file does to it is told as an error.
+
+Messages (all with ``file``)
+--------
+file.cannot_read : reason
+fbx.not_fbx : "{file} is not an FBX file"
+fbx.foreign_damaged : detail
+    "{file} is damaged: {detail}"
+fbx.too_large : "{file} describes more data than any character has"
+"""
+
+from __future__ import annotations
+
+import io
+import json
+import os
+import subprocess
+import sys
+import zipfile
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+import numpy.typing as npt
+
+from app.errors import FileError
+
+FloatArray = npt.NDArray[np.float64]
+IntArray = npt.NDArray[np.int64]
+
+MOST_BYTES: Final = 2**30
+"""Of a file; characters have a hundredth of it."""
+PATIENCE_S: Final = 180.0
+UNREADABLE, NO_MEMORY = 3, 4
+"""What the child's end means."""
+
+
+@dataclass(frozen=True, eq=False)
+class FbxNode:
+    """A node of the hierarchy, in metres, Y up.
+
+    Attributes
+    ----------
+    name : str
+    parent : int
+        -1: none.
+    kind : str
+        What hangs on it: ``BONE``, ``MESH``, ``EMPTY``, ``CAMERA`` ...
+    world_from_node, world_from_geometry : (4, 4) float64
+        As the file poses it. The vertices of a mesh on the node are in its geometry's space.
+    """
+
+    name: str
+    parent: int
+    kind: str
+    world_from_node: FloatArray
+    world_from_geometry: FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class FbxCluster:
+    """The vertices that a bone moves.
+
+    Attributes
+    ----------
+    node : int
+    bone_from_mesh : (4, 4) float64
+        The inverse bind matrix.
+    world_from_bone : (4, 4) float64
+        Where the bone was when the mesh was bound.
+    points, weights : (N,)
+    """
+
+    node: int
+    bone_from_mesh: FloatArray
+    world_from_bone: FloatArray
+    points: IntArray
+    weights: FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class FbxMorph:
+    """What a blend shape channel is at full weight: some points and how they move."""
+
+    name: str
+    points: IntArray
+    deltas: FloatArray
+
+
+@dataclass(frozen=True)
+class FbxMaterial:
+    """A surface; colours are linear."""
+
+    name: str
+    base_color: tuple[float, float, float, float]
+    metallic: float
+    roughness: float
+
+
+@dataclass(frozen=True, eq=False)
+class FbxMesh:
+    """A mesh of polygons.
+
+    Attributes
+    ----------
+    name : str
+    nodes : tuple of int
+        Where it hangs; more than one: it is shown as often.
+    points : (P, 3) float64
+    corners : (C,) int64
+        Point of each corner.
+    faces : (F, 2) int64
+        First corner and number of corners of each polygon.
+    face_materials : (F,) int64
+    normals, uvs : (C, 3) and (C, 2) float64, or None
+        By corner; v points up.
+    materials : tuple of FbxMaterial
+    skins : tuple of tuple of FbxCluster
+    morphs : tuple of FbxMorph
+    """
+
+    name: str
+    nodes: tuple[int, ...]
+    points: FloatArray
+    corners: IntArray
+    faces: IntArray
+    face_materials: IntArray
+    normals: FloatArray | None
+    uvs: FloatArray | None
+    materials: tuple[FbxMaterial, ...]
+    skins: tuple[tuple[FbxCluster, ...], ...]
+    morphs: tuple[FbxMorph, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class FbxContent:
+    """What a file holds; `nodes` in the file's order, the first is the file's own root."""
+
+    nodes: tuple[FbxNode, ...]
+    meshes: tuple[FbxMesh, ...]
+
+
+def read_foreign_fbx(path: str | os.PathLike[str]) -> FbxContent:
+    """Read an FBX file of any program.
+
+    Raises
+    ------
+    FileError
+        If it cannot be read, is no FBX file, is damaged or absurdly large.
+    """
+    file = os.fspath(path)
+    try:
+        with Path(path).open("rb") as opened:
+            opened.seek(0, os.SEEK_END)
+            size = opened.tell()
+    except OSError as error:
+        raise FileError("file.cannot_read", file=file, reason=error.strerror or str(error)) from error
+    if size > MOST_BYTES:
+        raise FileError("fbx.too_large", file=file)
+    printed = _child(str(Path(path).resolve()), file)
+    try:
+        with np.load(io.BytesIO(printed), allow_pickle=False) as packed:
+            arrays = {name: packed[name] for name in packed.files}
+        content = json.loads(arrays.pop("description").tobytes())
+        return _content(content, arrays)
+    except (ValueError, KeyError, IndexError, TypeError, zipfile.BadZipFile) as error:
+        raise FileError("fbx.foreign_damaged", file=file, detail=str(error)) from error
+
+
+def _child(path: str, file: str) -> bytes:
+    """What the child printed. Raises FileError."""
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+    try:
+        ended = subprocess.run(
+            [sys.executable, "-m", "app.formats.fbx.foreign_child", path],
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            env=environment,
+            timeout=PATIENCE_S,
+            check=False,
+            creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),
+        )
+    except subprocess.TimeoutExpired as error:
+        raise FileError("fbx.too_large", file=file) from error
+    except OSError as error:
+        raise FileError("file.cannot_read", file=file, reason=str(error)) from error
+    if ended.returncode == NO_MEMORY:
+        raise FileError("fbx.too_large", file=file)
+    if ended.returncode == UNREADABLE:
+        detail = ended.stdout.decode("utf-8", "replace")
+        if "nrecognized file format" in detail:
+            raise FileError("fbx.not_fbx", file=file)
+        raise FileError("fbx.foreign_damaged", file=file, detail=detail)
+    if ended.returncode:
+        raise FileError("fbx.foreign_damaged", file=file, detail=f"its reader ended with {ended.returncode}")
+    return ended.stdout
+
+
+def _content(content: dict[str, Any], arrays: dict[str, npt.NDArray[Any]]) -> FbxContent:
+    nodes = tuple(
+        FbxNode(
+            node["name"],
+            node["parent"],
+            node["kind"],
+            _matrix(node["world_from_node"]),
+            _matrix(node["world_from_geometry"]),
+        )
+        for node in content["nodes"]
+    )
+    for index, node in enumerate(nodes):
+        if not -1 <= node.parent < index:
+            raise ValueError(f"node {node.name!r} stands before its parent")
+    return FbxContent(nodes, tuple(_mesh(mesh, arrays, len(nodes)) for mesh in content["meshes"]))
+
+
+def _matrix(rows: list[list[float]]) -> FloatArray:
+    result = np.eye(4)
+    result[:3] = np.array(rows, dtype=np.float64)
+    if not np.isfinite(result).all():
+        raise ValueError("a transform is not finite")
+    return result
+
+
+def _mesh(mesh: dict[str, Any], arrays: dict[str, npt.NDArray[Any]], node_count: int) -> FbxMesh:
+    points = _finite(arrays[mesh["points"]])
+    corners = _within(arrays[mesh["corners"]], len(points))
+    faces = arrays[mesh["faces"]]
+    if len(faces) and (faces.min() < 0 or faces.sum(axis=1).max() > len(corners)):
+        raise ValueError(f"polygons of {mesh['name']!r}")
+    face_materials = arrays[mesh["face_materials"]]
+    materials = tuple(
+        FbxMaterial(entry["name"], tuple(entry["color"]), entry["metallic"], entry["roughness"])
+        for entry in mesh["materials"]
+    )
+    if len(face_materials) != len(faces) or not len(materials):
+        face_materials = np.zeros(len(faces), dtype=np.int64)
+    return FbxMesh(
+        name=mesh["name"],
+        nodes=tuple(mesh["nodes"]),
+        points=points,
+        corners=corners,
+        faces=faces,
+        face_materials=np.clip(face_materials, 0, max(len(materials) - 1, 0)),
+        normals=_by_corner(mesh["normals"], arrays, len(corners)),
+        uvs=_by_corner(mesh["uvs"], arrays, len(corners)),
+        materials=materials,
+        skins=tuple(
+            tuple(_cluster(entry, arrays, len(points), node_count) for entry in skin) for skin in mesh["skins"]
+        ),
+        morphs=tuple(
+            FbxMorph(
+                entry["name"],
+                _within(arrays[entry["points"]], len(points)),
+                _finite(arrays[entry["deltas"]][: len(arrays[entry["points"]])]),
+            )
+            for entry in mesh["morphs"]
+        ),
+    )
+
+
+def _cluster(entry: dict[str, Any], arrays: dict[str, npt.NDArray[Any]], points: int, nodes: int) -> FbxCluster:
+    if not 0 <= entry["node"] < nodes:
+        raise ValueError("a skin without a bone")
+    return FbxCluster(
+        node=entry["node"],
+        bone_from_mesh=_matrix(entry["bone_from_mesh"]),
+        world_from_bone=_matrix(entry["world_from_bone"]),
+        points=_within(arrays[entry["points"]], points),
+        weights=_finite(arrays[entry["weights"]]),
+    )
+
+
+def _by_corner(names: list[str] | None, arrays: dict[str, npt.NDArray[Any]], corners: int) -> FloatArray | None:
+    if names is None:
+        return None
+    values, indices = (arrays[name] for name in names)
+    if len(indices) != corners or not len(values):
+        return None
+    result: FloatArray = np.nan_to_num(values[_within(indices, len(values))])
+    return result
+
+
+def _within(indices: npt.NDArray[Any], count: int) -> IntArray:
+    if len(indices) and (indices.min() < 0 or indices.max() >= count):
+        raise ValueError("an index points outside")
+    return indices.astype(np.int64)
+
+
+def _finite(values: npt.NDArray[Any]) -> FloatArray:
+    if not np.isfinite(values).all():
+        raise ValueError("a number is not finite")
+    return values.astype(np.float64)

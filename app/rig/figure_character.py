@@ -1,0 +1,426 @@
+"""A figure as a character: its joints known, its skeleton normalised, what it lacks supplied.
+
+The vertices stay where the file's rest pose has them; that pose is the bind pose of the character, and the T-pose its
+skeleton's. A joint that the file lacks is supplied so that the motion can be given back to the file's bones exactly:
+
+- between a bone and the next one above it, it lies on the upper of them (a neck on the head, a shoulder on the arm);
+- of the trunk's joints the highest one that has no bone of its own takes the bone below, because shoulders and neck
+  hang from it; the joints between lie on it too;
+- at the end of a chain (fingers of a mitten, toes, eyes) it follows our own bodies' proportions and carries nothing.
+
+Messages
+--------
+character.incomplete : file, joints
+    "{file} is no humanoid that can play: no bone was found for {joints}"
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Final
+
+import numpy as np
+import numpy.typing as npt
+
+from app.errors import FileError
+from app.rig import quaternion
+from app.rig.figure import Figure, OwnSkeleton
+from app.rig.landmarks import found_landmarks
+from app.rig.model import Character, Mesh, Morph, Skeleton
+from app.rig.t_pose import Rest, rest_of, turns_to_t_pose, upright
+from metadata.load import load_skeleton
+
+FloatArray = npt.NDArray[np.float64]
+
+SIDES: Final = ("left", "right")
+REQUIRED_JOINTS: Final = (
+    *("hips", "spine", "head"),
+    *(side + part for side in SIDES for part in ("UpperArm", "LowerArm", "Hand", "UpperLeg", "LowerLeg", "Foot")),
+)
+"""Joints a body cannot play without: those that VRM 1.0 requires."""
+OPTIONAL: Final = frozenset({"jaw"})
+"""Joints that are not supplied: nothing is the worse for their lack."""
+TRUNK: Final = ("hips", "spine", "chest", "upperChest")
+OFF_CENTRE: Final = 0.1
+"""A figure stands at the origin if its feet are nearer to it than this part of its height."""
+OWN_VERTEX: Final = 0.5
+"""A vertex belongs to the joints that hold more than this share of it."""
+HAND_M: Final = (
+    {
+        "ThumbMetacarpal": (0.040, -0.003, 0.025),
+        "ThumbProximal": (0.063, -0.003, 0.048),
+        "ThumbDistal": (0.090, -0.003, 0.075),
+    },
+    {
+        "IndexProximal": (0.108, -0.005, 0.027),
+        "IndexIntermediate": (0.135, -0.005, 0.027),
+        "IndexDistal": (0.159, -0.005, 0.027),
+    },
+    {
+        "MiddleProximal": (0.107, 0.0, 0.0),
+        "MiddleIntermediate": (0.143, 0.0, 0.0),
+        "MiddleDistal": (0.171, 0.0, 0.0),
+    },
+    {
+        "RingProximal": (0.101, 0.0, -0.020),
+        "RingIntermediate": (0.132, 0.0, -0.020),
+        "RingDistal": (0.158, 0.0, -0.020),
+    },
+    {
+        "LittleProximal": (0.091, -0.005, -0.039),
+        "LittleIntermediate": (0.113, -0.005, -0.039),
+        "LittleDistal": (0.129, -0.005, -0.039),
+    },
+)
+"""Our own adult's left fingers in the T-pose, from the wrist."""
+HAND_REACH_M: Final = 0.195
+"""From its wrist to the tip of the middle finger."""
+EYE_M: Final = np.array([0.031, 0.042, 0.087])
+HEAD_TOP_M: Final = 0.13
+"""From the head's joint: its left eye and its crown."""
+TOES_M: Final = np.array([0.0, -0.048, 0.153])
+ANKLE_M: Final = 0.1
+"""From its ankle: the toes' joint; the ankle's height."""
+HEAD_HEIGHT_M: Final = 1.671
+"""Of its head's joint."""
+UP: Final = np.array([0.0, 1.0, 0.0])
+
+
+@dataclass(frozen=True, eq=False)
+class _Fit:
+    """Joints of the character, J of them.
+
+    Attributes
+    ----------
+    bones : list of int
+        -1: supplied.
+    turns : (J, 4) float64
+        World rotation from the rest pose to the T-pose.
+    rest_m, places_m : (J, 3) float64
+        In the rest pose and in the T-pose.
+    """
+
+    names: tuple[str, ...]
+    parents: tuple[int, ...]
+    bones: list[int]
+    turns: FloatArray
+    rest_m: FloatArray
+    places_m: FloatArray
+
+
+def figure_character(
+    figure: Figure, id: str, bones: Mapping[str, int], morphs: Mapping[str, Mapping[str, float]]
+) -> Character:
+    """Make a character of a figure.
+
+    Parameters
+    ----------
+    figure : Figure
+    id : str
+    bones : mapping of str to int
+        The bone of each VRM 1.0 joint that has one.
+    morphs : mapping of str to mapping of str to float
+        By ARKit name: weights of the figure's morphs that make it.
+
+    Raises
+    ------
+    FileError
+        A required joint has no bone.
+    """
+    missing = [name for name in REQUIRED_JOINTS if name not in bones]
+    if missing:
+        raise FileError("character.incomplete", file=figure.file, joints=", ".join(missing))
+    figure = upright(figure, bones)
+    rest = rest_of(figure)
+    fit = _fitted(figure, rest, bones)
+    joint_of_bone = _joints_of_bones(figure, rest, fit)
+    meshes = tuple(_mesh(mesh, joint_of_bone, morphs) for mesh in figure.meshes)
+    fit = _supplied_ends(fit, meshes)
+    fit = _on_the_floor(fit, meshes)
+    joint_from_mesh = _inverse_binds(fit)
+    offsets = fit.places_m.copy()
+    offsets[1:] -= fit.places_m[list(fit.parents[1:])]
+    skeleton = Skeleton(fit.names, fit.parents, offsets)
+    return Character(
+        id=id,
+        skeleton=skeleton,
+        joint_from_mesh=joint_from_mesh,
+        meshes=meshes,
+        landmarks=found_landmarks(skeleton, joint_from_mesh, meshes),
+        own=_own(figure, rest, fit, morphs),
+    )
+
+
+# ------------------------------------------------------------------------------------------------------------- joints
+
+
+def _fitted(figure: Figure, rest: Rest, bones: Mapping[str, int]) -> _Fit:
+    """Joints in the profile's order; those at the ends of chains that have no bone are not placed yet (NaN)."""
+    profile = [joint for joint in load_skeleton().joints if joint.name not in OPTIONAL or joint.name in bones]
+    names = tuple(joint.name for joint in profile)
+    index = {name: place for place, name in enumerate(names)}
+    parents = tuple(index[joint.parent] if joint.parent else -1 for joint in profile)
+    turn_of = turns_to_t_pose(figure, rest, bones)
+    own, lies_on = _attributed(names, parents, bones)
+    turns = np.tile(quaternion.IDENTITY, (len(names), 1))
+    rest_m = np.full((len(names), 3), np.nan)
+    places = np.full((len(names), 3), np.nan)
+    rest_m[0] = places[0] = 0.0
+    for joint, parent in enumerate(parents):
+        like = lies_on.get(joint, joint)
+        if parent < 0:
+            continue
+        turns[joint] = turn_of.get(names[like], turns[parent])
+        bone = bones[names[like]] if names[like] in bones else own[like]
+        if bone >= 0:
+            rest_m[joint] = rest.positions_m[bone]
+            places[joint] = places[parent] + quaternion.rotate(turns[parent], rest_m[joint] - rest_m[parent])
+            if parent == 0:
+                places[joint] = rest_m[joint]
+    return _Fit(names, parents, own, turns, rest_m, places)
+
+
+def _attributed(
+    names: Sequence[str], parents: Sequence[int], bones: Mapping[str, int]
+) -> tuple[list[int], dict[int, int]]:
+    """The bone of each joint, and the joint that one without a bone lies on (see the module's text)."""
+    own = [bones.get(name, -1) for name in names]
+    index = {name: place for place, name in enumerate(names)}
+    lies_on: dict[int, int] = {}
+    top = index["upperChest"]
+    if own[top] < 0:
+        below = next(index[name] for name in reversed(TRUNK) if name in bones)
+        own[top] = own[below]
+        if below != index["hips"]:
+            own[below] = -1
+        for joint in range(below + 1, top + 1):
+            lies_on[joint] = below
+    for joint in reversed(range(1, len(names))):
+        if own[joint] >= 0 or joint in lies_on or names[joint] in bones:
+            continue
+        above = [child for child in range(len(names)) if parents[child] == joint]
+        placed = [child for child in above if own[child] >= 0 or child in lies_on]
+        if len(placed) == 1:
+            lies_on[joint] = lies_on.get(placed[0], placed[0])
+    return own, lies_on
+
+
+def _joints_of_bones(figure: Figure, rest: Rest, fit: _Fit) -> npt.NDArray[np.int32]:
+    """The joint that carries each bone's skin: its own, the nearest above, the hips for what those hang from, the
+    nearest one in space for what hangs from no joint."""
+    hips = fit.names.index("hips")
+    joint_of = {bone: joint for joint, bone in enumerate(fit.bones) if bone >= 0}
+    carried = np.full(len(figure.parents), -1, dtype=np.int32)
+    for bone, parent in enumerate(figure.parents):
+        carried[bone] = joint_of.get(bone, carried[parent] if parent >= 0 else -1)
+    above = fit.bones[hips]
+    while above >= 0:
+        if carried[above] < 0:
+            carried[above] = hips
+        above = figure.parents[above]
+    mapped = np.array(sorted(joint_of.values()))
+    for bone in np.flatnonzero(carried < 0).tolist():
+        parent = figure.parents[bone]
+        if parent >= 0 and carried[parent] >= 0 and carried[parent] != hips:
+            carried[bone] = carried[parent]
+            continue
+        away = np.linalg.norm(fit.rest_m[mapped] - rest.positions_m[bone], axis=1)
+        carried[bone] = mapped[int(np.argmin(away))]
+    return carried
+
+
+def _own(figure: Figure, rest: Rest, fit: _Fit, morphs: Mapping[str, Mapping[str, float]]) -> OwnSkeleton:
+    joint_from_bone = np.tile(quaternion.IDENTITY, (len(fit.names), 1))
+    world = rest.rotations.copy()
+    joint_of = {bone: joint for joint, bone in enumerate(fit.bones) if bone >= 0}
+    t_pose = figure.rotations.copy()
+    for bone, parent in enumerate(figure.parents):
+        joint = joint_of.get(bone)
+        above = world[parent] if parent >= 0 else quaternion.IDENTITY
+        if joint is None:
+            world[bone] = quaternion.multiply(above, figure.rotations[bone])
+            continue
+        world[bone] = quaternion.multiply(fit.turns[joint], rest.rotations[bone])
+        t_pose[bone] = quaternion.multiply(quaternion.conjugate(above), world[bone])
+        joint_from_bone[joint] = world[bone]
+    return OwnSkeleton(figure, tuple(fit.bones), joint_from_bone, t_pose, morphs)
+
+
+# --------------------------------------------------------------------------------------------------------------- skin
+
+
+def _mesh(mesh: Mesh, joint_of_bone: npt.NDArray[np.int32], morphs: Mapping[str, Mapping[str, float]]) -> Mesh:
+    joints, weights = _merged(joint_of_bone[mesh.joints], mesh.weights.astype(np.float64))
+    return replace(mesh, joints=joints, weights=weights, morphs=_composed(mesh.morphs, morphs))
+
+
+def _merged(
+    joints: npt.NDArray[np.int32], weights: FloatArray
+) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.float32]]:
+    """Influences with each joint once per vertex, the heaviest first, as wide as needed."""
+    joints, weights = joints.copy(), weights.copy()
+    for column in range(1, joints.shape[1]):
+        for before in range(column):
+            same = (joints[:, before] == joints[:, column]) & (weights[:, column] > 0.0)
+            weights[same, before] += weights[same, column]
+            weights[same, column] = 0.0
+    order = np.argsort(-weights, axis=1, kind="stable")
+    joints, weights = np.take_along_axis(joints, order, axis=1), np.take_along_axis(weights, order, axis=1)
+    width = max(int((weights > 0.0).sum(axis=1).max(initial=1)), 1)
+    joints, weights = joints[:, :width], weights[:, :width]
+    joints = np.where(weights > 0.0, joints, joints[:, :1])
+    return joints.astype(np.int32), weights.astype(np.float32)
+
+
+def _composed(own: Sequence[Morph], morphs: Mapping[str, Mapping[str, float]]) -> tuple[Morph, ...]:
+    """The named morphs, each the weighted sum of those of this mesh that make it."""
+    known = {morph.name: morph for morph in own}
+    found = []
+    for name, recipe in morphs.items():
+        shares = [(known[part], weight) for part, weight in recipe.items() if part in known and weight]
+        if len(shares) == 1 and shares[0][1] == 1.0:
+            found.append(replace(shares[0][0], name=name))
+        elif shares:
+            found.append(_summed(name, shares))
+    return tuple(found)
+
+
+def _summed(name: str, shares: Sequence[tuple[Morph, float]]) -> Morph:
+    vertices = np.unique(np.concatenate([morph.vertices for morph, _ in shares]))
+    deltas = np.zeros((len(vertices), 3))
+    normals = np.zeros((len(vertices), 3))
+    has_normals = all(morph.normal_deltas is not None for morph, _ in shares)
+    for morph, weight in shares:
+        places = np.searchsorted(vertices, morph.vertices)
+        np.add.at(deltas, places, weight * morph.deltas_m)
+        if morph.normal_deltas is not None:
+            np.add.at(normals, places, weight * morph.normal_deltas)
+    return Morph(name, vertices, deltas.astype(np.float32), normals.astype(np.float32) if has_normals else None)
+
+
+def _inverse_binds(fit: _Fit) -> FloatArray:
+    """``joint_from_mesh`` where vertices are in the rest pose."""
+    result = np.tile(np.eye(4), (len(fit.names), 1, 1))
+    result[:, :3, :3] = quaternion.to_matrix(fit.turns)
+    result[:, :3, 3] = -np.einsum("jab,jb->ja", result[:, :3, :3], fit.rest_m)
+    return result
+
+
+def _t_posed(fit: _Fit, joint_from_mesh: FloatArray, mesh: Mesh) -> FloatArray:
+    """Vertices (V, 3) in the T-pose."""
+    matrices = joint_from_mesh[:, :3, :].copy()
+    matrices[:, :, 3] += fit.places_m
+    result = np.zeros((len(mesh.positions_m), 3))
+    for column in range(mesh.joints.shape[1]):
+        own = matrices[mesh.joints[:, column]]
+        moved = np.einsum("vij,vj->vi", own[:, :, :3], mesh.positions_m) + own[:, :, 3]
+        result += mesh.weights[:, column, None] * moved
+    return result
+
+
+def _held(mesh: Mesh, joints: Sequence[int]) -> npt.NDArray[np.bool_]:
+    """Vertices that belong to some joints."""
+    held: npt.NDArray[np.bool_] = np.where(np.isin(mesh.joints, joints), mesh.weights, 0.0).sum(axis=1) > OWN_VERTEX
+    return held
+
+
+# ----------------------------------------------------------------------------------------------------- supplied joints
+
+
+def _supplied_ends(fit: _Fit, meshes: Sequence[Mesh]) -> _Fit:
+    """Place the joints at the ends of chains that the file lacks."""
+    rest_m, places = fit.rest_m.copy(), fit.places_m.copy()
+    index = {name: joint for joint, name in enumerate(fit.names)}
+    for joint, name in enumerate(fit.names):
+        if not np.isnan(places[joint, 0]):
+            continue
+        parent = fit.parents[joint]
+        side = "left" if name.startswith("left") else "right"
+        mirror = np.array([1.0 if side == "left" else -1.0, 1.0, 1.0])
+        part = name.removeprefix(side)
+        if part == "Eye":
+            offset = EYE_M * _extent(fit, meshes, [index["head"]], UP) / HEAD_TOP_M
+        elif part == "Toes":
+            offset = TOES_M * max(float(places[parent, 1] - _floor(fit, meshes)), 0.01) / ANKLE_M
+        else:
+            offset = _finger_offset(fit.names, places, index, side, part, meshes, fit)
+        places[joint] = places[parent] + offset * mirror
+        back = quaternion.conjugate(fit.turns[joint])
+        rest_m[joint] = rest_m[parent] + quaternion.rotate(back, places[joint] - places[parent])
+    return replace(fit, rest_m=rest_m, places_m=places)
+
+
+def _finger_offset(
+    names: Sequence[str],
+    places: FloatArray,
+    index: Mapping[str, int],
+    side: str,
+    part: str,
+    meshes: Sequence[Mesh],
+    fit: _Fit,
+) -> FloatArray:
+    """From the parent, of a left hand: as long as the bone before it says, or as the whole hand is."""
+    chain = next(chain for chain in HAND_M if part in chain)
+    order = list(chain).index(part)
+    ways = np.diff(np.vstack([np.zeros(3), *chain.values()]), axis=0)
+    if order >= 2:
+        before, own = (index[side + list(chain)[order - back]] for back in (1, 2))
+        length = float(np.linalg.norm(places[before] - places[own]))
+        if length > 1e-4:
+            scale = length / float(np.linalg.norm(ways[order - 1]))
+            return np.asarray(ways[order] * scale)
+    hand = index[side + "Hand"]
+    carried = [joint for joint, name in enumerate(names) if name.startswith(side) and joint >= hand and _of_hand(name)]
+    along = np.array([1.0 if side == "left" else -1.0, 0.0, 0.0])
+    scale = _extent(fit, meshes, [hand, *carried], along) / HAND_REACH_M
+    result: FloatArray = ways[order] * scale
+    return result
+
+
+def _of_hand(name: str) -> bool:
+    return any(finger in name for finger in ("Thumb", "Index", "Middle", "Ring", "Little"))
+
+
+def _extent(fit: _Fit, meshes: Sequence[Mesh], joints: Sequence[int], direction: FloatArray) -> float:
+    """How far the skin of joints goes in a direction from the first of them, in the T-pose; as an adult's if none."""
+    joint_from_mesh = _inverse_binds(fit)
+    found = 0.0
+    for mesh in meshes:
+        own = _held(mesh, joints)
+        if own.any():
+            away = (_t_posed(fit, joint_from_mesh, mesh)[own] - fit.places_m[joints[0]]) @ direction
+            found = max(found, float(np.percentile(away, 98.0)))
+    if found > 0.0:
+        return found
+    height = float(fit.places_m[fit.names.index("head"), 1] - _floor(fit, meshes))
+    return (HAND_REACH_M if direction[0] else HEAD_TOP_M) * height / HEAD_HEIGHT_M
+
+
+def _floor(fit: _Fit, meshes: Sequence[Mesh]) -> float:
+    """Height of the soles in the T-pose."""
+    feet = [joint for joint, name in enumerate(fit.names) if name.endswith(("Foot", "Toes"))]
+    joint_from_mesh = _inverse_binds(fit)
+    lowest = [
+        float(_t_posed(fit, joint_from_mesh, mesh)[own, 1].min()) for mesh in meshes if (own := _held(mesh, feet)).any()
+    ]
+    if lowest:
+        return min(lowest)
+    ankles = [fit.places_m[joint, 1] for joint in feet if not np.isnan(fit.places_m[joint, 1])]
+    head = float(fit.places_m[fit.names.index("head"), 1])
+    low = float(min(ankles))
+    return low - ANKLE_M * (head - low) / (HEAD_HEIGHT_M - ANKLE_M)
+
+
+def _on_the_floor(fit: _Fit, meshes: Sequence[Mesh]) -> _Fit:
+    """The T-pose with its soles on the floor, at the origin; where it stands as good as there, it is left there."""
+    floor = _floor(fit, meshes)
+    feet = [fit.names.index(side + "Foot") for side in SIDES]
+    middle = fit.places_m[feet].mean(axis=0)
+    height = float(fit.places_m[fit.names.index("head"), 1]) - floor
+    shift = np.array([-middle[0], -floor, -middle[2]])
+    if float(np.hypot(middle[0], middle[2])) < OFF_CENTRE * height:
+        shift[[0, 2]] = 0.0
+    places = fit.places_m + shift
+    places[0] = 0.0
+    return replace(fit, places_m=places)

@@ -1,0 +1,45 @@
+"""Opening a character's file, whatever its format: glTF, GLB, VRM 0.x and 1.0, FBX.
+
+Messages
+--------
+figure.unknown_format : file
+    "{file} is neither VRM, glTF nor FBX"
+file.cannot_read : file, reason
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Final
+
+from app.errors import FileError
+from app.rig.figure import Figure
+from app.rig.figure_fbx import fbx_figure
+from app.rig.figure_gltf import gltf_figure
+from app.rig.source import invalid
+
+SUFFIXES: Final = (".vrm", ".glb", ".gltf", ".fbx")
+"""Of the files that can be opened."""
+
+
+def read_figure(path: Path) -> Figure:
+    """Read the figure a file holds.
+
+    Raises
+    ------
+    FileError
+        It cannot be read, is of no known format, damaged, absurdly large, or holds no skeleton.
+    """
+    try:
+        with path.open("rb") as opened:
+            start = opened.read(64)
+    except OSError as error:
+        raise FileError("file.cannot_read", file=str(path), reason=error.strerror or str(error)) from error
+    try:
+        if start.startswith(b"glTF") or start.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"{"):
+            return gltf_figure(path)
+        if start.startswith(b"Kaydara FBX") or path.suffix.lower() == ".fbx":
+            return fbx_figure(path)
+    except (KeyError, IndexError, TypeError, ValueError, OverflowError) as error:
+        raise invalid(path, f"damaged: {error!r}") from error
+    raise FileError("figure.unknown_format", file=str(path))
