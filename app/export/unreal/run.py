@@ -21,7 +21,7 @@ import soundfile
 from app.audio.mix import mixdown
 from app.audio.track import RATE_HZ
 from app.errors import Cancelled, FileError, Message
-from app.export.character import CENTIMETRES, skeleton_bones
+from app.export.character import CENTIMETRES
 from app.export.instrument import instrument_bones
 from app.export.report import Report, encode_report
 from app.export.run import REPORT as EXPORTED_REPORT
@@ -256,14 +256,15 @@ def _checked(
     for index, player in enumerate(request.players):
         instrument = request.performance.instrument(player)
         character, model = character_of(player), model_of(instrument)
+        parts = tuple(bone.name for bone in instrument_bones(instrument, model))
         for place, named, meshes in (
-            (layout.characters[player.id], skeleton_bones(character.skeleton), character.meshes),
-            (layout.instruments[player.id], instrument_bones(instrument, model), model.meshes),
+            (layout.characters[player.id], character.skeleton.names, character.meshes),
+            (layout.instruments[player.id], parts, model.meshes),
         ):
             if stop_wanted():
                 raise Cancelled("work.stopped")
             file = place.file.as_posix()
-            bones[file] = tuple(bone.name for bone in named)
+            bones[file] = tuple(named)
             check_fbx(sources / file, _expected(request.span, bones[file], meshes))
         done = (index + 1) / len(request.players)
         progress(_SHARES["files"] + _SHARES["sound"] + _SHARES["checks"] * done, player.name)
