@@ -29,7 +29,7 @@ def add_command(commands: Commands) -> None:
     """Declare the sub-command."""
     command = commands.add_parser(
         "export",
-        help="write the players and their instruments as FBX, BVH or GLB",
+        help="write the players and their instruments as FBX, BVH, GLB or USD",
         description="Writes per player a character that plays its part and its instrument, and a report.json that says "
         "what the files hold. Either all files appear or none.",
     )

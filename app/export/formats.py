@@ -8,8 +8,9 @@ from pathlib import Path
 from typing import Final, Literal
 
 from app.formats.scene import Scene
+from app.formats.usd import refuse_without_usd
 
-Format = Literal["fbx", "bvh", "glb"]
+Format = Literal["fbx", "bvh", "glb", "usd"]
 Held = Literal["character", "instrument"]
 
 
@@ -27,12 +28,15 @@ class FileFormat:
         How long a player's files take to write, beside those of the other formats.
     write : callable
         Writes a scene that has a clip.
+    refuse : callable
+        Raises UsageError where what writes this kind of file is not installed.
     """
 
     suffix: str
     holds: tuple[Held, ...]
     work: float
     write: Callable[[Path, Scene], None]
+    refuse: Callable[[], None] = lambda: None
 
 
 # The writers are loaded when something is written: the command line names the formats in its help.
@@ -59,10 +63,17 @@ def _glb(path: Path, scene: Scene) -> None:
     write_glb(path, scene)
 
 
+def _usd(path: Path, scene: Scene) -> None:
+    from app.formats.usd import write_usd
+
+    write_usd(path, scene)
+
+
 FILE_FORMATS: Final[Mapping[Format, FileFormat]] = {
     "fbx": FileFormat(".fbx", ("character", "instrument"), 3.0, _fbx),
     "bvh": FileFormat(".bvh", ("character",), 1.0, _bvh),
     "glb": FileFormat(".glb", ("character", "instrument"), 2.0, _glb),
+    "usd": FileFormat(".usdc", ("character", "instrument"), 2.0, _usd, refuse_without_usd),
 }
 """In the order in which they are written and listed."""
 

@@ -91,6 +91,8 @@ def export(
     ------
     FileError
         ``export.nobody``; ``export.too_long``; ``file.cannot_write``.
+    UsageError
+        ``usd.missing``.
     Cancelled
         ``stop_wanted`` said so.
     """
@@ -98,6 +100,8 @@ def export(
         raise FileError("export.too_long", file=request.source, frames=request.span.count, most=MOST_FRAMES)
     if not request.players:
         raise FileError("export.nobody", file=request.source)
+    for name in request.formats:
+        FILE_FORMATS[name].refuse()
     stems, names = _stems(request.performance), file_names(request.performance, request.formats)
     reports: list[PlayerReport] = []
     torsos: dict[str, FloatArray] = {}

@@ -1,4 +1,4 @@
-"""FBX and BVH files."""
+"""FBX, BVH and USD files."""
 
 from __future__ import annotations
 
@@ -21,4 +21,5 @@ TEMPLATES: Final[dict[str, str]] = {
     "bvh.truncated": "{file} ends too early",
     "bvh.motion": "{file}: the motion does not fit the skeleton ({detail})",
     "bvh.unsupported": "{file}, line {line}: {what} is not supported",
+    "usd.missing": "USD files need the package usd-core, which is not installed: pip install usd-core",
 }

@@ -80,6 +80,14 @@
         <translation>GLB（キャラクターと楽器）</translation>
     </message>
     <message>
+        <source>USD (the package usd-core is missing)</source>
+        <translation>USD（パッケージ usd-core がありません）</translation>
+    </message>
+    <message>
+        <source>USD (characters and instruments)</source>
+        <translation>USD（キャラクターと楽器）</translation>
+    </message>
+    <message>
         <source> beats</source>
         <translation> 拍</translation>
     </message>

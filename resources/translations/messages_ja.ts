@@ -520,6 +520,10 @@
             <translation>{file}、{line} 行目: {what} には対応していません</translation>
         </message>
         <message>
+            <source>USD files need the package usd-core, which is not installed: pip install usd-core</source>
+            <translation>USD ファイルの書き出しにはパッケージ usd-core が必要ですが、インストールされていません: pip install usd-core</translation>
+        </message>
+        <message>
             <source>add a note</source>
             <translation>音符を追加</translation>
         </message>

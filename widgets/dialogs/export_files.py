@@ -48,6 +48,17 @@ _FORMAT_COLUMNS = 2
 _WHOLE, _BARS, _SELECTION = "whole", "bars", "selection"
 
 
+def _missing() -> dict[Format, Message]:
+    """What keeps files of a kind from being written."""
+    missing: dict[Format, Message] = {}
+    for name, kind in FILE_FORMATS.items():
+        try:
+            kind.refuse()
+        except AppError as error:
+            missing[name] = error.message
+    return missing
+
+
 class ExportDialog(QDialog):
     """Writes the players' files; stays usable while it works, and says what was written.
 
@@ -89,10 +100,12 @@ class ExportDialog(QDialog):
         self._everybody.setObjectName("export_everybody")
         self._everybody.setAutoDefault(False)
         self._everybody.clicked.connect(self._toggle_everybody)
+        self._missing = _missing()
         self._formats: dict[Format, QCheckBox] = {name: QCheckBox() for name in FILE_FORMATS}
         for name, box in self._formats.items():
             box.setObjectName(f"export_{name}")
             box.setChecked(name in USUAL_FORMATS)
+            box.setEnabled(name not in self._missing)
         self._range = QComboBox()
         self._range.setObjectName("export_range")
         self._first_bar, self._last_bar = QSpinBox(), QSpinBox()
@@ -310,6 +323,8 @@ class ExportDialog(QDialog):
             *(self._rate, self._folder, self._choose, self._export, *self._formats.values()),
         ):
             widget.setEnabled(enabled)
+        for name in self._missing:
+            self._formats[name].setEnabled(False)
 
     def _toggle_everybody(self) -> None:
         state = Qt.CheckState.Unchecked if len(self.player_ids) == self._players.count() else Qt.CheckState.Checked
@@ -373,6 +388,13 @@ class ExportDialog(QDialog):
         self._formats["fbx"].setText(self.tr("FBX (characters and instruments)"))
         self._formats["bvh"].setText(self.tr("BVH (body motion)"))
         self._formats["glb"].setText(self.tr("GLB (characters and instruments)"))
+        self._formats["usd"].setText(
+            self.tr("USD (the package usd-core is missing)")
+            if "usd" in self._missing
+            else self.tr("USD (characters and instruments)")
+        )
+        for name, message in self._missing.items():
+            self._formats[name].setToolTip(message_text(message))
         self._preroll.setSuffix(self.tr(" beats"))
         choice = self._range.currentData() or _WHOLE
         self._range.blockSignals(True)

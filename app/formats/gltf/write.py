@@ -23,6 +23,7 @@ import pygltflib as gltf
 
 from app.errors import FileError
 from app.formats.atomic import atomic_write
+from app.formats.continuous import continuous
 from app.formats.gltf.primitives import Primitive, primitives
 from app.formats.scene import Clip, FloatArray, IntArray, Material, MorphTarget, Scene, SkinnedMesh, check_scene
 from app.formats.skin import influences
@@ -352,20 +353,6 @@ def _animation(document: _Document, scene: Scene, clip: Clip) -> gltf.Animation:
         if any(morph.name in clip.morph_weights for morph in mesh.morphs):
             weights = _weights(clip, (morph.name for morph in mesh.morphs))
             add(len(scene.bones) + number, "weights", weights, flat=True)
-    return result
-
-
-def continuous(rotations_xyzw: FloatArray) -> npt.NDArray[np.float32]:
-    """Unit quaternions (F, 4) of which none is further from the one before than its opposite would be.
-
-    A rotation has two quaternions; a reader that interpolates the numbers would turn the long way round between two
-    that are far apart.
-    """
-    values = np.asarray(rotations_xyzw, dtype=np.float64)
-    values = values / np.linalg.norm(values, axis=1, keepdims=True)
-    turned = np.einsum("ij,ij->i", values[1:], values[:-1]) < 0
-    signs = np.where(np.logical_xor.accumulate(np.concatenate([[False], turned])), -1.0, 1.0)
-    result: npt.NDArray[np.float32] = (values * signs[:, None]).astype(np.float32)
     return result
 
 

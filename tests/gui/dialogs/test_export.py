@@ -12,6 +12,7 @@ from PySide6.QtWidgets import QCheckBox, QComboBox, QLabel, QPushButton, QSpinBo
 from pytestqt.qtbot import QtBot
 
 from app.export.run import Request, export
+from app.formats import usd
 from app.messages import text
 from app.performance.ensemble import Performance
 from app.performance.span import bars_span
@@ -125,3 +126,35 @@ def test_cancelled_it_leaves_nothing(qt_app: object, qtbot: QtBot, tmp_path: Pat
     qtbot.waitUntil(lambda: not (tmp_path / "out").exists(), timeout=30_000)
     tasks.cancel_all(5.0)
     session.deleteLater()
+
+
+def test_usd_is_greyed_where_it_cannot_be_written(
+    session: Session, qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(usd, "usd_installed", lambda: False)
+    dialog = ExportDialog(session, tmp_path / "out", "quartet.mid", "Suisou test")
+    dialog.show()
+    box = dialog.findChild(QCheckBox, "export_usd")
+    assert box is not None
+    assert not box.isEnabled()
+    assert "usd-core" in box.text()
+    assert "pip install" in box.toolTip()
+    QTest.mouseClick(box, Qt.MouseButton.LeftButton)
+    assert "usd" not in dialog.formats
+    one_player_two_bars(dialog)
+    start(dialog)
+    assert (tmp_path / "out" / "report.json").exists()
+    assert not box.isEnabled()
+
+
+def test_all_kinds_of_file_at_once(dialog: ExportDialog, session: Session, tmp_path: Path) -> None:
+    one_player_two_bars(dialog)
+    for name in ("export_glb", *(["export_usd"] if usd.usd_installed() else [])):
+        box = dialog.findChild(QCheckBox, name)
+        assert box is not None
+        QTest.mouseClick(box, Qt.MouseButton.LeftButton)
+    assert dialog.formats >= {"bvh", "glb"}
+    start(dialog)
+    suffixes = sorted(path.suffix for path in (tmp_path / "out").iterdir())
+    usdc = [".usdc"] * 2 if usd.usd_installed() else []
+    assert suffixes == sorted([".bvh", ".glb", ".glb", ".json", *usdc])

@@ -18,6 +18,7 @@ import pytest
 
 from app.cli import main
 from app.export.playback import Playback
+from app.formats import usd
 from app.formats.bvh import read_bvh
 from app.formats.fbx.read import read_scene
 from app.formats.gltf import read_glb
@@ -188,6 +189,15 @@ def test_several_formats_at_once_and_nothing_to_measure_without_fbx(tmp_path: Pa
     model = read_glb(tmp_path / "out" / "Trumpet 1.glb")
     assert {node.name for node in model.nodes} >= {"root", "hips", "rightIndexDistal"}
     assert set(ARKIT_MORPHS) <= {morph.name for morph in model.meshes[0].primitives[0].morphs}
+
+
+def test_without_usd_core_nothing_is_begun(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(usd, "usd_installed", lambda: False)
+    assert main(["export", str(QUARTET), "--to", str(tmp_path / "out"), "--format", "fbx,usd"]) == 2
+    assert "pip install usd-core" in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()
 
 
 @pytest.mark.parametrize("rate", ["24", "25", "29.97"])

@@ -16,10 +16,12 @@ from app.formats.bvh import write_bvh
 from app.formats.fbx import write_scene
 from app.formats.gltf.write import write_glb
 from app.formats.scene import Scene
+from app.formats.usd import write_usd
 from tests.support.readers import (
     QUICK_BVH,
     QUICK_FBX,
     QUICK_GLB,
+    QUICK_USD,
     SLOW_BVH,
     SLOW_FBX,
     SLOW_GLB,
@@ -172,3 +174,16 @@ def test_glb_by(reader: str, fps: Fraction, make: Callable[[Fraction], Scene], t
     scene = make(fps)
     write_glb(tmp_path / "scene.glb", scene)
     judge(tmp_path / "scene.glb", scenes.expected(scene), [reader])
+
+
+# -------------------------------------------------------------------------------------------------------------- USD
+
+
+@pytest.mark.parametrize("make", [scenes.character, scenes.instrument])
+@pytest.mark.parametrize("fps", RATES + ODD_RATES, ids=_rate_name)
+def test_usd_by_quick_readers(make: Callable[[Fraction], Scene], fps: Fraction, tmp_path: Path) -> None:
+    for reader in QUICK_USD:
+        _needed(reader)
+    scene = make(fps)
+    write_usd(tmp_path / "scene.usdc", scene)
+    judge(tmp_path / "scene.usdc", scenes.expected(scene), QUICK_USD)

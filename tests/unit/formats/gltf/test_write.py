@@ -14,10 +14,11 @@ import pygltflib
 import pytest
 
 from app.errors import FileError
+from app.formats.continuous import continuous
 from app.formats.gltf import GltfModel, GltfPrimitive, decode_gltf
 from app.formats.gltf import write as writer
 from app.formats.gltf.primitives import primitives
-from app.formats.gltf.write import continuous, encode_glb, write_glb
+from app.formats.gltf.write import encode_glb, write_glb
 from app.formats.scene import MorphTarget, Scene, SkinnedMesh
 from app.formats.skin import influences
 from tests.unit.formats import scenes

@@ -1,0 +1,345 @@
+"""Scene -> OpenUSD file: a SkelRoot with its skeleton, skinned meshes, blend shapes and their animation.
+
+Centimetres (``metersPerUnit`` 0.01), Y up, facing +Z; time code n is frame n. Names that USD does not allow for a prim
+are made valid, and stay whole as the prim's display name, in the skeleton's ``jointNames`` and in the blend shapes'
+tokens. The package usd-core (module ``pxr``) is loaded here and nowhere else, when a file is written; it is optional.
+
+Source: OpenUSD documentation, "UsdSkel: Skeleton Schema", "UsdPreviewSurface Specification", "UsdMedia".
+
+Message: ``usd.missing``: "USD files need the package usd-core, which is not installed: pip install usd-core".
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import os
+import shutil
+import tempfile
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from app.errors import FileError, UsageError
+from app.formats.atomic import atomic_write
+from app.formats.continuous import continuous
+from app.formats.euler import matrices
+from app.formats.scene import Clip, Material, MorphTarget, Scene, SkinnedMesh, check_scene
+from app.formats.skin import influences
+
+METERS_PER_UNIT = 0.01
+
+
+@dataclass(frozen=True)
+class Sound:
+    """A sound file beside the USD file.
+
+    Attributes
+    ----------
+    file : str
+        Its name, or its path from the USD file's folder, with slashes.
+    start_s : float
+        When it begins, counted from frame 0; below zero it has begun before.
+    """
+
+    file: str
+    start_s: float
+
+
+def usd_installed() -> bool:
+    """Whether USD files can be written."""
+    return importlib.util.find_spec("pxr") is not None
+
+
+def refuse_without_usd() -> None:
+    """Raise UsageError (``usd.missing``) where USD files cannot be written."""
+    if not usd_installed():
+        raise UsageError("usd.missing")
+
+
+def write_usd(path: str | os.PathLike[str], scene: Scene, sound: Sound | None = None) -> None:
+    """Write a scene as a USD file, whole or not at all; the same scene always gives the same bytes.
+
+    Parameters
+    ----------
+    path : str or path-like
+        ``.usdc`` (binary) or ``.usda`` (text).
+    scene : Scene
+    sound : Sound, optional
+        Played along.
+
+    Raises
+    ------
+    FileError
+        ``file.cannot_write``.
+    UsageError
+        ``usd.missing``.
+    ValueError
+        If the scene contradicts itself.
+    """
+    refuse_without_usd()
+    check_scene(scene)
+    # Since 2020 all of USD reads this version of its binary files; a sound's time needs it, and without being told USD
+    # complains on the terminal that it must use it.
+    os.environ.setdefault("USD_WRITE_NEW_USDC_FILES_AS_VERSION", "0.9.0")
+    from pxr import Tf
+
+    layer = _Writer(scene).layer(sound)
+    try:
+        # USD writes files of its own only.
+        with tempfile.TemporaryDirectory() as folder:
+            made = Path(folder) / f"scene{Path(path).suffix}"
+            layer.Export(str(made))
+            with made.open("rb") as content, atomic_write(path) as stream:
+                shutil.copyfileobj(content, stream)
+    except (OSError, Tf.ErrorException) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise FileError("file.cannot_write", file=os.fspath(path), reason=reason) from error
+
+
+class _Writer:
+    """Puts the stage of a scene together."""
+
+    def __init__(self, scene: Scene) -> None:
+        from pxr import Sdf, Usd, UsdGeom
+
+        self._scene = scene
+        self._layer: Any = Sdf.Layer.CreateAnonymous(".usda")
+        self._layer.comment = scene.creator
+        self._stage: Any = Usd.Stage.Open(self._layer)
+        UsdGeom.SetStageMetersPerUnit(self._stage, METERS_PER_UNIT)
+        UsdGeom.SetStageUpAxis(self._stage, UsdGeom.Tokens.y)
+
+    def layer(self, sound: Sound | None) -> Any:
+        """The whole file."""
+        from pxr import Kind, Usd, UsdSkel
+
+        scene, clip = self._scene, self._scene.clip
+        name = clip.name if clip is not None else scene.bones[0].name
+        (root_name,) = _identifiers([name], set())
+        root = UsdSkel.Root.Define(self._stage, f"/{root_name}")
+        root.GetPrim().SetDisplayName(name)
+        Usd.ModelAPI(root.GetPrim()).SetKind(Kind.Tokens.component)
+        self._stage.SetDefaultPrim(root.GetPrim())
+        # The names of our own prims come first, so that a mesh cannot have one of them.
+        taken = {"Skeleton", "Motion", "Materials", "Sound"}
+        mesh_names = _identifiers([mesh.name for mesh in scene.meshes], taken)
+        joints = self._joint_paths()
+        skeleton = self._skeleton(f"/{root_name}/Skeleton", joints)
+        materials = self._materials(f"/{root_name}/Materials")
+        for mesh, mesh_name in zip(scene.meshes, mesh_names, strict=True):
+            self._mesh(f"/{root_name}/{mesh_name}", mesh, skeleton, materials)
+        if clip is not None:
+            self._motion(f"/{root_name}/Motion", clip, joints, skeleton)
+            if sound is not None:
+                self._sound(f"/{root_name}/Sound", clip, sound)
+        return self._layer
+
+    def _joint_paths(self) -> list[str]:
+        """USD tells joints apart by paths: a name below its parent's path."""
+        names = _identifiers([bone.name for bone in self._scene.bones], set())
+        paths: list[str] = []
+        for bone, name in zip(self._scene.bones, names, strict=True):
+            paths.append(name if bone.parent < 0 else f"{paths[bone.parent]}/{name}")
+        return paths
+
+    def _skeleton(self, path: str, joints: list[str]) -> Any:
+        from pxr import UsdSkel, Vt
+
+        bones = self._scene.bones
+        skeleton = UsdSkel.Skeleton.Define(self._stage, path)
+        skeleton.CreateJointsAttr(joints)
+        skeleton.CreateJointNamesAttr([bone.name for bone in bones])
+        rest = np.stack([_matrix(bone.translation_cm, bone.rotation_xyzw) for bone in bones])
+        if self._scene.meshes:
+            bind = np.asarray(self._scene.meshes[0].world_from_bone_bind, dtype=np.float64)
+        else:
+            bind = rest.copy()
+            for index, bone in enumerate(bones):
+                bind[index] = bind[index] if bone.parent < 0 else bind[bone.parent] @ rest[index]
+        # USD's matrices act on row vectors.
+        skeleton.CreateRestTransformsAttr(Vt.Matrix4dArray.FromNumpy(_rows(rest)))
+        skeleton.CreateBindTransformsAttr(Vt.Matrix4dArray.FromNumpy(_rows(bind)))
+        return skeleton
+
+    # ------------------------------------------------------------------------------------------------------- surfaces
+
+    def _materials(self, path: str) -> dict[Material, Any]:
+        """A preview surface for every material of the scene."""
+        from pxr import Gf, Sdf, UsdGeom, UsdShade
+
+        surfaces = list(dict.fromkeys(material for mesh in self._scene.meshes for material in mesh.materials))
+        result: dict[Material, Any] = {}
+        if not surfaces:
+            return result
+        UsdGeom.Scope.Define(self._stage, path)
+        for surface, name in zip(surfaces, _identifiers([one.name for one in surfaces], set()), strict=True):
+            material = UsdShade.Material.Define(self._stage, f"{path}/{name}")
+            material.GetPrim().SetDisplayName(surface.name)
+            shader = UsdShade.Shader.Define(self._stage, f"{path}/{name}/Surface")
+            shader.CreateIdAttr("UsdPreviewSurface")
+            color = Gf.Vec3f(*surface.base_color[:3])
+            shader.CreateInput("diffuseColor", Sdf.ValueTypeNames.Color3f).Set(color)
+            for number, value in (
+                ("metallic", surface.metallic),
+                ("roughness", surface.roughness),
+                ("opacity", surface.base_color[3]),
+            ):
+                shader.CreateInput(number, Sdf.ValueTypeNames.Float).Set(float(value))
+            material.CreateSurfaceOutput().ConnectToSource(shader.ConnectableAPI(), "surface")
+            result[surface] = material
+        return result
+
+    def _mesh(self, path: str, mesh: SkinnedMesh, skeleton: Any, materials: dict[Material, Any]) -> None:
+        from pxr import Gf, Sdf, UsdGeom, UsdSkel, Vt
+
+        made = UsdGeom.Mesh.Define(self._stage, path)
+        made.GetPrim().SetDisplayName(mesh.name)
+        points = np.ascontiguousarray(mesh.vertices_cm, dtype=np.float32)
+        made.CreatePointsAttr(Vt.Vec3fArray.FromNumpy(points))
+        made.CreateExtentAttr(Vt.Vec3fArray.FromNumpy(np.stack([points.min(axis=0), points.max(axis=0)])))
+        made.CreateFaceVertexCountsAttr(_integers(np.full(len(mesh.faces), mesh.faces.shape[1])))
+        made.CreateFaceVertexIndicesAttr(_integers(mesh.faces.ravel()))
+        # Polygons as they are, not the cage of a smooth surface.
+        made.CreateSubdivisionSchemeAttr(UsdGeom.Tokens.none)
+        made.CreateNormalsAttr(Vt.Vec3fArray.FromNumpy(np.ascontiguousarray(mesh.normals, dtype=np.float32)))
+        made.SetNormalsInterpolation(_interpolation(mesh, mesh.normals))
+        made.CreateDoubleSidedAttr(any(material.double_sided for material in mesh.materials))
+        primvars = UsdGeom.PrimvarsAPI(made.GetPrim())
+        if mesh.uvs is not None:
+            uvs = Vt.Vec2fArray.FromNumpy(np.ascontiguousarray(mesh.uvs, dtype=np.float32))
+            interpolation = _interpolation(mesh, mesh.uvs)
+            primvars.CreatePrimvar("st", Sdf.ValueTypeNames.TexCoord2fArray, interpolation).Set(uvs)
+        self._bind_materials(made, mesh, materials)
+
+        joints, weights = influences(mesh)
+        binding = UsdSkel.BindingAPI.Apply(made.GetPrim())
+        binding.CreateSkeletonRel().SetTargets([skeleton.GetPath()])
+        binding.CreateGeomBindTransformAttr(Gf.Matrix4d(1.0))
+        binding.CreateJointIndicesPrimvar(False, joints.shape[1]).Set(_integers(joints.ravel()))
+        numbers = np.ascontiguousarray(weights, dtype=np.float32).ravel()
+        binding.CreateJointWeightsPrimvar(False, weights.shape[1]).Set(Vt.FloatArray.FromNumpy(numbers))
+        if mesh.morphs:
+            self._blend_shapes(path, mesh.morphs, binding)
+
+    def _bind_materials(self, made: Any, mesh: SkinnedMesh, materials: dict[Material, Any]) -> None:
+        from pxr import UsdGeom, UsdShade
+
+        binding = UsdShade.MaterialBindingAPI.Apply(made.GetPrim())
+        if mesh.face_materials is None or len(mesh.materials) == 1:
+            binding.Bind(materials[mesh.materials[0]])
+            return
+        for number, material in enumerate(mesh.materials):
+            faces = np.flatnonzero(mesh.face_materials == number)
+            name = materials[material].GetPath().name
+            subset = binding.CreateMaterialBindSubset(name, _integers(faces), UsdGeom.Tokens.face)
+            UsdShade.MaterialBindingAPI.Apply(subset.GetPrim()).Bind(materials[material])
+        binding.SetMaterialBindSubsetsFamilyType(UsdGeom.Tokens.partition)
+
+    def _blend_shapes(self, path: str, morphs: tuple[MorphTarget, ...], binding: Any) -> None:
+        from pxr import UsdSkel, Vt
+
+        subsets = {child.GetName() for child in self._stage.GetPrimAtPath(path).GetChildren()}
+        targets = []
+        for morph, name in zip(morphs, _identifiers([morph.name for morph in morphs], subsets), strict=True):
+            shape = UsdSkel.BlendShape.Define(self._stage, f"{path}/{name}")
+            shape.GetPrim().SetDisplayName(morph.name)
+            offsets = np.ascontiguousarray(morph.position_deltas_cm, dtype=np.float32)
+            normals = np.zeros_like(offsets) if morph.normal_deltas is None else morph.normal_deltas
+            shape.CreateOffsetsAttr(Vt.Vec3fArray.FromNumpy(offsets))
+            shape.CreateNormalOffsetsAttr(Vt.Vec3fArray.FromNumpy(np.ascontiguousarray(normals, dtype=np.float32)))
+            shape.CreatePointIndicesAttr(_integers(morph.vertex_indices))
+            targets.append(shape.GetPath())
+        binding.CreateBlendShapesAttr([morph.name for morph in morphs])
+        binding.CreateBlendShapeTargetsRel().SetTargets(targets)
+
+    # ---------------------------------------------------------------------------------------------- motion and sound
+
+    def _motion(self, path: str, clip: Clip, joints: list[str], skeleton: Any) -> None:
+        from pxr import UsdSkel, Vt
+
+        stage = self._stage
+        stage.SetTimeCodesPerSecond(float(clip.fps))
+        stage.SetFramesPerSecond(float(clip.fps))
+        stage.SetStartTimeCode(0)
+        stage.SetEndTimeCode(clip.frames - 1)
+        motion = UsdSkel.Animation.Define(stage, path)
+        motion.GetPrim().SetDisplayName(clip.name)
+        motion.CreateJointsAttr(joints)
+        motion.CreateScalesAttr(Vt.Vec3hArray.FromNumpy(np.ones((len(joints), 3), dtype=np.float16)))
+
+        rotations = continuous(clip.rotations_xyzw)
+        attribute = motion.CreateRotationsAttr().GetPath()
+        for frame in range(clip.frames):
+            self._layer.SetTimeSample(attribute, frame, Vt.QuatfArray.FromNumpy(rotations[frame]))
+
+        places = np.stack([bone.translation_cm for bone in self._scene.bones]).astype(np.float32)
+        translations = motion.CreateTranslationsAttr(None if clip.translations_cm else Vt.Vec3fArray.FromNumpy(places))
+        if clip.translations_cm:
+            moved = {bone: np.asarray(values, dtype=np.float32) for bone, values in clip.translations_cm.items()}
+            for frame in range(clip.frames):
+                for bone, values in moved.items():
+                    places[bone] = values[frame]
+                self._layer.SetTimeSample(translations.GetPath(), frame, Vt.Vec3fArray.FromNumpy(places))
+
+        if clip.morph_weights:
+            motion.CreateBlendShapesAttr(list(clip.morph_weights))
+            weights = np.stack(list(clip.morph_weights.values()), axis=1).astype(np.float32)
+            attribute = motion.CreateBlendShapeWeightsAttr().GetPath()
+            for frame in range(clip.frames):
+                self._layer.SetTimeSample(attribute, frame, Vt.FloatArray.FromNumpy(weights[frame]))
+        binding = UsdSkel.BindingAPI.Apply(skeleton.GetPrim())
+        binding.CreateAnimationSourceRel().SetTargets([motion.GetPath()])
+
+    def _sound(self, path: str, clip: Clip, sound: Sound) -> None:
+        from pxr import Sdf, UsdMedia
+
+        made = UsdMedia.SpatialAudio.Define(self._stage, path)
+        made.CreateFilePathAttr(Sdf.AssetPath(f"./{sound.file}"))
+        made.CreateAuralModeAttr(UsdMedia.Tokens.nonSpatial)
+        made.CreatePlaybackModeAttr(UsdMedia.Tokens.onceFromStart)
+        made.CreateStartTimeAttr(Sdf.TimeCode(max(sound.start_s, 0.0) * float(clip.fps)))
+        made.CreateMediaOffsetAttr(max(-sound.start_s, 0.0))
+
+
+def _identifiers(names: Iterable[str], taken: set[str]) -> list[str]:
+    """Valid names of prims, different from each other and from those taken, however they are written."""
+    from pxr import Sdf, Tf
+
+    used = {name.casefold() for name in taken}
+    result = []
+    for name in names:
+        valid = name if Sdf.Path.IsValidIdentifier(name) else Tf.MakeValidIdentifier(name)
+        unique, number = valid, 1
+        while unique.casefold() in used:
+            number += 1
+            unique = f"{valid}_{number}"
+        used.add(unique.casefold())
+        result.append(unique)
+    return result
+
+
+def _matrix(translation: npt.NDArray[np.floating], rotation_xyzw: npt.NDArray[np.floating]) -> npt.NDArray[np.float64]:
+    result = np.eye(4)
+    result[:3, :3] = matrices(rotation_xyzw)
+    result[:3, 3] = translation
+    return result
+
+
+def _rows(values: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+    return np.ascontiguousarray(values.transpose(0, 2, 1))
+
+
+def _integers(values: npt.NDArray[np.integer]) -> Any:
+    from pxr import Vt
+
+    return Vt.IntArray.FromNumpy(np.ascontiguousarray(values, dtype=np.int32))
+
+
+def _interpolation(mesh: SkinnedMesh, values: npt.NDArray[np.floating]) -> Any:
+    from pxr import UsdGeom
+
+    return UsdGeom.Tokens.vertex if len(values) == len(mesh.vertices_cm) else UsdGeom.Tokens.faceVarying

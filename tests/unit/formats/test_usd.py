@@ -1,0 +1,194 @@
+"""Scenes as USD: valid to OpenUSD's own validators, and deformed by its own skinning to where we mean."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from app.errors import FileError, UsageError
+from app.formats import usd
+from app.formats.scene import Scene
+from app.formats.usd import Sound, usd_installed, write_usd
+from app.messages import text
+from tests.unit.export.scenes import random_scene, slow_positions_m
+from tests.unit.formats import scenes
+
+needs_usd = pytest.mark.skipif(not usd_installed(), reason="usd-core is not installed")
+
+
+def _stage(path: Path, scene: Scene, sound: Sound | None = None) -> Any:
+    from pxr import Usd
+
+    write_usd(path, scene, sound)
+    return Usd.Stage.Open(str(path))
+
+
+def _skinned_cm(stage: Any, mesh_path: str, frame: int) -> np.ndarray:
+    """Points of a mesh as USD deforms them: blend shapes, then the skeleton."""
+    from pxr import Usd, UsdGeom, UsdSkel, Vt
+
+    root = UsdSkel.Root(stage.GetDefaultPrim())
+    cache = UsdSkel.Cache()
+    cache.Populate(root, Usd.TraverseInstanceProxies())
+    prim = stage.GetPrimAtPath(mesh_path)
+    query = cache.GetSkinningQuery(prim)
+    skeleton = cache.GetSkelQuery(UsdSkel.BindingAPI(prim).GetInheritedSkeleton())
+    points = Vt.Vec3fArray(UsdGeom.Mesh(prim).GetPointsAttr().Get())
+    if query.HasBlendShapes():
+        shapes = UsdSkel.BlendShapeQuery(UsdSkel.BindingAPI(prim))
+        animation = skeleton.GetAnimQuery()
+        weights = query.GetBlendShapeMapper().Remap(animation.ComputeBlendShapeWeights(frame), Vt.FloatArray())
+        of_shapes = shapes.ComputeSubShapeWeights(weights)
+        indices, offsets = shapes.ComputeBlendShapePointIndices(), shapes.ComputeSubShapePointOffsets()
+        assert shapes.ComputeDeformedPoints(*of_shapes, indices, offsets, points)
+    transforms = skeleton.ComputeSkinningTransforms(frame)
+    assert query.ComputeSkinnedPoints(transforms, points, frame)
+    return np.array(points)
+
+
+@needs_usd
+@pytest.mark.parametrize("seed", range(3))
+def test_usd_deforms_the_mesh_as_meant(seed: int, tmp_path: Path) -> None:
+    scene = random_scene(seed)
+    stage = _stage(tmp_path / "scene.usdc", scene)
+    for frame in (0, 3, 6):
+        found_m = _skinned_cm(stage, "/clip/cloud", frame) * 0.01
+        np.testing.assert_allclose(found_m, slow_positions_m(scene, frame), atol=1e-6)
+
+
+@needs_usd
+@pytest.mark.parametrize("make", [scenes.character, scenes.instrument])
+def test_the_validators_find_nothing(make: Any, tmp_path: Path) -> None:
+    validation = pytest.importorskip("pxr.UsdValidation")
+    (tmp_path / "song.wav").write_bytes(b"")
+    stage = _stage(tmp_path / "scene.usdc", make(Fraction(24)), Sound("song.wav", 1.0))
+    validators = validation.ValidationRegistry().GetOrLoadAllValidators()
+    assert len(validators) > 10
+    errors = validation.ValidationContext(validators).Validate(stage)
+    assert [f"{error.GetName()}: {error.GetMessage()}" for error in errors] == []
+
+
+@needs_usd
+def test_what_the_stage_says(tmp_path: Path) -> None:
+    from pxr import UsdGeom, UsdShade, UsdSkel
+
+    scene = scenes.character(Fraction(30000, 1001), frames=31)
+    stage = _stage(tmp_path / "scene.usdc", scene)
+    assert UsdGeom.GetStageMetersPerUnit(stage) == 0.01
+    assert UsdGeom.GetStageUpAxis(stage) == "Y"
+    assert (stage.GetStartTimeCode(), stage.GetEndTimeCode()) == (0.0, 30.0)
+    assert stage.GetTimeCodesPerSecond() == stage.GetFramesPerSecond() == 30000 / 1001
+    motion = UsdSkel.Animation.Get(stage, "/Performance/Motion")
+    for attribute in (motion.GetRotationsAttr(), motion.GetTranslationsAttr(), motion.GetBlendShapeWeightsAttr()):
+        assert attribute.GetTimeSamples() == list(map(float, range(31)))
+    body = stage.GetPrimAtPath("/Performance/Body")
+    subsets = UsdShade.MaterialBindingAPI(body).GetMaterialBindSubsets()
+    mesh = scene.meshes[0]
+    assert mesh.face_materials is not None
+    for number, subset in enumerate(subsets):
+        np.testing.assert_array_equal(subset.GetIndicesAttr().Get(), np.flatnonzero(mesh.face_materials == number))
+        material, _ = UsdShade.MaterialBindingAPI(subset.GetPrim()).ComputeBoundMaterial()
+        shader, *_ = material.ComputeSurfaceSource()
+        given = mesh.materials[number]
+        assert tuple(shader.GetInput("diffuseColor").Get()) == pytest.approx(given.base_color[:3])
+        for name, value in (
+            ("metallic", given.metallic),
+            ("roughness", given.roughness),
+            ("opacity", given.base_color[3]),
+        ):
+            assert shader.GetInput(name).Get() == pytest.approx(value)
+
+
+@needs_usd
+def test_names_stay_whole_where_usd_allows_other_ones_only(tmp_path: Path) -> None:
+    from pxr import UsdSkel
+
+    scene = scenes.character(Fraction(24), frames=3)
+    assert scene.clip is not None
+    bones = list(scene.bones)
+    bones[1], bones[2] = replace(bones[1], name="mixamorig:Hips"), replace(bones[2], name="mixamorig Hips")
+    mesh = replace(scene.meshes[0], name="Skeleton")
+    morphs = tuple(replace(morph, name=name) for morph, name in zip(mesh.morphs, ("Body_front", "あ!"), strict=True))
+    odd = replace(
+        scene,
+        bones=tuple(bones),
+        meshes=(replace(mesh, morphs=morphs),),
+        clip=replace(scene.clip, name="Trumpet 1 / B♭ 🎺", morph_weights={"あ!": np.array([0.0, 0.5, 1.0])}),
+    )
+    stage = _stage(tmp_path / "scene.usdc", odd)
+    root = stage.GetDefaultPrim()
+    assert root.GetDisplayName() == "Trumpet 1 / B♭ 🎺"
+    skeleton = UsdSkel.Skeleton(root.GetChild("Skeleton"))
+    assert list(skeleton.GetJointNamesAttr().Get()) == [bone.name for bone in bones]
+    joints = list(skeleton.GetJointsAttr().Get())
+    assert joints[:3] == ["root", "root/mixamorig_Hips", "root/mixamorig_Hips/mixamorig_Hips_2"]
+    valid, reason = UsdSkel.Topology(skeleton.GetJointsAttr().Get()).Validate()
+    assert valid, reason
+    renamed = root.GetChild("Skeleton_2")
+    assert renamed.GetDisplayName() == "Skeleton"
+    binding = UsdSkel.BindingAPI(renamed)
+    assert list(binding.GetBlendShapesAttr().Get()) == ["Body_front", "あ!"]
+    assert len(binding.GetBlendShapeTargetsRel().GetTargets()) == 2
+    assert _skinned_cm(stage, str(renamed.GetPath()), 1).shape == mesh.vertices_cm.shape
+
+
+@needs_usd
+@pytest.mark.parametrize("start_s", [1.5, -1.5])
+def test_the_sound_plays_along(start_s: float, tmp_path: Path) -> None:
+    from pxr import UsdMedia
+
+    (tmp_path / "song one.wav").write_bytes(b"")
+    stage = _stage(tmp_path / "scene.usdc", scenes.instrument(Fraction(24)), Sound("song one.wav", start_s))
+    sound = UsdMedia.SpatialAudio(stage.GetDefaultPrim().GetChild("Sound"))
+    assert sound.GetFilePathAttr().Get().path == "./song one.wav"
+    assert Path(sound.GetFilePathAttr().Get().resolvedPath) == tmp_path / "song one.wav"
+    assert sound.GetStartTimeAttr().Get().GetValue() == max(start_s, 0) * 24
+    assert sound.GetMediaOffsetAttr().Get() == max(-start_s, 0)
+    assert sound.GetAuralModeAttr().Get() == "nonSpatial"
+    assert sound.GetPlaybackModeAttr().Get() == "onceFromStart"
+
+
+@needs_usd
+def test_the_same_scene_gives_the_same_bytes_and_text_says_the_same(tmp_path: Path) -> None:
+    for name in ("one.usdc", "two.usdc"):
+        write_usd(tmp_path / name, scenes.character(Fraction(25)))
+    assert (tmp_path / "one.usdc").read_bytes() == (tmp_path / "two.usdc").read_bytes()
+    write_usd(tmp_path / "text.usda", scenes.character(Fraction(25)))
+    assert (tmp_path / "text.usda").read_text(encoding="utf-8").startswith("#usda 1.0")
+
+
+@needs_usd
+def test_a_still_scene_and_a_bare_skeleton(tmp_path: Path) -> None:
+    from pxr import UsdSkel
+
+    scene = scenes.character(Fraction(24))
+    still = _stage(tmp_path / "still.usdc", replace(scene, clip=None), Sound("song.wav", 0.0))
+    assert [child.GetName() for child in still.GetDefaultPrim().GetChildren()] == [
+        "Skeleton", "Materials", "Body", "Teeth", "Shirt",
+    ]  # fmt: skip
+    bare = _stage(tmp_path / "bare.usdc", replace(scene, clip=None, meshes=()))
+    binds = UsdSkel.Skeleton(bare.GetDefaultPrim().GetChild("Skeleton")).GetBindTransformsAttr().Get()
+    offsets = np.array([bone.translation_cm for bone in scene.bones])
+    rotations = np.array([bone.rotation_xyzw for bone in scene.bones])
+    world = scenes.world_from_bones(scene.bones, offsets[None], rotations[None])[0]
+    np.testing.assert_allclose(np.array(binds).transpose(0, 2, 1), world, atol=1e-12)
+
+
+@needs_usd
+def test_a_folder_that_is_not_there_is_told(tmp_path: Path) -> None:
+    with pytest.raises(FileError) as told:
+        write_usd(tmp_path / "nowhere" / "scene.usdc", scenes.instrument(Fraction(24)))
+    assert told.value.message.id == "file.cannot_write"
+
+
+def test_without_usd_core_the_remedy_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(usd.importlib.util, "find_spec", lambda name: None)
+    with pytest.raises(UsageError) as told:
+        write_usd(tmp_path / "scene.usdc", scenes.instrument(Fraction(24)))
+    assert "pip install usd-core" in text(told.value.message)
+    assert not list(tmp_path.iterdir())
