@@ -224,6 +224,119 @@ def test_lanes_are_put_in_another_order(lane: TakesLane) -> None:
     assert [row.take_id for row in lane.rows] == [BEFORE, "take:1", "take:2"]
 
 
+def edge_at(lane: TakesLane, beat: float, row: int | None = None) -> QPointF:
+    """A place on an edge of the comp: in a row, or in the strip above."""
+    at = place(lane, beat, row or 0)
+    return at if row is not None else QPointF(at.x(), 12.0)
+
+
+def drag_edge(lane: TakesLane, beat: float, to: float, row: int | None = None, **more: object) -> None:
+    start, end = edge_at(lane, beat, row), edge_at(lane, to, row)
+    drag(lane, start, dx=end.x() - start.x(), **more)  # type: ignore[arg-type]
+
+
+def test_an_edge_of_the_comp_is_dragged_in_one_step(lane: TakesLane) -> None:
+    swipe(lane, 2, 5, 1)
+    swipe(lane, 5, 7, 2)
+    drag_edge(lane, 5, 3)
+    assert comp(lane) == [(2.0, 3.0, "take:1"), (3.0, 7.0, "take:2")]
+    assert pitches(lane) == [60, 62, 52, 73, 74, 75, 76, 72]
+    assert lane.session.selection == Selection(span=(3 * TPQ, 7 * TPQ), take="take:2")
+    drag_edge(lane, 3, 6, 1)
+    assert comp(lane) == [(2.0, 6.0, "take:1"), (6.0, 7.0, "take:2")]
+    assert steps(lane) == ["edit.comp"] * 4
+    lane.session.document.undo()
+    lane.session.document.undo()
+    assert comp(lane) == [(2.0, 5.0, "take:1"), (5.0, 7.0, "take:2")]
+
+
+def test_an_edge_to_what_was_before_gives_it_back(lane: TakesLane) -> None:
+    swipe(lane, 2, 5, 1)
+    drag_edge(lane, 2, 4)
+    assert comp(lane) == [(4.0, 5.0, "take:1")]
+    assert pitches(lane) == [60, 62, 64, 65, 54, 69, 71, 72]
+    drag_edge(lane, 5, 7.4, modifiers=ALT)
+    ((start, end, _),) = comp(lane)
+    assert (start, end) == (4.0, pytest.approx(7.4, abs=0.02))
+    assert steps(lane) == ["edit.comp", "edit.comp_before", "edit.comp"]
+
+
+def test_an_edge_goes_no_further_than_the_next_and_leaves_no_empty_span(lane: TakesLane) -> None:
+    swipe(lane, 2, 4, 1)
+    swipe(lane, 4, 6, 2)
+    drag_edge(lane, 4, 7)
+    assert comp(lane) == [(2.0, 6.0, "take:1")]
+
+
+def test_escape_ends_the_drag_of_an_edge_and_a_return_is_no_step(lane: TakesLane) -> None:
+    swipe(lane, 2, 5, 1)
+    drag_edge(lane, 5, 3, release=False)
+    assert [(span.start_tick, span.end_tick) for span in lane.shown_comp()] == [(2 * TPQ, 3 * TPQ)]
+    QTest.keyClick(lane.plot, Qt.Key.Key_Escape)
+    assert lane.shown_comp() == lane.comp
+    QTest.mouseRelease(lane.plot, Qt.MouseButton.LeftButton, pos=edge_at(lane, 3).toPoint())
+    drag_edge(lane, 5, 3, release=False)
+    move_to(lane.plot, edge_at(lane, 5).toPoint(), Qt.KeyboardModifier.NoModifier)
+    QTest.mouseRelease(lane.plot, Qt.MouseButton.LeftButton, pos=edge_at(lane, 5).toPoint())
+    assert (comp(lane), steps(lane)) == ([(2.0, 5.0, "take:1")], ["edit.comp"])
+
+
+def test_an_edge_shows_that_it_can_be_dragged(lane: TakesLane) -> None:
+    swipe(lane, 2, 5, 1)
+    for row, beat, shape in (
+        (None, 2, Qt.CursorShape.SplitHCursor),
+        (1, 5, Qt.CursorShape.SplitHCursor),
+        (0, 5, Qt.CursorShape.SplitHCursor),
+        (2, 5, Qt.CursorShape.IBeamCursor),
+        (1, 3, Qt.CursorShape.IBeamCursor),
+    ):
+        hover(lane, edge_at(lane, beat, row))
+        assert lane.plot.cursor().shape() == shape, (row, beat)
+
+
+def test_a_click_on_an_edge_selects(lane: TakesLane) -> None:
+    swipe(lane, 2, 5, 1)
+    lane.session.select(Selection())
+    at = edge_at(lane, 5) - QPointF(2.0, 0.0)
+    click(lane, at)
+    assert lane.session.selection == Selection(span=(2 * TPQ, 5 * TPQ), take="take:1")
+    assert steps(lane) == ["edit.comp"]
+
+
+def head(lane: TakesLane, row: float) -> QPoint:
+    """A place on a take's head; with halves, between two."""
+    return QPoint(40, round(lane.row_rect(0).top() + (row + 0.5) * lane.row_px - 26))
+
+
+def drag_head(lane: TakesLane, row: int, to: float, *, release: bool = True) -> None:
+    start, end = head(lane, row), head(lane, to)
+    QTest.mousePress(lane.heads, Qt.MouseButton.LeftButton, pos=start)
+    for step in range(1, 7):
+        move_to(lane.heads, start + (end - start) * step / 6, Qt.KeyboardModifier.NoModifier)
+    if release:
+        QTest.mouseRelease(lane.heads, Qt.MouseButton.LeftButton, pos=end)
+
+
+def test_a_head_is_dragged_to_another_place(lane: TakesLane) -> None:
+    def order() -> list[str]:
+        return [row.take_id for row in lane.rows]
+
+    drag_head(lane, 2, 0.8)
+    assert order() == [BEFORE, "take:2", "take:1"]
+    drag_head(lane, 1, 2.9)
+    assert order() == [BEFORE, "take:1", "take:2"]
+    assert steps(lane) == ["edit.move_take"] * 2
+    # What was before the first take stays above, and a lane that returns was not moved.
+    drag_head(lane, 0, 2.9)
+    drag_head(lane, 1, 1.2)
+    drag_head(lane, 2, -0.4, release=False)
+    assert lane.heads.dropped_before == 1
+    QTest.keyClick(lane.plot, Qt.Key.Key_Escape)
+    assert lane.heads.dropped_before is None
+    QTest.mouseRelease(lane.heads, Qt.MouseButton.LeftButton, pos=head(lane, -0.4))
+    assert (order(), steps(lane)) == ([BEFORE, "take:1", "take:2"], ["edit.move_take"] * 2)
+
+
 def test_the_menu_is_of_the_row_that_was_clicked(lane: TakesLane) -> None:
     QTest.mouseClick(lane.plot, Qt.MouseButton.RightButton, pos=place(lane, 3, 2).toPoint())
     popup = QApplication.activePopupWidget()

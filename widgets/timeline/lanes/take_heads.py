@@ -1,4 +1,5 @@
-"""The heads of the takes: colour, name and when it was played; a click selects, a double click takes the whole."""
+"""The heads of the takes: colour, name and when it was played; a click selects, a double click takes the whole, a drag
+puts the lane elsewhere."""
 
 from __future__ import annotations
 
@@ -31,6 +32,7 @@ if TYPE_CHECKING:
 
 BAR_PX: Final = 5.0
 BUTTON_PX: Final = 24.0
+DRAG_PX: Final = 6.0
 
 
 class TakeHeads(QWidget):
@@ -39,6 +41,11 @@ class TakeHeads(QWidget):
     Parameters
     ----------
     lane : TakesLane
+
+    Attributes
+    ----------
+    dropped_before : int or None
+        While a head is dragged: the number of the row before which its lane would lie.
     """
 
     def __init__(self, lane: TakesLane) -> None:
@@ -46,6 +53,8 @@ class TakeHeads(QWidget):
         self.setObjectName("take_heads")
         self._lane = lane
         self._hovered: str | None = None
+        self.dropped_before: int | None = None
+        self._pressed: tuple[str, float] | None = None
         self._field: QLineEdit | None = None
         self._typed_id = BEFORE
         self.setMouseTracking(True)
@@ -158,6 +167,10 @@ class TakeHeads(QWidget):
             painter.setPen(QPen(QColor(tokens.line), 1.0))
             bottom = round(box.bottom()) - 0.5
             painter.drawLine(QLineF(0.0, bottom, self.width(), bottom))
+        if self.dropped_before is not None:
+            top = self._row_box(self.dropped_before).top()
+            painter.setPen(QPen(QColor(tokens.accent), 2.0))
+            painter.drawLine(QLineF(0.0, top, self.width(), top))
 
     def _paint_words(self, painter: QPainter, row: TakeRow, room: QRectF) -> None:
         tokens = self._lane.session.tokens
@@ -199,6 +212,9 @@ class TakeHeads(QWidget):
         return super().event(event)
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:
+        if self._pressed is not None:
+            self._drag(event.position().y())
+            return
         row = self._row_at(event.position().y())
         hovered = row.take_id if row is not None else None
         if hovered != self._hovered:
@@ -219,6 +235,33 @@ class TakeHeads(QWidget):
         lane.choose(row.take_id)
         if over:
             lane.session.actions["takes.listen"].trigger()
+        elif event.button() == Qt.MouseButton.LeftButton and row.take is not None:
+            self._pressed = row.take_id, event.position().y()
+
+    def _drag(self, y: float) -> None:
+        assert self._pressed is not None
+        if self.dropped_before is None and abs(y - self._pressed[1]) < DRAG_PX:
+            return
+        lane = self._lane
+        nearest = round((y - self._row_box(0).top()) / lane.row_px)
+        # What was there before the first take stays above.
+        before = min(max(nearest, 1), len(lane.rows))
+        if before != self.dropped_before:
+            self.dropped_before = before
+            self.setCursor(Qt.CursorShape.ClosedHandCursor)
+            self.update()
+
+    def cancel_drag(self) -> None:
+        """Leave the lanes as they are."""
+        self._pressed = self.dropped_before = None
+        self.unsetCursor()
+        self.update()
+
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:
+        pressed, before = self._pressed, self.dropped_before
+        self.cancel_drag()
+        if pressed is not None and before is not None:
+            self._lane.move_lane(pressed[0], before)
 
     def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
         row = self._row_at(event.position().y())

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Final
 
 import numpy as np
@@ -87,6 +88,18 @@ def span_at(comp: Sequence[CompSpan], tick: float, end_tick: int) -> CompSpan:
             return span
         start = span.end_tick
     return CompSpan(start, max(end_tick, start + 1), BEFORE)
+
+
+def edges(comp: Sequence[CompSpan], end_tick: int) -> tuple[tuple[CompSpan, CompSpan], ...]:
+    """What meets where: the spans of a comp, and the gaps beside them as far as ``end_tick``, two by two."""
+    met: list[CompSpan] = []
+    at = 0
+    for span in comp:
+        met += [CompSpan(at, span.start_tick, BEFORE)] if at < span.start_tick else []
+        met.append(span)
+        at = span.end_tick
+    met += [CompSpan(at, end_tick, BEFORE)] if at < end_tick else []
+    return tuple(pairwise(met))
 
 
 def pitch_range(rows: Sequence[TakeRow]) -> tuple[int, int]:

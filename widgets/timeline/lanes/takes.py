@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QMenu, QWidget
 
 from app.errors import Message
 from app.project.document import Change
-from app.project.edit.takes import BEFORE, comp, comp_whole, comp_with, rename_take
+from app.project.edit.takes import BEFORE, comp, comp_whole, comp_with, move_take, rename_take
 from app.project.model import CompSpan, PlayerTakes, Project
 from app.score.clean import Fault
 from app.score.model import Metre
@@ -24,26 +24,49 @@ from widgets.timeline.axis import TimeAxis
 from widgets.timeline.lane import Lane, LaneMouse
 from widgets.timeline.lanes.take_drawing import STRIP_PX, TakesItem
 from widgets.timeline.lanes.take_heads import TakeHeads
-from widgets.timeline.lanes.take_rows import TakeRow, comp_of, pitch_range, rows_of, span_at
+from widgets.timeline.lanes.take_rows import TakeRow, comp_of, edges, pitch_range, rows_of, span_at
 
 ROW_PX, LEAST_ROW_PX, MOST_ROW_PX = 38, 24, 72
 SHOWN_ROWS, LEAST_SHOWN_ROWS = 6, 3
 """As many rows as a lane wants to show, and as it shows at least; what does not fit is scrolled to."""
 EMPTY_PX = 62
 DRAG_PX = 3.0
+EDGE_PX = 4.0
+"""So near to where two takes meet the mouse has hold of it."""
 
 
 @dataclass
 class _Swipe:
+    """Over a row, or of an edge: then ``edge`` says what meets there, and the take is that on the side it leaves."""
+
     at: LaneMouse
     take_id: str
     start_tick: int
     end_tick: int
+    edge: tuple[CompSpan, CompSpan] | None = None
     moved: bool = False
+
+    def span(self) -> CompSpan | None:
+        """What it would take if it ended here."""
+        start, end = sorted((self.start_tick, self.end_tick))
+        if not self.moved or start == end:
+            return None
+        if self.edge is None:
+            return CompSpan(start, end, self.take_id)
+        left, right = self.edge
+        return CompSpan(start, end, (left if self.end_tick > self.start_tick else right).take_id)
+
+    def move(self, tick: int) -> None:
+        """Go on to a place; an edge no further than the next one."""
+        self.moved = True
+        if self.edge is not None:
+            tick = min(max(tick, self.edge[0].start_tick), self.edge[1].end_tick)
+        self.end_tick = max(tick, 0)
 
 
 class TakesLane(Lane):
-    """Takes one under another. Swiping over a row takes that span from that take."""
+    """Takes one under another. Swiping over a row takes that span from that take; where two takes meet, the edge can be
+    dragged."""
 
     id = "takes"
     preferred_height_px = EMPTY_PX
@@ -132,6 +155,7 @@ class TakesLane(Lane):
 
     def players_changed(self) -> None:
         self._cancel_swipe()
+        self.heads.cancel_drag()
         self.refresh()
 
     def selection_changed(self, before: Selection) -> None:
@@ -161,11 +185,7 @@ class TakesLane(Lane):
 
     def _swiped(self) -> CompSpan | None:
         """What the swipe would take if it ended here."""
-        swipe = self._swipe
-        if swipe is None or not swipe.moved or swipe.start_tick == swipe.end_tick:
-            return None
-        start, end = sorted((swipe.start_tick, swipe.end_tick))
-        return CompSpan(start, end, swipe.take_id)
+        return self._swipe.span() if self._swipe is not None else None
 
     def shown_comp(self) -> tuple[CompSpan, ...]:
         """The comp as it would be if the swipe ended here."""
@@ -272,6 +292,15 @@ class TakesLane(Lane):
                 lambda project: rename_take(project, player.id, take_id, name),
             )
 
+    def move_lane(self, take_id: str, before: int) -> None:
+        """Put a take's lane before the one that has a number now."""
+        player, take = self.session.player, self.take_of(take_id)
+        if player is not None and take is not None:
+            self.session.attempt(
+                Message("edit.move_take", {"take": take.name}),
+                lambda project: move_take(project, player.id, take_id, before - 1),
+            )
+
     def ask_name(self) -> None:
         """Type the selected take's name where it stands."""
         take_id = self.session.selection.take
@@ -304,7 +333,11 @@ class TakesLane(Lane):
         if not self.rows:
             return
         row = self.row_at(mouse.y_px)
-        if row is not None:
+        edge = self._edge_at(mouse)
+        if edge is not None:
+            tick = edge[0].end_tick
+            self._swipe = _Swipe(mouse, row.take_id if row is not None else BEFORE, tick, tick, edge)
+        elif row is not None:
             tick = max(mouse.snapped_tick, 0)
             self._swipe = _Swipe(mouse, row.take_id, tick, tick)
         elif mouse.y_px < STRIP_PX:
@@ -316,10 +349,9 @@ class TakesLane(Lane):
         swipe = self._swipe
         if swipe is None or (not swipe.moved and abs(mouse.x_px - swipe.at.x_px) < DRAG_PX):
             return
-        swipe.moved = True
-        tick = max(mouse.snapped_tick, 0)
-        if tick != swipe.end_tick:
-            swipe.end_tick = tick
+        before = swipe.end_tick
+        swipe.move(mouse.snapped_tick)
+        if swipe.end_tick != before:
             self.update_items()
 
     def release(self, mouse: LaneMouse) -> None:
@@ -331,6 +363,8 @@ class TakesLane(Lane):
             self._click(swipe)
         elif swiped is not None:
             self.take_span(swiped.take_id, swiped.start_tick, swiped.end_tick)
+            if swipe.edge is not None:
+                self._select_span((swiped.start_tick + swiped.end_tick) / 2)
         self.update_items()
 
     def cancel(self) -> None:
@@ -341,7 +375,23 @@ class TakesLane(Lane):
             self._swipe = None
             self.update_items()
 
+    def _edge_at(self, mouse: LaneMouse) -> tuple[CompSpan, CompSpan] | None:
+        """The edge of the comp that the mouse has hold of: in the strip, and in the rows of the two that meet."""
+        row = self.row_at(mouse.y_px)
+        if row is None and mouse.y_px >= STRIP_PX:
+            return None
+        clock = self.session.project.score.tempo_map
+        near: dict[float, tuple[CompSpan, CompSpan]] = {}
+        for left, right in edges(self.comp, self._end_tick()):
+            far_px = abs(self.axis.x_px(clock.seconds(float(left.end_tick))) - mouse.x_px)
+            if far_px <= EDGE_PX and (row is None or row.take_id in (left.take_id, right.take_id)):
+                near[far_px] = left, right
+        return near[min(near)] if near else None
+
     def _click(self, swipe: _Swipe) -> None:
+        if swipe.at.y_px < STRIP_PX:
+            self._select_span(swipe.at.tick)
+            return
         span = span_at(self.comp, swipe.at.tick, self._end_tick())
         if span.take_id == swipe.take_id and swipe.at.tick >= 0:
             self.session.select(Selection(span=(span.start_tick, span.end_tick), take=span.take_id))
@@ -355,6 +405,10 @@ class TakesLane(Lane):
 
     def hover(self, mouse: LaneMouse | None) -> None:
         row = self.row_at(mouse.y_px) if mouse is not None else None
+        if mouse is not None and self._edge_at(mouse) is not None:
+            self.plot.setCursor(Qt.CursorShape.SplitHCursor)
+            self.plot.setToolTip(self.tr("Drag to change where one take ends and the other begins"))
+            return
         if mouse is None or row is None:
             self.plot.setToolTip("")
             self.plot.unsetCursor()
@@ -426,6 +480,8 @@ class TakesLane(Lane):
             self.step(-1 if key == Qt.Key.Key_Up else 1)
         elif key in (Qt.Key.Key_Left, Qt.Key.Key_Right):
             self._step_span(-1 if key == Qt.Key.Key_Left else 1)
+        elif key == Qt.Key.Key_Escape and self.heads.dropped_before is not None:
+            self.heads.cancel_drag()
         elif key in (Qt.Key.Key_Delete, Qt.Key.Key_Backspace) and self.session.selection.take:
             self.session.actions["takes.remove"].trigger()
         elif key == Qt.Key.Key_Escape and self.session.selection.take is not None:
