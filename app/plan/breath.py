@@ -20,6 +20,7 @@ breath.preparation(rest_beats, prepare_beats): "A rest of {rest_beats} beats (fr
 breath.catch(after_note, phrase_s, lung_s, from_note_ms): "A catch breath after note {after_note}: {phrase_s} s
     without a rest ask for more than the {lung_s} s of air there are; {from_note_ms} ms come out of that note's tail."
 breath.heard(gap_s): "Heard in the breath: {gap_s} s without blowing."
+    Within a note too, which is blown on afterwards.
 breath.heard_preparation(gap_s): "Heard in the breath: {gap_s} s without blowing; getting ready to breathe."
 breath.heard_short(gap_s): "Heard in the breath: {gap_s} s without blowing, where air was needed."
 breath.too_long(note, phrase_s, air_s, lung_s): "From note {note} on, {phrase_s} s must be played on one breath; it
@@ -35,8 +36,8 @@ import msgspec
 import numpy as np
 
 from app.errors import Message
-from app.plan.corrections import BY_HAND, Correction, SetBreath, removed_ids, without_removed
-from app.plan.heard import BREATH_S, Blown, Silences, silences
+from app.plan.corrections import BY_HAND, WITHIN, Correction, SetBreath, removed_ids, without_removed
+from app.plan.heard import BREATH_S, Blown, Silences, gaps_within, silences
 from app.plan.line import IntArray, LineTimes, Piece, Seeds
 from app.plan.lungs import EPSILON, air_used_s, catch_lengths_s, catch_places, drawn, levels, lungful_s
 from app.plan.model import BreathEvent, FloatArray, Note, PlayerParameters, Problem, TimeFrame
@@ -101,15 +102,23 @@ def plan_breaths(
     if gaps is None:
         generated = rest_breaths(notes, times, piece, parameters, frame)
     else:
-        generated = heard_breaths(notes, times, piece, parameters, frame, gaps)
+        assert heard is not None
+        within = tuple(_within(notes[index], piece, *gap_s) for index, *gap_s in gaps_within(heard, times))
+        generated = (*heard_breaths(notes, times, piece, parameters, frame, gaps), *within)
     by_hand = [_by_hand(item, times, index_of[item.note_id], piece) for item in placed.values()]
     hand_ids = {event.id for event in by_hand}
     kept = [event for event in without_removed(generated, removed) if event.id not in hand_ids]
     refill = np.zeros(len(notes))
-    for event in [*kept, *by_hand]:
-        if event.kind == "breath":
-            refill[index_of[_note_id(event)]] = max(0.0, drawn(event.end_s - event.start_s) * _full(event))
     used, lung_s = air_used_s(times, air, None if gaps is None else heard), lungful_s(parameters, air)
+    taken_s = np.diff(used)
+    for event in [*kept, *by_hand]:
+        index, share = index_of[_note_id(event)], max(0.0, drawn(event.end_s - event.start_s) * _full(event))
+        if _is_within(event):
+            # Lungs are counted from note to note: such a note takes so much less.
+            taken_s[index] -= min(share * lung_s, taken_s[index])
+        elif event.kind == "breath":
+            refill[index] = share
+    used = np.concatenate(([0.0], np.cumsum(taken_s)))
     level = levels(used, lung_s, refill)
     length_s = catch_lengths_s(times)
     if gaps is not None:
@@ -351,6 +360,23 @@ def _heard_catch(note: Note, piece: Piece, gaps: Silences, index: int) -> Breath
     )
 
 
+def _within(note: Note, piece: Piece, start_s: float, end_s: float) -> BreathEvent:
+    return BreathEvent(
+        id=f"{WITHIN}:{note.id}",
+        kind="breath",
+        start_tick=round(piece.clock.ticks(start_s)),
+        end_tick=round(piece.clock.ticks(end_s)),
+        start_s=start_s,
+        end_s=end_s,
+        depth=1.0,
+        reason=Message("breath.heard", {"gap_s": round(end_s - start_s, 2)}),
+    )
+
+
+def _is_within(event: BreathEvent) -> bool:
+    return event.id.startswith(f"{WITHIN}:")
+
+
 def _full(event: BreathEvent) -> float:
     return event.depth if event.corrected else 1.0
 
@@ -373,7 +399,8 @@ def _with_depths(
         if not event.corrected:
             index = index_of[_note_id(event)]
             until = int(breaths[np.searchsorted(breaths, index, side="right")])
-            need = (used[until] - used[index]) / lung_s
+            # Within a note nobody knows what the rest of it needs: there the time says it.
+            need = 1.0 if _is_within(event) else (used[until] - used[index]) / lung_s
             most = 1.0 if event.kind == "preparation" else drawn(event.end_s - event.start_s)
             depth = min(max(LEAST_DEPTH + (1.0 - LEAST_DEPTH) * need, LEAST_DEPTH), max(most, LEAST_DEPTH), 1.0)
             event = msgspec.structs.replace(event, depth=round(float(depth), 4))
@@ -407,7 +434,7 @@ def _by_hand(item: SetBreath, times: LineTimes, index: int, piece: Piece) -> Bre
     start_tick, end_tick = onset_tick + item.start_offset_tick, onset_tick + item.end_offset_tick
     return BreathEvent(
         id=f"{item.kind}:{item.note_id}",
-        kind=item.kind,
+        kind="preparation" if item.kind == "preparation" else "breath",
         start_tick=start_tick,
         end_tick=end_tick,
         start_s=piece.clock.seconds(float(start_tick)),

@@ -18,7 +18,7 @@ correction.unknown_expression(name, known): "There is no expression {name}; ther
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Literal, TypeAlias, TypeVar
+from typing import Final, Literal, TypeAlias, TypeVar
 
 import msgspec
 
@@ -57,8 +57,8 @@ class RemoveEvent(_Correction, frozen=True, tag="remove"):
 
 
 class SetBreath(_Correction, frozen=True, tag="set_breath"):
-    """Put a breath (or preparation) before a note: added, or in place of the generated one. Ticks are relative to the
-    note's onset, so the breath moves with its note.
+    """Put a breath (or preparation) before a note, or a breath within it: added, or in place of the generated one.
+    Ticks are relative to the note's onset, so the breath moves with its note.
 
     ``added`` says that the generator had none here: to delete it is to forget it. ``moved_from`` is the note whose
     breath it was before the animator dragged it here; that one is then left out.
@@ -68,7 +68,7 @@ class SetBreath(_Correction, frozen=True, tag="set_breath"):
     start_offset_tick: int
     end_offset_tick: int = 0
     depth: float = 1.0
-    kind: Literal["preparation", "breath"] = "breath"
+    kind: Literal["preparation", "breath", "within"] = "breath"
     added: bool = False
     moved_from: str | None = None
 
@@ -205,7 +205,11 @@ E = TypeVar("E", BreathEvent, CueEvent, GestureEvent, ExpressionEvent)
 Span = TypeVar("Span", GestureEvent, ExpressionEvent)
 
 
-REMOVABLE = ("breath", "preparation", "cue", "sway", "weight_shift", "bell_height", "lower_instrument", "expression")
+WITHIN: Final = "within"
+"""The first part of the ids of breaths within a note."""
+REMOVABLE = (
+    *("breath", "preparation", WITHIN, "cue", "sway", "weight_shift", "bell_height", "lower_instrument", "expression"),
+)
 """Kinds of event a `RemoveEvent` may leave out: the first part of their ids."""
 
 

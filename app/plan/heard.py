@@ -111,10 +111,25 @@ def find_gaps(at_s: FloatArray, values: FloatArray) -> FloatArray:
     return np.stack((starts_s, np.append(ends_s, np.inf)[: len(starts_s)]), axis=1)
 
 
+def gaps_within(heard: Blown, times: LineTimes) -> list[tuple[int, float, float]]:
+    """Where somebody stopped blowing for a breath and blew the same note on: note by note its longest gap."""
+    gaps_s = heard.gaps_s[np.isfinite(heard.gaps_s).all(axis=1)]
+    gaps_s = gaps_s[gaps_s[:, 1] - gaps_s[:, 0] >= BREATH_S]
+    notes = np.searchsorted(times.onset_s + LEAST_PLAYED_S, gaps_s[:, 0]) - 1
+    # What ends later is a breath for the next note: see `silences`.
+    inside = (notes >= 0) & (gaps_s[:, 1] <= times.played_end_s[notes] - LATE_S)
+    longest: dict[int, tuple[float, float]] = {}
+    for note, (start_s, end_s) in zip(notes[inside].tolist(), gaps_s[inside].tolist(), strict=True):
+        before = longest.get(note, (0.0, 0.0))
+        longest[note] = max(before, (start_s, end_s), key=lambda gap: gap[1] - gap[0])
+    return [(note, *longest[note]) for note in sorted(longest)]
+
+
 def silences(heard: Blown, times: LineTimes) -> Silences:
     """Which gap comes before which note: the longest of those between the note before and this one.
 
-    A gap in the middle of a note serves none; where the note before was not blown either, it begins where that ends.
+    A gap in the middle of a note serves none (`gaps_within`); where the note before was not blown either, it begins
+    where that ends.
     """
     count = len(times.onset_s)
     start_s, end_s = np.full(count, np.nan), np.full(count, np.nan)

@@ -8,7 +8,7 @@ from PySide6.QtCore import QCoreApplication
 def kind_name(kind: str) -> str:
     """The name of a kind of event: the first part of its id."""
     match kind:
-        case "breath":
+        case "breath" | "within":
             return QCoreApplication.translate("Event", "Breath")
         case "preparation":
             return QCoreApplication.translate("Event", "Preparation")

@@ -19,6 +19,7 @@ import msgspec
 
 from app.errors import AppError
 from app.plan.corrections import (
+    WITHIN,
     AddExpression,
     AddGesture,
     ChangeExpression,
@@ -391,9 +392,10 @@ def _breath(project: Project, player_id: str, event: BreathEvent) -> SetBreath:
     for item in corrections_of(project, player_id, (event.id,)):
         if isinstance(item, SetBreath):
             return item
-    note_id = event.id.split(":", 1)[1]
+    kind, note_id = event.id.split(":", 1)
     onset = next(note.onset_tick for note in _notes(project, player_id) if note.id == note_id)
-    return SetBreath(note_id, event.start_tick - onset, event.end_tick - onset, event.depth, event.kind)
+    offsets = event.start_tick - onset, event.end_tick - onset
+    return SetBreath(note_id, *offsets, event.depth, "within" if kind == WITHIN else event.kind)
 
 
 def _breath_at(
@@ -402,6 +404,8 @@ def _breath_at(
     before = _breath(project, player_id, event)
     notes = _notes(project, player_id)
     index = next(index for index, note in enumerate(notes) if note.id == before.note_id)
+    if before.kind == WITHIN:
+        return _breath_within(before, notes[index], start, end, may_change_note)
     if may_change_note:
         index = _note_after(notes, end)
     note = notes[index]
@@ -415,6 +419,17 @@ def _breath_at(
         end_offset_tick=end - note.onset_tick,
         moved_from=_moved_from(before, note.id),
     )
+
+
+def _breath_within(before: SetBreath, note: Note, start: int, end: int, moves: bool) -> SetBreath:
+    """A breath within a note stays in it."""
+    first, last = start - note.onset_tick, end - note.onset_tick
+    if moves:
+        by = max(-first, 0) + min(note.duration_tick - last, 0)
+        first, last = first + by, last + by
+    first = min(max(first, 0), note.duration_tick - 1)
+    last = min(max(last, first + 1), note.duration_tick)
+    return msgspec.structs.replace(before, start_offset_tick=first, end_offset_tick=last)
 
 
 def _note_after(notes: Sequence[Note], end: int) -> int:

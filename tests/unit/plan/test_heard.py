@@ -94,6 +94,43 @@ def test_breaths_are_where_they_were_taken() -> None:
     assert lips["1:4"] == pytest.approx(4.0, abs=0.03), "the lips leave where the breath begins"
 
 
+HELD = [(0.5, 1.5, 65), (1.5, 6.5, 67), (7.2, 8.0, 69), (8.0, 12.0, 70)]
+HELD_BLOWS = [Blow(0.5, 3.0), Blow(3.45, 4.9), Blow(5.05, 6.5), Blow(7.2, 9.0), Blow(9.5, 12.0)]
+"""Within the second note a breath of 0.45 s and the tongue's 0.15; a rest; within the last one a breath of 0.5 s."""
+
+
+def test_who_stops_blowing_within_a_note_breathes_there() -> None:
+    plan = plan_of(take(HELD, breath_curve(HELD_BLOWS)))
+    found = {event.id: event for event in breaths(plan)}
+    assert sorted(found) == ["breath:1:3", "within:1:2", "within:1:4"]
+    for id, start_s, end_s in (("within:1:2", 3.0, 3.45), ("within:1:4", 9.0, 9.5)):
+        event = found[id]
+        assert event.start_s == pytest.approx(start_s, abs=0.03)
+        assert event.end_s == pytest.approx(end_s, abs=0.03)
+        assert event.reason.id == "breath.heard"
+        assert event.depth > 0.3
+    assert [(event.note_id, event.end_s) for event in plan.embouchures if event.note_id == "1:2"] == [("1:2", 6.5)]
+
+
+def test_a_breath_within_a_note_fills_the_lungs() -> None:
+    notes = [(0.5, 12.5, 65), (12.5, 20.5, 67)]
+    long = [Blow(0.5, 20.5)]
+    fault = "breath.too_long"
+    assert fault in [problem.message.id for problem in plan_of(take(notes, breath_curve(long)), lung_s=9.0).problems]
+    broken = [Blow(0.5, 7.0), Blow(7.8, 14.0), Blow(14.8, 20.5)]
+    plan = plan_of(take(notes, breath_curve(broken)), lung_s=9.0)
+    assert fault not in [problem.message.id for problem in plan.problems]
+
+
+def test_a_breath_within_a_note_is_moved_and_taken_out_by_hand() -> None:
+    part = take(HELD, breath_curve(HELD_BLOWS))
+    plan = plan_of(part, (RemoveEvent("within:1:2"), SetBreath("1:4", 240, 720, 0.5, "within")))
+    assert sorted(event.id for event in breaths(plan)) == ["breath:1:3", "within:1:4"]
+    (moved,) = [event for event in breaths(plan) if event.corrected]
+    assert (moved.kind, moved.start_s, moved.end_s) == ("breath", pytest.approx(8.25), pytest.approx(8.75))
+    assert not plan.problems
+
+
 def test_without_the_curve_they_are_guessed_from_the_rests() -> None:
     plan = plan_of(take(NOTES))
     assert [event.id for event in breaths(plan)] == ["breath:1:3", "breath:1:7", "breath:1:8"]

@@ -57,7 +57,7 @@ class BreathLane(RegionLane):
             )
             for event in plan.breaths
         ]  # fmt: skip
-        return regions + self.removed_regions(plan, ("breath", "preparation"), lambda kind: 0), 1
+        return regions + self.removed_regions(plan, ("breath", "preparation", "within"), lambda kind: 0), 1
 
     def paint_region(self, painter: QPainter, region: Region, box: QRectF, selected: bool) -> None:
         tokens, player = self.session.tokens, self.session.player
