@@ -17,10 +17,16 @@ from typing import TypeVar, get_args
 import msgspec
 
 from app.errors import MapError, Message
-from metadata.model import ARKIT_MORPHS, Body, Controller, EmbouchureKind, Expression, SkeletonProfile
+from metadata.model import ARKIT_MORPHS, Body, BoneNames, Controller, EmbouchureKind, Expression, SkeletonProfile
 
 ROOT = Path(__file__).parent
-_KIND_FOLDERS = {"expression": "expressions", "body": "bodies", "skeleton": "skeletons", "controller": "controllers"}
+_KIND_FOLDERS = {
+    "expression": "expressions",
+    "body": "bodies",
+    "skeleton": "skeletons",
+    "bone_names": "bone_names",
+    "controller": "controllers",
+}
 GENERIC_CONTROLLER = "generic"
 """The controller of last resort: any that no other table recognises."""
 _AXIS_TOLERANCE = 2e-3
@@ -32,7 +38,7 @@ T = TypeVar("T")
 
 
 def names(kind: str) -> tuple[str, ...]:
-    """Names of the tables of a kind (``expression``, ``body``, ``skeleton``, ``controller``), sorted."""
+    """Names of the tables of a kind (a key of `_KIND_FOLDERS`), sorted."""
     return tuple(sorted(path.stem for path in (ROOT / _KIND_FOLDERS[kind]).glob("*.toml")))
 
 
@@ -51,6 +57,12 @@ def load_expression(name: str) -> Expression:
 def load_skeleton(name: str = "vrm1") -> SkeletonProfile:
     """The bundled skeleton profile of this name. Raises MapError."""
     return read_skeleton(_path("skeleton", name))
+
+
+@cache
+def load_bone_names() -> dict[str, BoneNames]:
+    """Every bundled table of bone names, by name. Raises MapError."""
+    return {name: read_bone_names(_path("bone_names", name)) for name in names("bone_names")}
 
 
 @cache
@@ -149,6 +161,28 @@ def read_skeleton(path: Path) -> SkeletonProfile:
     return profile
 
 
+def read_bone_names(path: Path) -> BoneNames:
+    """Read and check a table of bone names against the joints of the skeleton profile. Raises MapError."""
+    table = _decode(path, BoneNames)
+    _check_name(path, table.name)
+    joints = {joint.name for joint in load_skeleton().joints} - {"root", "spine", "chest", "upperChest"}
+    _check_joints(path, "middle", tuple(table.middle), joints)
+    for joint, bones in table.sides.items():
+        _check_joints(path, "sides", (f"left{joint}", f"right{joint}"), joints)
+        for bone in bones:
+            if bone.count("{side}") != 1:
+                raise _invalid(path, f"sides.{joint}", f"{bone!r} must say {{side}} once")
+    joint_of: dict[str, str] = {}
+    for joint, keys in table.keys().items():
+        for key in keys:
+            if not key:
+                raise _invalid(path, joint, "a name without letters or digits")
+            if key in joint_of:
+                raise _invalid(path, joint, f"{joint_of[key]} is called {key!r} too")
+            joint_of[key] = joint
+    return table
+
+
 def read_body(path: Path) -> Body:
     """Read and check a body against its skeleton profile. Raises MapError."""
     body = _decode(path, Body)
@@ -236,5 +270,5 @@ def _check_axes(path: Path, key: str, axes: tuple[tuple[float, float, float], ..
 
 # msgspec works a type out when it is first used, and two threads that do so at once crash it: it is done here, under
 # the import's lock.
-for _type in (Body, Controller, Expression, SkeletonProfile):
+for _type in (Body, BoneNames, Controller, Expression, SkeletonProfile):
     msgspec.json.Decoder(_type)

@@ -7,6 +7,8 @@ along X with palms down.
 
 from __future__ import annotations
 
+import re
+import unicodedata
 from typing import Annotated, Literal, TypeAlias
 
 import msgspec
@@ -334,6 +336,56 @@ class SkeletonProfile(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 def _mirrored(axis: Axis) -> Axis:
     # 0.0 - y rather than -y: no negative zeros.
     return (axis[0], 0.0 - axis[1], 0.0 - axis[2])
+
+
+def bone_key(name: str) -> str:
+    """What of a bone's or a morph's name counts when names are compared: without a namespace, case and separators.
+
+    Full-width digits and letters are plain ones; ``Armature|mixamorig:Left_Arm`` and ``leftarm`` are the same.
+    """
+    last = re.split(r"[:|]", unicodedata.normalize("NFKC", name))[-1]
+    return "".join(letter for letter in last.casefold() if letter.isalnum())
+
+
+class BoneNames(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """How the bones of a kind of character are named. Names are compared by `bone_key`; a prefix that all bones of a
+    figure share needs no mention.
+
+    Attributes
+    ----------
+    name : str
+        Id; the file's name.
+    title : str
+        The makers or programs that name bones so.
+    source : str
+        Where the names are known from.
+    left, right : tuple of str
+        What ``{side}`` stands for.
+    spine : tuple of tuple of str
+        Every bone between hips and neck, upwards, each with its names; which of them are spine, chest and upper chest
+        depends on how many a figure has.
+    middle : dict of str to tuple of str
+        Names of ``hips``, ``neck``, ``head``, ``jaw``; the first that a figure has counts.
+    sides : dict of str to tuple of str
+        The same for the joints of both sides, by the joint's name without its side, with ``{side}`` in each.
+    """
+
+    name: str
+    title: str
+    source: str
+    left: Annotated[tuple[str, ...], msgspec.Meta(min_length=1)]
+    right: Annotated[tuple[str, ...], msgspec.Meta(min_length=1)]
+    spine: Annotated[tuple[tuple[str, ...], ...], msgspec.Meta(min_length=1)]
+    middle: dict[str, tuple[str, ...]]
+    sides: dict[str, tuple[str, ...]]
+
+    def keys(self) -> dict[str, tuple[str, ...]]:
+        """`bone_key` of each name, by joint; the spine's are ``spine.0``, ``spine.1`` ... upwards."""
+        found = {f"spine.{index}": names for index, names in enumerate(self.spine)} | self.middle
+        for side, words in (("left", self.left), ("right", self.right)):
+            for joint, names in self.sides.items():
+                found[side + joint] = tuple(name.replace("{side}", word) for name in names for word in words)
+        return {joint: tuple(dict.fromkeys(map(bone_key, names))) for joint, names in found.items()}
 
 
 BreathSource: TypeAlias = Literal["cc2", "cc7", "cc11", "channel_pressure"]

@@ -31,6 +31,8 @@ TEMPLATES: Final[dict[str, str]] = {
     "fingering.no_number": "{text!r} is no number of cents",
     "fingering.last": "the only fingering of a note cannot be removed",
     "map.unknown": "there is no instrument map named {id!r}",
+    "figure.no_joint": "{file}: there is no joint named {joint!r}; there are: {joints}",
+    "figure.no_bone": "{file} has no bone named {bone!r}, which is said to be {joint}",
     "metadata.missing": "there is no {kind} named {name!r}; there are: {known}",
     "metadata.syntax": "{file}: {detail}",
     "metadata.invalid": "{file}: {key}: {detail}",

@@ -1320,6 +1320,14 @@
             <translation>{id!r} というインストゥルメントマップはありません</translation>
         </message>
         <message>
+            <source>{file}: there is no joint named {joint!r}; there are: {joints}</source>
+            <translation>{file}：{joint!r} という関節はありません。使えるもの：{joints}</translation>
+        </message>
+        <message>
+            <source>{file} has no bone named {bone!r}, which is said to be {joint}</source>
+            <translation>{file} には、{joint} に指定されたボーン {bone!r} がありません</translation>
+        </message>
+        <message>
             <source>there is no {kind} named {name!r}; there are: {known}</source>
             <translation>{kind} に {name!r} はありません。使えるもの: {known}</translation>
         </message>

@@ -1,0 +1,279 @@
+"""Which bones are which joints, by shape alone: symmetry, chains and extents. For skeletons whose names say nothing.
+
+Everything found here is a guess from a usual figure's proportions and must be told as one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Final
+
+import numpy as np
+import numpy.typing as npt
+
+FloatArray = npt.NDArray[np.float64]
+
+MIRROR_TOLERANCE: Final = 0.03
+"""How far a bone may be from its partner's mirror image, of the figure's height."""
+OFF_CENTRE: Final = 0.02
+"""A bone farther from the middle than this belongs to a side."""
+HIP_BESIDE: Final = 0.03
+"""A leg begins farther from the middle than this."""
+ANKLE_HEIGHT: Final = 0.045
+ARM_LENGTH: Final = 0.30
+"""Shoulder to wrist."""
+LEG_LENGTH: Final = 0.46
+"""Hip to ankle. All of the figure's height."""
+FINGERS: Final = ("Index", "Middle", "Ring", "Little")
+PARTS: Final = ("Proximal", "Intermediate", "Distal")
+THUMB: Final = ("ThumbMetacarpal", "ThumbProximal", "ThumbDistal")
+
+
+@dataclass(frozen=True, eq=False)
+class Tree:
+    """Bones at rest in the world.
+
+    Attributes
+    ----------
+    parents : tuple of int
+        A parent before its children.
+    children : tuple of tuple of int
+    above : tuple of frozenset of int
+        All bones above each.
+    positions_m : (B, 3) float64
+    skinned : frozenset of int
+        Bones that carry skin; all, where none does.
+    """
+
+    parents: tuple[int, ...]
+    children: tuple[tuple[int, ...], ...]
+    above: tuple[frozenset[int], ...]
+    positions_m: FloatArray
+    skinned: frozenset[int]
+
+    def path(self, top: int, bone: int) -> list[int]:
+        """From below ``top`` down to ``bone``."""
+        found = [bone]
+        while (parent := self.parents[found[-1]]) not in (top, -1):
+            found.append(parent)
+        return found[::-1]
+
+    def distance(self, one: int, other: int) -> float:
+        """Metres, straight."""
+        return float(np.linalg.norm(self.positions_m[one] - self.positions_m[other]))
+
+    def depth(self, bone: int) -> int:
+        """How many bones are above."""
+        return len(self.above[bone])
+
+
+def tree_of(parents: Sequence[int], positions_m: FloatArray, skinned: frozenset[int]) -> Tree:
+    """The tree of bones; ``skinned`` may be empty."""
+    children: list[list[int]] = [[] for _ in parents]
+    above: list[frozenset[int]] = []
+    for bone, parent in enumerate(parents):
+        above.append(above[parent] | {parent} if parent >= 0 else frozenset())
+        if parent >= 0:
+            children[parent].append(bone)
+    return Tree(
+        tuple(parents),
+        tuple(map(tuple, children)),
+        tuple(above),
+        positions_m,
+        skinned or frozenset(range(len(parents))),
+    )
+
+
+class _Halves:
+    """What is left, right and in the middle, and who mirrors whom."""
+
+    def __init__(self, tree: Tree) -> None:
+        self.tree = tree
+        used = sorted(tree.skinned | {bone for skin in tree.skinned for bone in tree.above[skin]})
+        points = tree.positions_m
+        self.floor = float(points[used, 1].min())
+        self.height = max(float(points[used, 1].max()) - self.floor, 1e-9)
+        self.centre = float(np.median(points[used, 0]))
+        self.used = used
+        mirrored = points * (-1.0, 1.0, 1.0) + (2.0 * self.centre, 0.0, 0.0)
+        self.partner: dict[int, int] = {}
+        for bone in used:
+            far = np.linalg.norm(points[used] - mirrored[bone], axis=1)
+            # Of several at about one place, the one as deep in the tree; the bone itself before others.
+            order = sorted(
+                range(len(used)),
+                key=lambda i: (
+                    round(far[i] / self.height, 2),
+                    abs(tree.depth(used[i]) - tree.depth(bone)),
+                    used[i] != bone,
+                    far[i],
+                ),
+            )
+            if far[order[0]] < MIRROR_TOLERANCE * self.height:
+                self.partner[bone] = used[order[0]]
+
+    def side(self, bone: int) -> int:
+        """1: left (+X), -1: right, 0: in the middle."""
+        if self.partner.get(bone, bone) != bone:
+            return 1 if self.tree.positions_m[bone, 0] > self.centre else -1
+        off = (float(self.tree.positions_m[bone, 0]) - self.centre) / self.height
+        return 0 if abs(off) < OFF_CENTRE else (1 if off > 0.0 else -1)
+
+    def left_ends(self, below: int) -> list[int]:
+        """The last bones of the left half below a bone, that have a partner."""
+        return [
+            bone
+            for bone in self.used
+            if self.side(bone) > 0
+            and below in self.tree.above[bone]
+            and bone in self.partner
+            and not any(child in self.partner for child in self.tree.children[bone])
+        ]
+
+    def meeting(self, bone: int) -> int | None:
+        """The deepest bone above both a bone and its partner."""
+        both = self.tree.above[bone] & self.tree.above[self.partner[bone]]
+        return max(both, key=self.tree.depth) if both else None
+
+
+def joints_by_shape(tree: Tree) -> dict[str, int]:
+    """Bones by VRM 1.0 joint, as far as they can be told; empty where there is no body to be seen."""
+    if not tree.parents:
+        return {}
+    halves = _Halves(tree)
+    roots = [bone for bone in halves.used if tree.parents[bone] < 0]
+    if not roots:
+        return {}
+    root = max(roots, key=lambda bone: sum(bone in above for above in tree.above))
+    ends = halves.left_ends(root)
+    if not ends:
+        return {}
+    toe = min(ends, key=lambda bone: (tree.positions_m[bone, 1], bone))
+    hips = halves.meeting(toe)
+    if hips is None or halves.side(hips) != 0:
+        return {}
+    joints = {"hips": hips}
+    legs = {}
+    for side, end in (("left", toe), ("right", halves.partner[toe])):
+        path = tree.path(hips, end)
+        legs[side] = path[0]
+        joints |= _leg(halves, side, path)
+    arms = [bone for bone in ends if legs["left"] not in (tree.above[bone] | {bone})]
+    if not arms:
+        return joints
+    tip = max(arms, key=lambda bone: (tree.positions_m[bone, 0], -bone))
+    chest = halves.meeting(tip)
+    if chest is None or halves.side(chest) != 0:
+        return joints
+    for side, end in (("left", tip), ("right", halves.partner[tip])):
+        joints |= _arm(halves, side, tree.path(chest, end))
+    return joints | spread_spine(tree, tree.path(hips, chest) if chest != hips else []) | _head(halves, chest)
+
+
+def _leg(halves: _Halves, side: str, path: list[int]) -> dict[str, int]:
+    tree, height = halves.tree, halves.height
+    ankle = min(path, key=lambda bone: abs(tree.positions_m[bone, 1] - halves.floor - ANKLE_HEIGHT * height))
+    upper = path[: path.index(ankle)]
+    beside = [bone for bone in upper if abs(tree.positions_m[bone, 0] - halves.centre) > HIP_BESIDE * height]
+    upper = beside if len(beside) >= 2 else upper
+    if len(upper) < 2:
+        return {}
+    thigh, knee = _two(tree, upper, ankle, LEG_LENGTH * height)
+    found = {f"{side}UpperLeg": thigh, f"{side}LowerLeg": knee, f"{side}Foot": ankle}
+    ahead = max(tree.children[ankle], key=lambda bone: (tree.positions_m[bone, 2], -bone), default=None)
+    if ahead is not None and tree.positions_m[ahead, 2] > tree.positions_m[ankle, 2]:
+        found[f"{side}Toes"] = ahead
+    return found
+
+
+def _arm(halves: _Halves, side: str, path: list[int]) -> dict[str, int]:
+    tree, height = halves.tree, halves.height
+    spread = [
+        bone
+        for bone in path
+        if sum(bool(tree.children[child]) for child in tree.children[bone]) >= 3
+        and tree.distance(path[0], bone) > 0.15 * height
+    ]
+    if spread:
+        hand = spread[0]
+    else:
+        # No fingers: the last bone that is about an arm away from the first.
+        hand = min(path, key=lambda bone: abs(tree.distance(path[0], bone) - (ARM_LENGTH + 0.07) * height))
+    upper = path[: path.index(hand)]
+    if len(upper) < 2:
+        return {}
+    start, elbow = _two(tree, upper, hand, ARM_LENGTH * height)
+    found = {f"{side}UpperArm": start, f"{side}LowerArm": elbow, f"{side}Hand": hand}
+    before = path[: path.index(start)]
+    if before:
+        found[f"{side}Shoulder"] = before[0]
+    return found | _fingers(tree, side, hand)
+
+
+def _two(tree: Tree, upper: list[int], end: int, length_m: float) -> tuple[int, int]:
+    """Where a limb begins and its middle joint: halves alike, and about as long as a limb is."""
+    pairs = [(start, middle) for at, start in enumerate(upper) for middle in upper[at + 1 :]]
+    return min(
+        pairs,
+        key=lambda pair: (
+            abs(tree.distance(pair[0], pair[1]) - tree.distance(pair[1], end))
+            + 0.5 * abs(tree.distance(pair[0], end) - length_m)
+        ),
+    )
+
+
+def _fingers(tree: Tree, side: str, hand: int) -> dict[str, int]:
+    """Chains from the hand: the one that leads away most is the thumb, the others follow by their distance from it."""
+    tips = [bone for bone, above in enumerate(tree.above) if hand in above and not tree.children[bone]]
+    paths = [tree.path(hand, tip) for tip in tips]
+    chains = []
+    for path in paths:
+        chain = [bone for bone in path if bone in tree.skinned and sum(bone in other for other in paths) == 1]
+        if len(chain) > 3:
+            # Of more than three the first is a metacarpal, the longest; or the last is no more than the fingertip.
+            lengths = [tree.distance(one, other) for one, other in pairwise(chain)]
+            chain = chain[-3:] if lengths[0] >= max(lengths[1:]) else chain[:3]
+        if len(chain) >= 2:
+            chains.append(chain)
+    if len(chains) < 2:
+        return {}
+    ways = np.array([tree.positions_m[chain[-1]] - tree.positions_m[hand] for chain in chains])
+    ways /= np.maximum(np.linalg.norm(ways, axis=1, keepdims=True), 1e-9)
+    thumb = int(np.argmin((ways @ ways.T).sum(axis=1)))
+    others = [chain for index, chain in enumerate(chains) if index != thumb]
+    others.sort(key=lambda chain: tree.distance(chain[0], chains[thumb][-1]))
+    found = dict(zip((side + part for part in THUMB), chains[thumb], strict=False))
+    for finger, chain in zip(FINGERS, others, strict=False):
+        found |= dict(zip((side + finger + part for part in PARTS), chain, strict=False))
+    return found
+
+
+def spread_spine(tree: Tree, chain: Sequence[int]) -> dict[str, int]:
+    """Spine, chest and upper chest from the bones between hips and neck, upwards: the lowest, the one nearest the
+    middle and the highest."""
+    if len(chain) <= 2:
+        return dict(zip(("spine", "chest"), chain, strict=False))
+    first, last = chain[0], chain[-1]
+    middle = min(chain[1:-1], key=lambda bone: abs(tree.distance(first, bone) - tree.distance(bone, last)))
+    return {"spine": first, "chest": middle, "upperChest": last}
+
+
+def _head(halves: _Halves, chest: int) -> dict[str, int]:
+    tree = halves.tree
+    chain: list[int] = []
+    bone = chest
+    while True:
+        central = [child for child in tree.children[bone] if halves.side(child) == 0 and child in halves.used]
+        higher = [child for child in central if tree.positions_m[child, 1] > tree.positions_m[bone, 1]]
+        if not higher or len(chain) == 4:
+            break
+        # The way to the head is the one that most hangs on.
+        bone = max(higher, key=lambda child: (sum(child in above for above in tree.above), -child))
+        chain.append(bone)
+    while len(chain) > 1 and chain[-1] not in tree.skinned:
+        chain.pop()
+    if not chain:
+        return {}
+    return {"head": chain[-1]} | ({"neck": chain[0]} if len(chain) > 1 else {})

@@ -1,0 +1,87 @@
+"""Skeletons as lists of bones: those of other makers in ``tests/data/skeletons``, and any BVH file's."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from app.rig.figure import Figure
+
+FOLDER = Path(__file__).parents[1] / "data" / "skeletons"
+
+
+@dataclass(frozen=True)
+class ListedBone:
+    """A bone where it is in the world, and the joint it is known to be (empty: none)."""
+
+    name: str
+    parent: str
+    place_m: tuple[float, float, float]
+    joint: str
+
+
+def listed(name: str) -> list[ListedBone]:
+    """A list of ``tests/data/skeletons``."""
+    bones = []
+    for line in (FOLDER / f"{name}.tsv").read_text(encoding="utf-8").splitlines():
+        if not line.startswith("#"):
+            bone, parent, x, y, z, joint = line.split("\t")
+            bones.append(ListedBone(bone, parent, (float(x), float(y), float(z)), joint))
+    return bones
+
+
+def bvh_bones(path: Path) -> list[ListedBone]:
+    """The joints of a BVH file at rest, metres; its places are scaled to a figure of about 1.7 m."""
+    names: list[str] = []
+    parents: list[int] = []
+    offsets: list[list[float]] = []
+    stack: list[int] = []
+    for line in path.read_text(encoding="utf-8", errors="replace").splitlines():
+        word, *rest = line.split() or [""]
+        if word in ("ROOT", "JOINT", "End"):
+            parents.append(stack[-1] if stack else -1)
+            stack.append(len(names))
+            names.append(rest[0] if word != "End" else "")
+            offsets.append([])
+        elif word == "OFFSET":
+            offsets[stack[-1]] = [float(number) for number in rest]
+        elif word == "}":
+            stack.pop()
+        elif word == "MOTION":
+            break
+    places = np.array(offsets)
+    places[0] = 0.0
+    for bone, parent in enumerate(parents):
+        if parent >= 0:
+            places[bone] += places[parent]
+    places *= 1.7 / np.ptp(places[:, 1])
+    places[:, 1] -= places[:, 1].min()
+    return [
+        ListedBone(name, names[parent] if parent >= 0 else "", (float(x), float(y), float(z)), "")
+        for name, parent, (x, y, z) in zip(names, parents, places, strict=True)
+        if name
+    ]
+
+
+def figure_of(
+    bones: Sequence[ListedBone],
+    rename: Callable[[str], str] = lambda name: name,
+    humanoid: dict[str, int] | None = None,
+) -> Figure:
+    """A figure without meshes; a parent must be before its children."""
+    at = {bone.name: index for index, bone in enumerate(bones)}
+    parents = [at[bone.parent] if bone.parent else -1 for bone in bones]
+    places = np.array([bone.place_m for bone in bones])
+    return Figure(
+        file="list",
+        origin="vrm1" if humanoid else "gltf",
+        bone_names=tuple(rename(bone.name) for bone in bones),
+        parents=tuple(parents),
+        translations_m=places - np.where(np.array(parents)[:, None] >= 0, places[parents], 0.0),
+        rotations=np.tile([0.0, 0.0, 0.0, 1.0], (len(bones), 1)),
+        meshes=(),
+        humanoid=humanoid or {},
+    )
