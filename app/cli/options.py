@@ -20,7 +20,7 @@ from app.project.model import Project, map_choices, project_from_score, with_set
 from app.project.names import unique_names
 from app.project.parameters import parameter_names, parse_settings, select_players
 from app.project.storage import is_project_file, load
-from app.rig.character import characters
+from app.rig.character_library import characters
 from app.score.choose import MapChoice
 from app.score.model import Score
 from app.score.parts import usual_wishes

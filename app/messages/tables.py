@@ -17,6 +17,8 @@ TEMPLATES: Final[dict[str, str]] = {
     "figure.scaled": "{file} makes its figure {height_m} m tall, so its unit is wrong: sizes are taken times {factor}",
     "figure.odd_height": "{file} makes its figure {height_m} m tall; if that is not meant, export it in the right unit",
     "character.incomplete": "{file} cannot play: no bone was found for {joints}; name those bones by hand",
+    "character.unreadable": "{file} does not describe a character: {detail}",
+    "character.file_missing": "{file} names {name}, which is not beside it",
     "instruments.invalid": "{file} is not valid; problems: {count}",
     "instruments.read_again": "read again: {maps}",
     "map.unreadable": "{file}: cannot be read: {detail}",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from app.identity_cache import IdentityCache
 from app.project.model import Player
-from app.rig.character import bundled_character
+from app.rig.character_library import character_named
 from app.rig.hold import Hold
 from app.rig.hold_file import hold_for
 from app.rig.instrument import load_instrument
@@ -21,7 +21,7 @@ _HOLDS: IdentityCache[Hold] = IdentityCache(256)
 
 def character_of(player: Player) -> Character:
     """The character that plays. Raises UsageError where there is none of its id."""
-    return bundled_character(player.character_id)
+    return character_named(player.character_id)
 
 
 def body_of(player: Player) -> Body:

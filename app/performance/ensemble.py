@@ -20,7 +20,7 @@ from app.plan.generate import BREATH_PARAMETERS, EnsemblePlan, Line, Piece, fram
 from app.plan.memo import Memo
 from app.plan.model import PlayerPlan, Problem, TimeFrame
 from app.project.model import Player, Project
-from app.rig.character import characters
+from app.rig.character_library import character_revision, characters
 from instrument_maps.library import library
 from instrument_maps.model import InstrumentMap
 from metadata.load import load_expressions
@@ -187,6 +187,7 @@ class Performance:
             plan.fingerings,
             instrument,
             player.character_id,
+            character_revision(player.character_id),
             player.parameters.posture,
         ).problems
         if not unreached:

@@ -17,6 +17,7 @@ from app.motion.perform import prepare
 from app.performance.bodies import body_of, character_of, hold_of
 from app.plan.model import FingeringEvent, PlayerParameters, PlayerPlan, Problem, TimeFrame
 from app.project.model import Player
+from app.rig.character_library import character_revision
 from app.rig.hold import hand_targets
 from app.rig.skeleton import forward
 from instrument_maps.model import InstrumentMap
@@ -69,7 +70,8 @@ def reached(player: Player, instrument: InstrumentMap, plan: PlayerPlan, before:
     for place, event in zip(places, plan.fingerings, strict=True):
         examples.setdefault(place, event)
     held = tuple((place, event.controls, event.fingers) for place, event in examples.items())
-    asked = (plan.player_id, instrument, player.character_id, player.parameters.posture, held)
+    body = (player.character_id, character_revision(player.character_id))
+    asked = (plan.player_id, instrument, body, player.parameters.posture, held)
     if before is not None and before.asked == asked:
         gaps_m = before.gaps_m
     else:

@@ -19,7 +19,7 @@ from app.project.footprint import footprint
 from app.project.names import unique_names
 from app.project.parameters import Setting
 from app.project.parameters import with_settings as parameters_with
-from app.rig.character import bundled_character, characters
+from app.rig.character_library import bundled_characters, character_named
 from app.rig.model import Character
 from app.score.choose import MapChoice
 from app.score.model import ControllerCurve, Note, Part, Score
@@ -292,7 +292,7 @@ def characters_for(instruments: Sequence[InstrumentMap]) -> tuple[str, ...]:
         max((control.travel_m for control in instrument.controls if _by_hand(control)), default=0.0)
         for instrument in instruments
     ]
-    return choose_characters(travels_m, {id: _arm_m(bundled_character(id)) for id in characters()})
+    return choose_characters(travels_m, {id: _arm_m(character_named(id)) for id in bundled_characters()})
 
 
 def _by_hand(control: Control) -> bool:

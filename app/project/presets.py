@@ -12,7 +12,6 @@ file.cannot_read : file, reason; file.cannot_write : file, reason
 
 from __future__ import annotations
 
-import json
 import tomllib
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
@@ -24,6 +23,7 @@ import platformdirs
 
 from app.errors import AppError, FileError, Message, UsageError
 from app.formats.atomic import atomic_write
+from app.formats.toml import toml
 from app.plan.model import PlayerParameters
 from app.project import limits
 from app.project.check import expression_faults
@@ -110,29 +110,6 @@ def save_expression(folder: Path, expression: Expression) -> None:
 def delete_expression(folder: Path, name: str) -> None:
     """Raises UsageError ``preset.none_of_name``, FileError."""
     _delete(folder, name, _path_of_expression)
-
-
-def toml(table: Mapping[str, Any]) -> str:
-    """A table of texts, numbers, truth values and tables of such, as TOML; None is left out."""
-    plain = {key: value for key, value in table.items() if not isinstance(value, Mapping) and value is not None}
-    lines = [f"{_key(key)} = {_value(value)}" for key, value in plain.items()]
-    for key, value in table.items():
-        if isinstance(value, Mapping):
-            lines += ["", f"[{_key(key)}]", *(f"{_key(name)} = {_value(item)}" for name, item in value.items())]
-    return "\n".join(lines) + "\n"
-
-
-def _key(key: str) -> str:
-    return key if key.isascii() and key.replace("_", "").isalnum() else _value(key)
-
-
-def _value(value: Any) -> str:
-    if isinstance(value, str):
-        # A JSON text is a basic string of TOML, where DEL too must be escaped.
-        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    return repr(float(value)) if isinstance(value, float) else str(int(value))
 
 
 def _read_preset(path: Path) -> Preset:

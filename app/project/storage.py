@@ -35,7 +35,7 @@ from app.project.ids import is_made_here
 from app.project.migrations import CURRENT, VERSION_KEY, Raw, migrated
 from app.project.model import AudioTrack, Player, PlayerTakes, Project
 from app.project.remarks import sayable
-from app.rig.character import characters
+from app.rig.character_library import characters
 from app.score.model import Note, Score
 from instrument_maps.library import all_maps
 from metadata.model import Expression

@@ -6,24 +6,18 @@ Messages
 --------
 model.invalid
     See `app.rig.source`.
-character.missing : id, known
-    "There is no character named '{id}'; known: {known}"
 """
 
 from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from functools import cache, lru_cache
-from importlib.resources import files
 from pathlib import Path
-from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from app.errors import UsageError
 from app.rig.figure import Figure
 from app.rig.figure_character import REQUIRED_JOINTS, figure_character
 from app.rig.landmarks import found_landmarks
@@ -36,28 +30,23 @@ from metadata.model import ARKIT_MORPHS
 FloatArray = npt.NDArray[np.float64]
 
 
-@cache
-def characters() -> Mapping[str, Path]:
-    """Return the bundled characters: id and file, in the order of their ids. Looked up once."""
-    folder = Path(str(files("resources"))) / "characters"
-    return MappingProxyType({path.stem: path for path in sorted(folder.glob("*.glb"))})
-
-
-def bundled_character(id: str) -> Character:
-    """Return a bundled character; loaded once. Raises UsageError where there is none of this id."""
-    known = characters()
-    if id not in known:
-        raise UsageError("character.missing", id=id, known=", ".join(known))
-    return _loaded(known[id])
-
-
-@lru_cache(maxsize=8)
-def _loaded(path: Path) -> Character:
-    return load_character(path)
-
-
-def load_character(path: Path) -> Character:
+def load_character(
+    path: Path,
+    id: str = "",
+    joints: Mapping[str, str] | None = None,
+    morphs: Mapping[str, Mapping[str, float]] | None = None,
+) -> Character:
     """Load a character from a file: VRM, glTF or FBX.
+
+    Parameters
+    ----------
+    path : Path
+    id : str
+        The character's; by the file's name where empty.
+    joints : mapping of str to str
+        By VRM 1.0 joint: the bone that is it, whatever its name suggests; empty: none is.
+    morphs : mapping of str to mapping of str to float
+        By ARKit name: weights of the file's own morphs that make it.
 
     Raises
     ------
@@ -68,9 +57,10 @@ def load_character(path: Path) -> Character:
         if path.suffix.lower() == ".glb":
             source = read_source(path)
             if _extras(source):
-                return _build(source, path)
+                return _build(source, id or path.stem)
         figure = read_figure(path)
-        return figure_character(figure, path.stem, *_named(figure))
+        bones, faces = _named(figure)
+        return figure_character(figure, id or path.stem, bones, faces)
     except (KeyError, IndexError, TypeError, ValueError) as error:
         raise invalid(path, f"damaged: {error!r}") from error
 
@@ -82,11 +72,11 @@ def _named(figure: Figure) -> tuple[Mapping[str, int], Mapping[str, Mapping[str,
     return figure.humanoid or bones, {name: {name: 1.0} for name in figure.morph_names if name in ARKIT_MORPHS}
 
 
-def _build(source: Source, path: Path) -> Character:
+def _build(source: Source, id: str) -> Character:
     skeleton, joint_of, world_from_node = _skeleton(source)
     missing = [name for name in REQUIRED_JOINTS if name not in skeleton.names]
     if missing:
-        raise invalid(path, f"not a humanoid; missing: {', '.join(missing)}")
+        raise invalid(source.file, f"not a humanoid; missing: {', '.join(missing)}")
     count = len(skeleton.names)
     # joint_from_mesh of a joint no skin names: as if bound at rest.
     joint_from_mesh = np.tile(np.eye(4), (count, 1, 1))
@@ -109,7 +99,7 @@ def _build(source: Source, path: Path) -> Character:
     }
     if not marks:
         marks = found_landmarks(skeleton, joint_from_mesh, tuple(meshes))
-    return Character(path.stem, skeleton, joint_from_mesh, tuple(meshes), marks)
+    return Character(id, skeleton, joint_from_mesh, tuple(meshes), marks)
 
 
 def _skeleton(source: Source) -> tuple[Skeleton, dict[int, int], dict[int, FloatArray]]:

@@ -11,7 +11,7 @@ from __future__ import annotations
 import sys
 import time
 
-from app.rig.character import bundled_character, characters
+from app.rig.character_library import bundled_characters, character_named
 from app.rig.fit import fit_hold
 from app.rig.hold_file import bundled_path, digest_of, read_hold, write_hold
 from app.rig.instrument import load_instrument
@@ -23,11 +23,11 @@ from metadata.load import load_body
 def main(wanted: list[str]) -> None:
     """Fit what is not up to date: of everybody and everything, or of those named."""
     body, maps = load_body(), bundled_maps()
-    unknown = set(wanted) - set(characters()) - set(maps)
+    unknown = set(wanted) - set(bundled_characters()) - set(maps)
     if unknown:
         sys.exit(f"no character and no instrument has this name: {', '.join(sorted(unknown))}")
-    for character_id in [name for name in characters() if name in wanted] or characters():
-        character = bundled_character(character_id)
+    for character_id in [name for name in bundled_characters() if name in wanted] or bundled_characters():
+        character = character_named(character_id)
         for instrument in [maps[name] for name in maps if name in wanted] or maps.values():
             model = load_instrument(model_path(instrument), instrument)
             path, digest = bundled_path(character_id, instrument.id), digest_of(character, model, instrument, body)

@@ -1272,6 +1272,14 @@
             <translation>{file} は演奏できません。次の関節に当たるボーンが見つかりません：{joints}。ボーンを手動で指定してください</translation>
         </message>
         <message>
+            <source>{file} does not describe a character: {detail}</source>
+            <translation>{file} はキャラクターの設定として読めません：{detail}</translation>
+        </message>
+        <message>
+            <source>{file} names {name}, which is not beside it</source>
+            <translation>{file} に書かれた {name} が同じフォルダーにありません</translation>
+        </message>
+        <message>
             <source>{file} is not valid; problems: {count}</source>
             <translation>{file} に問題が {count} 件あります</translation>
         </message>

@@ -344,6 +344,10 @@
         <translation>録音</translation>
     </message>
     <message>
+        <source>Drag to change where one take ends and the other begins</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>{note} is left out: {why}</source>
         <translation>{note} は除かれます: {why}</translation>
     </message>

@@ -26,7 +26,7 @@ from PySide6.QtWidgets import (
 
 from app.project.importing import ImportRow, import_project, merged, score_of_rows, separated, usual_rows
 from app.project.model import Project
-from app.rig.character import characters
+from app.rig.character_library import characters
 from app.score.model import Note
 from app.score.parts import stream_name
 from app.score.read import MidiContents

@@ -13,7 +13,7 @@ from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QToolButton, QVB
 from app.errors import Message
 from app.project.edit import players as edit
 from app.project.model import Player, Project
-from app.rig.character import characters
+from app.rig.character_library import characters
 from instrument_maps.library import all_maps
 from widgets.common.combo import Combo, Option
 from widgets.common.icons import icon

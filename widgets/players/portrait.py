@@ -9,7 +9,7 @@ import numpy.typing as npt
 from PySide6.QtCore import QPointF, Qt
 from PySide6.QtGui import QColor, QImage, QPainter, QPolygonF
 
-from app.rig.character import bundled_character
+from app.rig.character_library import character_named
 from app.rig.model import Character, Mesh
 
 HEAD_M = 0.30
@@ -23,7 +23,7 @@ Floats = npt.NDArray[np.float64]
 @lru_cache(maxsize=32)
 def portrait_of(character_id: str, size_px: int) -> QImage:
     """The portrait of a bundled character; drawn once."""
-    return portrait(bundled_character(character_id), size_px)
+    return portrait(character_named(character_id), size_px)
 
 
 def portrait(character: Character, size_px: int) -> QImage:

@@ -7,13 +7,14 @@ from dataclasses import dataclass, replace
 
 from app.errors import AppError, Message
 from app.project.model import Player, Project
+from app.rig.character_library import character_revision
 from instrument_maps.library import library
 from widgets.common.tasks import Progress, StopWanted
 from widgets.viewport.cast import Kit, Stage, kit_of, member_of
 from widgets.viewport.geometry import Crowd
 from widgets.viewport.renderer import Shapes, crowd_of, shapes_of
 
-CastKey = tuple[tuple[str, str, str, str, int, float, float, float], ...]
+CastKey = tuple[tuple[str, str, str, str, int, int, float, float, float], ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,6 +41,7 @@ def cast_key(project: Project) -> CastKey:
             player.instrument_id,
             player.parameters.posture,
             instruments.revisions.get(player.instrument_id, 0),
+            character_revision(player.character_id),
             player.stage.x_m,
             player.stage.z_m,
             player.stage.turn_rad,
@@ -50,7 +52,7 @@ def cast_key(project: Project) -> CastKey:
 
 def same_figures(one: CastKey, other: CastKey) -> bool:
     """Whether two stages differ in places alone, so that nothing has to be loaded."""
-    return [row[:5] for row in one] == [row[:5] for row in other]
+    return [row[:6] for row in one] == [row[:6] for row in other]
 
 
 def load(project: Project, before: Shapes | None, progress: Progress, stop_wanted: StopWanted) -> Loaded | None:

@@ -12,7 +12,7 @@ import pytest
 from app.cli import main
 from app.export.playback import Playback, Surface
 from app.formats.fbx.read import read_scene
-from app.rig.character import characters
+from app.rig.character_library import bundled_characters
 from instrument_maps.load import bundled_maps
 
 STANDING = [instrument.id for instrument in bundled_maps().values() if instrument.endpin is not None]
@@ -37,7 +37,7 @@ def line(path: Path, low: int) -> None:
     mido.MidiFile(tracks=[track], ticks_per_beat=480).save(path)
 
 
-@pytest.mark.parametrize("character", characters())
+@pytest.mark.parametrize("character", bundled_characters())
 @pytest.mark.parametrize("instrument", STANDING)
 def test_the_tip_is_on_the_floor_as_long_as_somebody_plays(instrument: str, character: str, tmp_path: Path) -> None:
     map = bundled_maps()[instrument]

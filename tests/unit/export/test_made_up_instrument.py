@@ -16,7 +16,7 @@ from app.motion.model import Motion
 from app.motion.perform import Playing, prepare
 from app.performance.contacts import ContactJudge
 from app.plan.model import PlayerParameters, PlayerPlan
-from app.rig.character import bundled_character
+from app.rig.character_library import character_named
 from app.rig.fit import fit_hold
 from app.rig.instrument import load_instrument
 from app.rig.model import Character, InstrumentModel
@@ -38,7 +38,7 @@ class Played:
         path = pipe.add(folder)
         self.instrument: InstrumentMap = load_map(path)
         self.model: InstrumentModel = load_instrument(folder / self.instrument.model, self.instrument)
-        self.character: Character = bundled_character("man_adult")
+        self.character: Character = character_named("man_adult")
         self.hold = fit_hold(self.character, self.model, self.instrument, load_body())
         pitches = [*range(self.instrument.range.low, self.instrument.range.high + 1), *LEAPS]
         rows = [

@@ -21,7 +21,7 @@ from app.export.target import TargetSkeleton, bone_motion, world_placements
 from app.formats.scene import check_scene
 from app.motion.model import Motion
 from app.rig import quaternion
-from app.rig.character import bundled_character
+from app.rig.character_library import character_named
 from app.rig.model import Character
 from app.rig.skeleton import forward
 from tests.support.foreign import PREFIX, foreign
@@ -32,7 +32,7 @@ CHARACTER = "woman_adult"
 
 @cache
 def ours() -> Character:
-    return bundled_character(CHARACTER)
+    return character_named(CHARACTER)
 
 
 def random_motion(seed: int, frames: int = 5, reach_rad: float = 1.0) -> Motion:

@@ -16,7 +16,7 @@ from app.motion.perform import perform
 from app.plan.generate import Line, Piece, make_plans, time_frame
 from app.plan.model import PlayerParameters, PlayerPlan
 from app.rig import quaternion
-from app.rig.character import bundled_character, characters
+from app.rig.character_library import bundled_characters, character_named
 from app.rig.hold_file import hold_for
 from app.rig.instrument import bundled_instrument
 from app.rig.lips import fit_lips, lip_places
@@ -93,7 +93,7 @@ def instrument_of(name: str) -> InstrumentMap:
 @cache
 def played(name: str, character_id: str) -> Played:
     """Low and high, soft and loud notes, rests with breaths, catch breaths, and a long rest."""
-    character, trumpet, instrument = bundled_character(character_id), bundled_maps()["trumpet_Bb"], instrument_of(name)
+    character, trumpet, instrument = character_named(character_id), bundled_maps()["trumpet_Bb"], instrument_of(name)
     rows, tick = [], 0
     for index in range(40):
         length = (480, 240, 960)[index % 3]
@@ -107,7 +107,7 @@ def played(name: str, character_id: str) -> Played:
     return Played(character, instrument, plan, motion)
 
 
-CASES = [(name, character_id) for name in KINDS for character_id in characters()]
+CASES = [(name, character_id) for name in KINDS for character_id in bundled_characters()]
 
 
 @pytest.mark.parametrize(("name", "character_id"), CASES)
@@ -185,7 +185,7 @@ def test_no_lip_and_no_jaw_jumps(name: str, character_id: str) -> None:
             assert np.abs(np.diff(values)).max() * float(FPS) < 16.0, morph
 
 
-@pytest.mark.parametrize("character_id", characters())
+@pytest.mark.parametrize("character_id", bundled_characters())
 def test_kinds_look_different(character_id: str) -> None:
     means = {
         name: {morph: float(np.mean(values)) for morph, values in played(name, character_id).motion.morphs.items()}

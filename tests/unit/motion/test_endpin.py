@@ -14,7 +14,7 @@ from app.motion.endpin import Stand
 from app.motion.perform import prepare
 from app.plan.model import PlayerParameters
 from app.rig import quaternion
-from app.rig.character import bundled_character
+from app.rig.character_library import character_named
 from app.rig.hold_file import hold_for
 from app.rig.instrument import bundled_instrument
 from instrument_maps.load import bundled_maps
@@ -74,7 +74,7 @@ def test_a_short_player_has_it_pushed_in_wholly() -> None:
 
 
 def test_what_hangs_before_a_standing_player_has_its_pin_pushed_in() -> None:
-    instrument, character, body = bundled_maps()["clarinet_bass_Bb"], bundled_character("man_adult"), load_body()
+    instrument, character, body = bundled_maps()["clarinet_bass_Bb"], character_named("man_adult"), load_body()
     hold = hold_for(character, bundled_instrument(instrument), instrument, body)
     plan = plan_of(fingerings([(0.0, 1.0, {})], 0.5))
     drawn = {}

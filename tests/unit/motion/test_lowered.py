@@ -17,7 +17,7 @@ from app.motion.model import Motion
 from app.motion.perform import prepare
 from app.plan.model import GestureEvent, PlayerParameters, PlayerPlan, TimeFrame
 from app.rig import quaternion, skinning
-from app.rig.character import bundled_character, characters
+from app.rig.character_library import bundled_characters, character_named
 from app.rig.hold import Hold, hand_targets
 from app.rig.hold_file import hold_for
 from app.rig.instrument import bundled_instrument
@@ -31,7 +31,7 @@ CASES = [
     (instrument.id, posture, character)
     for instrument in bundled_maps().values()
     for posture in instrument.hold.postures
-    for character in characters()
+    for character in bundled_characters()
 ]
 FPS = Fraction(20)
 LOWERED_S, END_S = 0.5, 8.0
@@ -76,7 +76,7 @@ class Case:
 
 @lru_cache(maxsize=4)
 def case(instrument_id: str, posture: Posture, character_id: str) -> Case:
-    instrument, character, body = bundled_maps()[instrument_id], bundled_character(character_id), load_body()
+    instrument, character, body = bundled_maps()[instrument_id], character_named(character_id), load_body()
     hold = hold_for(character, bundled_instrument(instrument), instrument, body)
     down = GestureEvent("down", "lower_instrument", 0, 1, LOWERED_S, 100.0, 1.0, Message("test.reason"))
     plan = PlayerPlan("player", TimeFrame(0.0, END_S), (), (), (), (), (), (down,), (), ())

@@ -9,7 +9,7 @@ from app.errors import UsageError
 from app.project.edit.players import cast_parameters
 from app.project.model import Project, map_choices, project_from_score, with_settings
 from app.project.parameters import parse_settings
-from app.rig.character import characters
+from app.rig.character_library import bundled_characters
 from app.score.model import Note, Part, Score
 from app.score.tempo import TempoChange, TempoMap
 from instrument_maps.load import bundled_maps
@@ -39,7 +39,7 @@ def test_everyone_is_somebody_else(quartet: Project) -> None:
     assert len({player.stage for player in quartet.players}) == 4
     assert len({player.parameters.seed for player in quartet.players}) == 4
     assert len({player.parameters.amplitude for player in quartet.players}) == 4
-    assert {player.character_id for player in quartet.players} == set(characters())
+    assert {player.character_id for player in quartet.players} == set(bundled_characters())
     assert [quartet.part(player).name for player in quartet.players] == ["Trumpet", "trumpet", "Pos.", "Bass"]
 
 
@@ -54,7 +54,7 @@ def test_the_same_score_is_cast_the_same_way(quartet: Project) -> None:
 def test_settings_touch_only_whom_they_name(quartet: Project) -> None:
     names = [player.name for player in quartet.players]
     texts = ["Bass.amplitude=1", "Bass.instrument=trumpet_Bb", "Bass.character=woman_adult", "Pos..posture=seated"]
-    changed = with_settings(quartet, parse_settings(texts, names, MAPS, characters()), MAPS)
+    changed = with_settings(quartet, parse_settings(texts, names, MAPS, bundled_characters()), MAPS)
     assert changed.players[:2] == quartet.players[:2]
     assert changed.players[2].parameters.posture == "seated"
     assert changed.players[3].instrument_id == TRUMPET
@@ -81,7 +81,7 @@ def test_an_instrument_that_is_only_played_seated_is(quartet: Project) -> None:
     cast = project_from_score(quartet.score, maps)
     assert [player.parameters.posture for player in cast.players] == ["standing", "standing", "seated", "seated"]
     names = [player.name for player in cast.players]
-    settings = parse_settings(["Bass.posture=standing"], names, maps, characters())
+    settings = parse_settings(["Bass.posture=standing"], names, maps, bundled_characters())
     with pytest.raises(UsageError) as caught:
         with_settings(cast, settings, maps)
     assert caught.value.message.id == "set.posture_impossible"
@@ -89,7 +89,9 @@ def test_an_instrument_that_is_only_played_seated_is(quartet: Project) -> None:
         "player": "Bass", "instrument": TROMBONE, "value": "standing", "possible": "seated",
     }  # fmt: skip
     # On another instrument the same player may stand.
-    settings = parse_settings(["Bass.posture=standing", f"Bass.instrument={TRUMPET}"], names, maps, characters())
+    settings = parse_settings(
+        ["Bass.posture=standing", f"Bass.instrument={TRUMPET}"], names, maps, bundled_characters()
+    )
     assert with_settings(cast, settings, maps).players[3].parameters.posture == "standing"
 
 

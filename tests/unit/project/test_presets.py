@@ -11,6 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.errors import AppError, UsageError
+from app.formats.toml import toml
 from app.messages import text
 from app.plan.model import PlayerParameters
 from app.project import presets
@@ -122,5 +123,5 @@ def test_a_folder_that_cannot_be_used(tmp_path: Path) -> None:
 )  # fmt: skip
 @settings(max_examples=200, deadline=None)
 def test_tables_are_toml(table: dict[str, object]) -> None:
-    assert tomllib.loads(presets.toml({"plain": 1, "more": table})) == {"plain": 1, "more": table}
-    assert tomllib.loads(presets.toml(table)) == table
+    assert tomllib.loads(toml({"plain": 1, "more": table})) == {"plain": 1, "more": table}
+    assert tomllib.loads(toml(table)) == table

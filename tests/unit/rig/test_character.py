@@ -9,7 +9,8 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from app.errors import FileError, UsageError
-from app.rig.character import REQUIRED_JOINTS, bundled_character, characters, load_character
+from app.rig.character import REQUIRED_JOINTS, load_character
+from app.rig.character_library import bundled_characters, character_named
 from app.rig.skeleton import forward, rest_positions
 from app.rig.skinning import deform, patch
 from metadata.load import load_skeleton
@@ -17,9 +18,9 @@ from metadata.load import load_skeleton
 STILL = np.array([0.0, 0.0, 0.0, 1.0])
 
 
-@pytest.mark.parametrize("id", characters())
+@pytest.mark.parametrize("id", bundled_characters())
 def test_a_bundled_character_has_what_playing_needs(id: str) -> None:
-    character = bundled_character(id)
+    character = character_named(id)
     skeleton = character.skeleton
     assert skeleton.parents[0] == -1
     assert all(0 <= parent < joint for joint, parent in enumerate(skeleton.parents) if joint)
@@ -38,13 +39,13 @@ def test_a_bundled_character_has_what_playing_needs(id: str) -> None:
 
 def test_an_unknown_character_is_refused() -> None:
     with pytest.raises(UsageError):
-        bundled_character("nobody")
+        character_named("nobody")
 
 
 def _humanoid(tmp_path: Path, turned: bool, drop: str = "") -> Path:
     """A stick figure as tall as ours with one skinned point per joint, its nodes turned at rest or not."""
     profile = load_skeleton()
-    ours = bundled_character("man_adult").skeleton
+    ours = character_named("man_adult").skeleton
     places = dict(zip(ours.names, rest_positions(ours), strict=True))
     generator = np.random.default_rng(8)
     nodes: list[dict] = []
@@ -149,7 +150,7 @@ def test_a_body_without_a_foot_is_refused_by_name(tmp_path: Path) -> None:
 
 
 def test_a_body_without_a_phalanx_gets_one_in_our_own_proportions(tmp_path: Path) -> None:
-    ours = bundled_character("man_adult").skeleton
+    ours = character_named("man_adult").skeleton
     character = load_character(_humanoid(tmp_path, turned=True, drop="leftIndexDistal"))
     joint = character.skeleton.index("leftIndexDistal")
     assert character.own is not None

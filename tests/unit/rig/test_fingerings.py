@@ -11,7 +11,7 @@ import pytest
 from app.export.measure import CLEAR_MM
 from app.performance.contacts import bound_mm
 from app.rig import proxy, quaternion, skinning
-from app.rig.character import bundled_character, characters
+from app.rig.character_library import bundled_characters, character_named
 from app.rig.finger_poses import finger_rotations
 from app.rig.hold import FingerTable, HandHold, Hold, Placed, giving_for, hand_targets, wrist_given
 from app.rig.hold_file import hold_for
@@ -29,7 +29,7 @@ of a second."""
 STILL_DEEPER_MM = {("woman_adult", "clarinet_A"): 5.5}
 """Ways that no height brings clear yet: to the side keys."""
 
-PAIRS = [(character, instrument) for character in characters() for instrument in bundled_maps()]
+PAIRS = [(character, instrument) for character in bundled_characters() for instrument in bundled_maps()]
 
 
 @dataclass(frozen=True)
@@ -81,7 +81,7 @@ class Fingered:
 
 @pytest.fixture(scope="module", params=PAIRS, ids="-".join)
 def fingered(request: pytest.FixtureRequest) -> Fingered:
-    character, instrument = bundled_character(request.param[0]), bundled_maps()[request.param[1]]
+    character, instrument = character_named(request.param[0]), bundled_maps()[request.param[1]]
     model = bundled_instrument(instrument)
     kinds = {repr((sorted(one.controls.items()), sorted(one.fingers.items()))): one for one in instrument.fingerings}
     rows = list(kinds.values())

@@ -7,7 +7,7 @@ import pytest
 
 from app.errors import UsageError
 from app.rig import proxy, quaternion, skinning
-from app.rig.character import bundled_character, characters
+from app.rig.character_library import bundled_characters, character_named
 from app.rig.finger_poses import finger_rotations
 from app.rig.fit import fit_hold
 from app.rig.hold import HandHold, Hold, Placed, hand_targets
@@ -22,7 +22,7 @@ from instrument_maps.model import Contact, InstrumentMap
 from metadata.load import load_body, load_skeleton
 
 GRID = np.linspace(0.0, 1.0, 41)
-PAIRS = [(character, instrument) for character in characters() for instrument in bundled_maps()]
+PAIRS = [(character, instrument) for character in bundled_characters() for instrument in bundled_maps()]
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ class Held:
 
 @pytest.fixture(scope="module", params=PAIRS, ids=lambda pair: "-".join(pair))
 def held(request: pytest.FixtureRequest) -> Held:
-    character, instrument = bundled_character(request.param[0]), bundled_maps()[request.param[1]]
+    character, instrument = character_named(request.param[0]), bundled_maps()[request.param[1]]
     model = bundled_instrument(instrument)
     return Held(character, instrument, model, hold_for(character, model, instrument, load_body()))
 
@@ -223,7 +223,7 @@ def test_how_far_the_arm_must_be_helped_grows_with_the_slide(held: Held) -> None
 
 
 def test_a_second_fit_is_the_same_to_the_bit() -> None:
-    character, instrument = bundled_character(PAIRS[0][0]), bundled_maps()[PAIRS[0][1]]
+    character, instrument = character_named(PAIRS[0][0]), bundled_maps()[PAIRS[0][1]]
     model = bundled_instrument(instrument)
     first, second = (fit_hold(character, model, instrument, load_body()) for _ in range(2))
     for a, b in zip(first.hands, second.hands, strict=True):
@@ -234,7 +234,7 @@ def test_a_second_fit_is_the_same_to_the_bit() -> None:
 
 
 def test_a_body_without_a_mouth_is_refused_by_name() -> None:
-    whole, instrument = bundled_character(PAIRS[0][0]), bundled_maps()[PAIRS[0][1]]
+    whole, instrument = character_named(PAIRS[0][0]), bundled_maps()[PAIRS[0][1]]
     marks = {name: mark for name, mark in whole.landmarks.items() if not name.startswith("lips.")}
     mute = Character("mute", whole.skeleton, whole.joint_from_mesh, whole.meshes, marks)
     with pytest.raises(UsageError, match=r"lips\.contact"):

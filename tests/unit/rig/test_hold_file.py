@@ -12,7 +12,7 @@ import pytest
 
 from app.formats.cache import CACHE_VARIABLE
 from app.rig import hold_file
-from app.rig.character import bundled_character, characters
+from app.rig.character_library import bundled_characters, character_named
 from app.rig.hold import Hold, Lips
 from app.rig.hold_file import bundled_path, digest_of, hold_for, read_hold, write_hold
 from app.rig.instrument import load_instrument
@@ -21,13 +21,13 @@ from app.rig.stations import asked_together
 from instrument_maps.load import bundled_maps, model_path
 from metadata.load import load_body
 
-PAIRS = [(character, instrument) for character in characters() for instrument in bundled_maps()]
+PAIRS = [(character, instrument) for character in bundled_characters() for instrument in bundled_maps()]
 
 
 def inputs(character_id: str, instrument_id: str) -> tuple[Any, ...]:
     instrument = bundled_maps()[instrument_id]
     model = load_instrument(model_path(instrument), instrument)
-    return bundled_character(character_id), model, instrument, load_body()
+    return character_named(character_id), model, instrument, load_body()
 
 
 def lips_of(character_id: str, instrument_id: str) -> Lips:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from app.rig.character import bundled_character, characters
+from app.rig.character_library import bundled_characters, character_named
 from app.rig.landmarks import found_landmarks
 from app.rig.model import Character
 from app.rig.skeleton import forward
@@ -12,9 +12,9 @@ from app.rig.skinning import landmark_normals, landmark_positions
 TOLERANCE_M = {"thumb": 0.008, "pad": 0.006, "side": 0.006, "palm": 0.006, "lips": 0.008, "sole": 0.03}
 
 
-@pytest.mark.parametrize("id", characters())
+@pytest.mark.parametrize("id", bundled_characters())
 def test_what_is_found_lies_on_what_is_named(id: str) -> None:
-    named = bundled_character(id)
+    named = character_named(id)
     found = found_landmarks(named.skeleton, named.joint_from_mesh, named.meshes)
     assert set(named.landmarks) <= set(found)
     bare = Character(named.id, named.skeleton, named.joint_from_mesh, named.meshes, found)

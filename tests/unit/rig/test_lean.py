@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.rig.character import bundled_character
+from app.rig.character_library import character_named
 from app.rig.grip_beside import leans_beside
 from app.rig.grip_lean import whole_hand
 from app.rig.hold import HandHold
@@ -27,7 +27,7 @@ def instrument() -> InstrumentMap:
 @pytest.fixture(scope="module")
 def left(instrument: InstrumentMap) -> HandHold:
     """A small hand whose thumb is on hole and register key while its little finger goes far for levers."""
-    character = bundled_character("woman_adult")
+    character = character_named("woman_adult")
     hold = hold_for(character, bundled_instrument(instrument), instrument, load_body())
     return next(hand for hand in hold.hands if hand.side == "left")
 

@@ -4,7 +4,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from app.rig import skeleton as fk
-from app.rig.character import bundled_character, characters
+from app.rig.character_library import bundled_characters, character_named
 from app.rig.model import Skeleton
 
 
@@ -24,7 +24,7 @@ def _pose(skeleton: Skeleton, frames: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 def test_every_joint_is_where_the_matrices_put_it() -> None:
-    skeleton = bundled_character(next(iter(characters()))).skeleton
+    skeleton = character_named(next(iter(bundled_characters()))).skeleton
     rotations, hips = _pose(skeleton, 3)
     found = fk.forward(skeleton, rotations, hips)
     for frame in range(3):
@@ -35,7 +35,7 @@ def test_every_joint_is_where_the_matrices_put_it() -> None:
 
 
 def test_some_joints_bring_their_ancestors_and_no_others() -> None:
-    skeleton = bundled_character(next(iter(characters()))).skeleton
+    skeleton = character_named(next(iter(bundled_characters()))).skeleton
     rotations, hips = _pose(skeleton, 2)
     wanted = skeleton.index("rightIndexDistal")
     some, everything = fk.forward(skeleton, rotations, hips, [wanted]), fk.forward(skeleton, rotations, hips)
@@ -44,6 +44,6 @@ def test_some_joints_bring_their_ancestors_and_no_others() -> None:
 
 
 def test_the_rest_pose_is_the_sum_of_offsets() -> None:
-    skeleton = bundled_character(next(iter(characters()))).skeleton
+    skeleton = character_named(next(iter(bundled_characters()))).skeleton
     still = np.tile([0.0, 0.0, 0.0, 1.0], (1, len(skeleton.names), 1))
     np.testing.assert_allclose(fk.forward(skeleton, still).positions_m[0], fk.rest_positions(skeleton), atol=1e-15)

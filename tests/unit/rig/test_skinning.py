@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from app.rig import skinning
-from app.rig.character import bundled_character, characters
+from app.rig.character_library import bundled_characters, character_named
 from app.rig.model import Character
 from app.rig.skeleton import JointTransforms, forward
 
@@ -13,7 +13,7 @@ MORPHS = ("jawOpen", "mouthPucker")
 
 @pytest.fixture(scope="module")
 def posed() -> tuple[Character, JointTransforms, dict[str, np.ndarray]]:
-    character = bundled_character(next(iter(characters())))
+    character = character_named(next(iter(bundled_characters())))
     generator = np.random.default_rng(11)
     rotations = generator.normal(size=(2, len(character.skeleton.names), 4)) * 0.2 + [0.0, 0.0, 0.0, 1.0]
     rotations /= np.linalg.norm(rotations, axis=2, keepdims=True)

@@ -7,7 +7,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from app.rig.character import bundled_character, characters
+from app.rig.character_library import bundled_characters, character_named
 from app.rig.instrument import bundled_instrument
 from instrument_maps.load import bundled_maps
 from widgets.viewport.geometry import (
@@ -21,12 +21,12 @@ from widgets.viewport.geometry import (
     stool,
 )
 
-CHARACTERS = tuple(characters())
+CHARACTERS = tuple(bundled_characters())
 
 
 @cache
 def levels(name: str) -> tuple[Geometry, ...]:
-    return character_levels(bundled_character(name))
+    return character_levels(character_named(name))
 
 
 def area(geometry: Geometry) -> float:
@@ -36,7 +36,7 @@ def area(geometry: Geometry) -> float:
 
 @pytest.mark.parametrize("name", CHARACTERS)
 def test_the_finest_level_is_every_triangle_where_it_was_in_its_own_colour(name: str) -> None:
-    character, geometry = bundled_character(name), levels(name)[0]
+    character, geometry = character_named(name), levels(name)[0]
     wanted = set()
     for mesh in character.meshes:
         for triangle, material in zip(mesh.triangles, mesh.triangle_materials, strict=True):
@@ -67,7 +67,7 @@ def test_coarser_levels_are_smaller_but_cover_the_same_body(name: str) -> None:
 def test_weights_sum_to_one_and_name_the_characters_own_joints(name: str) -> None:
     for level in levels(name):
         assert level.surface["a_weights"].sum(axis=1) == pytest.approx(1.0, abs=1e-5)
-        assert level.surface["a_bones"].max() < len(bundled_character(name).skeleton.names)
+        assert level.surface["a_bones"].max() < len(character_named(name).skeleton.names)
 
 
 @pytest.mark.parametrize("name", CHARACTERS)
@@ -76,7 +76,7 @@ def test_a_morph_moves_the_vertices_the_character_says_and_only_the_first_ones(n
     geometry = levels(name)[level]
     face = geometry.face
     assert face is not None
-    body = bundled_character(name).meshes[0]
+    body = character_named(name).meshes[0]
     morph = next(morph for morph in body.morphs if morph.name == "jawOpen")
     moved = {
         body.positions_m[vertex].tobytes(): body.positions_m[vertex] + delta
@@ -131,7 +131,7 @@ def test_what_is_seen_from_one_side_faces_outwards_and_comes_first(name: str) ->
     """The backs of these triangles are left out: their normals must tell which side that is."""
     two_sided = sum(
         int(np.array([material.double_sided for material in mesh.materials])[mesh.triangle_materials].sum())
-        for mesh in bundled_character(name).meshes
+        for mesh in character_named(name).meshes
     )
     for level in levels(name)[:1]:
         assert len(level.triangles) - level.one_sided == two_sided
