@@ -82,17 +82,18 @@ def write_usd(path: str | os.PathLike[str], scene: Scene, sound: Sound | None = 
     """
     refuse_without_usd()
     check_scene(scene)
-    # Since 2020 all of USD reads this version of its binary files; a sound's time needs it, and without being told USD
-    # complains on the terminal that it must use it.
-    os.environ.setdefault("USD_WRITE_NEW_USDC_FILES_AS_VERSION", "0.9.0")
-    from pxr import Tf
+    from pxr import Tf, UsdUtils
 
     layer = _Writer(scene).layer(sound)
     try:
         # USD writes files of its own only.
         with tempfile.TemporaryDirectory() as folder:
             made = Path(folder) / f"scene{Path(path).suffix}"
+            # Without a listener USD tells the terminal that a sound's time needs a version of its binary files newer
+            # than the oldest; errors are raised all the same.
+            listener = UsdUtils.CoalescingDiagnosticDelegate()
             layer.Export(str(made))
+            del listener
             with made.open("rb") as content, atomic_write(path) as stream:
                 shutil.copyfileobj(content, stream)
     except (OSError, Tf.ErrorException) as error:
