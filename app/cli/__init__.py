@@ -18,6 +18,7 @@ import app.cli.instruments
 import app.cli.midi
 import app.cli.ports
 import app.cli.record
+import app.cli.stream
 from app.errors import AppError, UsageError
 from app.messages import error_text
 from app.version import program_version
@@ -35,6 +36,7 @@ examples:
   suisou export quartet.mid --to out --format fbx --fps 30 --from-bar 1 --to-bar 8
   suisou export quartet.mid --to out --set "*.amplitude=0.8" --set "trombone.posture=seated"
   suisou midi session.suisou --to session.mid
+  suisou stream quartet.mid --player horn --loop
   suisou instruments
   suisou instruments scale trumpet_Bb
   suisou ports
@@ -59,6 +61,7 @@ def parser() -> argparse.ArgumentParser:
     app.cli.instruments.add_command(commands)
     app.cli.ports.add_command(commands)
     app.cli.record.add_command(commands)
+    app.cli.stream.add_command(commands)
     return top
 
 

@@ -14,6 +14,7 @@ TEMPLATES: Final[dict[str, str]] = {
     "work.compare": "what the generator would do for {player}",
     "work.reimport": "reading the MIDI file again",
     "work.portraits": "drawing the characters' portraits",
+    "work.stream": "looking for {host}",
     "work.export": "writing the files",
     "work.export_midi": "writing the MIDI file",
     "work.playblast": "making the film",

@@ -21,6 +21,7 @@ from widgets.common.text import message_text
 SUBJECTS: Final = (
     "file",
     "exchange",
+    "stream",
     "edit",
     "notes",
     "fingerings",
@@ -166,6 +167,7 @@ class ActionTable(QObject):
             session.pitch_display.changed,
             session.listening.changed,
             session.recording.changed,
+            session.streaming.changed,
             session.viewport.changed,
         ):
             signal.connect(self.refresh_soon)

@@ -31,6 +31,7 @@ from app.shell.questions import Dialogs, Questions
 from app.shell.recording import Recorder
 from app.shell.settings import Settings, settings_path
 from app.shell.sound import Sound
+from app.shell.streamer import Streamer
 from app.shell.tasks import ThreadTasks
 from app.shell.theme import apply_font, apply_theme
 from app.shell.window import Window
@@ -132,6 +133,8 @@ class Program(QObject):
             if recorder is None
             else recorder(self.session, self.editor.files)
         )
+        self.streamer = Streamer(self.session, settings, self.generator.live)
+        self.generator.motion_changed.connect(self.streamer.moved)
         self.editor.table = ActionTable(self.session, settings, rows())
         self.language.changed.connect(self.editor.table.retranslate)
         self.window = Window(self.editor, self.generator)
@@ -143,6 +146,7 @@ class Program(QObject):
     def end(self) -> None:
         """Stop everything that works beside the window."""
         self.recorder.close()
+        self.streamer.close()
         self.generator.close()
         if isinstance(self.tasks, ThreadTasks):
             self.tasks.cancel_all(STOP_S)

@@ -10,6 +10,8 @@ from urllib.parse import quote
 import platformdirs
 from PySide6.QtCore import QByteArray, QSettings
 
+from app.stream.sender import LEAST_PORT, MOST_PORT
+
 T = TypeVar("T")
 
 MOST_RECENT: Final = 12
@@ -176,6 +178,52 @@ class Settings:
     @count_in_bars.setter
     def count_in_bars(self, value: int) -> None:
         self._set("midi/count_in_bars", value)
+
+    @property
+    def stream_host(self) -> str:
+        """The computer that is streamed to; empty: none was chosen."""
+        return self._get("stream/host", "")
+
+    @stream_host.setter
+    def stream_host(self, value: str) -> None:
+        self._set("stream/host", value)
+
+    @property
+    def stream_port(self) -> int:
+        """0: none was chosen, or it is none."""
+        value = self._get("stream/port", 0)
+        return value if LEAST_PORT <= value <= MOST_PORT else 0
+
+    @stream_port.setter
+    def stream_port(self, value: int) -> None:
+        self._set("stream/port", value)
+
+    @property
+    def stream_everyone(self) -> bool:
+        """Every player is streamed, not only the one in front."""
+        return self._get("stream/everyone", False)
+
+    @stream_everyone.setter
+    def stream_everyone(self, value: bool) -> None:
+        self._set("stream/everyone", value)
+
+    @property
+    def stream_faces(self) -> str:
+        """Of `app.stream.faces.FACE_NAMES`; empty: none was chosen."""
+        return self._get("stream/faces", "")
+
+    @stream_faces.setter
+    def stream_faces(self, value: str) -> None:
+        self._set("stream/faces", value)
+
+    @property
+    def stream_rate_hz(self) -> int:
+        """Frames in a second; 0: none were chosen."""
+        return self._get("stream/rate_hz", 0)
+
+    @stream_rate_hz.setter
+    def stream_rate_hz(self, value: int) -> None:
+        self._set("stream/rate_hz", value)
 
     def midi_device(self, port: str, name: str) -> str:
         """What is remembered of a device; empty: nothing."""

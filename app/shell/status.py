@@ -61,11 +61,14 @@ class StatusLine(QStatusBar):
         The person wants to see what is wrong with instruments of their own.
     devices_asked()
         The person wants to see the MIDI devices.
+    streaming_asked()
+        The person wants to see what is streamed.
     """
 
     problems_asked = Signal()
     instruments_asked = Signal()
     devices_asked = Signal()
+    streaming_asked = Signal()
 
     def __init__(self, session: Session, files: Files, tasks: ThreadTasks | None, parent: QWidget) -> None:
         super().__init__(parent)
@@ -105,6 +108,9 @@ class StatusLine(QStatusBar):
         self._device = _flat("midi_device")
         self._device.clicked.connect(self.devices_asked)
         self.addPermanentWidget(self._device)
+        self._stream = _flat("stream_state")
+        self._stream.clicked.connect(self.streaming_asked)
+        self.addPermanentWidget(self._stream)
         self._problems = _flat("problems")
         self._problems.clicked.connect(self.problems_asked)
         self._saved, self._rate, self._motion = QLabel(), QLabel(), QLabel()
@@ -136,6 +142,7 @@ class StatusLine(QStatusBar):
         session.problems_changed.connect(self._tell_problems)
         session.instruments_changed.connect(self._tell_instruments)
         session.recording.changed.connect(self._tell_device)
+        session.streaming.changed.connect(self._tell_stream)
         session.theme_changed.connect(self.retranslate)
         session.playing_changed.connect(self._played)
         files.changed.connect(self._tell_saved)
@@ -267,6 +274,27 @@ class StatusLine(QStatusBar):
         self._device.setText(" " + text.format(device=device))
         self._device.setToolTip(self.tr("MIDI devices: choose, watch what comes in"))
 
+    def _tell_stream(self) -> None:
+        """What is streamed, and how fast; nothing where nothing is."""
+        streaming, tokens = self._session.streaming, self._session.tokens
+        self._stream.setVisible(streaming.state != "off")
+        lines = streaming.lines
+        ports = f"{lines[0].port}–{lines[-1].port}" if len(lines) > 1 else str(streaming.port)
+        text, colour = {
+            "off": ("", tokens.text_dim),
+            "looking": (self.tr("looking for {host}"), tokens.text_dim),
+            "sending": (self.tr("VMC to {host}:{ports}, {rate}/s"), tokens.good),
+            "unheard": (self.tr("VMC: nobody listens at {host}:{ports}"), tokens.warning),
+            "failed": (self.tr("VMC: {host} cannot be reached"), tokens.error),
+        }[streaming.state]
+        room_px = max(self.width() // 8, 100)
+        host = QFontMetrics(self._stream.font()).elidedText(streaming.host, Qt.TextElideMode.ElideMiddle, room_px)
+        self._stream.setIcon(icon("stream", tokens, colour))
+        self._stream.setText(" " + text.format(host=host, ports=ports, rate=streaming.sent_hz))
+        names = {player.id: player.name for player in self._session.project.players}
+        who = [f"{names[line.player_id]}: {line.port}" for line in lines if line.player_id in names]
+        self._stream.setToolTip("\n".join([*who, "", self.tr("Live stream: what is sent, and where")]).strip())
+
     def _tell_saved(self) -> None:
         files = self._files
         if not files.is_open:
@@ -334,6 +362,7 @@ class StatusLine(QStatusBar):
         self._tell_instruments()
         self._told_device = ()
         self._tell_device()
+        self._tell_stream()
         self._opened()
 
     def changeEvent(self, event: QEvent) -> None:

@@ -138,6 +138,7 @@ class Window(QMainWindow):
         self._files.overtaken.connect(self._ask_to_save_over)
         self.session.theme_changed.connect(self._dress)
         self.status.problems_asked.connect(self._next_problem)
+        self.status.streaming_asked.connect(self.show_streaming)
         self.status.instruments_asked.connect(self.show_instruments)
         self.status.devices_asked.connect(self.show_devices)
         generator.ready_changed.connect(self.status.set_ready)
@@ -299,6 +300,15 @@ class Window(QMainWindow):
         from app.shell.recording_dialogs import show_latency
 
         show_latency(self.editor)
+
+    def show_streaming(self) -> None:
+        """Show what is streamed to other programs; once."""
+        from widgets.dialogs.stream import StreamDialog
+
+        dialog = self.findChild(StreamDialog) or StreamDialog(self.session, self)
+        dialog.show()
+        dialog.raise_()
+        dialog.activateWindow()
 
     def show_about(self) -> None:
         """Say which program this is."""

@@ -1043,4 +1043,95 @@
         <translation>使用中: {names}。割り当てると、そちらから外れます。</translation>
     </message>
 </context>
+<context>
+    <name>StreamDialog</name>
+    <message>
+        <source>Stop Streaming</source>
+        <translation>配信を停止</translation>
+    </message>
+    <message>
+        <source>Start Streaming</source>
+        <translation>配信を開始</translation>
+    </message>
+    <message>
+        <source>Live Stream</source>
+        <translation>ライブ配信</translation>
+    </message>
+    <message>
+        <source>Sends the players&apos; poses, faces and instruments by the VMC protocol, while you play, scrub or record. Unreal (VMC4UE), VSeeFace, Warudo and add-ons for Blender receive it; one character for each port.</source>
+        <translation>再生・スクラブ・録音のあいだ、プレイヤーのポーズ、表情、楽器を VMC プロトコルで送信します。Unreal (VMC4UE)、VSeeFace、Warudo、Blender のアドオンなどで受信できます。1 つのポートで 1 キャラクターです。</translation>
+    </message>
+    <message>
+        <source>Computer</source>
+        <translation>送信先のコンピューター</translation>
+    </message>
+    <message>
+        <source>Port</source>
+        <translation>ポート</translation>
+    </message>
+    <message>
+        <source>Players</source>
+        <translation>プレイヤー</translation>
+    </message>
+    <message>
+        <source>Names of the face</source>
+        <translation>表情の名前</translation>
+    </message>
+    <message>
+        <source>Frames per second</source>
+        <translation>フレームレート (fps)</translation>
+    </message>
+    <message>
+        <source>This Computer</source>
+        <translation>このコンピューター</translation>
+    </message>
+    <message>
+        <source>What is sent leaves this computer, and anyone on the network can read it. Let the other computer&apos;s firewall through for this port.</source>
+        <translation>送信内容はこのコンピューターの外に出て、ネットワーク上の誰でも読み取れます。受信側のコンピューターのファイアウォールで、このポートを許可してください。</translation>
+    </message>
+    <message>
+        <source>The selected player, in the middle</source>
+        <translation>選択中のプレイヤー (舞台の中央に)</translation>
+    </message>
+    <message>
+        <source>Every player, each on a port of their own, where they are on the stage</source>
+        <translation>すべてのプレイヤー (1 人ずつ別のポート、舞台上の位置のまま)</translation>
+    </message>
+    <message>
+        <source>ARKit: jawOpen</source>
+        <translation>ARKit: jawOpen</translation>
+    </message>
+    <message>
+        <source>ARKit with capitals: JawOpen (perfect sync)</source>
+        <translation>ARKit、頭文字が大文字: JawOpen (パーフェクトシンク)</translation>
+    </message>
+    <message>
+        <source>VRM presets: A, Blink_L, Joy</source>
+        <translation>VRM プリセット: A、Blink_L、Joy</translation>
+    </message>
+    <message>
+        <source>Player</source>
+        <translation>プレイヤー</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>閉じる</translation>
+    </message>
+    <message>
+        <source>Looking for {host}...</source>
+        <translation>{host} を探しています...</translation>
+    </message>
+    <message>
+        <source>Nobody listens there yet: start receiving in the other program, on the same port.</source>
+        <translation>まだ受信されていません。受信側のソフトで、同じポートの受信を開始してください。</translation>
+    </message>
+    <message>
+        <source>Sending {count} frames per second; fewer while nothing moves.</source>
+        <translation>毎秒 {count} フレームを送信しています (動きがないときは少なくなります)。</translation>
+    </message>
+    <message>
+        <source>Nothing is sent.</source>
+        <translation>送信していません。</translation>
+    </message>
+</context>
 </TS>

@@ -1228,6 +1228,30 @@
             <translation>{file} にはルートボーンが複数あります（{bones}）。Unreal はルートを 1 つしか受け付けないため、その上にボーン {root} を加えました</translation>
         </message>
         <message>
+            <source>no computer is called {host!r}: check the spelling, or type its address in numbers such as 192.168.0.20</source>
+            <translation>{host!r} というコンピューターは見つかりません。つづりを確かめるか、192.168.0.20 のような数字のアドレスを入力してください</translation>
+        </message>
+        <message>
+            <source>there is no player to stream</source>
+            <translation>配信するプレイヤーがいません</translation>
+        </message>
+        <message>
+            <source>--from {time_s:g}: the piece goes from {first_s:g} to {end_s:g} seconds</source>
+            <translation>--from {time_s:g}: 曲は {first_s:g} 秒から {end_s:g} 秒までです</translation>
+        </message>
+        <message>
+            <source>{port} is no port that can be sent to; possible: {least} to {most}</source>
+            <translation>{port} は送信できるポートではありません。{least} から {most} までを指定してください</translation>
+        </message>
+        <message>
+            <source>{count} players need {count} ports from {port} on, and the last one is {most}: choose a lower port</source>
+            <translation>プレイヤー {count} 人には {port} から {count} 個のポートが必要ですが、最後のポートは {most} です。小さいポート番号を選んでください</translation>
+        </message>
+        <message>
+            <source>nothing can be sent to {host}, port {port} ({reason}): check the address and the network; it is tried again</source>
+            <translation>{host} のポート {port} に送信できません ({reason})。アドレスとネットワークを確かめてください。自動で再試行します</translation>
+        </message>
+        <message>
             <source>{file}: {detail}</source>
             <translation>{file}: {detail}</translation>
         </message>
@@ -1514,6 +1538,10 @@
         <message>
             <source>drawing the characters' portraits</source>
             <translation>キャラクターの肖像を描いています</translation>
+        </message>
+        <message>
+            <source>looking for {host}</source>
+            <translation>{host} を検索中</translation>
         </message>
         <message>
             <source>writing the files</source>

@@ -690,6 +690,14 @@
         <source>Delete Take</source>
         <translation>テイクを削除</translation>
     </message>
+    <message>
+        <source>Stream Live (VMC)</source>
+        <translation>ライブ配信 (VMC)</translation>
+    </message>
+    <message>
+        <source>Live Stream Settings...</source>
+        <translation>ライブ配信の設定...</translation>
+    </message>
 </context>
 <context>
     <name>ActionTable</name>
@@ -1074,6 +1082,26 @@
     <message>
         <source>MIDI devices: choose, watch what comes in</source>
         <translation>MIDI機器の選択と入力モニター</translation>
+    </message>
+    <message>
+        <source>looking for {host}</source>
+        <translation>{host} を検索中</translation>
+    </message>
+    <message>
+        <source>VMC to {host}:{ports}, {rate}/s</source>
+        <translation>VMC → {host}:{ports}  {rate} fps</translation>
+    </message>
+    <message>
+        <source>VMC: nobody listens at {host}:{ports}</source>
+        <translation>VMC: {host}:{ports} は受信されていません</translation>
+    </message>
+    <message>
+        <source>VMC: {host} cannot be reached</source>
+        <translation>VMC: {host} に送信できません</translation>
+    </message>
+    <message>
+        <source>Live stream: what is sent, and where</source>
+        <translation>ライブ配信: 送信内容と送信先</translation>
     </message>
     <message>
         <source>saved</source>

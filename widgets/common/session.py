@@ -22,6 +22,7 @@ from widgets.common.listening import Listening
 from widgets.common.live_players import LivePlayers
 from widgets.common.recording import Recording
 from widgets.common.selection import Selection
+from widgets.common.streaming import Streaming
 from widgets.common.tasks import Tasks
 from widgets.common.timeline_view import TimelineView
 from widgets.common.tokens import DARK, Tokens
@@ -120,6 +121,7 @@ class Session(QObject):
         self.listening = Listening()
         self.live_players = LivePlayers()
         self.recording = Recording()
+        self.streaming = Streaming()
         self.playback: Playback | None = None
         """Plays the performance; None where nothing is heard, as in a picture made without a window."""
         self.actions: Mapping[str, QAction] = {}

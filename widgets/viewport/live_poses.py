@@ -9,7 +9,8 @@ from widgets.viewport.poses import Posed, Poses
 
 
 class LivePoses:
-    """Poses of the performance, but of who is played now (`session.live_players`) those of now.
+    """Poses of the performance, but of who is played now (`session.live_players`) those of now. May be asked by any
+    thread.
 
     Parameters
     ----------
@@ -19,6 +20,11 @@ class LivePoses:
 
     def __init__(self, session: Session, poses: Poses) -> None:
         self._session, self._poses = session, poses
+
+    @property
+    def is_live(self) -> bool:
+        """Whether somebody is played now."""
+        return bool(self._session.live_players.playing)
 
     def poses(self, player_ids: Sequence[str], time_s: float) -> Sequence[Posed | None]:
         """See `Poses.poses`."""

@@ -36,7 +36,7 @@ from tests.gui.shell.conftest import trigger
 KEPT = (
     ".toml",
     ".glb",
-    *("MIDI", "FBX", "BVH", "Suisou", "Qt", "Python", "PySide6", "English", "Apache License", "OpenGL", "Esc"),
+    *("MIDI", "FBX", "BVH", "VMC", "Suisou", "Qt", "Python", "PySide6", "English", "Apache License", "OpenGL", "Esc"),
     *("Ctrl", "Shift", "Alt", "Home", "End", "Space", "Enter", "Return", "Backspace", "Del", "Delete", "Tab", "Ins"),
     *("Left", "Right", "Up", "Down", "PgUp", "PgDown", "fps", "CPU", "GL", "ms"),
 )

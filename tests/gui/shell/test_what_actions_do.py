@@ -741,6 +741,8 @@ CASES: dict[str, Case] = {
     "application.instruments": Case(lambda d: d.dialog("instruments")),
     "application.preferences": Case(lambda d: d.dialog("preferences")),
     "application.shortcuts": Case(lambda d: d.dialog("preferences")),
+    "stream.toggle": Case(lambda d: d.session.streaming.on and len(d.session.streaming.lines) == 1),
+    "stream.settings": Case(lambda d: d.dialog("stream")),
     "record.devices": Case(lambda d: d.dialog("midi_devices")),
     "record.latency": Case(lambda d: d.dialog("latency")),
     "record.toggle": Case(lambda d: d.session.recording.running and d.session.playing),

@@ -1,0 +1,163 @@
+"""``suisou stream``: play a piece to another program by the VMC protocol, without a window."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from fractions import Fraction
+from typing import TYPE_CHECKING, Final
+
+from app.cli.options import Commands, add_source_options, frame_rate, open_project
+from app.cli.progress import Progress
+from app.errors import UsageError
+from app.project.parameters import select_players
+from app.stream.faces import FACE_NAMES
+from app.stream.sender import LOOPBACK, PORT, Outcome, Sender, checked_port, find_address, is_loopback
+
+if TYPE_CHECKING:
+    from app.motion.model import Motion
+    from app.performance.chunks import Pose
+    from app.performance.ensemble import Performance
+    from app.project.casting import StagePosition
+    from app.project.model import Player
+    from app.stream.vmc import Sent
+
+_USUAL_RATE: Final = Fraction(60)
+_TELL_S: Final = 1.0
+
+
+def add_command(commands: Commands) -> None:
+    """Declare the sub-command."""
+    command = commands.add_parser(
+        "stream",
+        help="play a piece live to another program (VMC)",
+        description="Sends the players' poses in time by the VMC protocol (OSC over UDP), for Unreal, VSeeFace, Warudo "
+        "or Blender to follow: one character for each port. Ends with the piece, or at Ctrl+C.",
+    )
+    add_source_options(command)
+    command.add_argument(
+        "--player",
+        dest="players",
+        action="append",
+        default=[],
+        metavar="NAME",
+        help="only this player; repeatable (default: all, each on a port of their own)",
+    )
+    command.add_argument("--host", default=LOOPBACK, help=f"name or address of a computer (default: {LOOPBACK})")
+    command.add_argument("--port", type=int, default=PORT, help=f"of the first player (default: {PORT})")
+    command.add_argument(
+        "--fps", type=frame_rate, default=_USUAL_RATE, metavar="RATE", help="frames per second (default: 60)"
+    )
+    command.add_argument("--faces", choices=FACE_NAMES, default="arkit", help="names of the face (default: arkit)")
+    command.add_argument(
+        "--from", dest="from_s", type=float, metavar="S", help="begin here, in seconds (default: the beginning)"
+    )
+    command.add_argument("--loop", action="store_true", help="begin again at the end")
+    command.set_defaults(run=stream)
+
+
+def stream(arguments: argparse.Namespace) -> None:
+    """Send the piece, in time.
+
+    Raises
+    ------
+    AppError
+        The file cannot be read, the computer cannot be reached.
+    """
+    from app.performance.ensemble import Performance
+
+    project = open_project(arguments)
+    performance = Performance(project)
+    chosen = [project.players[at] for at in select_players(arguments.players, [p.name for p in project.players])]
+    if not chosen:
+        raise UsageError("stream.nobody")
+    checked_port(arguments.port + len(chosen) - 1)
+    address = find_address(arguments.host, arguments.port)
+    senders = [Sender(address.port(arguments.port + place)) for place in range(len(chosen))]
+    try:
+        cast = [_Streamed(performance, player, arguments, alone=len(chosen) == 1) for player in chosen]
+        for player, sender in zip(chosen, senders, strict=True):
+            print(f"{player.name}: {arguments.host}:{sender.address.at[1]}")
+        if not is_loopback(arguments.host):
+            print(f"what is sent leaves this computer, to {arguments.host}", file=sys.stderr)
+        _play(cast, senders, arguments)
+    except KeyboardInterrupt:
+        print("stopped")
+    finally:
+        for sender in senders:
+            sender.close()
+
+
+class _Streamed:
+    """A player, their motion, and how they are sent."""
+
+    def __init__(self, performance: Performance, player: Player, arguments: argparse.Namespace, alone: bool) -> None:
+        from app.performance.bodies import character_of
+        from app.performance.motion import player_motion
+        from app.performance.span import whole_span
+        from app.stream.vmc import IN_THE_MIDDLE, Sent
+
+        span = whole_span(performance.time_frame, arguments.fps)
+        progress = Progress(sys.stderr)
+        try:
+            self._motion: Motion = player_motion(
+                performance, player, span, progress=lambda share: progress(share, player.name)
+            )
+        finally:
+            progress.clear()
+        self._sent: Sent = Sent(character_of(player), player.instrument_id, arguments.faces)
+        self._stage: StagePosition = IN_THE_MIDDLE if alone else player.stage
+
+    @property
+    def frames(self) -> int:
+        return self._motion.frames
+
+    @property
+    def first_s(self) -> float:
+        return self._motion.first_frame_s
+
+    def datagrams(self, frame: int, time_s: float) -> list[bytes]:
+        return self._sent.datagrams(_pose(self._motion, frame), time_s, self._stage)
+
+
+def _pose(motion: Motion, frame: int) -> Pose:
+    from app.performance.chunks import Pose
+
+    return Pose(
+        rotations=motion.rotations[frame],
+        hips_m=motion.hips_m[frame],
+        morphs={name: float(values[frame]) for name, values in motion.morphs.items()},
+        controls={},
+        instrument_position_m=motion.instrument_position_m[frame],
+        instrument_rotation=motion.instrument_rotation[frame],
+    )
+
+
+def _play(cast: list[_Streamed], senders: list[Sender], arguments: argparse.Namespace) -> None:
+    """Every frame at its time; those that come too late are left out."""
+    fps, frames = float(arguments.fps), cast[0].frames
+    first = 0
+    if arguments.from_s is not None:
+        first = round((arguments.from_s - cast[0].first_s) * fps)
+        if not 0 <= first < frames:
+            end_s = cast[0].first_s + frames / fps
+            raise UsageError("stream.from", time_s=arguments.from_s, first_s=cast[0].first_s, end_s=round(end_s, 3))
+    began_s = time.perf_counter()
+    heard_s, unheard, sent = began_s, False, 0
+    step = 0
+    while arguments.loop or first + step < frames:
+        wait_s = began_s + step / fps - time.perf_counter()
+        if wait_s > 0:
+            time.sleep(wait_s)
+        now_s = time.perf_counter()
+        frame = (first + step) % frames
+        for streamed, sender in zip(cast, senders, strict=True):
+            unheard = sender.send(streamed.datagrams(frame, now_s - began_s)) is Outcome.UNHEARD or unheard
+        sent += 1
+        if now_s - heard_s >= _TELL_S:
+            if unheard and sys.stderr.isatty():
+                print("nobody listens there yet", file=sys.stderr)
+            heard_s, unheard = now_s, False
+        step = max(step + 1, int((time.perf_counter() - began_s) * fps))
+    print(f"{sent} frames in {time.perf_counter() - began_s:.1f} s")

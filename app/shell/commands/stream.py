@@ -1,0 +1,44 @@
+"""Streaming to other programs while the performance plays."""
+
+from __future__ import annotations
+
+from app.shell.action import QT_TRANSLATE_NOOP, Action
+from app.shell.editor import editor_of
+from app.shell.streamer import streamer_of
+from widgets.common.session import Session
+
+
+def toggle(session: Session, on: bool = True) -> None:
+    """Stream, or no more."""
+    session.streaming.set(on=not session.streaming.on)
+
+
+def settings(session: Session) -> None:
+    """Choose what is streamed, and where."""
+    editor_of(session).window.show_streaming()
+
+
+def _can_stream(session: Session) -> bool:
+    return streamer_of(session) is not None and bool(session.project.players)
+
+
+ACTIONS: tuple[Action, ...] = (
+    Action(
+        "stream.toggle",
+        QT_TRANSLATE_NOOP("Action", "Stream Live (VMC)"),
+        toggle,
+        "Export",
+        "Ctrl+Alt+L",
+        enabled=_can_stream,
+        checked=lambda session: session.streaming.on,
+        icon="stream",
+    ),
+    Action(
+        "stream.settings",
+        QT_TRANSLATE_NOOP("Action", "Live Stream Settings..."),
+        settings,
+        "Export",
+        enabled=lambda session: streamer_of(session) is not None,
+        icon="settings",
+    ),
+)

@@ -1,0 +1,372 @@
+"""Streams the players' poses while the editor plays, is scrubbed, rests or records: see `app.stream`.
+
+A thread sends, so that neither waits for the other: the window says what is wished, where the sound is and that
+something moves. A frame that the network does not take at once is dropped. While nothing moves it goes on slowly, so
+that who receives knows that somebody is there.
+"""
+
+from __future__ import annotations
+
+import threading
+import time
+import weakref
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Final
+
+from PySide6.QtCore import QObject, Qt
+from shiboken6 import isValid
+
+from app.errors import AppError, Message
+from app.performance.bodies import character_of
+from app.project.casting import StagePosition
+from app.project.model import Player
+from app.rig.model import Character
+from app.shell.calls import window_calls
+from app.shell.settings import Settings
+from app.stream.faces import FACE_NAMES, FaceNames
+from app.stream.sender import Address, Outcome, Sender, find_address
+from app.stream.vmc import IN_THE_MIDDLE, Sent
+from widgets.common.session import Session, Severity
+from widgets.common.streaming import RATES_HZ, StreamState
+from widgets.common.tasks import Progress, StopWanted
+from widgets.viewport.live_poses import LivePoses
+from widgets.viewport.poses import Poses
+
+RESTING_S: Final = 0.2
+"""Between two frames while nothing moves."""
+SETTLED_S: Final = 0.5
+"""So long after the last movement frames are sent at their full rate: receivers smooth what they get."""
+RETRY_S: Final = 2.0
+"""After nothing could be sent."""
+TELL_S: Final = 0.5
+"""How often is told how it goes."""
+ALONE_S: Final = 1.0
+"""A window that says nothing of where the sound is for so long hangs: nothing goes on without it."""
+_SECOND_S: Final = 1.0
+
+
+class Streamer(QObject):
+    """Sends what `session.streaming` says, as long as it is on.
+
+    Parameters
+    ----------
+    session : Session
+        Becomes the parent.
+    settings : Settings
+        Remember where to; not that it was on.
+    poses : Poses
+        Of the performance; asked by the thread.
+    """
+
+    def __init__(self, session: Session, settings: Settings, poses: Poses) -> None:
+        super().__init__(session)
+        self.setObjectName("streamer")
+        self._session, self._settings, self._state = session, settings, session.streaming
+        self._poses = LivePoses(session, poses)
+        self._address: Address | None = None
+        self._asked: tuple[str, int] | None = None
+        """What the address was, or is, looked up from."""
+        self._thread: _Thread | None = None
+        self._restore()
+        self._settled = self._wished()
+        self._state.changed.connect(self._changed)
+        session.changed.connect(self._wish)
+        session.players_changed.connect(self._wish)
+        live = session.live_players
+        for signal in (
+            *(session.playhead_changed, session.playing_changed, session.performance_changed),
+            *(live.changed, live.struck),
+        ):
+            signal.connect(self.moved)
+
+    # What is wished
+
+    def _restore(self) -> None:
+        settings = self._settings
+        faces = settings.stream_faces
+        self._state.set(
+            host=settings.stream_host or self._state.host,
+            port=settings.stream_port or self._state.port,
+            everyone=settings.stream_everyone,
+            rate_hz=settings.stream_rate_hz if settings.stream_rate_hz in RATES_HZ else self._state.rate_hz,
+            faces=next((name for name in FACE_NAMES if name == faces), self._state.faces),
+        )
+
+    def _wished(self) -> tuple[object, ...]:
+        state = self._state
+        return state.on, state.host, state.port, state.everyone, state.faces, state.rate_hz
+
+    def _changed(self) -> None:
+        wished = self._wished()
+        if wished == self._settled:
+            return
+        self._settled = wished
+        state, settings = self._state, self._settings
+        settings.stream_host, settings.stream_port = state.host, state.port
+        settings.stream_everyone, settings.stream_faces = state.everyone, state.faces
+        settings.stream_rate_hz = state.rate_hz
+        if not state.on:
+            self.close()
+        elif (state.host, state.port) != self._asked:
+            self._look_up()
+        else:
+            self._wish()
+
+    def _look_up(self) -> None:
+        """A computer with a name may take seconds to be found."""
+        host, port = self._state.host, self._state.port
+        self.close()
+        self._asked = (host, port)
+        self._state.set(state="looking")
+
+        def work(progress: Progress, stop_wanted: StopWanted) -> Address:
+            return find_address(host, port)
+
+        def done(address: Address) -> None:
+            if self._asked == (host, port):
+                self._begin(address)
+
+        def failed(error: AppError) -> None:
+            if self._asked == (host, port):
+                self._fail(error.message)
+
+        self._session.tasks.run(Message("work.stream", {"host": host}), work, done, failed, key="stream")
+
+    def _begin(self, address: Address) -> None:
+        self._address = address
+        self._state.set(state="sending", trouble=None)
+        self._thread = _Thread(self._poses, _Teller(self))
+        weakref.finalize(self, self._thread.close)
+        self._wish()
+
+    def close(self) -> None:
+        """Send no more."""
+        self._asked = self._address = None
+        if self._thread is not None:
+            self._thread.close()
+            self._thread = None
+        self._state.set(state="off", lines=(), sent_hz=0, trouble=None)
+
+    def _wish(self, *_: object) -> None:
+        """Who is sent where."""
+        if self._address is None or self._thread is None:
+            return
+        state, project = self._state, self._session.project
+        lines = state.planned(project, self._session.players)
+        if lines != state.lines:
+            state.set(lines=lines)
+            if state.everyone and len(lines) < len(project.players):
+                told = Message(
+                    "stream.no_room",
+                    {"count": len(project.players), "port": state.port, "most": lines[-1].port if lines else 0},
+                )
+                self._session.notice(told, Severity.WARNING)
+        players = [project.player(line.player_id) for line in lines]
+        self._thread.wish(
+            _Wish(
+                address=self._address,
+                players=tuple(players),
+                ports=tuple(line.port for line in lines),
+                stages=tuple(player.stage if state.everyone else IN_THE_MIDDLE for player in players),
+                faces=state.faces,
+                rate_hz=state.rate_hz,
+            )
+        )
+        self.moved()
+
+    def moved(self, *_: object) -> None:
+        """Something moves, or did just now."""
+        if self._thread is None:
+            return
+        session, playback = self._session, self._session.playback
+        if session.playing and playback is not None:
+            anchor = _Anchor(playback.position_s(), time.perf_counter(), session.listening.speed, session.loop_s)
+        else:
+            anchor = _Anchor(session.playhead_s, time.perf_counter(), 0.0, None)
+        self._thread.move(anchor)
+
+    # How it goes
+
+    def _tell(self, sent_hz: int, unheard: bool) -> None:
+        state: StreamState = "unheard" if unheard else "sending"
+        self._state.set(state=state, sent_hz=sent_hz, trouble=None)
+
+    def _fail(self, message: Message) -> None:
+        """Said once; it is tried again as long as it is wanted and the computer is known."""
+        if self._state.trouble != message:
+            self._session.notice(message, Severity.ERROR)
+        self._state.set(state="failed", trouble=message, sent_hz=0)
+
+
+@dataclass(frozen=True)
+class _Wish:
+    """What the thread sends."""
+
+    address: Address
+    players: tuple[Player, ...]
+    ports: tuple[int, ...]
+    stages: tuple[StagePosition, ...]
+    faces: FaceNames
+    rate_hz: int
+
+
+@dataclass(frozen=True)
+class _Anchor:
+    """Where the performance was at a moment of `time.perf_counter`, and how fast it goes."""
+
+    position_s: float
+    at_s: float
+    speed: float
+    loop_s: tuple[float, float] | None
+
+    def position(self, now_s: float) -> float:
+        """Where it is now; the end of a loop is not gone beyond."""
+        position_s = self.position_s + min(now_s - self.at_s, ALONE_S) * self.speed
+        if self.loop_s is not None and self.position_s < self.loop_s[1]:
+            return min(position_s, self.loop_s[1])
+        return position_s
+
+
+class _Teller:
+    """Carries what the thread says into the window's thread, as long as there is a streamer that has it."""
+
+    def __init__(self, streamer: Streamer) -> None:
+        self._ask, self._streamer = window_calls().ask, weakref.ref(streamer)
+
+    def tell(self, thread: _Thread, say: Callable[[Streamer], None]) -> None:
+        listening = self._streamer
+
+        def call() -> None:
+            streamer = listening()
+            if streamer is not None and isValid(streamer) and streamer._thread is thread:
+                say(streamer)
+
+        self._ask(call)
+
+
+class _Thread:
+    """Sends at its rate until it is closed. Holds nothing of the window."""
+
+    def __init__(self, poses: LivePoses, teller: _Teller) -> None:
+        self._poses, self._teller = poses, teller
+        self._changed = threading.Condition()
+        self._wish: _Wish | None = None
+        self._anchor = _Anchor(0.0, 0.0, 0.0, None)
+        self._moved_s = 0.0
+        self._closed = False
+        self._began_s = time.perf_counter()
+        self._senders: dict[int, Sender] = {}
+        self._sent: dict[str, tuple[tuple[Character, str, FaceNames], Sent]] = {}
+        self._frames: deque[float] = deque()
+        self._told_s = self._began_s
+        self._thread = threading.Thread(target=self._run, name="streamer", daemon=True)
+        self._thread.start()
+
+    # Called by the window
+
+    def wish(self, wish: _Wish) -> None:
+        with self._changed:
+            self._wish = wish
+            self._changed.notify()
+
+    def move(self, anchor: _Anchor) -> None:
+        with self._changed:
+            rested = time.perf_counter() - self._moved_s > SETTLED_S
+            self._anchor, self._moved_s = anchor, time.perf_counter()
+            if rested:
+                self._changed.notify()
+
+    def close(self) -> None:
+        with self._changed:
+            self._closed = True
+            self._changed.notify()
+        if self._thread is not threading.current_thread():
+            self._thread.join(2.0)
+
+    # The thread
+
+    def _run(self) -> None:
+        due_s = time.perf_counter()
+        try:
+            while not self._closed:
+                due_s = self._step(due_s)
+        finally:
+            self._close_senders()
+
+    def _step(self, due_s: float) -> float:
+        """Send what is due; when the next one is."""
+        with self._changed:
+            moved_s = self._moved_s
+            # Woken early where something moves again, or something else is wished.
+            while not self._closed and (self._wish is None or time.perf_counter() < due_s):
+                if self._wish is not None and self._moved_s != moved_s and self._rests(moved_s):
+                    break
+                self._changed.wait(None if self._wish is None else max(due_s - time.perf_counter(), 0.0))
+            wish, anchor = self._wish, self._anchor
+        if self._closed or wish is None:
+            return due_s
+        now_s = time.perf_counter()
+        try:
+            unheard = self._send(wish, anchor.position(now_s), now_s)
+        except AppError as error:
+            message = error.message
+            self._close_senders()
+            self._teller.tell(self, lambda streamer: streamer._fail(message))
+            return time.perf_counter() + RETRY_S
+        self._tell(now_s, unheard)
+        if anchor.speed or self._poses.is_live:
+            self._moved_s = max(self._moved_s, now_s)
+        step_s = RESTING_S if self._rests(self._moved_s) else 1.0 / wish.rate_hz
+        # By the clock and not by the last frame, so that the rate is kept; what was missed is not made up for.
+        due_s += step_s
+        return due_s if now_s - step_s < due_s <= now_s + step_s else now_s + step_s
+
+    @staticmethod
+    def _rests(moved_s: float) -> bool:
+        return time.perf_counter() - moved_s > SETTLED_S
+
+    def _send(self, wish: _Wish, time_s: float, now_s: float) -> bool:
+        """Everybody's pose of now; whether nobody listens anywhere."""
+        for port in self._senders.keys() - set(wish.ports):
+            self._senders.pop(port).close()
+        poses = self._poses.poses([player.id for player in wish.players], time_s)
+        outcomes = list[Outcome]()
+        for player, port, stage, pose in zip(wish.players, wish.ports, wish.stages, poses, strict=True):
+            # What is not made yet is not sent: who receives it keeps the last one.
+            if pose is not None:
+                datagrams = self._sent_of(player, wish.faces).datagrams(pose, now_s - self._began_s, stage)
+                if port not in self._senders:
+                    self._senders[port] = Sender(wish.address.port(port))
+                outcomes.append(self._senders[port].send(datagrams))
+        if outcomes and Outcome.DROPPED not in outcomes:
+            self._frames.append(now_s)
+        return bool(outcomes) and all(outcome is Outcome.UNHEARD for outcome in outcomes)
+
+    def _sent_of(self, player: Player, faces: FaceNames) -> Sent:
+        """How a player is sent; made anew for another character, instrument or names."""
+        of = (character_of(player), player.instrument_id, faces)
+        known = self._sent.get(player.id)
+        if known is None or known[0] != of:
+            known = self._sent[player.id] = (of, Sent(*of))
+        return known[1]
+
+    def _tell(self, now_s: float, unheard: bool) -> None:
+        if now_s - self._told_s < TELL_S:
+            return
+        self._told_s = now_s
+        while self._frames and now_s - self._frames[0] > _SECOND_S:
+            self._frames.popleft()
+        count = len(self._frames)
+        self._teller.tell(self, lambda streamer: streamer._tell(count, unheard))
+
+    def _close_senders(self) -> None:
+        for sender in self._senders.values():
+            sender.close()
+        self._senders.clear()
+
+
+def streamer_of(session: Session) -> Streamer | None:
+    """The streamer of a session; None where nothing is streamed."""
+    return session.findChild(Streamer, "streamer", Qt.FindChildOption.FindDirectChildrenOnly)

@@ -1,0 +1,61 @@
+"""What a face is called where it is received: ARKit's names in either spelling, or the presets of VRM 0."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Final, Literal
+
+import numpy as np
+import numpy.typing as npt
+
+FaceNames = Literal["arkit", "arkit_capital", "vrm"]
+"""``jawOpen``; ``JawOpen``, as clips for perfect sync are often named; ``A``, ``Blink_L`` and the like."""
+FACE_NAMES: Final[tuple[FaceNames, ...]] = ("arkit", "arkit_capital", "vrm")
+
+VRM_PRESETS: Final[Mapping[str, Mapping[str, float]]] = {
+    "A": {"jawOpen": 1.0},
+    "I": {"mouthStretchLeft": 0.5, "mouthStretchRight": 0.5},
+    "U": {"mouthPucker": 1.0},
+    "O": {"mouthFunnel": 1.0},
+    "Blink_L": {"eyeBlinkLeft": 1.0},
+    "Blink_R": {"eyeBlinkRight": 1.0},
+    "Joy": {"mouthSmileLeft": 0.5, "mouthSmileRight": 0.5},
+    # The whole face changes with it: half of it says as much as two brows.
+    "Angry": {"browDownLeft": 0.25, "browDownRight": 0.25},
+}
+"""What ARKit's shapes amount to, where a face has nothing finer; sums are cut at 1."""
+
+
+@dataclass(frozen=True, eq=False)
+class FaceLayout:
+    """The names that are sent, and how their values come from the weights of morphs.
+
+    Attributes
+    ----------
+    names : tuple of str
+    morphs : tuple of str
+    shares : (len(names), len(morphs)) float64 or None
+        None: each name is one morph.
+    """
+
+    names: tuple[str, ...]
+    morphs: tuple[str, ...]
+    shares: npt.NDArray[np.float64] | None = None
+
+    def values(self, weights: Mapping[str, float]) -> npt.NDArray[np.float64]:
+        """The values 0..1 that are sent, in the order of the names."""
+        own = np.array([weights.get(morph, 0.0) for morph in self.morphs])
+        values: npt.NDArray[np.float64] = np.clip(own if self.shares is None else self.shares @ own, 0.0, 1.0)
+        return values
+
+
+def face_layout(naming: FaceNames, morphs: Sequence[str]) -> FaceLayout:
+    """How a face with these morphs, which have ARKit's names, is told."""
+    if naming == "arkit":
+        return FaceLayout(tuple(morphs), tuple(morphs))
+    if naming == "arkit_capital":
+        return FaceLayout(tuple(morph[:1].upper() + morph[1:] for morph in morphs), tuple(morphs))
+    made = {name: parts for name, parts in VRM_PRESETS.items() if parts.keys() & set(morphs)}
+    shares = np.array([[parts.get(morph, 0.0) for morph in morphs] for parts in made.values()])
+    return FaceLayout(tuple(made), tuple(morphs), shares.reshape(len(made), len(morphs)))

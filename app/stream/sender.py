@@ -1,0 +1,150 @@
+"""Datagrams to a program that listens, here or elsewhere; nothing ever waits for it.
+
+Messages
+--------
+stream.host_unknown : host
+    "no computer is called {host}: ..."
+stream.port : port
+    "{port} is no port ..."
+stream.not_sent : host, port, reason
+    "nothing can be sent to {host}, port {port} ({reason}) ..."
+"""
+
+from __future__ import annotations
+
+import ipaddress
+import os
+import socket
+from collections.abc import Iterable
+from dataclasses import dataclass
+from enum import Enum
+from typing import Final, TypeAlias
+
+from app.errors import AppError
+
+LOOPBACK: Final = "127.0.0.1"
+"""This computer."""
+PORT: Final = 39539
+"""Where a receiver of the VMC protocol listens, usually."""
+LEAST_PORT, MOST_PORT = 1024, 65535
+
+SocketAddress: TypeAlias = tuple[str, int] | tuple[str, int, int, int]
+
+
+class StreamError(AppError):
+    """Nothing can be sent there."""
+
+
+@dataclass(frozen=True)
+class Address:
+    """A computer that is known, and a port of it.
+
+    Attributes
+    ----------
+    host : str
+        As it was asked for.
+    family : int
+        Of the Internet's addresses.
+    at : SocketAddress
+    """
+
+    host: str
+    family: int
+    at: SocketAddress
+
+    def port(self, port: int) -> Address:
+        """Another port of the same computer."""
+        return Address(self.host, self.family, (self.at[0], port, *self.at[2:]))
+
+
+class Outcome(Enum):
+    """What became of a frame."""
+
+    SENT = "sent"
+    DROPPED = "dropped"
+    """The system has no room: this frame is not sent, and not kept either."""
+    UNHEARD = "unheard"
+    """It went out, but nobody listens there."""
+
+
+def is_loopback(host: str) -> bool:
+    """Whether what is sent to this host stays on this computer."""
+    if host.strip().casefold() == "localhost":
+        return True
+    try:
+        return ipaddress.ip_address(host.strip()).is_loopback
+    except ValueError:
+        return False
+
+
+def checked_port(port: int) -> int:
+    """The port. Raises StreamError (``stream.port``) where it is none that a program may listen on."""
+    if not LEAST_PORT <= port <= MOST_PORT:
+        raise StreamError("stream.port", port=port, least=LEAST_PORT, most=MOST_PORT)
+    return port
+
+
+def find_address(host: str, port: int) -> Address:
+    """Look a computer up; may take seconds where it has a name.
+
+    Raises
+    ------
+    StreamError
+        ``stream.host_unknown``, ``stream.port``.
+    """
+    wanted = host.strip()
+    try:
+        found = socket.getaddrinfo(wanted or LOOPBACK, checked_port(port), type=socket.SOCK_DGRAM)
+    except (socket.gaierror, UnicodeError) as error:
+        raise StreamError("stream.host_unknown", host=wanted) from error
+    # A name that has both is reached by the older one: receivers listen on that.
+    family, _, _, _, at = sorted(found, key=lambda row: row[0] != socket.AF_INET)[0]
+    return Address(wanted, family, at)  # type: ignore[arg-type]
+
+
+class Sender:
+    """Sends datagrams to one port.
+
+    Parameters
+    ----------
+    address : Address
+
+    Raises
+    ------
+    StreamError
+        ``stream.not_sent``: there is no way there.
+    """
+
+    def __init__(self, address: Address) -> None:
+        self.address = address
+        self._socket = socket.socket(address.family, socket.SOCK_DGRAM)
+        self._socket.setblocking(False)
+        try:
+            # Told where it goes, the system says when nobody listens there.
+            self._socket.connect(address.at)
+        except OSError as error:
+            self._socket.close()
+            raise self._not_sent(error) from error
+
+    def send(self, datagrams: Iterable[bytes]) -> Outcome:
+        """Send a frame, or what there is room for. Raises StreamError (``stream.not_sent``)."""
+        outcome = Outcome.SENT
+        for datagram in datagrams:
+            try:
+                self._socket.send(datagram)
+            except BlockingIOError:
+                return Outcome.DROPPED
+            except (ConnectionRefusedError, ConnectionResetError):
+                # Of a packet before this one; whoever comes later hears the next.
+                outcome = Outcome.UNHEARD
+            except OSError as error:
+                raise self._not_sent(error) from error
+        return outcome
+
+    def close(self) -> None:
+        """Send no more."""
+        self._socket.close()
+
+    def _not_sent(self, error: OSError) -> StreamError:
+        reason = os.strerror(error.errno) if error.errno else str(error)
+        return StreamError("stream.not_sent", host=self.address.host, port=self.address.at[1], reason=reason)

@@ -1,0 +1,143 @@
+"""A player's pose as messages of the VMC protocol (https://protocol.vmc.info), the performer's part of it.
+
+A receiver shows one character for each port. It gets the local rotation of every bone that the character has, as from
+a T-pose in which all bones are unturned; the face; and the instrument as a tracker, for whoever hangs a model on it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Protocol
+
+import numpy as np
+import numpy.typing as npt
+
+from app.project.casting import StagePosition
+from app.rig import quaternion
+from app.rig.model import Character
+from app.stream.faces import FaceNames, face_layout
+from app.stream.packets import Head, Packets
+from app.stream.unity import unity_bone, unity_positions, unity_rotations
+
+Floats = npt.NDArray[np.floating]
+
+LOADED = 1
+"""A character is there, and moves."""
+_TRANSFORM = 7
+"""Position and rotation."""
+IN_THE_MIDDLE = StagePosition(0.0, 0.0, 0.0)
+
+
+class Posed(Protocol):
+    """One frame of a player's motion, as `app.performance.chunks.Pose`."""
+
+    @property
+    def rotations(self) -> Floats:
+        """``parent_from_joint`` of every joint (J, 4), xyzw."""
+
+    @property
+    def hips_m(self) -> Floats:
+        """Translation of the hips in the root's frame (3,)."""
+
+    @property
+    def morphs(self) -> Mapping[str, float]:
+        """Weights 0..1 of the morph targets that move."""
+
+    @property
+    def instrument_position_m(self) -> Floats:
+        """Origin of the instrument (3,), in the player's frame."""
+
+    @property
+    def instrument_rotation(self) -> Floats:
+        """Rotation of the instrument (4,), xyzw."""
+
+
+class Sent:
+    """One player as they are sent: which bones under which names, which face, which instrument.
+
+    Parameters
+    ----------
+    character : Character
+    instrument : str
+        Name of its tracker.
+    faces : FaceNames
+    """
+
+    def __init__(self, character: Character, instrument: str, faces: FaceNames = "arkit") -> None:
+        skeleton, own = character.skeleton, character.own
+        self._hips = skeleton.index("hips")
+        # A joint that the character's own file lacks is not there for the receiver either: what it turns by goes to
+        # the ones below it.
+        has = [joint > 0 and (own is None or own.bone_of_joint[joint] >= 0) for joint in range(len(skeleton.names))]
+        self._joints = np.flatnonzero(has)
+        self._offsets_m = skeleton.offsets_m[self._joints].copy()
+        self._between = dict[int, tuple[int, ...]]()
+        for place, joint in enumerate(self._joints):
+            above, parent = list[int](), skeleton.parents[joint]
+            while parent > 0 and not has[parent]:
+                above.append(parent)
+                parent = skeleton.parents[parent]
+            if above:
+                self._between[place] = tuple(reversed(above))
+        self._skeleton_offsets_m = skeleton.offsets_m
+        self._hips_place = int(np.flatnonzero(self._joints == self._hips)[0])
+        self._face = face_layout(faces, sorted({morph.name for mesh in character.meshes for morph in mesh.morphs}))
+        names = [unity_bone(skeleton.names[joint]) for joint in self._joints]
+        heads = [
+            Head("/VMC/Ext/OK", (LOADED,)),
+            Head("/VMC/Ext/T", (), 1),
+            Head("/VMC/Ext/Root/Pos", ("root",), _TRANSFORM),
+            *(Head("/VMC/Ext/Bone/Pos", (name,), _TRANSFORM) for name in names),
+            Head("/VMC/Ext/Tra/Pos", (instrument,), _TRANSFORM),
+            *(Head("/VMC/Ext/Blend/Val", (name,), 1) for name in self._face.names),
+        ]
+        if self._face.names:
+            heads.append(Head("/VMC/Ext/Blend/Apply"))
+        self._packets = Packets(heads)
+
+    def datagrams(self, pose: Posed, time_s: float, stage: StagePosition = IN_THE_MIDDLE) -> list[bytes]:
+        """The packets of a pose.
+
+        Parameters
+        ----------
+        pose : Posed
+        time_s : float
+            Since the stream began.
+        stage : StagePosition, optional
+            Where the player stands; in the middle, facing the audience, unless said.
+        """
+        root_m = np.array([stage.x_m, 0.0, stage.z_m])
+        root = np.array([0.0, np.sin(stage.turn_rad / 2.0), 0.0, np.cos(stage.turn_rad / 2.0)])
+        held_m = root_m + quaternion.rotate(root, pose.instrument_position_m)
+        held = quaternion.multiply(root, pose.instrument_rotation)
+        bones_m, bones = self._local(pose)
+        return self._packets.filled(
+            np.concatenate(
+                [
+                    [time_s],
+                    _transforms(root_m[None], root[None]),
+                    _transforms(bones_m, bones),
+                    _transforms(held_m[None], held[None]),
+                    self._face.values(pose.morphs),
+                ]
+            )
+        )
+
+    def _local(self, pose: Posed) -> tuple[Floats, Floats]:
+        """Positions and rotations of the bones, each in the frame of the bone above it that is sent."""
+        rotations = quaternion.normalize(pose.rotations[self._joints])
+        positions_m = self._offsets_m.copy()
+        positions_m[self._hips_place] = pose.hips_m
+        for place, between in self._between.items():
+            turned, moved_m = quaternion.IDENTITY, np.zeros(3)
+            for joint in between:
+                moved_m = moved_m + quaternion.rotate(turned, self._skeleton_offsets_m[joint])
+                turned = quaternion.multiply(turned, pose.rotations[joint])
+            positions_m[place] = moved_m + quaternion.rotate(turned, positions_m[place])
+            rotations[place] = quaternion.multiply(turned, rotations[place])
+        return positions_m, rotations
+
+
+def _transforms(positions_m: Floats, rotations: Floats) -> Floats:
+    """Position and rotation of each, one after the other, in Unity's space."""
+    return np.concatenate([unity_positions(positions_m), unity_rotations(rotations)], axis=1).ravel()

@@ -1,0 +1,238 @@
+"""What the editor streams, heard by a receiver of our own over real UDP."""
+
+from __future__ import annotations
+
+import socket
+import time
+
+import numpy as np
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QLabel, QLineEdit, QPushButton
+from pytestqt.qtbot import QtBot
+
+from app.performance.bodies import character_of
+from app.performance.motion import playing_of
+from app.performance.play_along import PlayAlong
+from app.score.take import Wiring
+from app.shell.app import Program
+from app.shell.settings import Settings
+from app.shell.sound import sound_of
+from app.stream.sender import Sender
+from tests.gui.shell.conftest import Start, trigger
+from tests.support.osc import Frame, Receiver
+from widgets.dialogs.stream import StreamDialog
+
+ARM = "RightLowerArm"
+
+
+def ready(program: Program, qtbot: QtBot) -> None:
+    player = program.session.project.players[0].id
+    qtbot.waitUntil(lambda: program.generator.live.pose(player, program.session.playhead_s) is not None)
+
+
+def stream_to(program: Program, port: int) -> None:
+    program.session.streaming.set(port=port)
+    trigger(program, "stream.toggle")
+
+
+def heard(receiver: Receiver, qtbot: QtBot, count: int = 1) -> list[Frame]:
+    before = len(receiver.frames)
+    qtbot.waitUntil(lambda: len(receiver.frames) >= before + count)
+    return receiver.frames
+
+
+def test_nothing_is_sent_until_it_is_asked_for_and_no_more_afterwards(program: Program, qtbot: QtBot) -> None:
+    ready(program, qtbot)
+    with Receiver() as receiver:
+        program.session.streaming.set(port=receiver.port)
+        program.session.set_playhead(2.0)
+        qtbot.wait(300)
+        assert not receiver.packets
+        trigger(program, "stream.toggle")
+        heard(receiver, qtbot, 3)
+        assert program.session.actions["stream.toggle"].isChecked()
+        trigger(program, "stream.toggle")
+        qtbot.wait(50)
+        count = len(receiver.packets)
+        program.session.set_playhead(3.0)
+        qtbot.wait(400)
+        assert len(receiver.packets) == count
+        assert program.session.streaming.state == "off"
+
+
+def test_it_follows_the_playhead_and_rests_slowly(program: Program, qtbot: QtBot) -> None:
+    ready(program, qtbot)
+    with Receiver() as receiver:
+        stream_to(program, receiver.port)
+        first = heard(receiver, qtbot)[-1]
+        # Somewhere the trumpet is played, not rested.
+        note = program.session.project.part(program.session.project.players[0]).notes[2]
+        time_s = program.session.project.score.tempo_map.seconds(note.onset_tick) + 0.05
+        program.session.set_playhead(time_s)
+        player = program.session.project.players[0].id
+        qtbot.waitUntil(lambda: program.generator.live.pose(player, time_s) is not None)
+        qtbot.waitUntil(lambda: receiver.frames[-1].bones[ARM] != first.bones[ARM])
+        pose = program.generator.live.pose(player, time_s)
+        assert pose is not None
+        qtbot.wait(1200)
+        joint = character_of(program.session.project.players[0]).skeleton.index("rightLowerArm")
+        expected = np.asarray(pose.rotations[joint], float) * (1, -1, -1, 1)
+        np.testing.assert_allclose(receiver.frames[-1].bones[ARM][3:], expected, atol=2e-6)
+        # At rest: alive, but seldom.
+        before = len(receiver.frames)
+        qtbot.wait(1000)
+        assert 3 <= len(receiver.frames) - before <= 8
+
+
+def test_the_rate_is_kept_while_it_plays(program: Program, qtbot: QtBot) -> None:
+    ready(program, qtbot)
+    sound = sound_of(program.session)
+    assert sound is not None
+    program.session.playback = sound.playback
+    with Receiver() as receiver:
+        program.session.streaming.set(rate_hz=30)
+        stream_to(program, receiver.port)
+        program.session.playback.play(1.0)
+        qtbot.wait(700)
+        start = len(receiver.frames)
+        qtbot.wait(3000)
+        frames = receiver.frames[start:]
+        program.session.playback.stop()
+    # What a busy machine misses is not made up for, so that it is never more.
+    rate_hz = (len(frames) - 1) / (frames[-1].time_s - frames[0].time_s)
+    assert 24.0 < rate_hz < 30.5
+    assert len({frame.bones[ARM] for frame in frames}) > 0.8 * len(frames)
+
+
+def test_who_is_played_from_a_controller_is_sent_as_they_play(program: Program, qtbot: QtBot) -> None:
+    ready(program, qtbot)
+    session = program.session
+    player = session.project.players[0]
+    with Receiver() as receiver:
+        stream_to(program, receiver.port)
+        rested = heard(receiver, qtbot)[-1]
+        live = PlayAlong(playing_of(session.performance, player))
+        session.live_players.begin(live)
+        session.live_players.hear(player.id, time.perf_counter(), "b0027f", Wiring())
+        low = session.performance.instrument(player).range.low
+        session.live_players.hear(player.id, time.perf_counter(), f"90{low + 8:02x}64", Wiring())
+        qtbot.wait(600)
+        frames = receiver.frames
+        moved = [frame for frame in frames if frame.face != rested.face and frame.bones != rested.bones]
+        assert len(moved) > 5
+        session.live_players.end(player.id)
+
+
+def test_who_is_in_front_is_sent_or_everyone(program: Program, qtbot: QtBot) -> None:
+    ready(program, qtbot)
+    session = program.session
+    ids = [player.id for player in session.project.players]
+    qtbot.waitUntil(lambda: all(program.generator.live.pose(id, 0.0) is not None for id in ids))
+    with Receiver(39821) as first, Receiver(39822) as second:
+        session.streaming.set(everyone=True)
+        stream_to(program, 39821)
+        qtbot.waitUntil(lambda: bool(first.frames) and bool(second.frames))
+        assert first.frames[-1].root != second.frames[-1].root
+        session.streaming.set(everyone=False)
+        qtbot.wait(100)
+        count = len(second.packets)
+        session.set_players((ids[2],))
+        assert [line.player_id for line in session.streaming.lines] == [ids[2]]
+        qtbot.waitUntil(lambda: first.frames[-1].root[:3] == (0.0, 0.0, 0.0))
+        assert [*first.frames[-1].trackers] == [session.project.players[2].instrument_id]
+        assert len(second.packets) == count
+
+
+def test_nobody_there_is_said_and_hurts_nobody(program: Program, qtbot: QtBot) -> None:
+    ready(program, qtbot)
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    stream_to(program, port)
+    chip = program.window.status.findChild(QPushButton, "stream_state")
+    assert chip is not None
+    qtbot.waitUntil(lambda: program.session.streaming.state == "unheard")
+    assert "nobody listens" in chip.text()
+    assert program.session.streaming.trouble is None
+    with Receiver(port) as receiver:
+        heard(receiver, qtbot, 2)
+        qtbot.waitUntil(lambda: program.session.streaming.state == "sending")
+        assert f"127.0.0.1:{port}" in chip.text()
+
+
+def test_what_is_in_the_way_is_said_once_and_tried_again(
+    program: Program, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    ready(program, qtbot)
+    told = list[str]()
+    program.session.noticed.connect(lambda message, severity: told.append(message.id))
+    monkeypatch.setattr("app.shell.streamer.RETRY_S", 0.1)
+    program.session.streaming.set(host="nobody at all.invalid")
+    trigger(program, "stream.toggle")
+    assert program.session.streaming.state == "failed"
+    assert told == ["stream.host_unknown"]
+    send = Sender.send
+
+    def unreachable(sender: Sender, datagrams: object) -> None:
+        raise sender._not_sent(OSError(101, "unreachable"))
+
+    with Receiver() as receiver:
+        monkeypatch.setattr(Sender, "send", unreachable)
+        program.session.streaming.set(host="127.0.0.1", port=receiver.port)
+        qtbot.wait(500)
+        assert told == ["stream.host_unknown", "stream.not_sent"]
+        assert program.session.streaming.state == "failed"
+        monkeypatch.setattr(Sender, "send", send)
+        heard(receiver, qtbot)
+        qtbot.waitUntil(lambda: program.session.streaming.state == "sending")
+        assert program.session.streaming.trouble is None
+
+
+def test_the_dialog_by_mouse_and_keys(program: Program, qtbot: QtBot) -> None:
+    ready(program, qtbot)
+    trigger(program, "stream.settings")
+    dialog = program.window.findChild(StreamDialog)
+    assert dialog is not None
+    qtbot.waitUntil(dialog.isActiveWindow)
+    host = dialog.findChild(QLineEdit, "stream_host")
+    warning, told = dialog.findChild(QLabel, "stream_warning"), dialog.findChild(QLabel, "stream_told")
+    toggle, here = dialog.findChild(QPushButton, "stream_toggle"), dialog.findChild(QPushButton, "stream_here")
+    assert host is not None
+    assert warning is not None
+    assert told is not None
+    assert toggle is not None
+    assert here is not None
+    assert warning.isHidden()
+    host.setFocus()
+    host.selectAll()
+    QTest.keyClicks(host, "192.168.0.20")
+    assert program.session.streaming.host == "127.0.0.1", "not while it is being typed"
+    QTest.keyClick(host, Qt.Key.Key_Tab)
+    assert program.session.streaming.host == "192.168.0.20"
+    assert not warning.isHidden()
+    QTest.mouseClick(here, Qt.MouseButton.LeftButton)
+    assert host.text() == "127.0.0.1"
+    assert warning.isHidden()
+    with Receiver() as receiver:
+        program.session.streaming.set(port=receiver.port)
+        QTest.mouseClick(toggle, Qt.MouseButton.LeftButton)
+        heard(receiver, qtbot, 2)
+        qtbot.waitUntil(lambda: "frames per second" in told.text())
+        QTest.mouseClick(toggle, Qt.MouseButton.LeftButton)
+        assert told.text() == "Nothing is sent."
+    dialog.close()
+
+
+def test_where_to_is_remembered_but_not_that_it_was_on(start: Start, settings: Settings, qtbot: QtBot) -> None:
+    first = start()
+    first.session.streaming.set(host="studio-pc", port=40001, everyone=True, faces="vrm", rate_hz=30)
+    first.session.streaming.set(port=39539)
+    second = start().session.streaming
+    assert (second.host, second.port, second.everyone) == ("studio-pc", 39539, True)
+    assert (second.faces, second.rate_hz, second.on, second.state) == ("vrm", 30, False, "off")
+    settings.stream_port = 5
+    settings.stream_faces = "nonsense"
+    third = start().session.streaming
+    assert (third.port, third.faces) == (39539, "arkit")

@@ -1,0 +1,63 @@
+"""``suisou stream``: a piece in time, to a program that listens."""
+
+from __future__ import annotations
+
+import re
+from importlib.resources import as_file, files
+from pathlib import Path
+
+import pytest
+
+from app.cli import BAD_INPUT, BAD_USE, DONE, main
+from tests.support.osc import Receiver
+
+
+@pytest.fixture
+def quartet() -> Path:
+    """The bundled example."""
+    with as_file(files("resources") / "examples" / "quartet.mid") as path:
+        return path
+
+
+def length_s(quartet: Path, capsys: pytest.CaptureFixture[str]) -> float:
+    """What the program itself says the end is."""
+    assert main(["stream", str(quartet), "--player", "Trombone 1", "--from", "9999"]) == BAD_USE
+    (end,) = re.findall(r"to ([0-9.]+) seconds", capsys.readouterr().err)
+    return float(end)
+
+
+def test_the_end_of_the_piece_is_sent_in_time(quartet: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    end_s = length_s(quartet, capsys)
+    with Receiver() as receiver:
+        asked = ["--player", "Trombone 1", "--fps", "50", "--port", str(receiver.port), "--from", str(end_s - 1.0)]
+        assert main(["stream", str(quartet), *asked, "--faces", "vrm"]) == DONE
+        frames = receiver.frames
+    assert f"Trombone 1: 127.0.0.1:{receiver.port}" in capsys.readouterr().out
+    # Some may be left out on a busy machine, but nothing is late or early.
+    assert 25 < len(frames) <= 50
+    assert frames[-1].time_s - frames[0].time_s == pytest.approx(0.98, abs=0.06)
+    came_s = frames[-1].at_s - frames[0].at_s
+    assert came_s == pytest.approx(frames[-1].time_s - frames[0].time_s, abs=0.05)
+    assert all("A" in frame.face and frame.applied for frame in frames)
+    assert frames[0].root[:3] == (0.0, 0.0, 0.0)
+    hands = {frame.bones["RightLowerArm"] for frame in frames}
+    assert len(hands) > 5, "it moves"
+
+
+def test_everyone_has_a_port_and_a_place(quartet: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    end_s = length_s(quartet, capsys)
+    with Receiver(39801) as first, Receiver(39804) as last:
+        assert main(["stream", str(quartet), "--port", "39801", "--from", str(end_s - 0.2), "--fps", "30"]) == DONE
+        places = {receiver.frames[0].root[:3] for receiver in (first, last)}
+    assert len(places) == 2
+    assert {place[1] for place in places} == {0.0}
+
+
+def test_what_makes_no_sense_is_said(quartet: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    one = ["stream", str(quartet), "--player", "Trombone 1"]
+    assert main([*one, "--port", "80"]) == BAD_INPUT
+    assert "80 is no port" in capsys.readouterr().err
+    assert main(["stream", str(quartet), "--port", "65534"]) == BAD_INPUT
+    assert "65537" in capsys.readouterr().err
+    assert main([*one, "--host", "nobody at all"]) == BAD_INPUT
+    assert "nobody at all" in capsys.readouterr().err

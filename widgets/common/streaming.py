@@ -1,0 +1,95 @@
+"""What is streamed to other programs, where, and how that stands: state that the dialog, the commands, the status line
+and the streamer share."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final, Literal
+
+from PySide6.QtCore import QObject, Signal
+
+from app.errors import Message
+from app.project.model import Project
+from app.stream.faces import FaceNames
+from app.stream.sender import LOOPBACK, MOST_PORT, PORT
+
+StreamState = Literal["off", "looking", "sending", "unheard", "failed"]
+"""Nothing is sent; the computer is looked up; it is sent; it is sent, but nobody listens; nothing can be sent."""
+
+RATES_HZ: Final = (24, 30, 60, 90)
+USUAL_RATE_HZ: Final = 60
+
+
+@dataclass(frozen=True)
+class Line:
+    """A player and the port they are sent to."""
+
+    player_id: str
+    port: int
+
+
+class Streaming(QObject):
+    """How streaming stands.
+
+    Attributes
+    ----------
+    on : bool
+        Whether it is to be streamed.
+    host : str
+        A computer's name or address.
+    port : int
+        Of the player in front; of several, the first one's.
+    everyone : bool
+        Every player, each to a port of their own, at their places on the stage; else the one in front, in the middle.
+    faces : FaceNames
+    rate_hz : int
+        Frames in a second while something moves.
+    state : StreamState
+    lines : tuple of Line
+        Who is sent where.
+    sent_hz : int
+        Frames of a player that were sent in the last second.
+    trouble : Message or None
+        Why nothing can be sent.
+
+    Signals
+    -------
+    changed()
+        One of these is another.
+    """
+
+    changed = Signal()
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.on = False
+        self.host = LOOPBACK
+        self.port = PORT
+        self.everyone = False
+        self.faces: FaceNames = "arkit"
+        self.rate_hz = USUAL_RATE_HZ
+        self.state: StreamState = "off"
+        self.lines: tuple[Line, ...] = ()
+        self.sent_hz = 0
+        self.trouble: Message | None = None
+
+    def planned(self, project: Project, front: Sequence[str]) -> tuple[Line, ...]:
+        """Who is sent where, or would be; who has no port left is not.
+
+        Parameters
+        ----------
+        project : Project
+        front : sequence of str
+            Ids of the selected players, the one in front first.
+        """
+        ids = [player.id for player in project.players] if self.everyone else front[:1]
+        return tuple(Line(id, self.port + place) for place, id in enumerate(ids) if self.port + place <= MOST_PORT)
+
+    def set(self, **values: object) -> None:
+        """Change some attributes; `changed` once if any is another."""
+        different = [name for name, value in values.items() if getattr(self, name) != value]
+        for name in different:
+            setattr(self, name, values[name])
+        if different:
+            self.changed.emit()
