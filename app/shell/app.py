@@ -134,7 +134,6 @@ class Program(QObject):
             else recorder(self.session, self.editor.files)
         )
         self.streamer = Streamer(self.session, settings, self.generator.live)
-        self.generator.motion_changed.connect(self.streamer.moved)
         self.editor.table = ActionTable(self.session, settings, rows())
         self.language.changed.connect(self.editor.table.retranslate)
         self.window = Window(self.editor, self.generator)
