@@ -181,6 +181,7 @@ def test_what_is_in_the_way_is_said_once_and_tried_again(
     with Receiver() as receiver:
         monkeypatch.setattr(Sender, "send", unreachable)
         program.session.streaming.set(host="127.0.0.1", port=receiver.port)
+        qtbot.waitUntil(lambda: len(told) > 1)
         qtbot.wait(500)
         assert told == ["stream.host_unknown", "stream.not_sent"]
         assert program.session.streaming.state == "failed"
