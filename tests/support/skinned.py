@@ -152,10 +152,11 @@ class UsdFile:
             corners |= self._corners(prim, time)
         return Shown(joints, weights, corners)
 
-    def points_cm(self, prim: Any, time: Any) -> np.ndarray:
-        """Points of a mesh after its blend shapes and its skeleton."""
+    def points_cm(self, path: str, time: Any) -> np.ndarray:
+        """Points of the mesh at a path after its blend shapes and its skeleton."""
         from pxr import UsdGeom, UsdSkel, Vt
 
+        prim = self._stage.GetPrimAtPath(path)
         query = self._cache.GetSkinningQuery(prim)
         points = Vt.Vec3fArray(UsdGeom.Mesh(prim).GetPointsAttr().Get())
         if query.HasBlendShapes() and self._skeleton.GetAnimQuery().GetBlendShapeOrder():
@@ -172,7 +173,7 @@ class UsdFile:
     def _corners(self, prim: Any, time: Any) -> dict[str, np.ndarray]:
         from pxr import UsdGeom, UsdShade
 
-        points = self.points_cm(prim, time)
+        points = self.points_cm(str(prim.GetPath()), time)
         mesh = UsdGeom.Mesh(prim)
         (width,) = set(mesh.GetFaceVertexCountsAttr().Get())
         faces = np.array(mesh.GetFaceVertexIndicesAttr().Get()).reshape(-1, width)
