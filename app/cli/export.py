@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from types import FrameType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from app.cli.options import Commands, add_source_options, frame_rate, open_project, whole_number
 from app.cli.progress import Progress
@@ -21,8 +21,11 @@ from app.project.parameters import select_players
 from app.version import program_version
 
 if TYPE_CHECKING:
+    from app.export.target import SkeletonChoice
     from app.performance.ensemble import Performance
     from app.performance.span import FrameSpan
+
+SKELETONS: Final[tuple[SkeletonChoice, ...]] = ("own", "ue5", "suisou")
 
 
 def add_command(commands: Commands) -> None:
@@ -59,6 +62,21 @@ def add_command(commands: Commands) -> None:
     )
     command.add_argument(
         "--player", dest="players", action="append", default=[], metavar="NAME", help="only this player; repeatable"
+    )
+    command.add_argument(
+        "--skeleton",
+        choices=SKELETONS,
+        default="own",
+        help="what the characters are written on: the skeleton of the character's own file, untouched, so that the "
+        "animation drops on the asset made from it; Unreal's mannequin with the character's proportions; or ours "
+        "(default: own)",
+    )
+    command.add_argument(
+        "--check-skeleton",
+        type=Path,
+        metavar="ASSET",
+        help="an FBX, VRM or glTF file of the asset: every bone is compared with its, and nothing is written that the "
+        "asset would lose; the mannequin's rest rotations are taken from it",
     )
     command.add_argument("--from-bar", type=whole_number, metavar="N", help="first bar, as printed (a pickup is bar 0)")
     command.add_argument("--to-bar", type=whole_number, metavar="N", help="last bar, inclusive")
@@ -106,6 +124,8 @@ def export(arguments: argparse.Namespace) -> None:
         bars=_bars(performance, arguments),
         source=arguments.file.name,
         creator=f"Suisou {program_version()}",
+        skeleton=arguments.skeleton,
+        asset=arguments.check_skeleton,
     )
     try:
         with _terminable():

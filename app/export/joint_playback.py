@@ -19,12 +19,14 @@ FloatArray = npt.NDArray[np.float64]
 
 _CHUNK = 4096
 _HIPS = "hips"
+_TRUNK = ("spine", "chest", "upperChest", "neck", "head")
 
 
 class JointPlayback:
     """Joints read from the bones of a file: ``world_from_joint = world_from_bone * inverse(joint_from_bone)``.
 
-    Bones are found by their names in the file. A joint that no bone shows does not turn on its parent.
+    Bones are found by their names in the file. A joint that no bone shows does not turn on its parent; of the trunk's
+    joints, which a file may show as fewer bones, those that go as one have equal shares of what it turns.
 
     Parameters
     ----------
@@ -114,5 +116,17 @@ class JointPlayback:
                 continue
             own = self._target.joint_from_bone[self._target.bone_of_joint[joint]]
             world.append(quaternion.multiply(bones[self._bones[joint]], quaternion.conjugate(own)))
-            result[:, joint] = quaternion.multiply(quaternion.conjugate(above), world[joint])
+            turn = quaternion.multiply(quaternion.conjugate(above), world[joint])
+            together = self._together(joint)
+            result[:, together] = quaternion.slerp(quaternion.IDENTITY, turn, 1.0 / len(together))[:, None]
         return result
+
+    def _together(self, joint: int) -> list[int]:
+        """A joint and those of the trunk above it that the file shows by the same bone."""
+        found = [joint]
+        if self.names[joint] in _TRUNK:
+            above = self._character.skeleton.parents[joint]
+            while above not in self._bones and self.names[above] in _TRUNK:
+                found.append(above)
+                above = self._character.skeleton.parents[above]
+        return found

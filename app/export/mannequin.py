@@ -19,8 +19,11 @@ import numpy.typing as npt
 from app.export.own_skeleton import limb_twist
 from app.export.target import TargetSkeleton, Twist, local_placements
 from app.rig import quaternion
+from app.rig.figure import Figure
+from app.rig.figure_character import REQUIRED_JOINTS
 from app.rig.model import Skeleton
 from app.rig.skeleton import rest_positions
+from app.rig.t_pose import rest_of, turns_to_t_pose, upright
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -133,6 +136,27 @@ class MannequinAxes:
 
     rest: Mapping[str, FloatArray]
     t_pose: Mapping[str, FloatArray]
+
+
+def mannequin_axes(asset: Figure) -> MannequinAxes:
+    """The rotations of a figure that has the mannequin's bones; none where it has not even those of a body."""
+    names = {name: bone for bone, name in enumerate(asset.bone_names) if name in MANNEQUIN}
+    bones = {bone.joint: names[bone.name] for bone in _BONES if bone.joint and bone.name in names}
+    if any(joint not in bones for joint in REQUIRED_JOINTS):
+        return MannequinAxes({}, {})  # it is no mannequin, as comparing the bones will say
+    asset = upright(asset, bones)
+    rest = rest_of(asset)
+    turns = turns_to_t_pose(asset, rest, bones)
+    joint_of = {bone: joint for joint, bone in bones.items()}
+    turned = np.tile(quaternion.IDENTITY, (len(asset.bone_names), 1))
+    for bone, parent in enumerate(asset.parents):
+        own = turns.get(joint_of.get(bone, ""))
+        turned[bone] = own if own is not None else turned[parent] if parent >= 0 else quaternion.IDENTITY
+    t_pose = quaternion.multiply(turned, rest.rotations)
+    return MannequinAxes(
+        {name: asset.rotations[bone] for name, bone in names.items()},
+        {name: t_pose[bone] for name, bone in names.items()},
+    )
 
 
 def mannequin_target(skeleton: Skeleton, asset: MannequinAxes | None = None) -> TargetSkeleton:

@@ -6,7 +6,9 @@ import math
 
 import msgspec
 
+from app.export.check_skeleton import Difference
 from app.export.measure import PlayerMeasures, Spread
+from app.export.target import SkeletonChoice
 
 SWAY_CORRELATION = 0.9
 """Two players whose sway correlates this much move alike."""
@@ -19,6 +21,18 @@ class StagePlace(msgspec.Struct, frozen=True):
     x_m: float
     z_m: float
     turn_deg: float
+
+
+class SkeletonReport(msgspec.Struct, frozen=True):
+    """What a player's character is written on, and in what that differs from the asset it was compared with.
+
+    A character of ours asked for on its own skeleton is on ``suisou``.
+    """
+
+    choice: SkeletonChoice
+    asset: str | None = None
+    """Name of the asset's file."""
+    differences: tuple[Difference, ...] = ()
 
 
 class PlayerReport(msgspec.Struct, frozen=True):
@@ -38,6 +52,7 @@ class PlayerReport(msgspec.Struct, frozen=True):
     """Greatest correlation of the torso's sideways motion with another exported player's; None where there is none."""
     lean_correlation: float | None
     """The same of its forward and backward motion, which breaths and rests in common make alike."""
+    skeleton: SkeletonReport = SkeletonReport("suisou")
 
 
 class UnplayedPart(msgspec.Struct, frozen=True):

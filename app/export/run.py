@@ -20,7 +20,9 @@ from app.export.folder import files_into
 from app.export.formats import FILE_FORMATS, Format, Held
 from app.export.instrument import instrument_scene
 from app.export.measure import Measured, greatest_correlations, measure_player
-from app.export.report import PlayerReport, Report, StagePlace, UnplayedPart, encode_report
+from app.export.report import PlayerReport, Report, SkeletonReport, StagePlace, UnplayedPart, encode_report
+from app.export.target import SkeletonChoice, TargetSkeleton
+from app.export.targets import CheckedTarget, checked_targets, refuse_grave
 from app.formats.atomic import atomic_write
 from app.formats.fbx.read import read_scene
 from app.formats.scene import Scene
@@ -31,6 +33,7 @@ from app.performance.motion import player_motion
 from app.performance.span import FrameSpan
 from app.project.model import Player
 from app.project.names import file_stems
+from app.rig.read_figure import read_figure
 from metadata.load import load_skeleton
 
 Progress = Callable[[float, str], None]
@@ -60,6 +63,10 @@ class Request:
         First and last bar asked for, for the report.
     source, creator : str
         Name of the piece's file; program and version.
+    skeleton : SkeletonChoice
+        What the characters are written on; instruments have one skeleton only.
+    asset : path or None
+        File of the asset that the animation is for: every player's skeleton is compared with its.
     """
 
     performance: Performance
@@ -70,6 +77,8 @@ class Request:
     bars: tuple[int, int] | None
     source: str
     creator: str
+    skeleton: SkeletonChoice = "own"
+    asset: Path | None = None
 
 
 def export(
@@ -90,7 +99,8 @@ def export(
     Raises
     ------
     FileError
-        ``export.nobody``; ``export.too_long``; ``file.cannot_write``.
+        ``export.nobody``; ``export.too_long``; ``file.cannot_write``; ``skeleton.differs`` and what `read_figure`
+        says where an asset is given.
     UsageError
         ``usd.missing``.
     Cancelled
@@ -102,6 +112,7 @@ def export(
         raise FileError("export.nobody", file=request.source)
     for name in request.formats:
         FILE_FORMATS[name].refuse()
+    checked = _checked(request, wording)
     stems, names = _stems(request.performance), file_names(request.performance, request.formats)
     reports: list[PlayerReport] = []
     torsos: dict[str, FloatArray] = {}
@@ -113,11 +124,15 @@ def export(
                     raise Cancelled("work.stopped")
                 progress((done + share) / len(request.players), name)
 
-            report, measured = _export_player(request, player, stems[player.id], names[player.id], folder, told)
+            target = checked[player.id].target
+            report, measured = _export_player(request, player, target, stems[player.id], names[player.id], folder, told)
+            asset = None if request.asset is None else request.asset.name
+            skeleton = SkeletonReport(target.choice, asset, checked[player.id].differences)
+            report = msgspec.structs.replace(report, skeleton=skeleton)
             reports.append(report)
             if measured is not None:
                 torsos[player.id] = measured.torso_rad
-        report_value = _report(request, _compared(reports, request.players, torsos), wording)
+        report_value = _report(request, checked, _compared(reports, request.players, torsos), wording)
         with atomic_write(folder / REPORT) as stream:
             stream.write(encode_report(report_value))
     return report_value
@@ -143,14 +158,20 @@ REPORT = "report.json"
 
 
 def _export_player(
-    request: Request, player: Player, stem: str, files: dict[str, str], folder: Path, told: Callable[[float], None]
+    request: Request,
+    player: Player,
+    target: TargetSkeleton,
+    stem: str,
+    files: dict[str, str],
+    folder: Path,
+    told: Callable[[float], None],
 ) -> tuple[PlayerReport, Measured | None]:
     told(0.0)
     performance = request.performance
     wanted = {name: kind for name, kind in FILE_FORMATS.items() if name in request.formats}
     work = _MOTION_WORK + sum(kind.work for kind in wanted.values()) + _MEASURES_WORK * ("fbx" in wanted)
     motion = player_motion(performance, player, request.span, progress=lambda share: told(_MOTION_WORK / work * share))
-    scenes = _scenes(request, player, motion, stem, {held for kind in wanted.values() for held in kind.holds})
+    scenes = _scenes(request, player, target, motion, stem, {held for kind in wanted.values() for held in kind.holds})
     done = _MOTION_WORK
     for name, kind in wanted.items():
         for held in kind.holds:
@@ -170,20 +191,33 @@ def _export_player(
             load_skeleton(body_of(player).skeleton),
             request.span.first_frame_s,
             lambda share: told((done + _MEASURES_WORK * share) / work),
+            target,
         )
     told(1.0)
     return _player_report(request, player, files, measured), measured
 
 
-def _scenes(request: Request, player: Player, motion: Motion, stem: str, held: set[Held]) -> dict[Held, Scene]:
+def _scenes(
+    request: Request, player: Player, target: TargetSkeleton, motion: Motion, stem: str, held: set[Held]
+) -> dict[Held, Scene]:
     """The scenes that some format asked for can hold."""
     instrument = request.performance.instrument(player)
     scenes: dict[Held, Scene] = {}
     if "character" in held:
-        scenes["character"] = character_scene(character_of(player), motion, stem, request.creator)
+        scenes["character"] = character_scene(character_of(player), motion, stem, request.creator, target)
     if "instrument" in held:
         scenes["instrument"] = instrument_scene(instrument, model_of(instrument), motion, stem, request.creator)
     return scenes
+
+
+def _checked(request: Request, wording: Callable[[Message], str]) -> dict[str, CheckedTarget]:
+    """The skeleton of every player; those that the asset would not take are refused."""
+    if request.asset is None:
+        return checked_targets(request.players, request.skeleton)
+    asset = read_figure(request.asset)
+    checked = checked_targets(request.players, request.skeleton, asset)
+    refuse_grave(request.players, checked, asset, wording)
+    return checked
 
 
 def _stems(performance: Performance) -> dict[str, str]:
@@ -228,12 +262,20 @@ def _compared(
     )
 
 
-def _report(request: Request, players: tuple[PlayerReport, ...], wording: Callable[[Message], str]) -> Report:
+def _report(
+    request: Request,
+    checked: dict[str, CheckedTarget],
+    players: tuple[PlayerReport, ...],
+    wording: Callable[[Message], str],
+) -> Report:
     project, span = request.performance.project, request.span
     problems = [
-        f"{player.name}: {wording(problem.message)}"
+        f"{player.name}: {wording(message)}"
         for player in request.players
-        for problem in request.performance.plan(player).problems
+        for message in (
+            *checked[player.id].messages,
+            *(problem.message for problem in request.performance.plan(player).problems),
+        )
     ]
     rate = span.fps
     return Report(

@@ -1228,6 +1228,42 @@
             <translation>{file} にはルートボーンが複数あります（{bones}）。Unreal はルートを 1 つしか受け付けないため、その上にボーン {root} を加えました</translation>
         </message>
         <message>
+            <source>the root bone is {ours}, the asset's is {theirs}: Unreal would refuse the animation</source>
+            <translation>ルートボーンは {ours} ですが、アセットでは {theirs} です。Unreal はこのアニメーションを受け付けません</translation>
+        </message>
+        <message>
+            <source>{bone} hangs from {ours}, in the asset from {theirs}</source>
+            <translation>{bone} の親は {ours} ですが、アセットでは {theirs} です</translation>
+        </message>
+        <message>
+            <source>lengths are {factor} times the asset's: it is in another unit</source>
+            <translation>長さがアセットの {factor} 倍です。単位が異なります</translation>
+        </message>
+        <message>
+            <source>the asset has no bone {bone}: what it does would be lost</source>
+            <translation>アセットにボーン {bone} がありません。その動きは失われます</translation>
+        </message>
+        <message>
+            <source>{count} {count:bone|bones} that nothing moves {count:is|are} not in the asset: {bones}</source>
+            <translation>動かないボーンのうち {count} 個はアセットにありません：{bones}</translation>
+        </message>
+        <message>
+            <source>{count} {count:bone|bones} of the asset {count:is|are} not in the file and {count:keeps its|keep their} rest pose: {bones}</source>
+            <translation>アセットのボーンのうち {count} 個はファイルになく、レストポーズのままです：{bones}</translation>
+        </message>
+        <message>
+            <source>{count} {count:bone rests|bones rest} turned against the asset, at most by {most} degrees ({bone})</source>
+            <translation>{count} 個のボーンのレスト回転がアセットと異なります（最大 {most} 度、{bone}）</translation>
+        </message>
+        <message>
+            <source>{count} {count:bone rests|bones rest} elsewhere than in the asset, at most by {most} mm ({bone})</source>
+            <translation>{count} 個のボーンのレスト位置がアセットと異なります（最大 {most} mm、{bone}）</translation>
+        </message>
+        <message>
+            <source>{file} has another skeleton than the one that {player} would be written on: {detail}</source>
+            <translation>{file} のスケルトンは、{player} を書き出すスケルトンと異なります：{detail}</translation>
+        </message>
+        <message>
             <source>no computer is called {host!r}: check the spelling, or type its address in numbers such as 192.168.0.20</source>
             <translation>{host!r} というコンピューターは見つかりません。つづりを確かめるか、192.168.0.20 のような数字のアドレスを入力してください</translation>
         </message>

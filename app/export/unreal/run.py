@@ -26,6 +26,7 @@ from app.export.instrument import instrument_bones
 from app.export.report import Report, encode_report
 from app.export.run import REPORT as EXPORTED_REPORT
 from app.export.run import Progress, Request, export
+from app.export.targets import target_skeleton, written_meshes
 from app.export.tree import TreeChange, files_below, recover, tree_into
 from app.export.unreal.check import Expected, check_fbx, check_wave
 from app.export.unreal.description import Sound, describe, encode_description
@@ -256,9 +257,10 @@ def _checked(
     for index, player in enumerate(request.players):
         instrument = request.performance.instrument(player)
         character, model = character_of(player), model_of(instrument)
+        target = target_skeleton(character, request.skeleton)
         parts = tuple(bone.name for bone in instrument_bones(instrument, model))
         for place, named, meshes in (
-            (layout.characters[player.id], character.skeleton.names, character.meshes),
+            (layout.characters[player.id], target.names, written_meshes(character, target)),
             (layout.instruments[player.id], parts, model.meshes),
         ):
             if stop_wanted():

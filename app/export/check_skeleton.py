@@ -1,0 +1,140 @@
+"""The skeleton of an export against the one of an asset, bone by bone.
+
+Unreal matches bones by name. A root of another name, a bone below another parent or a length in another unit spoils an
+animation; what a bone does that the asset lacks is dropped without a word. Those differences are grave, the others are
+to be known.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Final, Literal, TypeAlias
+
+import msgspec
+import numpy as np
+import numpy.typing as npt
+
+from app.errors import Message
+from app.export.target import TargetSkeleton
+from app.rig import quaternion
+from app.rig.figure import Figure
+
+FloatArray = npt.NDArray[np.float64]
+DifferenceKind: TypeAlias = Literal["root", "unit", "parent", "additional", "missing", "rotation", "position"]
+
+POSITION_MM: Final = 0.5
+ROTATION_DEG: Final = 0.1
+_MEASURED: Final[dict[str, str]] = {"position": "skeleton.position", "rotation": "skeleton.rotation"}
+_COUNTED: Final[dict[str, str]] = {"additional": "skeleton.additional", "missing": "skeleton.missing"}
+UNIT: Final = (0.2, 5.0)
+"""Lengths that differ by more than these factors are of another unit, not of another body."""
+
+
+class Difference(msgspec.Struct, frozen=True):
+    """One thing in which a skeleton differs from an asset's.
+
+    Attributes
+    ----------
+    kind : DifferenceKind
+    bone : str
+        Empty where it is about all.
+    grave : bool
+        The animation would be dropped or spoilt.
+    ours, theirs : str
+        The root or the parent on either side; empty for other kinds.
+    amount : float
+        Millimetres, degrees, or the factor of the lengths; 0 for other kinds.
+    """
+
+    kind: DifferenceKind
+    bone: str
+    grave: bool
+    ours: str = ""
+    theirs: str = ""
+    amount: float = 0.0
+
+
+def check_skeleton(target: TargetSkeleton, asset: Figure) -> tuple[Difference, ...]:
+    """What differs between the skeleton of an export and an asset's, the gravest first.
+
+    Parameters
+    ----------
+    target : TargetSkeleton
+    asset : Figure
+        As its file has it.
+    """
+    ours = {name: bone for bone, name in enumerate(target.names)}
+    theirs = {name: bone for bone, name in enumerate(asset.bone_names)}
+    moved = {target.names[bone] for bone in target.moved}
+    found = [*_roots(target, asset), *_unit(target, asset)]
+    found += [Difference("additional", name, name in moved) for name in target.names if name not in theirs]
+    found += [Difference("missing", name, grave=False) for name in asset.bone_names if name not in ours]
+    for name in (name for name in target.names if name in theirs):
+        bone, other = ours[name], theirs[name]
+        above, other_above = target.parents[bone], asset.parents[other]
+        our_parent = target.names[above] if above >= 0 else ""
+        their_parent = asset.bone_names[other_above] if other_above >= 0 else ""
+        if our_parent != their_parent:
+            if our_parent and their_parent:  # otherwise it is a matter of roots, and told
+                found.append(Difference("parent", name, grave=True, ours=our_parent, theirs=their_parent))
+            continue
+        off_mm = 1000.0 * float(np.linalg.norm(target.offsets_m[bone] - asset.translations_m[other]))
+        if off_mm > POSITION_MM:
+            found.append(Difference("position", name, grave=False, amount=round(off_mm, 2)))
+        turn = quaternion.multiply(quaternion.conjugate(asset.rotations[other]), target.rest[bone])
+        off_deg = float(np.degrees(np.linalg.norm(quaternion.to_rotation_vector(turn))))
+        if off_deg > ROTATION_DEG:
+            found.append(Difference("rotation", name, grave=False, amount=round(off_deg, 2)))
+    return tuple(sorted(found, key=lambda difference: not difference.grave))
+
+
+def told(differences: Sequence[Difference]) -> tuple[Message, ...]:
+    """The differences in words: grave ones one by one, of the others how many there are of a kind, and the largest."""
+    messages = [_grave(difference) for difference in differences if difference.grave]
+    mild = [difference for difference in differences if not difference.grave]
+    for kind in dict.fromkeys(difference.kind for difference in mild):
+        alike = [difference for difference in mild if difference.kind == kind]
+        most = max(alike, key=lambda difference: difference.amount)
+        bones = ", ".join(difference.bone for difference in alike)
+        if kind in _MEASURED:
+            messages.append(Message(_MEASURED[kind], {"count": len(alike), "most": most.amount, "bone": most.bone}))
+        else:
+            messages.append(Message(_COUNTED[kind], {"count": len(alike), "bones": bones}))
+    return tuple(messages)
+
+
+def _grave(difference: Difference) -> Message:
+    if difference.kind == "additional":
+        return Message("skeleton.not_in_asset", {"bone": difference.bone})
+    if difference.kind == "unit":
+        return Message("skeleton.other_unit", {"factor": difference.amount})
+    if difference.kind == "parent":
+        return Message(
+            "skeleton.other_parent",
+            {"bone": difference.bone, "ours": difference.ours, "theirs": difference.theirs},
+        )
+    return Message("skeleton.other_root", {"ours": difference.ours, "theirs": difference.theirs})
+
+
+def _roots(target: TargetSkeleton, asset: Figure) -> list[Difference]:
+    roots = [name for name, parent in zip(asset.bone_names, asset.parents, strict=True) if parent < 0]
+    if roots == [target.names[0]]:
+        return []
+    return [Difference("root", target.names[0], grave=True, ours=target.names[0], theirs=", ".join(roots))]
+
+
+def _unit(target: TargetSkeleton, asset: Figure) -> list[Difference]:
+    """Whether lengths as a whole are of another unit, by the bones that both have."""
+    theirs = {name: bone for bone, name in enumerate(asset.bone_names)}
+    both = [
+        (bone, theirs[name]) for bone, name in enumerate(target.names) if name in theirs and target.parents[bone] >= 0
+    ]
+    lengths = [
+        (float(np.linalg.norm(target.offsets_m[bone])), float(np.linalg.norm(asset.translations_m[other])))
+        for bone, other in both
+    ]
+    ratios = [ours / other for ours, other in lengths if min(ours, other) > 1e-5]
+    factor = float(np.median(ratios)) if ratios else 1.0
+    if UNIT[0] < factor < UNIT[1]:
+        return []
+    return [Difference("unit", "", grave=True, amount=float(f"{factor:.4g}"))]

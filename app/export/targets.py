@@ -1,0 +1,87 @@
+"""Which skeleton a player's files are written on, and how it compares with an asset's."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+from app.errors import FileError, Message
+from app.export.check_skeleton import Difference, check_skeleton, told
+from app.export.mannequin import mannequin_axes, mannequin_target
+from app.export.own_skeleton import own_target
+from app.export.target import SkeletonChoice, TargetSkeleton, normalised_target
+from app.performance.bodies import character_of
+from app.project.model import Player
+from app.rig.figure import Figure
+from app.rig.model import Character, Mesh
+
+MOST_TOLD = 5
+"""Grave differences that are told one by one."""
+
+
+@dataclass(frozen=True)
+class CheckedTarget:
+    """A player's skeleton and what differs from the asset's; nothing where there is no asset."""
+
+    target: TargetSkeleton
+    differences: tuple[Difference, ...] = ()
+
+    @property
+    def messages(self) -> tuple[Message, ...]:
+        """What there is to know, the gravest first."""
+        return (*told(self.differences), *self.target.messages)
+
+
+def target_skeleton(character: Character, choice: SkeletonChoice, asset: Figure | None = None) -> TargetSkeleton:
+    """The skeleton to write a character on.
+
+    Parameters
+    ----------
+    character : Character
+        One of ours has no other own skeleton than ours.
+    choice : SkeletonChoice
+    asset : Figure, optional
+        The mannequin that an export on the mannequin is for: its rest rotations are taken.
+    """
+    if choice == "ue5":
+        return mannequin_target(character.skeleton, None if asset is None else mannequin_axes(asset))
+    if choice == "own" and character.own is not None:
+        return own_target(character)
+    return normalised_target(character.skeleton)
+
+
+def written_meshes(character: Character, target: TargetSkeleton) -> tuple[Mesh, ...]:
+    """The meshes that a file on a target holds: those of the character's own file, or the character's."""
+    own = character.own if target.choice == "own" else None
+    return character.meshes if own is None else own.figure.meshes
+
+
+def checked_targets(
+    players: Sequence[Player], choice: SkeletonChoice, asset: Figure | None = None
+) -> dict[str, CheckedTarget]:
+    """The skeleton of every player, by id, compared with an asset's."""
+    result = {}
+    for player in players:
+        target = target_skeleton(character_of(player), choice, asset)
+        result[player.id] = CheckedTarget(target, () if asset is None else check_skeleton(target, asset))
+    return result
+
+
+def refuse_grave(
+    players: Sequence[Player],
+    checked: Mapping[str, CheckedTarget],
+    asset: Figure,
+    wording: Callable[[Message], str],
+) -> None:
+    """Refuse to write what an asset would lose or spoil.
+
+    Raises
+    ------
+    FileError
+        ``skeleton.differs`` (file, player, detail).
+    """
+    for player in players:
+        grave = told([difference for difference in checked[player.id].differences if difference.grave])
+        if grave:
+            detail = "; ".join(map(wording, grave[:MOST_TOLD])) + ("; ..." if len(grave) > MOST_TOLD else "")
+            raise FileError("skeleton.differs", file=asset.file, player=player.name, detail=detail)

@@ -1,0 +1,104 @@
+"""Every way in which an asset's skeleton may differ is found; what spoils an animation is told from what does not."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+
+from app.export.check_skeleton import Difference, check_skeleton, told
+from app.export.own_skeleton import own_target
+from app.export.target import TargetSkeleton
+from app.messages import text
+from app.rig import quaternion
+from app.rig.character import bundled_character
+from app.rig.figure import Figure
+from tests.support.foreign import PREFIX, foreign
+
+
+@cache
+def exported() -> tuple[TargetSkeleton, Figure]:
+    character = foreign(bundled_character("woman_adult"))
+    assert character.own is not None
+    return own_target(character), character.own.figure
+
+
+def renamed(figure: Figure, old: str, new: str) -> Figure:
+    return replace(figure, bone_names=tuple(new if name == old else name for name in figure.bone_names))
+
+
+def hung(figure: Figure, bone: str, parent: str) -> Figure:
+    names = figure.bone_names
+    parents = list(figure.parents)
+    parents[names.index(bone)] = names.index(parent)
+    return replace(figure, parents=tuple(parents))
+
+
+def shifted(figure: Figure, bone: str, offset_m: float) -> Figure:
+    translations = figure.translations_m.copy()
+    translations[figure.bone_names.index(bone)] += [0.0, offset_m, 0.0]
+    return replace(figure, translations_m=translations)
+
+
+def turned(figure: Figure, bone: str, angle_deg: float) -> Figure:
+    rotations = figure.rotations.copy()
+    index = figure.bone_names.index(bone)
+    turn = quaternion.from_axis_angle(np.array([0.0, 0.0, 1.0]), np.radians(angle_deg))
+    rotations[index] = -quaternion.multiply(rotations[index], turn)  # the sign of a quaternion says nothing
+    return replace(figure, rotations=rotations)
+
+
+HAND, HEAD, HAIR = PREFIX + "leftHand", PREFIX + "head", "hair_1"
+
+
+def test_the_same_file_differs_in_nothing() -> None:
+    target, figure = exported()
+    assert check_skeleton(target, figure) == ()
+    assert check_skeleton(target, replace(figure, rotations=-figure.rotations)) == ()
+
+
+@pytest.mark.parametrize(
+    ("change", "expected"),
+    [
+        (lambda f: renamed(f, HAND, "Hand_L"), Difference("additional", HAND, grave=True)),
+        (lambda f: renamed(f, "hair_2", "Braid"), Difference("additional", "hair_2", grave=False)),
+        (lambda f: renamed(f, "hair_2", "Braid"), Difference("missing", "Braid", grave=False)),
+        (lambda f: renamed(f, "Reference", "Armature"), Difference("root", "Reference", True, "Reference", "Armature")),
+        (lambda f: hung(f, HAIR, PREFIX + "neck"), Difference("parent", HAIR, True, "hair_0", PREFIX + "neck")),
+        (lambda f: shifted(f, HEAD, 0.004), Difference("position", HEAD, grave=False, amount=4.0)),
+        (lambda f: turned(f, HEAD, 2.5), Difference("rotation", HEAD, grave=False, amount=2.5)),
+        (
+            lambda f: replace(f, translations_m=f.translations_m / 100.0),
+            Difference("unit", "", grave=True, amount=100.0),
+        ),
+    ],
+)
+def test_what_differs_is_found(change: Callable[[Figure], Figure], expected: Difference) -> None:
+    target, figure = exported()
+    found = check_skeleton(target, change(figure))
+    assert expected in found
+    assert [difference.grave for difference in found] == sorted((d.grave for d in found), reverse=True)
+
+
+def test_a_little_is_nothing() -> None:
+    target, figure = exported()
+    assert check_skeleton(target, turned(shifted(figure, HEAD, 0.0002), HAND, 0.05)) == ()
+
+
+def test_an_asset_with_several_roots_is_not_ours() -> None:
+    character = foreign(bundled_character("woman_adult"), roots=2)
+    assert character.own is not None
+    found = check_skeleton(own_target(character), character.own.figure)
+    assert found[0] == Difference("root", "root", grave=True, ours="root", theirs="Reference, prop_1")
+
+
+def test_it_is_told_in_words() -> None:
+    target, figure = exported()
+    asset = shifted(shifted(renamed(figure, HAND, "Hand_L"), HEAD, 0.004), PREFIX + "neck", 0.001)
+    said = [text(message) for message in told(check_skeleton(target, asset))]
+    assert said[0] == f"the asset has no bone {HAND}: what it does would be lost"
+    assert f"2 bones rest elsewhere than in the asset, at most by 4.0 mm ({HEAD})" in said
+    assert "1 bone of the asset is not in the file and keeps its rest pose: Hand_L" in said
