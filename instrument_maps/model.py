@@ -261,7 +261,8 @@ class Contact(_Table, frozen=True):
         ``"always"``; ``"pressed"``: only while the control is away from rest; ``"released"``: only at rest.
     grip : str
         ``"firm"``: the touch that carries or works the instrument, exact. ``"resting"``: the part lies
-        against the surface where the hand allows it (judged as the hand's grip, not as a touch).
+        against the surface where the hand allows it (judged as the hand's grip, not as a touch). ``"guide"``, never in
+        a file: about here lies a part that cannot bend, and nobody judges it (a mitten's finger).
     """
 
     part: str
@@ -271,7 +272,7 @@ class Contact(_Table, frozen=True):
     control: str | None = None
     together: tuple[str, ...] = ()
     when: Literal["always", "pressed", "released"] = "always"
-    grip: Literal["firm", "resting"] = "firm"
+    grip: Literal["firm", "resting", "guide"] = "firm"
 
 
 class HandSeed(_Table, frozen=True):
@@ -382,6 +383,9 @@ class Hold(_Table, frozen=True):
     ``support_hand`` bears its weight. ``standing`` and ``seated`` are for playing; the two ``lowered``
     tables are for long rests. An instrument that is only played seated has no tables for standing, and the other way
     round.
+
+    ``size_range``: a player with small hands or short arms gets it smaller, one with large hands larger, but never
+    beyond these multiples of the model's size.
     """
 
     support_hand: Hand
@@ -389,6 +393,7 @@ class Hold(_Table, frozen=True):
     seated: Carriage | None = None
     lowered_standing: Lowered | None = None
     lowered_seated: Lowered | None = None
+    size_range: tuple[float, float] = (0.5, 1.25)
 
     @property
     def postures(self) -> tuple[Posture, ...]:
@@ -516,6 +521,8 @@ class InstrumentMap(_Table, frozen=True):
         None: as the body's lungs say, whatever the instrument.
     fingerings : tuple of Fingering
         Sorted by written pitch and rank.
+    size : float
+        How large it is, as a multiple of its file and model (`instrument_maps.size.scaled`); never in a file.
     """
 
     schema_version: int
@@ -542,6 +549,7 @@ class InstrumentMap(_Table, frozen=True):
     air: Air | None = None
     acoustics: Acoustics | None = None
     sources: tuple[str, ...] = ()
+    size: float = 1.0
 
     def control(self, name: str) -> Control:
         """Return the control of this name; `KeyError` if there is none."""

@@ -35,6 +35,7 @@ Problem: TypeAlias = tuple[str, str]
 _UNIT_TOLERANCE = 1e-3
 _REACH_M = 3.0
 _CENTS = 200.0
+_SMALLEST, _LARGEST = 0.2, 4.0
 _HARMONICS = 20
 _FLAT_CENTS, _SHARP_CENTS = 40, 60
 """How far a harmonic may be below and above its note: valves together are too short, the eleventh is in between."""
@@ -67,6 +68,8 @@ def _head(instrument: InstrumentMap) -> Iterator[Problem]:
     for key, text in (("name.en", instrument.name.en), ("name.ja", instrument.name.ja)):
         if not text.strip():
             yield key, "is empty"
+    if instrument.size != 1.0:
+        yield "size", "is chosen for each player (hold.size_range); a file is as large as its model"
     if not instrument.plays:
         yield "plays", "is empty: no part would ever be given to this instrument"
     known = vocabulary().instruments
@@ -222,6 +225,8 @@ def _contacts(instrument: InstrumentMap) -> Iterator[Problem]:
             yield f"{path}.node", f"'{contact.node}' is neither '{ROOT}' nor the node of a control"
         yield from _point(f"{path}.position_m", contact.position_m)
         yield from _unit(f"{path}.normal", contact.normal)
+        if contact.grip == "guide":
+            yield f"{path}.grip", "'guide' is for fingers that a character lacks; a file says 'firm' or 'resting'"
         if contact.control is not None and contact.control not in controls:
             yield f"{path}.control", f"there is no control named '{contact.control}'"
         elif contact.control is None and contact.when != "always":
@@ -309,6 +314,12 @@ def _hold(instrument: InstrumentMap) -> Iterator[Problem]:
     hold = instrument.hold
     if not hold.postures:
         yield "hold", "says neither how it is played standing nor how seated"
+    smallest, largest = hold.size_range
+    if not _SMALLEST <= smallest <= 1.0 <= largest <= _LARGEST:
+        yield (
+            "hold.size_range",
+            f"must be [smallest, largest] with {_SMALLEST} <= smallest <= 1 <= largest <= {_LARGEST}",
+        )
     for name in ("standing", "seated"):
         carriage, lowered = getattr(hold, name), getattr(hold, f"lowered_{name}")
         if (carriage is None) != (lowered is None):

@@ -41,7 +41,7 @@ BONES_MM = 0.01
 PENETRATION_MM = 3.0
 HOVER_MM = 1000.0 * MOST_HOVER_M
 CLEAR_MM = 3.0
-"""A finger farther than this from a hole lets it sound open."""
+"""A finger farther than this from a hole lets it sound open; of a smaller instrument, from its smaller one."""
 JAW_OPENS = 0.05
 TORSO_BACK_RAD = math.radians(0.3)
 """A breath shows where the jaw opens by this weight and the torso leans back by this angle."""
@@ -90,7 +90,8 @@ class BreathMeasure(msgspec.Struct, frozen=True):
 class PlayerMeasures(msgspec.Struct, frozen=True):
     """Section by section what one player's files hold.
 
-    ``hovering`` is how far fingers that work nothing are from the nearest of their keys and holes.
+    ``hovering`` is how far fingers that work nothing are from the nearest of their keys and holes; ``guides`` how far
+    parts that cannot bend are from where they would touch: told, not judged.
     """
 
     sounding_frames: int
@@ -105,6 +106,7 @@ class PlayerMeasures(msgspec.Struct, frozen=True):
     acceleration: JointMeasure
     breaths: BreathMeasure
     hovering: dict[str, Spread] = {}
+    guides: dict[str, Spread] = {}
 
 
 @dataclass(frozen=True, eq=False)
@@ -181,13 +183,23 @@ def measure_player(
         contacts={
             _contact_name(contact): _contact(index, instrument, traces, judge, values, sounding, working)
             for index, contact in enumerate(instrument.contacts)
+            if contact.grip != "guide"
         },
-        lips=_spread(np.linalg.norm(_rim_to(instrument, traces, _LIPS)[blowing], axis=1), LIPS_MM),
+        guides={
+            _contact_name(contact): _contact(index, instrument, traces, judge, values, sounding, working)
+            for index, contact in enumerate(instrument.contacts)
+            if contact.grip == "guide"
+        },
+        lips=_lips(instrument, traces, blowing),
         upper_lip_in_breaths=_lip_gap(instrument, traces, blowing, _within(times_s, inhaling)),
-        feet={name: _drift(traces.landmarks[name]) for name in _SOLES},
+        feet={name: _drift(traces.landmarks[name]) for name in _SOLES if name in traces.landmarks},
         bones=_spread(traces.bone_deviation_m, BONES_MM),
         penetration=_spread(traces.depth_m[sounding], PENETRATION_MM),
-        controls={control.name: judge.measure(control, values[control.name]) for control in instrument.controls},
+        controls={
+            control.name: judge.measure(control, values[control.name])
+            for control in instrument.controls
+            if control.name in values
+        },
         limits=_limits(joints.rotations, joints.names, body, profile),
         acceleration=_acceleration(joints.rotations, joints.names, body, profile, float(fps)),
         breaths=_breaths(plan.breaths, times_s, joints.curve("jawOpen"), traces.torso),
@@ -219,8 +231,10 @@ def _trace(
     player = joints.playback
     frames = player.clip.frames
     wanted = {contact.part for contact in instrument.contacts} | {*_SOLES, _LIPS, _UPPER_LIP}
+    wanted &= character.landmarks.keys()
     surfaces = {name: Surface(player, *joints.surface(character.landmarks[name])) for name in sorted(wanted)}
-    hands = [Hands(player, *joints.surface(character.landmarks[name]), instrument.proxy) for name in _HANDS]
+    there = [name for name in _HANDS if name in character.landmarks]
+    hands = [Hands(player, *joints.surface(character.landmarks[name]), instrument.proxy) for name in there]
     bone_of_node = {part.node: part.name for part in instrument.moving_parts} | {ROOT: held.bone_names[0]}
     node_bones = {node: held.bone_names.index(bone) for node, bone in bone_of_node.items()}
     landmarks = {name: np.empty((frames, 3)) for name in surfaces}
@@ -324,8 +338,11 @@ def _hole_values(instrument: InstrumentMap, traces: _Traces) -> dict[str, FloatA
         if control.motion is not None:
             continue
         touches = [contact for contact in instrument.contacts if control.name in worked_by(contact, instrument)]
+        if not touches:
+            # Nobody's finger is there: fingers that do not bend (`app.rig.suited`).
+            continue
         whole_m = np.min([_gap_m(contact, instrument, traces, None) for contact in touches], axis=0)
-        values = np.where(whole_m > CLEAR_MM / 1000.0, 0.0, np.nan)
+        values = np.where(whole_m > instrument.size * CLEAR_MM / 1000.0, 0.0, np.nan)
         if control.half_value is not None:
             half_m = np.min([_half_gap_m(contact, instrument, traces) for contact in touches], axis=0)
             values = np.where(half_m <= TOUCH_MM / 1000.0, control.half_value, values)
@@ -390,10 +407,17 @@ def _rim_to(instrument: InstrumentMap, traces: _Traces, landmark: str) -> FloatA
     return offset_m
 
 
+def _lips(instrument: InstrumentMap, traces: _Traces, blowing: BoolArray) -> Spread:
+    """How far the lips are from the rim; a head without a mouth has none to judge."""
+    if _LIPS not in traces.landmarks:
+        return _spread(np.zeros(0), LIPS_MM)
+    return _spread(np.linalg.norm(_rim_to(instrument, traces, _LIPS)[blowing], axis=1), LIPS_MM)
+
+
 def _lip_gap(instrument: InstrumentMap, traces: _Traces, playing: BoolArray, breathing: BoolArray) -> Spread:
     """How far the rim leaves its place on the upper lip while the mouth breathes; its place is where it lies while
     notes sound."""
-    if not playing.any():
+    if not playing.any() or _UPPER_LIP not in traces.landmarks:
         return _spread(np.zeros(0), LIPS_MM)
     offset_m = _rim_to(instrument, traces, _UPPER_LIP)
     place_m = np.median(offset_m[playing], axis=0)

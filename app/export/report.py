@@ -46,6 +46,8 @@ class PlayerReport(msgspec.Struct, frozen=True):
     files: dict[str, str]
     stage: StagePlace
     notes: int
+    size: float
+    """Of the instrument, as a multiple of its model: a small player has a small one."""
     measures: PlayerMeasures | None
     """None where no FBX was asked for: that is the file that is read back and measured."""
     sway_correlation: float | None

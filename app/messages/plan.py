@@ -27,6 +27,15 @@ TEMPLATES: Final[dict[str, str]] = {
         "{label} is out of this player's reach: {control} stops {gap_mm} mm short of it; "
         "take another fingering, or a character with longer arms"
     ),
+    # The body: what it lacks
+    "character.instrument_size": "plays an instrument of {percent} % of its size: so hands and arms reach it",
+    "character.no_fingers": (
+        "the {side} hand has fingers that do not bend: it lies on the instrument as a whole, and what they would press "
+        "moves by itself"
+    ),
+    "character.no_hand": "the {side} hand has no skin to touch with: it hangs down while the other one plays",
+    "character.no_lips": "the head has no skin to find a mouth on: the instrument is held where lips would be",
+    "character.lips_still": "the mouth has no morph that opens it: breaths do not show on it, and lips stay shut",
     # The motion: contacts
     "contact.hand_off": (
         "the {side} hand comes off the instrument: it stays {gap_mm} mm from its place; "

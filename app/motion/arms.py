@@ -19,6 +19,8 @@ from app.rig.model import Skeleton
 
 Z_AXIS = np.array([0.0, 0.0, 1.0])
 
+HANGS_RAD = 1.25
+"""How far an arm that holds nothing is down from the T-pose."""
 ELBOW_OUT = 1.8
 """The elbow goes out by this multiple of the angle its shoulder comes forwards, so that the wrist stays straighter."""
 
@@ -71,6 +73,10 @@ def solve_arms(
     for hand in hold.hands:
         targets = hand_targets(hand, carried.position_m, carried.rotation, controls, placed)
         rotations |= _solve_arm(skeleton, hand, body, with_chest, motion, *targets)
+    for side, sign in (("left", -1.0), ("right", 1.0)):
+        if all(hand.side != side for hand in hold.hands):
+            hangs = quaternion.from_axis_angle(np.array([0.0, 0.0, 1.0]), sign * HANGS_RAD)
+            rotations[skeleton.index(f"{side}UpperArm")] = np.tile(hangs, (len(with_chest), 1))
     return rotations
 
 

@@ -118,7 +118,8 @@ class ContactJudge:
             if any(control.name in (contact.control, *contact.together) for contact in instrument.contacts)
         ]
         self._only_at = only_at(instrument)
-        self._marks = tuple(dict.fromkeys([*(contact.part for contact in instrument.contacts), LIPS]))
+        marks = [*(contact.part for contact in instrument.contacts), *({LIPS} & character.landmarks.keys())]
+        self._marks = tuple(dict.fromkeys(marks))
         skeleton = character.skeleton
         self._wrists = {hand.side: skeleton.index(f"{hand.side}Hand") for hand in playing.player.hold.hands}
         self._joints = sorted({*landmark_joints(self._character, self._marks), *self._wrists.values()})
@@ -157,8 +158,10 @@ class ContactJudge:
         place_m = motion.instrument_position_m[frames].astype(np.float64)
         turn = motion.instrument_rotation[frames].astype(np.float64)
         rim_m = place_m + quaternion.rotate(turn, np.asarray(instrument.mouthpiece.position_m))
-        gaps_m = np.linalg.norm(marks_m[:, self._marks.index(LIPS)] - rim_m, axis=1)
-        yield from _runs(("lips", "", ""), times_s, gaps_m, (gaps_m * 1000.0 > LIPS_MM) & ~self._breathing(times_s))
+        if LIPS in self._marks:
+            gaps_m = np.linalg.norm(marks_m[:, self._marks.index(LIPS)] - rim_m, axis=1)
+            off_lips = (gaps_m * 1000.0 > LIPS_MM) & ~self._breathing(times_s)
+            yield from _runs(("lips", "", ""), times_s, gaps_m, off_lips)
         placed = self._playing.placed(times_s)
         # Of the notes that are looked at: a line has thousands.
         first = int(notes.min())
@@ -183,6 +186,8 @@ class ContactJudge:
                 yield from _runs(("short", hand.side, control), times_s, gaps_m, gaps_m > SLIDE_M)
         nodes_m, node_turns = node_transforms(self._model, instrument, controls, len(frames))
         for index, contact in enumerate(instrument.contacts):
+            if contact.grip == "guide":
+                continue
             node = self._model.node_names.index(contact.node)
             aside = aside_m(contact, instrument, controls.get(contact.control or "", np.ones(len(frames))))
             point_m = np.asarray(contact.position_m) + aside

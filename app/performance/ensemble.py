@@ -13,14 +13,15 @@ from threading import RLock
 import msgspec
 
 from app.errors import AppError, MapError, Message
+from app.performance.bodies import character_of, suited_to
 from app.performance.loudness import heard, note_loudness
-from app.performance.reach import Reached, reached
+from app.performance.reach import reached
 from app.plan.corrections import RemoveEvent, SetBreath, SetCue, Vary
 from app.plan.generate import BREATH_PARAMETERS, EnsemblePlan, Line, Piece, frame_around, plan_ensemble
 from app.plan.memo import Memo
 from app.plan.model import PlayerPlan, Problem, TimeFrame
 from app.project.model import Player, Project
-from app.rig.character_library import character_revision, characters
+from app.rig.character_library import characters
 from instrument_maps.library import library
 from instrument_maps.model import InstrumentMap
 from metadata.load import load_expressions
@@ -179,30 +180,36 @@ class Performance:
         )
 
     def _reaching(self, player: Player, plan: PlayerPlan) -> PlayerPlan:
-        """The plan with what the player's hands do not reach."""
-        instrument, name = self.instrument(player), f"reach:{player.id}"
-        unreached = self._memo.step(
-            name,
-            lambda: self._reached(player, instrument, plan, self._memo.before(name)),
-            plan.fingerings,
-            instrument,
-            player.character_id,
-            character_revision(player.character_id),
-            player.parameters.posture,
-        ).problems
-        if not unreached:
-            return plan
-        return self._memo.step(
-            f"told:{player.id}", lambda: _with_problems(player, plan, self.time_frame, unreached), plan, unreached
-        )
-
-    def _reached(self, player: Player, instrument: InstrumentMap, plan: PlayerPlan, before: Reached | None) -> Reached:
+        """The plan with what the player's body has not, and what its hands do not reach."""
+        lacking: tuple[Message, ...]
+        unreached: tuple[Problem, ...] = ()
         try:
-            return reached(player, instrument, plan, before)
+            held, lacking = suited_to(player, self.instrument(player))
+            unreached = self._unreached(player, held, plan)
         except AppError as error:
             # A model or character that cannot be read is this player's problem; the others play on.
-            told = Problem(error.message, None, self.time_frame.first_frame_s, self.time_frame.end_s)
-            return Reached((), (), (told,))
+            lacking = (error.message,)
+        if not unreached and not lacking:
+            return plan
+        frame = self.time_frame
+
+        def told() -> PlayerPlan:
+            problems = tuple(Problem(message, None, frame.first_frame_s, frame.end_s) for message in lacking)
+            return _with_problems(player, plan, frame, problems + unreached)
+
+        return self._memo.step(f"told:{player.id}", told, plan, unreached, frame, *lacking)
+
+    def _unreached(self, player: Player, held: InstrumentMap, plan: PlayerPlan) -> tuple[Problem, ...]:
+        """What the player's hands do not reach."""
+        name = f"reach:{player.id}"
+        return self._memo.step(
+            name,
+            lambda: reached(player, held, plan, self._memo.before(name)),
+            plan.fingerings,
+            held,
+            character_of(player),
+            player.parameters.posture,
+        ).problems
 
     @cached_property
     def plans(self) -> dict[str, PlayerPlan]:
@@ -245,6 +252,11 @@ class Performance:
     def instrument(self, player: Player) -> InstrumentMap:
         """The map of what a player plays. Raises MapError where there is none of its id."""
         return self.library.find(player.instrument_id)
+
+    def held(self, player: Player) -> InstrumentMap:
+        """That map as the player's body plays it: of its size, touched by what the body has. Raises MapError,
+        UsageError or FileError."""
+        return suited_to(player, self.instrument(player)).instrument
 
 
 def _work(line: Line, before: Line | None) -> int:

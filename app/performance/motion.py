@@ -31,7 +31,7 @@ _PLAYING: IdentityCache[Playing] = IdentityCache(8)
 
 def playing_of(performance: Performance, player: Player, before: Playing | None = None) -> Playing:
     """A player's plan made ready to be seen; made once for each plan, and from what is still right of ``before``."""
-    instrument = performance.instrument(player)
+    instrument = performance.held(player)
     character, body, plan = character_of(player), body_of(player), performance.plan(player)
     hold, beat_ticks = hold_of(player, instrument), performance.piece.beat_ticks
     keys = (plan, player.parameters, instrument, character, hold, body, performance.expressions)

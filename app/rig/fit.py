@@ -32,10 +32,12 @@ from app.rig.grip_problem import Problem, grip_problem, joint_angles, travel, wr
 from app.rig.grip_search import search, search_knots
 from app.rig.grip_ways import lifted_ways
 from app.rig.hold import HandHold, Hold, NodeMotion, Reach, StationTable
-from app.rig.lips import fit_lips, needed_landmarks
+from app.rig.lips import fit_lips
 from app.rig.model import Character, InstrumentModel
 from app.rig.stations import asked_together
+from app.rig.stature import sized, sized_character, sized_model
 from instrument_maps.model import Control, HandSeed, InstrumentMap
+from instrument_maps.size import scaled
 from metadata.model import Body
 
 FloatArray = npt.NDArray[np.float64]
@@ -70,16 +72,23 @@ def fit_hold(character: Character, model: InstrumentModel, instrument_map: Instr
     require_landmarks(character, instrument_map)
     lips = fit_lips(character, instrument_map, body)
     stand = upright(character, instrument_map, body, lips)
+    size = instrument_map.size
+    if size != 1.0:
+        # What is near and what is far in a hand goes with its instrument: both are fitted as if that had its own size.
+        character, model = sized_character(character, 1.0 / size), sized_model(model, 1.0 / size)
+        instrument_map = scaled(instrument_map, 1.0 / size)
+        stand = Upright(stand.joints_m / size, stand.instrument_m / size, stand.instrument_rotation)
     # The matrices are small: more threads make it no faster, far slower on a busy machine, and change the last bits.
     with threadpool_limits(limits=1, user_api="blas"):
         fitted = [_fit_hand(character, model, instrument_map, body, seed, stand) for seed in instrument_map.hands]
-    hands, reach = zip(*fitted, strict=True)
+    hands = tuple(sized(hand, size) for hand, _ in fitted)
+    reach = tuple(sized(reach, size) for _, reach in fitted)
     return Hold(character.id, instrument_map.id, hands, lips, reach)
 
 
 def require_landmarks(character: Character, instrument_map: InstrumentMap) -> None:
     """Raise UsageError ``character.landmarks_missing`` where a body lacks a place the instrument touches."""
-    needed = {*needed_landmarks(instrument_map), *(contact.part for contact in instrument_map.contacts)}
+    needed = {contact.part for contact in instrument_map.contacts}
     needed |= {f"{seed.hand}.{place}" for seed in instrument_map.hands for place in ("palm", "hand")}
     missing = sorted(needed - set(character.landmarks))
     if missing:

@@ -30,6 +30,12 @@ FloatArray = npt.NDArray[np.float64]
 # What a deviation of one unit of residual is.
 FIRM_M, RESTING_M = 0.0003, 0.0012
 FIRM_NORMAL, RESTING_NORMAL = 0.35, 0.6
+GUIDE_M, GUIDE_NORMAL = 0.006, 1.5
+SPREADS = {
+    "firm": (FIRM_M, FIRM_NORMAL),
+    "resting": (RESTING_M, RESTING_NORMAL),
+    "guide": (GUIDE_M, GUIDE_NORMAL),
+}
 CURL_RAD, SIDEWAYS_RAD, THUMB_RAD, COUPLING_RAD = 0.4, 0.12, 0.4, 0.18
 LIMIT_RAD = 0.02
 LIMIT_SHARE, CARRIED_LIMIT_SHARE = 0.47, 0.45
@@ -159,10 +165,7 @@ def grip_problem(
         touches.append(replace(touch, active=touch.active & np.array([True, number in worked])))
     palm = rest_landmark(hand, f"{side}.palm")
     outward = -1.0 if side == "left" else 1.0
-    direction, normal = np.asarray(seed.finger_direction), np.asarray(seed.palm_normal)
-    direction = direction - normal * float(direction @ normal) / float(normal @ normal)
-    x_axis = -outward * direction / np.linalg.norm(direction)
-    turn = quaternion.from_frames(x_axis, -normal / np.linalg.norm(normal))
+    turn = seed_turn(seed)
     seed_place = model.node_positions_m[names.index(seed.node)] + seed.palm_position_m
     seed_m = seed_place - quaternion.rotate(turn, palm)
     back = quaternion.conjugate(stand.instrument_rotation)
@@ -209,6 +212,15 @@ def grip_problem(
     problem = replace(problem, elsewhere=_elsewhere(problem, model, instrument_map, carrier))
     low, high = _bounds(problem)
     return replace(problem, low=low, high=high), carrier
+
+
+def seed_turn(seed: HandSeed) -> FloatArray:
+    """Rotation (4,) of the wrist at its seed, in the instrument's frame."""
+    outward = -1.0 if seed.hand == "left" else 1.0
+    direction, normal = np.asarray(seed.finger_direction), np.asarray(seed.palm_normal)
+    direction = direction - normal * float(direction @ normal) / float(normal @ normal)
+    x_axis = -outward * direction / np.linalg.norm(direction)
+    return quaternion.from_frames(x_axis, -normal / np.linalg.norm(normal))
 
 
 def home_controls(of_finger: Sequence[Sequence[Station]]) -> frozenset[str]:
@@ -314,9 +326,8 @@ def touch_at(
 ) -> Touch:
     """A contact while the ``worked`` controls are all at ``values`` (S,), and where a finger waits over it."""
     position, normal = contact_at(model, instrument_map, contact, worked, carrier, values)
-    firm = contact.grip == "firm"
-    spread_m = np.full(len(values), FIRM_M if firm else RESTING_M)
-    spread_normal = np.full(len(values), FIRM_NORMAL if firm else RESTING_NORMAL)
+    exact_m, exact_normal = SPREADS[contact.grip]
+    spread_m, spread_normal = np.full(len(values), exact_m), np.full(len(values), exact_normal)
     if contact.control in worked:
         control = instrument_map.control(contact.control or "")
         share = height_share(control, values)

@@ -74,6 +74,8 @@ def digest_of(character: Character, model: InstrumentModel, instrument: Instrume
         (usual, instrument.hold.carriage(usual)),
         (instrument.embouchure.kind, instrument.embouchure.lips_apart_m),
     )
+    if instrument.size != 1.0:
+        digest.update(f"size {instrument.size}\n".encode())
     ranges = {name: (limit.flexion_deg, limit.sideways_deg, limit.twist_deg) for name, limit in body.limits.items()}
     digest.update(msgspec.json.encode((hands, ranges, body.postures), order="sorted"))
     return digest.hexdigest()

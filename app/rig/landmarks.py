@@ -1,6 +1,7 @@
-"""Landmarks of a character that brings none: found from joints, skin weights, normals and the jaw's morph.
+"""Landmarks of a character that brings none: found from joints, skin weights, normals, and the face's morph or shape.
 
 Names are those of our own characters: ``right.index.pad``, ``left.palm``, ``lips.contact``, ``left.foot.sole`` ...
+A finger whose skin hangs on the hand (a mitten) has its places on that skin, where the finger would be.
 """
 
 from __future__ import annotations
@@ -10,8 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from app.rig.model import Landmark, Mesh, Skeleton
-from app.rig.skeleton import rest_positions
+from app.rig.hold import Side
+from app.rig.model import Character, Landmark, Mesh, Skeleton
+from app.rig.skeleton import ancestors, rest_positions
 from metadata.load import load_skeleton
 
 FloatArray = npt.NDArray[np.float64]
@@ -22,6 +24,16 @@ JAW_MORPHS = ("jawOpen", "aa", "A")
 """Morphs that open the mouth, by the names that files use."""
 PAD_VERTICES, SIDE_VERTICES, PALM_VERTICES, WEB_VERTICES, LIP_VERTICES = 6, 4, 8, 5, 6
 MIDLINE_M, SOLE_M = 0.008, 0.008
+PATCH_M = 0.006
+"""A place spreads so far over the skin, beside how far its nearest vertex is from it: skin of few vertices has them
+far apart."""
+LEAST_WEIGHTS = (0.5, 0.25)
+"""Where no skin clearly belongs to a joint, skin that does by this much is taken."""
+EYES_M, TOP_M = 0.06, 0.118
+"""Of the heads whose lips the lengths here were chosen for: between the eyes, and from the joint up to the crown."""
+STEPS = 40
+MOUTH_SHARE, MOUTH_SPREAD = 0.63, 0.09
+"""From the eyes down to the chin, in so many steps, the lips meet after this share, give or take the other one."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,19 +49,15 @@ class _Skin:
 def found_landmarks(skeleton: Skeleton, joint_from_mesh: FloatArray, meshes: tuple[Mesh, ...]) -> dict[str, Landmark]:
     """Find the landmarks of a character.
 
-    A landmark for which the character has nothing (no jaw morph: no lips) is absent.
+    A landmark for which the character has nothing (no skin on the hand: no palm) is absent.
     """
-    skins = [_rest_skin(skeleton, joint_from_mesh, mesh) for mesh in meshes]
+    skins = [_rest_skin(skeleton, joint_from_mesh, mesh) for mesh in meshes if len(mesh.positions_m)]
     found: dict[str, Landmark] = {}
     for side in ("left", "right"):
-        skin = _most_on(skins, [skeleton.index(f"{side}{name}") for name in ("Hand", "IndexDistal", "ThumbDistal")])
-        if skin is not None:
-            found.update(_hand(skeleton, skin, side))
-        sole = _most_on(skins, [skeleton.index(f"{side}Foot")], lowest=True)
-        if sole is not None:
-            found[f"{side}.foot.sole"] = _sole(skeleton, sole, side)
-    for skin in skins:
-        lips = _lips(skin)
+        found.update(_hand(skeleton, skins, side))
+        found.update(_sole(skeleton, skins, side))
+    head = _Head.of(skeleton, skins)
+    for lips in (*(_lips_by_jaw(skin, head) for skin in skins), _lips_by_shape(skins, head)):
         if lips:
             found.update(lips)
             break
@@ -68,87 +76,154 @@ def _rest_skin(skeleton: Skeleton, joint_from_mesh: FloatArray, mesh: Mesh) -> _
     return _Skin(mesh, positions, normals, weights)
 
 
-def _most_on(skins: list[_Skin], joints: list[int], lowest: bool = False) -> _Skin | None:
-    """The mesh that covers joints: with the most vertices there, or (a shoe over a foot) the lowest one."""
-    covering = [skin for skin in skins if all((skin.weights[:, joint] > 0.5).any() for joint in joints)]
-    if not covering:
-        return None
-    if lowest:
-        return min(covering, key=lambda skin: float(skin.positions[skin.weights[:, joints[0]] > 0.5, 1].min()))
-    return max(covering, key=lambda skin: int((skin.weights[:, joints] > 0.5).sum()))
+def _own(skin: _Skin, joints: list[int], least: float) -> IntArray:
+    """The vertices that belong to some joints."""
+    return np.flatnonzero(skin.weights[:, joints].sum(axis=1) > least)
 
 
 def _patch(skin: _Skin, own: IntArray, origin: FloatArray, direction: FloatArray, count: int) -> IntArray:
-    """Vertices about the place where a ray from inside a limb leaves its skin; empty where none faces that way."""
+    """Vertices about the place where a ray from inside a limb leaves its skin, or nearest to there where none faces
+    that way."""
     off = skin.positions[own] - origin
     along = off @ direction
     across = np.linalg.norm(off - along[:, None] * direction, axis=1)
     facing = (skin.normals[own] @ direction > 0.5) & (along > 0.0)
     if not facing.any():
-        return np.zeros(0, dtype=np.intp)
+        return _nearest(skin, own, origin, count)
     place = origin + direction * along[facing][np.argmin(across[facing])]
     return _nearest(skin, own[facing], place, count)
 
 
 def _nearest(skin: _Skin, own: IntArray, place: FloatArray, count: int) -> IntArray:
-    order = np.argsort(np.linalg.norm(skin.positions[own] - place, axis=1), kind="stable")
-    return np.sort(own[order[:count]])
+    far = np.linalg.norm(skin.positions[own] - place, axis=1)
+    order = np.argsort(far, kind="stable")[:count]
+    return np.sort(own[order[far[order] <= 1.5 * far[order[0]] + PATCH_M]])
 
 
-def _hand(skeleton: Skeleton, skin: _Skin, side: str) -> dict[str, Landmark]:
+def _hand(skeleton: Skeleton, skins: list[_Skin], side: Side) -> dict[str, Landmark]:
     profile, rest = load_skeleton(), rest_positions(skeleton)
-    joints = [skeleton.index(f"{side}Hand")]
+    names = {finger: profile.fingers[side][finger].joints for finger in FINGERS}  # type: ignore[index]
+    fingers = [skeleton.index(name) for finger in FINGERS for name in names[finger]]
+    wrist = skeleton.index(f"{side}Hand")
+    counts = [int((skin.weights[:, [wrist, *fingers]].sum(axis=1) > 0.5).sum()) for skin in skins]
+    on_fingers = [int((skin.weights[:, fingers].sum(axis=1) > 0.5).sum()) for skin in skins]
+    if not any(counts):
+        return {}
+    # Rings, nails and sleeves hang on a hand too; most of its skin is the hand.
+    skin = skins[max(range(len(skins)), key=lambda place: (on_fingers[place], counts[place]))]
+    hand = _own(skin, [wrist, *fingers], 0.5)
     places: dict[str, IntArray] = {}
     for finger in FINGERS:
-        names = profile.fingers[side][finger].joints  # type: ignore[index]
-        joints += [skeleton.index(name) for name in names]
         for order, phalanx in ((0, "_proximal"), (1, "_middle"), (2, "")):
             if finger == "thumb" and order == 0:
                 continue
-            joint = skeleton.index(names[order])
-            own = np.flatnonzero(skin.weights[:, joint] > (0.8 if order == 2 else 0.6))
-            if not len(own):
-                continue
-            before = joint if order < 2 else skeleton.index(names[1])
-            following = skeleton.index(names[order + 1]) if order < 2 else joint
+            joint = skeleton.index(names[finger][order])
+            weights = (0.8 if order == 2 else 0.6, *LEAST_WEIGHTS)
+            own = next((own for least in weights if len(own := _own(skin, [joint], least))), np.zeros(0, np.intp))
+            before = joint if order < 2 else skeleton.index(names[finger][1])
+            following = skeleton.index(names[finger][order + 1]) if order < 2 else joint
             bone = rest[following] - rest[before]
-            bone /= np.linalg.norm(bone)
+            length = float(np.linalg.norm(bone))
+            bone /= length
             # Turning about the flexion axis takes the bone to the palm, about the sideways axis to the thumb's side.
-            axes = profile.joint_axes(names[order])
+            axes = profile.joint_axes(names[finger][order])
             palmar, thumbward = np.cross(axes.flexion, bone), np.cross(axes.sideways, bone)
-            along = (skin.positions[own] - rest[joint]) @ bone
-            reach = float(along.max()) if order == 2 else float(np.linalg.norm(rest[following] - rest[joint]))
+            reach = length
+            if order == 2:
+                # A fingertip is about as long as the phalanx before it, where no skin says so.
+                reach = float(((skin.positions[own] - rest[joint]) @ bone).max()) if len(own) else 0.9 * length
             middle = rest[joint] + bone * reach * (0.5 if order < 2 else 0.55)
             for place, direction, count in (("pad", palmar, PAD_VERTICES), ("side", thumbward, SIDE_VERTICES)):
                 towards = direction / np.linalg.norm(direction)
-                places[f"{finger}.{place}{phalanx}"] = _patch(skin, own, middle, towards, count)
-    hand = np.flatnonzero(skin.weights[:, joints].sum(axis=1) > 0.5)
-    wrist, knuckle = rest[joints[0]], rest[skeleton.index(f"{side}MiddleProximal")]
+                around = own if len(own) else hand
+                places[f"{finger}.{place}{phalanx}"] = _patch(skin, around, middle, towards, count)
+    knuckle = rest[skeleton.index(f"{side}MiddleProximal")]
     down = np.array([0.0, -1.0, 0.0])
-    places["palm"] = _patch(skin, hand, wrist + 0.6 * (knuckle - wrist), down, PALM_VERTICES)
+    places["palm"] = _patch(skin, hand, rest[wrist] + 0.6 * (knuckle - rest[wrist]), down, PALM_VERTICES)
     web = (rest[skeleton.index(f"{side}IndexProximal")] + rest[skeleton.index(f"{side}ThumbProximal")]) / 2
     places["thumb_web"] = _nearest(skin, hand, web, WEB_VERTICES)
     places["hand"] = hand
-    return {f"{side}.{name}": _landmark(skin, rows) for name, rows in places.items() if len(rows)}
+    return {f"{side}.{name}": _landmark(skin, rows) for name, rows in places.items()}
 
 
-def _sole(skeleton: Skeleton, skin: _Skin, side: str) -> Landmark:
-    joints = [skeleton.names.index(name) for name in (f"{side}Foot", f"{side}Toes") if name in skeleton.names]
-    own = np.flatnonzero(skin.weights[:, joints].sum(axis=1) > 0.5)
-    height = skin.positions[own, 1]
-    return _landmark(skin, own[height < height.min() + SOLE_M])
+def _sole(skeleton: Skeleton, skins: list[_Skin], side: Side) -> dict[str, Landmark]:
+    """The lowest skin of a foot: of a shoe, where there is one; of the leg, where nothing hangs on the foot."""
+    named = (f"{side}Foot", f"{side}Toes"), (f"{side}LowerLeg",)
+    for names in named:
+        joints = [skeleton.names.index(name) for name in names if name in skeleton.names]
+        own = [(skin, rows) for skin in skins if len(rows := _own(skin, joints, 0.5))]
+        if own:
+            skin, rows = min(own, key=lambda one: float(one[0].positions[one[1], 1].min()))
+            height = skin.positions[rows, 1]
+            return {f"{side}.foot.sole": _landmark(skin, rows[height < height.min() + SOLE_M])}
+    return {}
 
 
-def _lips(skin: _Skin) -> dict[str, Landmark]:
+@dataclass(frozen=True, eq=False)
+class _Head:
+    """Where a head is, and how large.
+
+    Attributes
+    ----------
+    joints : list of int
+        The head's and all that hang on it.
+    place : (3,) float64
+        Of its joint.
+    eyes_m : float or None
+        Height of the eyes.
+    size : float
+        As a multiple of the head that lengths here were chosen for.
+    """
+
+    joints: list[int]
+    place: FloatArray
+    eyes_m: float | None
+    size: float
+
+    @classmethod
+    def of(cls, skeleton: Skeleton, skins: list[_Skin]) -> _Head:
+        head, rest = skeleton.index("head"), rest_positions(skeleton)
+        joints = [joint for joint in range(len(skeleton.names)) if head in ancestors(skeleton, joint)]
+        eyes = _eyes(skeleton)
+        if eyes is not None:
+            return cls(joints, rest[head], float(eyes[0][1]), float(np.linalg.norm(eyes[0] - eyes[1])) / EYES_M)
+        heights = [skin.positions[rows, 1] for skin in skins if len(rows := _own(skin, joints, 0.5))]
+        top_m = float(np.percentile(np.concatenate(heights), 99.0)) - float(rest[head][1]) if heights else TOP_M
+        return cls(joints, rest[head], None, top_m / TOP_M)
+
+
+def eye_distance(character: Character) -> float:
+    """How far the eyes are apart, metres; where there are none, as far as in another head of this height."""
+    eyes = _eyes(character.skeleton)
+    if eyes is not None:
+        return float(np.linalg.norm(eyes[0] - eyes[1]))
+    skins = [_rest_skin(character.skeleton, character.joint_from_mesh, mesh) for mesh in character.meshes]
+    return EYES_M * _Head.of(character.skeleton, skins).size
+
+
+def _eyes(skeleton: Skeleton) -> tuple[FloatArray, FloatArray] | None:
+    names = ("leftEye", "rightEye")
+    if not set(names) <= set(skeleton.names):
+        return None
+    rest = rest_positions(skeleton)
+    left, right = (rest[skeleton.index(name)] for name in names)
+    # Joints that lie on one another are no eyes.
+    return (left, right) if float(np.linalg.norm(left - right)) > 0.0 else None
+
+
+def _lips_by_jaw(skin: _Skin, head: _Head) -> dict[str, Landmark]:
     """Where the mouth parts: at the midline, vertices the jaw's morph takes along next to such it leaves."""
     jaw = next((morph for name in JAW_MORPHS for morph in skin.mesh.morphs if morph.name == name), None)
-    if jaw is None:
+    if jaw is None or not len(jaw.vertices):
         return {}
     drop = np.zeros(len(skin.positions))
     drop[jaw.vertices] = -jaw.deltas_m[:, 1]
-    middle = np.abs(skin.positions[:, 0]) < MIDLINE_M
-    lower = np.flatnonzero(middle & (drop > 0.6 * drop.max()))
-    upper = np.flatnonzero(middle & (np.abs(drop) < 0.3 * drop.max()))
+    middle = np.abs(skin.positions[:, 0] - head.place[0]) < MIDLINE_M * head.size
+    most = drop[middle].max(initial=0.0)
+    if most <= 0.0:
+        return {}
+    lower = np.flatnonzero(middle & (drop > 0.6 * most))
+    upper = np.flatnonzero(middle & (np.abs(drop) < 0.3 * most))
     if not len(lower) or not len(upper):
         return {}
     gaps = np.linalg.norm(skin.positions[upper][:, None] - skin.positions[lower][None], axis=2)
@@ -161,6 +236,72 @@ def _lips(skin: _Skin) -> dict[str, Landmark]:
         "lips.upper": _landmark(skin, np.unique(upper[first])),
         "lips.lower": _landmark(skin, np.unique(lower[second])),
     }
+
+
+def _lips_by_shape(skins: list[_Skin], head: _Head) -> dict[str, Landmark]:
+    """Where the lips meet on a face that does not move: about so far down from the eyes to the chin, in the notch of
+    the profile if there is one."""
+    profiles = [_profile(skin, head) for skin in skins]
+    # Hair, lashes and teeth hang on the head too: the face covers most of its front's lower half.
+    place = max(range(len(skins)), key=lambda number: _covered(skins[number], profiles[number], head), default=-1)
+    if place < 0 or len(profiles[place]) < 3:
+        return {}
+    skin, front = skins[place], profiles[place]
+    at = skin.positions[front]
+    # The chin: from there down the profile goes back to the neck.
+    foremost_m, middle_m = float(at[:, 2].max()), float(skin.positions[_own(skin, head.joints, 0.5), 2].mean())
+    forward = at[:, 2] > foremost_m - 0.65 * (foremost_m - middle_m)
+    chin_m = float(at[forward, 1].min())
+    top_m = float(at[:, 1].max())
+    eyes_m = head.eyes_m if head.eyes_m is not None else (chin_m + top_m) / 2.0
+    wanted_m = _notch_m(at[forward], eyes_m, chin_m)
+    nearest = front[np.argsort(np.abs(at[:, 1] - wanted_m), kind="stable")[:LIP_VERTICES]]
+    depth_m = float(skin.positions[nearest, 2].max())
+    contact = nearest[skin.positions[nearest, 2] > depth_m - PATCH_M * head.size]
+    heights = skin.positions[contact, 1]
+    upper, lower = contact[heights >= np.median(heights)], contact[heights <= np.median(heights)]
+    found = {"lips.contact": contact, "lips.upper": upper, "lips.lower": lower}
+    return {name: _landmark(skin, np.sort(rows)) for name, rows in found.items()}
+
+
+def _notch_m(profile: FloatArray, eyes_m: float, chin_m: float) -> float:
+    """Height at which a profile (V, 3) goes in between two lips; where it does not, as on most faces."""
+    steps = np.round((eyes_m - profile[:, 1]) / max(eyes_m - chin_m, 1e-6) * STEPS).astype(np.intp)
+    low, high = (round((MOUTH_SHARE + sign * MOUTH_SPREAD) * STEPS) for sign in (-1, 1))
+    depths_m = np.array([profile[steps == step, 2].max(initial=-np.inf) for step in range(low, high + 1)])
+    known = np.flatnonzero(np.isfinite(depths_m))
+    goes_in_m, best = 0.0, round(MOUTH_SHARE * STEPS) - low
+    for place in known[1:-1]:
+        before_m, behind_m = depths_m[:place].max(), depths_m[place + 1 :].max()
+        if min(before_m, behind_m) - depths_m[place] > goes_in_m:
+            goes_in_m, best = float(min(before_m, behind_m) - depths_m[place]), int(place)
+    return eyes_m - (low + best) / STEPS * (eyes_m - chin_m)
+
+
+def _covered(skin: _Skin, front: IntArray, head: _Head) -> int:
+    """How many steps of height some vertices cover that lie before the head's joint and not above its eyes."""
+    at = skin.positions[front]
+    eyes_m = head.place[1] + 0.5 * TOP_M * head.size if head.eyes_m is None else head.eyes_m
+    before = (at[:, 2] > head.place[2]) & (at[:, 1] < eyes_m)
+    return len(np.unique(np.floor(at[before, 1] / (PATCH_M * head.size))))
+
+
+def _profile(skin: _Skin, head: _Head) -> IntArray:
+    """The foremost vertices of a head near the middle of the face, looking ahead."""
+    own = _own(skin, head.joints, 0.5)
+    off = np.abs(skin.positions[own, 0] - head.place[0])
+    if not len(own):
+        return own
+    ahead = skin.normals[own, 2] > 0.2
+    near = own[ahead & (off < MIDLINE_M * head.size)]
+    if len(near) < 3:
+        near = own[ahead & (off < 3.0 * MIDLINE_M * head.size)]
+    # Not the inside of the mouth, nor what lies behind the skin.
+    at = skin.positions[near]
+    beside = np.abs(at[:, 1][:, None] - at[:, 1][None]) < PATCH_M * head.size
+    outer = np.where(beside, at[:, 2][None], -np.inf).max(axis=1, initial=-np.inf)
+    found: IntArray = near[at[:, 2] > outer - PATCH_M * head.size]
+    return found
 
 
 def _landmark(skin: _Skin, vertices: IntArray) -> Landmark:

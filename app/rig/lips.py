@@ -21,6 +21,7 @@ from app.rig.landmarks import JAW_MORPHS
 from app.rig.model import Character, Landmark
 from app.rig.skeleton import forward
 from app.rig.skinning import mesh_named, patch, skin_matrices
+from app.rig.stature import face_size
 from instrument_maps.model import InstrumentMap
 from metadata.model import Body
 
@@ -37,6 +38,10 @@ UPPER_SHARE, LOWER_SHARE = 0.3, 0.7
 """The upper lip goes along with the jaw by less than this share, the lower lip by more."""
 SAME_M = 1e-4
 """A vertex that is off the middle by less belongs to both halves."""
+MOUTH_M = (0.0, -0.031, 0.104)
+"""Where the lips of a grown-up's face meet, in the head's frame: for one that has none."""
+WIDER = (1.0, 2.0, 4.0)
+"""Of few vertices, those so much further off the middle are looked at."""
 ROUNDS = 3
 """How often the edges are found anew with the jaw that they ask for; they have settled after two."""
 
@@ -71,9 +76,11 @@ def lip_places(character: Character, instrument_map: InstrumentMap, body: Body) 
     marks, embouchure = character.landmarks, instrument_map.embouchure
     face = body.embouchure[embouchure.kind]
     opening_m = embouchure.lips_apart_m + face.opening_m
-    if opening_m == 0.0:
-        return LipPlaces(marks["lips.contact"], marks["lips.upper"], marks["lips.upper"], marks["lips.contact"])
-    mouth = _mouth(character)
+    mouth = None if opening_m == 0.0 else _mouth(character)
+    if mouth is None:
+        contact = marks["lips.lower" if embouchure.kind == "air_jet" else "lips.contact"]
+        carrier = contact if embouchure.kind == "air_jet" else marks["lips.upper"]
+        return LipPlaces(contact, carrier, marks["lips.upper"], marks["lips.lower"])
     up, ahead = _mouthpiece_axes(character, instrument_map, body)
     upper, lower = mouth.edges(face.usual, opening_m, up, ahead)
     edges = (Landmark(mouth.mesh, mouth.vertices[upper]), Landmark(mouth.mesh, mouth.vertices[lower]))
@@ -86,12 +93,16 @@ def lip_places(character: Character, instrument_map: InstrumentMap, body: Body) 
 def fit_lips(character: Character, instrument_map: InstrumentMap, body: Body) -> Lips:
     """Find the place of an instrument on the lips in the head's frame, and how each morph moves it."""
     embouchure = instrument_map.embouchure
+    if not needed_landmarks(instrument_map) <= character.landmarks.keys():
+        about_m = face_size(character) * np.array(MOUTH_M)
+        return Lips(about_m, {}, about_m, {}, about_m)
     places = lip_places(character, instrument_map, body)
     contact_m, contact = _in_head(character, places.contact)
     carrier_m, carrier = _in_head(character, places.carrier)
     opening_m = body.embouchure[embouchure.kind].opening_m
     usual_m, gap_m, gap, jaw = contact_m, 0.0, dict[str, float](), ""
-    if embouchure.lips_apart_m + opening_m > 0.0:
+    mouth = None if embouchure.lips_apart_m + opening_m == 0.0 else _mouth(character)
+    if mouth is not None:
         up, _ = _mouthpiece_axes(character, instrument_map, body)
         (upper_m, upper), (lower_m, lower) = (_in_head(character, edge) for edge in (places.upper, places.lower))
         still = np.zeros(3)
@@ -100,7 +111,7 @@ def fit_lips(character: Character, instrument_map: InstrumentMap, body: Body) ->
             name: float((upper.get(name, still) - lower.get(name, still)) @ up)
             for name in sorted(upper.keys() | lower.keys())
         }
-        jaw = _mouth(character).jaw
+        jaw = mouth.jaw
         if embouchure.lips_apart_m > 0.0:
             # Whatever the face's weights are: a hold is not fitted anew for them.
             usual_m = _in_head(character, character.landmarks["lips.contact"])[0] - 0.5 * embouchure.lips_apart_m * up
@@ -120,7 +131,10 @@ def fit_lips(character: Character, instrument_map: InstrumentMap, body: Body) ->
 
 def meeting(character: Character, instrument_map: InstrumentMap, body: Body) -> Character:
     """The character with its landmarks ``lips.contact`` and ``lips.upper`` where the instrument is played, and where it
-    stays while the mouth is open: what a judge of contacts measures. Of a cup they are there already."""
+    stays while the mouth is open: what a judge of contacts measures. Of a cup they are there already; a character
+    without lips stays without."""
+    if not needed_landmarks(instrument_map) <= character.landmarks.keys():
+        return character
     places = lip_places(character, instrument_map, body)
     if places.contact is character.landmarks["lips.contact"]:
         return character
@@ -187,6 +201,8 @@ class _Mouth:
         The morph that opens the mouth.
     upper, lower : (V,) bool
         Which lip a vertex belongs to.
+    size : float
+        Of the face.
     """
 
     mesh: str
@@ -197,6 +213,7 @@ class _Mouth:
     jaw: str
     upper: npt.NDArray[np.bool_]
     lower: npt.NDArray[np.bool_]
+    size: float = 1.0
 
     def edges(
         self, weights: Mapping[str, float], opening_m: float, up: FloatArray, ahead: FloatArray
@@ -223,33 +240,33 @@ class _Mouth:
     def _edge(self, height: FloatArray, depth: FloatArray, own: npt.NDArray[np.bool_]) -> IntArray:
         """The lowest vertex of each half of the lip, so that the edge is in the middle."""
         front = float(np.percentile(depth[own], 90.0))
-        outside = own & (depth > front - DEPTH_M)
+        outside = own & (depth > front - DEPTH_M * self.size)
         off_m = self.positions_m[:, 0] - self.seam_m[0]
         halves = (np.flatnonzero(outside & half) for half in (off_m > -SAME_M, off_m < SAME_M))
-        return np.array([rows[height[rows].argmin()] for rows in halves], dtype=np.intp)
+        return np.array([rows[height[rows].argmin()] for rows in halves if len(rows)], dtype=np.intp)
 
 
 @lru_cache(maxsize=32)
-def _mouth(character: Character) -> _Mouth:
-    lips = character.landmarks["lips.contact"]
+def _mouth(character: Character) -> _Mouth | None:
+    """The mouth of a character; None where no morph opens it."""
+    lips, size = character.landmarks["lips.contact"], face_size(character)
     mesh = mesh_named(character, lips.mesh)
     morphs = {morph.name for morph in mesh.morphs}
-    jaw = next(name for name in JAW_MORPHS if name in morphs)
+    jaw = next((name for name in JAW_MORPHS if name in morphs), None)
+    if jaw is None:
+        return None
     raw = np.asarray(mesh.positions_m, dtype=np.float64)
-    near = np.linalg.norm(raw - raw[lips.vertices].mean(axis=0), axis=1) < AROUND_M
+    near = np.linalg.norm(raw - raw[lips.vertices].mean(axis=0), axis=1) < AROUND_M * size
     around = Landmark(lips.mesh, np.flatnonzero(near).astype(np.int32))
     positions_m, deltas_m = _skin(character, around)
+    if jaw not in deltas_m:
+        return None
     seam_m, _ = _in_head(character, lips)
     drop = np.linalg.norm(deltas_m[jaw], axis=1)
-    middle = np.abs(positions_m[:, 0] - seam_m[0]) < MIDDLE_M
-    most = drop[middle].max()
-    return _Mouth(
-        mesh=lips.mesh,
-        vertices=around.vertices,
-        positions_m=positions_m,
-        deltas_m=deltas_m,
-        seam_m=seam_m,
-        jaw=jaw,
-        upper=middle & (drop < UPPER_SHARE * most),
-        lower=middle & (drop > LOWER_SHARE * most),
-    )
+    for wider in WIDER:
+        middle = np.abs(positions_m[:, 0] - seam_m[0]) < wider * MIDDLE_M * size
+        most = drop[middle].max(initial=0.0)
+        upper, lower = middle & (drop < UPPER_SHARE * most), middle & (drop > LOWER_SHARE * most)
+        if upper.any() and lower.any():
+            return _Mouth(lips.mesh, around.vertices, positions_m, deltas_m, seam_m, jaw, upper, lower, size)
+    return None

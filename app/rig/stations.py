@@ -204,7 +204,9 @@ def aside_m(contact: Contact, instrument: InstrumentMap, values: npt.ArrayLike) 
         return np.zeros((*values.shape, 3))
     half = control.half_value
     share = np.where(values < half, values / half, (1.0 - values) / (1.0 - half))
-    return np.multiply.outer(np.clip(share, 0.0, 1.0) * HALF_ASIDE_M, _aside(contact, control, instrument))
+    return np.multiply.outer(
+        np.clip(share, 0.0, 1.0) * HALF_ASIDE_M * instrument.size, _aside(contact, control, instrument)
+    )
 
 
 def _aside(contact: Contact, control: Control, instrument: InstrumentMap) -> FloatArray:

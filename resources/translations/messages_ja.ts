@@ -680,6 +680,26 @@
             <translation>{label} はこの奏者の手が届かず、{control}が {gap_mm} mm 手前で止まります。別の運指か、腕の長いキャラクターにしてください</translation>
         </message>
         <message>
+            <source>plays an instrument of {percent} % of its size: so hands and arms reach it</source>
+            <translation>手と腕が届くように、{percent} % の大きさの楽器を演奏します</translation>
+        </message>
+        <message>
+            <source>the {side} hand has fingers that do not bend: it lies on the instrument as a whole, and what they would press moves by itself</source>
+            <translation>{side}手の指は曲がりません。手全体を楽器に添え、押される部分はひとりでに動きます</translation>
+        </message>
+        <message>
+            <source>the {side} hand has no skin to touch with: it hangs down while the other one plays</source>
+            <translation>{side}手には触れる表面がありません。下ろしたまま、もう一方の手で演奏します</translation>
+        </message>
+        <message>
+            <source>the head has no skin to find a mouth on: the instrument is held where lips would be</source>
+            <translation>頭に口を見つけられる表面がありません。楽器は唇があるはずの位置に保ちます</translation>
+        </message>
+        <message>
+            <source>the mouth has no morph that opens it: breaths do not show on it, and lips stay shut</source>
+            <translation>口を開くモーフがありません。息継ぎは口に表れず、唇は閉じたままです</translation>
+        </message>
+        <message>
             <source>the {side} hand comes off the instrument: it stays {gap_mm} mm from its place; lessen the pose correction or the gesture here, or take a character of another size</source>
             <translation>{side}手が楽器から離れています（本来の位置から {gap_mm} mm）。ここのポーズ補正やジェスチャーを弱めるか、体格の違うキャラクターを選んでください</translation>
         </message>

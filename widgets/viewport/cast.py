@@ -13,7 +13,7 @@ from itertools import pairwise
 import numpy as np
 import numpy.typing as npt
 
-from app.performance.bodies import body_of, character_of, model_of
+from app.performance.bodies import body_of, character_of, model_of, suited_to
 from app.project.casting import StagePosition
 from app.project.model import Player
 from app.rig import quaternion
@@ -59,7 +59,7 @@ class Member:
 
 def kit_of(player: Player) -> Kit:
     """Load what a player is drawn from. Raises AppError where something is missing or damaged."""
-    instrument_map = find_map(player.instrument_id)
+    instrument_map = suited_to(player, find_map(player.instrument_id)).instrument
     return Kit(character_of(player), model_of(instrument_map), instrument_map)
 
 
