@@ -201,7 +201,7 @@ def _scenes(
     request: Request, player: Player, target: TargetSkeleton, motion: Motion, stem: str, held: set[Held]
 ) -> dict[Held, Scene]:
     """The scenes that some format asked for can hold."""
-    instrument = request.performance.instrument(player)
+    instrument = request.performance.held(player)
     scenes: dict[Held, Scene] = {}
     if "character" in held:
         scenes["character"] = character_scene(character_of(player), motion, stem, request.creator, target)
