@@ -310,12 +310,10 @@ class Files(QObject):
             QCoreApplication.translate("Files", "Save project"),
             proposal,
             QCoreApplication.translate("Files", "Suisou project (*{suffix})").format(suffix=storage.SUFFIX),
+            (storage.SUFFIX,),
         )
-        if path is None:
-            return
-        if path.suffix.lower() != storage.SUFFIX:
-            path = path.with_name(path.name + storage.SUFFIX)
-        self._save(path, then)
+        if path is not None:
+            self._save(path, then)
 
     def _save(self, path: Path, then: Then | None) -> None:
         project = self.session.project

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Literal, Protocol
 
@@ -22,8 +23,8 @@ class Questions(Protocol):
     def open_file(self, title: str, folder: str, filters: str) -> Path | None:
         """An existing file; None: the person thought better of it."""
 
-    def save_file(self, title: str, proposal: str, filters: str) -> Path | None:
-        """A file to write; whether one may be replaced was asked."""
+    def save_file(self, title: str, proposal: str, filters: str, suffixes: Sequence[str]) -> Path | None:
+        """A file to write, its name with one of the suffixes; whether one may be replaced was asked."""
 
     def unsaved(self, name: str) -> Answer:
         """What becomes of the changes that are in no file."""
@@ -40,10 +41,17 @@ class Dialogs:
         name, _ = QFileDialog.getOpenFileName(_parent(), title, folder, filters)
         return Path(name) if name else None
 
-    def save_file(self, title: str, proposal: str, filters: str) -> Path | None:
+    def save_file(self, title: str, proposal: str, filters: str, suffixes: Sequence[str]) -> Path | None:
         """See `Questions`."""
-        name, _ = QFileDialog.getSaveFileName(_parent(), title, proposal, filters)
-        return Path(name) if name else None
+        while True:
+            name, _ = QFileDialog.getSaveFileName(_parent(), title, proposal, filters)
+            if not name:
+                return None
+            path = with_suffix(Path(name), suffixes)
+            # The system's dialog has asked about the name as it was typed.
+            if path == Path(name) or not path.exists() or _may_replace(title, path):
+                return path
+            proposal = str(path)
 
     def unsaved(self, name: str) -> Answer:
         """See `Questions`."""
@@ -73,6 +81,29 @@ class Dialogs:
             return dialog.project() if dialog.exec() == QDialog.DialogCode.Accepted else None
         finally:
             dialog.deleteLater()
+
+
+def with_suffix(path: Path, suffixes: Sequence[str]) -> Path:
+    """A path whose name ends with one of the suffixes; where it has none of them it gets the first."""
+    return path if path.suffix.lower() in suffixes else path.with_name(path.name + suffixes[0])
+
+
+def _may_replace(title: str, path: Path) -> bool:
+    translate = QCoreApplication.translate
+    box = QMessageBox(_parent())
+    box.setObjectName("replace")
+    box.setIcon(QMessageBox.Icon.NoIcon)
+    box.setWindowTitle(title)
+    box.setText(translate("Questions", "Replace {name}?").format(name=path.name))
+    box.setInformativeText(translate("Questions", "The folder has a file of this name. What it holds is lost."))
+    replace = box.addButton(translate("Questions", "Replace"), QMessageBox.ButtonRole.DestructiveRole)
+    cancel = box.addButton(translate("Questions", "Cancel"), QMessageBox.ButtonRole.RejectRole)
+    box.setDefaultButton(cancel)
+    box.setEscapeButton(cancel)
+    box.exec()
+    clicked = box.clickedButton()
+    box.deleteLater()
+    return clicked is replace
 
 
 def _parent() -> QWidget | None:

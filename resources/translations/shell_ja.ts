@@ -958,6 +958,18 @@
         <source>Cancel</source>
         <translation>キャンセル</translation>
     </message>
+    <message>
+        <source>Replace {name}?</source>
+        <translation>{name} を置き換えますか?</translation>
+    </message>
+    <message>
+        <source>The folder has a file of this name. What it holds is lost.</source>
+        <translation>このフォルダーには同じ名前のファイルがあります。その内容は失われます。</translation>
+    </message>
+    <message>
+        <source>Replace</source>
+        <translation>置き換える</translation>
+    </message>
 </context>
 <context>
     <name>Recorder</name>

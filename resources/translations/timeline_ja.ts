@@ -345,7 +345,7 @@
     </message>
     <message>
         <source>Drag to change where one take ends and the other begins</source>
-        <translation type="unfinished"></translation>
+        <translation>ドラッグしてテイクの切り替わる位置を変えます</translation>
     </message>
     <message>
         <source>{note} is left out: {why}</source>

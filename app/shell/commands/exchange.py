@@ -95,10 +95,9 @@ def export_midi(session: Session) -> None:
     translate = QCoreApplication.translate
     proposal = Path(editor.files.folder) / f"{Path(editor.files.name).stem}.mid"
     kinds = f"{translate('Files', 'MIDI files')} (*.mid)"
-    path = editor.questions.save_file(translate("Files", "Export MIDI"), str(proposal), kinds)
-    if path is None:
+    target = editor.questions.save_file(translate("Files", "Export MIDI"), str(proposal), kinds, MIDI_SUFFIXES)
+    if target is None:
         return
-    target = path if path.suffix.lower() in MIDI_SUFFIXES else path.with_name(f"{path.name}.mid")
     project = session.project
 
     def work(progress: Progress, stop_wanted: StopWanted) -> tuple[Message, ...]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 import pytest
@@ -17,7 +17,7 @@ from app.project.presence import Presence
 from app.score.read import MidiContents
 from app.shell.app import Program
 from app.shell.files import Files
-from app.shell.questions import Answer
+from app.shell.questions import Answer, with_suffix
 from app.shell.recording import Recorder
 from app.shell.settings import Settings
 from app.shell.sound import sound_of
@@ -44,10 +44,10 @@ class Answers:
         self.asked.append("open")
         return self.path
 
-    def save_file(self, title: str, proposal: str, filters: str) -> Path | None:
+    def save_file(self, title: str, proposal: str, filters: str, suffixes: Sequence[str]) -> Path | None:
         """The test's path."""
         self.asked.append("save")
-        return self.path
+        return with_suffix(self.path, suffixes) if self.path is not None else None
 
     def unsaved(self, name: str) -> Answer:
         """The test's answer."""

@@ -29,6 +29,7 @@ from app.project.model import Project, map_choices, project_from_score
 from app.score.model import Note
 from app.score.read import read_midi
 from instrument_maps.load import bundled_maps
+from tests.support.blown import TEMPO, Blow, breath_curve, take, ticks
 
 QUARTET = Path(__file__).parents[3] / "resources" / "examples" / "quartet.mid"
 BARS = 12
@@ -366,3 +367,21 @@ def test_all_of_a_player_goes_back() -> None:
     project = edit.set_amounts(piece(), made(), {made().breaths[0].id: 0.5})
     project = edit.remove(project, made(), (made().gestures[3].id,))
     assert edit.give_back_player(project, player_id()).corrections == {}
+
+
+def test_a_breath_within_a_note_stays_in_it() -> None:
+    blown = take([(0.5, 4.5, 65), (5.0, 6.0, 67)], breath_curve([Blow(0.5, 2.0), Blow(2.5, 4.5), Blow(5.0, 6.0)]))
+    score = msgspec.structs.replace(piece().score, parts=(blown,), tempo_map=TEMPO)
+    project = project_from_score(score, bundled_maps())
+    plan = plan_of(project)
+    breath = edit.events_of(plan)["within:1:1"]
+    assert isinstance(breath, BreathEvent)
+    moved = edit.move(project, plan, ("within:1:1",), 480)
+    assert moved.event_ids == ("within:1:1",)
+    after = edit.events_of(plan_of(moved.project))["within:1:1"]
+    assert isinstance(after, BreathEvent)
+    assert (after.start_tick, after.end_tick) == (breath.start_tick + 480, breath.end_tick + 480)
+    far = edit.events_of(plan_of(edit.move(project, plan, ("within:1:1",), 9600).project))["within:1:1"]
+    assert isinstance(far, BreathEvent)
+    assert (far.end_tick, far.end_tick - far.start_tick) == (ticks(4.5), breath.end_tick - breath.start_tick)
+    assert "within:1:1" not in edit.events_of(plan_of(edit.remove(project, plan, ("within:1:1",))))
