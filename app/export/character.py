@@ -106,7 +106,8 @@ def _own_meshes(figure: Figure, target: TargetSkeleton) -> tuple[SkinnedMesh, ..
     added = len(target.names) - len(figure.bone_names)
     names = mesh_names([mesh.name for mesh in figure.meshes], target.names)
     return tuple(
-        skinned_mesh(mesh, name, mesh.joints + np.int32(added), mesh.weights, binds)
+        # What has no weight may name any bone.
+        skinned_mesh(mesh, name, np.maximum(mesh.joints + np.int32(added), 0), mesh.weights, binds)
         for mesh, name in zip(figure.meshes, names, strict=True)
     )
 

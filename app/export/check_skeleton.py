@@ -8,6 +8,7 @@ to be known.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Final, Literal, TypeAlias
 
 import msgspec
@@ -15,6 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from app.errors import Message
+from app.export.own_skeleton import has_armature
 from app.export.target import TargetSkeleton
 from app.rig import quaternion
 from app.rig.figure import Figure
@@ -63,6 +65,7 @@ def check_skeleton(target: TargetSkeleton, asset: Figure) -> tuple[Difference, .
     asset : Figure
         As its file has it.
     """
+    asset = without_armature(asset)
     ours = {name: bone for bone, name in enumerate(target.names)}
     theirs = {name: bone for bone, name in enumerate(asset.bone_names)}
     moved = {target.names[bone] for bone in target.moved}
@@ -86,6 +89,23 @@ def check_skeleton(target: TargetSkeleton, asset: Figure) -> tuple[Difference, .
         if off_deg > ROTATION_DEG:
             found.append(Difference("rotation", name, grave=False, amount=round(off_deg, 2)))
     return tuple(sorted(found, key=lambda difference: not difference.grave))
+
+
+def without_armature(asset: Figure) -> Figure:
+    """The bones that Unreal has of a file, without the object that Blender keeps a skeleton in."""
+    if not has_armature(asset):
+        return asset
+    translations, rotations = asset.translations_m[1:].copy(), asset.rotations[1:].copy()
+    translations[0] = asset.translations_m[0] + quaternion.rotate(asset.rotations[0], translations[0])
+    rotations[0] = quaternion.multiply(asset.rotations[0], rotations[0])
+    return replace(
+        asset,
+        bone_names=asset.bone_names[1:],
+        parents=tuple(parent - 1 for parent in asset.parents[1:]),
+        translations_m=translations,
+        rotations=rotations,
+        meshes=(),
+    )
 
 
 def told(differences: Sequence[Difference]) -> tuple[Message, ...]:

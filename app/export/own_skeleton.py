@@ -31,6 +31,7 @@ LIMBS: Final = {
     )
 }
 """The long bones, and the joint where each ends."""
+ARMATURE: Final = "armature"
 _TWISTS_AT_ITS_END: Final = ("LowerArm", "LowerLeg")
 """A forearm's skin turns with the hand; an upper arm's twist comes from its own shoulder."""
 
@@ -39,7 +40,8 @@ def own_target(character: Character) -> TargetSkeleton:
     """The skeleton of a character's own file; the character must have one.
 
     Unreal takes one root only: where the file has several, a bone ``root`` at the origin is put above them, and
-    ``skeleton.root_added`` says so.
+    ``skeleton.root_added`` says so. The object that Blender writes above its bones is left out, as Unreal's importer
+    does (``skeleton.armature_left_out``).
     """
     own = character.own
     if own is None:
@@ -66,7 +68,19 @@ def own_target(character: Character) -> TargetSkeleton:
         joint_from_bone,
         twists,
     )
+    if has_armature(figure):
+        return _without_armature(target, figure)
     return target if figure.parents.count(-1) == 1 else _with_root(target, figure)
+
+
+def has_armature(figure: Figure) -> bool:
+    """Whether the figure's root is the object that Blender keeps a skeleton in, which Unreal does not take for a bone.
+
+    It is called Armature, carries nothing and has the one root bone below it.
+    """
+    if figure.bone_names[0].casefold() != ARMATURE or figure.parents.count(-1) != 1 or figure.parents.count(0) != 1:
+        return False
+    return not any((mesh.weights[mesh.joints == 0] > 0.0).any() for mesh in figure.meshes)
 
 
 def own_weights(morphs: Mapping[str, npt.NDArray[np.float32]], own: OwnSkeleton) -> dict[str, npt.NDArray[np.float32]]:
@@ -112,6 +126,33 @@ def limb_twist(skeleton: Skeleton, base: int, end: int, axis: FloatArray, along:
     if skeleton.names[base].endswith(_TWISTS_AT_ITS_END):
         return Twist(base, end, axis, along)
     return Twist(base, base, axis, along - 1.0)
+
+
+def _without_armature(target: TargetSkeleton, figure: Figure) -> TargetSkeleton:
+    if target.joint_of_bone[0] >= 0:
+        return target
+    # The bone below becomes the root: it stands where it stood in the world.
+    offsets, rest, t_pose = target.offsets_m[1:].copy(), target.rest[1:].copy(), target.t_pose[1:].copy()
+    offsets[0] = target.offsets_m[0] + quaternion.rotate(target.rest[0], offsets[0])
+    rest[0] = quaternion.multiply(target.rest[0], rest[0])
+    t_pose[0] = quaternion.multiply(target.t_pose[0], t_pose[0])
+    return TargetSkeleton(
+        "own",
+        target.names[1:],
+        tuple(parent - 1 for parent in target.parents[1:]),
+        offsets,
+        rest,
+        t_pose,
+        target.joint_of_bone[1:],
+        target.joint_from_bone[1:],
+        {bone - 1: twist for bone, twist in target.twists.items()},
+        messages=(
+            Message(
+                "skeleton.armature_left_out",
+                {"file": figure.file, "armature": target.names[0], "root": target.names[1]},
+            ),
+        ),
+    )
 
 
 def _with_root(target: TargetSkeleton, figure: Figure) -> TargetSkeleton:

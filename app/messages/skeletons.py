@@ -7,6 +7,8 @@ from typing import Final
 TEMPLATES: Final[dict[str, str]] = {
     "skeleton.root_added": "{file} has several root bones ({bones}); Unreal takes only one, so the bone {root} was put "
     "above them",
+    "skeleton.armature_left_out": "{file}: {armature}, which Blender keeps the bones in, is no bone in Unreal and is "
+    "left out; the root bone is {root}",
     "skeleton.other_root": "the root bone is {ours}, the asset's is {theirs}: Unreal would refuse the animation",
     "skeleton.other_parent": "{bone} hangs from {ours}, in the asset from {theirs}",
     "skeleton.other_unit": "lengths are {factor} times the asset's: it is in another unit",

@@ -24,6 +24,7 @@ def foreign(
     roots: int = 1,
     lacking: tuple[str, ...] = (),
     in_chain: str = "",
+    root: str = "Reference",
 ) -> Character:
     """The character as if it had come from a file.
 
@@ -41,12 +42,14 @@ def foreign(
         Joints the file does not have; what they carry goes with the joint above.
     in_chain : str
         A joint between which and its parent a bone stands that is no joint; empty: none.
+    root : str
+        Name of the first root.
     """
     skeleton = character.skeleton
     turns = Rotation.random(len(skeleton.names), random_state=seed)
     bound = np.linalg.inv(character.joint_from_mesh)
     joints = rest_positions(skeleton)
-    names, parents, bone_of_joint = ["Reference"], [-1], [-1] * len(skeleton.names)
+    names, parents, bone_of_joint = [root], [-1], [-1] * len(skeleton.names)
     rest: list[tuple[np.ndarray, Rotation]] = [(np.zeros(3), Rotation.from_euler("x", -90, degrees=True))]
     t_pose = list(rest)
 

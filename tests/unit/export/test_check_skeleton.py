@@ -14,14 +14,14 @@ from app.export.own_skeleton import own_target
 from app.export.target import TargetSkeleton
 from app.messages import text
 from app.rig import quaternion
-from app.rig.character import bundled_character
+from app.rig.character_library import character_named
 from app.rig.figure import Figure
 from tests.support.foreign import PREFIX, foreign
 
 
 @cache
 def exported() -> tuple[TargetSkeleton, Figure]:
-    character = foreign(bundled_character("woman_adult"))
+    character = foreign(character_named("woman_adult"))
     assert character.own is not None
     return own_target(character), character.own.figure
 
@@ -66,7 +66,7 @@ def test_the_same_file_differs_in_nothing() -> None:
         (lambda f: renamed(f, HAND, "Hand_L"), Difference("additional", HAND, grave=True)),
         (lambda f: renamed(f, "hair_2", "Braid"), Difference("additional", "hair_2", grave=False)),
         (lambda f: renamed(f, "hair_2", "Braid"), Difference("missing", "Braid", grave=False)),
-        (lambda f: renamed(f, "Reference", "Armature"), Difference("root", "Reference", True, "Reference", "Armature")),
+        (lambda f: renamed(f, "Reference", "Rig"), Difference("root", "Reference", True, "Reference", "Armature")),
         (lambda f: hung(f, HAIR, PREFIX + "neck"), Difference("parent", HAIR, True, "hair_0", PREFIX + "neck")),
         (lambda f: shifted(f, HEAD, 0.004), Difference("position", HEAD, grave=False, amount=4.0)),
         (lambda f: turned(f, HEAD, 2.5), Difference("rotation", HEAD, grave=False, amount=2.5)),
@@ -89,7 +89,7 @@ def test_a_little_is_nothing() -> None:
 
 
 def test_an_asset_with_several_roots_is_not_ours() -> None:
-    character = foreign(bundled_character("woman_adult"), roots=2)
+    character = foreign(character_named("woman_adult"), roots=2)
     assert character.own is not None
     found = check_skeleton(own_target(character), character.own.figure)
     assert found[0] == Difference("root", "root", grave=True, ours="root", theirs="Reference, prop_1")

@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from app.export.character import character_scene
+from app.export.check_skeleton import check_skeleton
 from app.export.joint_playback import JointPlayback
 from app.export.mannequin import MANNEQUIN, MannequinAxes, mannequin_target
 from app.export.own_skeleton import own_target, own_weights
@@ -146,6 +147,21 @@ def test_several_roots_become_one_and_it_is_said() -> None:
     assert message.id == "skeleton.root_added"
     assert message.arguments["bones"] == "Reference, prop_1, prop_2"
     assert own_target(foreign(ours())).messages == ()
+
+
+def test_blenders_armature_is_no_bone() -> None:
+    """Unreal leaves it out when it imports the character, so its animation must not begin with it."""
+    character = foreign(ours(), root="Armature")
+    motion = random_motion(11)
+    target = own_target(character)
+    assert target.names[0] == PREFIX + "hips"
+    assert target.messages[0].id == "skeleton.armature_left_out"
+    assert character.own is not None
+    assert check_skeleton(target, character.own.figure) == ()
+    playback = played(character, motion, target)
+    assert_joints_agree(character, motion, target, playback)
+    whole = surfaces_m(played(foreign(ours()), motion, own_target(foreign(ours()))))
+    assert np.linalg.norm(surfaces_m(playback) - whole, axis=-1).max() / MM < 0.01
 
 
 def test_a_twist_bone_has_its_share() -> None:
