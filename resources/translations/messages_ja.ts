@@ -1248,6 +1248,10 @@
             <translation>{file} にはルートボーンが複数あります（{bones}）。Unreal はルートを 1 つしか受け付けないため、その上にボーン {root} を加えました</translation>
         </message>
         <message>
+            <source>{file}: {armature}, which Blender keeps the bones in, is no bone in Unreal and is left out; the root bone is {root}</source>
+            <translation>{file}：Blender がボーンを収める {armature} は Unreal ではボーンにならないため、含めません。ルートボーンは {root} です</translation>
+        </message>
+        <message>
             <source>the root bone is {ours}, the asset's is {theirs}: Unreal would refuse the animation</source>
             <translation>ルートボーンは {ours} ですが、アセットでは {theirs} です。Unreal はこのアニメーションを受け付けません</translation>
         </message>
