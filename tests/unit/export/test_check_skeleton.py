@@ -66,7 +66,7 @@ def test_the_same_file_differs_in_nothing() -> None:
         (lambda f: renamed(f, HAND, "Hand_L"), Difference("additional", HAND, grave=True)),
         (lambda f: renamed(f, "hair_2", "Braid"), Difference("additional", "hair_2", grave=False)),
         (lambda f: renamed(f, "hair_2", "Braid"), Difference("missing", "Braid", grave=False)),
-        (lambda f: renamed(f, "Reference", "Rig"), Difference("root", "Reference", True, "Reference", "Armature")),
+        (lambda f: renamed(f, "Reference", "Rig"), Difference("root", "Reference", True, "Reference", "Rig")),
         (lambda f: hung(f, HAIR, PREFIX + "neck"), Difference("parent", HAIR, True, "hair_0", PREFIX + "neck")),
         (lambda f: shifted(f, HEAD, 0.004), Difference("position", HEAD, grave=False, amount=4.0)),
         (lambda f: turned(f, HEAD, 2.5), Difference("rotation", HEAD, grave=False, amount=2.5)),
