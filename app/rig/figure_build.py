@@ -38,6 +38,10 @@ PERSON_M: Final = (0.9, 2.3)
 GROWN_M: Final = (1.4, 2.1)
 """Heights that a corrected unit must lead to: powers of ten, and inches, which must explain it better."""
 INCH_M: Final = 0.0254
+AGREEMENT: Final = 1e-3
+"""How far transforms may lie apart, in parts of their size, and still be one."""
+SINGULAR: Final = 1e-18
+"""The determinant of a transform that makes everything flat."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -141,6 +145,41 @@ def build_figure(
         expressions=expressions or {},
     )
     return _in_metres(figure)
+
+
+def apart(a: FloatArray, b: FloatArray) -> bool:
+    """Whether two transforms (4, 4) are so different that they cannot be one bone's in one pose."""
+    return bool(np.abs(a - b).max() > AGREEMENT * max(1e-6, float(np.abs(a[:3]).max())))
+
+
+def rest_pose(parents: Sequence[int], posed: FloatArray, bound: Mapping[int, FloatArray]) -> FloatArray:
+    """Rest transforms (N, 4, 4): what is bound as it was bound, the rest as it hangs from that.
+
+    The skin is exact in that pose alone: in any other, vertices of several bones are blended twice.
+
+    Parameters
+    ----------
+    parents : sequence of int
+        In any order; -1: none.
+    posed : (N, 4, 4) float64
+        World transforms as the file poses its nodes.
+    bound : mapping of int to (4, 4) float64
+        World transforms of nodes when their skin was bound.
+    """
+    world = posed.copy()
+    children: dict[int, list[int]] = {}
+    for node, parent in enumerate(parents):
+        children.setdefault(parent, []).append(node)
+    pending = list(children.get(-1, []))
+    while pending:
+        node = pending.pop()
+        pending.extend(children.get(node, []))
+        parent = parents[node]
+        if node in bound:
+            world[node] = bound[node]
+        elif parent >= 0 and abs(np.linalg.det(posed[parent])) > SINGULAR:
+            world[node] = world[parent] @ np.linalg.inv(posed[parent]) @ posed[node]
+    return world
 
 
 def turned(nodes: Nodes, parts: Sequence[Part], turn: FloatArray) -> tuple[Nodes, tuple[Part, ...]]:

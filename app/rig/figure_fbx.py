@@ -16,22 +16,21 @@ import numpy.typing as npt
 from app.formats.fbx.foreign import FbxCluster, FbxContent, FbxMesh, FbxNode, read_foreign_fbx
 from app.formats.scene import Material
 from app.rig.figure import Figure
-from app.rig.figure_build import Nodes, Part, build_figure
+from app.rig.figure_build import SINGULAR, Nodes, Part, apart, build_figure, rest_pose
 from app.rig.model import Mesh, Morph
 
 FloatArray = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.int64]
 
 MOST_INFLUENCES: Final = 16
-AGREEMENT_M: Final = 1e-3
-"""How far binds may lie apart, in parts of the figure's size, and still be one pose."""
 
 
 def fbx_figure(path: Path) -> Figure:
     """Read a figure from an FBX file. Raises FileError."""
     content = read_foreign_fbx(path)
     bound = _bind_pose(content)
-    world = _rest(content.nodes, bound)
+    posed = np.array([node.world_from_node for node in content.nodes])
+    world = rest_pose([node.parent for node in content.nodes], posed, bound)
     parts: list[Part] = []
     for mesh in content.meshes:
         parts += _parts(mesh, content.nodes, world)
@@ -54,31 +53,14 @@ def _bind_pose(content: FbxContent) -> Mapping[int, FloatArray]:
         for skin in mesh.skins:
             whole: FloatArray | None = None
             for cluster in skin:
-                if abs(np.linalg.det(cluster.world_from_bone)) < 1e-18:
+                if abs(np.linalg.det(cluster.world_from_bone)) < SINGULAR:
                     return {}
                 known = bound.setdefault(cluster.node, cluster.world_from_bone)
                 placed = cluster.world_from_bone @ cluster.bone_from_mesh
                 whole = placed if whole is None else whole
-                if _apart(known, cluster.world_from_bone) or _apart(whole, placed):
+                if apart(known, cluster.world_from_bone) or apart(whole, placed):
                     return {}
     return bound
-
-
-def _apart(a: FloatArray, b: FloatArray) -> bool:
-    return bool(np.abs(a - b).max() > AGREEMENT_M * max(1e-6, float(np.abs(a[:3]).max())))
-
-
-def _rest(nodes: tuple[FbxNode, ...], bound: Mapping[int, FloatArray]) -> FloatArray:
-    """Rest transforms: what is bound as it was bound, the rest as it hangs from that."""
-    world = np.array([node.world_from_node for node in nodes])
-    for index, node in enumerate(nodes):
-        if index in bound:
-            world[index] = bound[index]
-        elif node.parent >= 0 and bound:
-            above = nodes[node.parent].world_from_node
-            if abs(np.linalg.det(above)) > 1e-18:
-                world[index] = world[node.parent] @ np.linalg.inv(above) @ node.world_from_node
-    return world
 
 
 def _parts(mesh: FbxMesh, nodes: tuple[FbxNode, ...], world: FloatArray) -> list[Part]:
@@ -96,7 +78,7 @@ def _parts(mesh: FbxMesh, nodes: tuple[FbxNode, ...], world: FloatArray) -> list
     parts = []
     for node in mesh.nodes:
         posed = nodes[node]
-        if abs(np.linalg.det(posed.world_from_node)) > 1e-18:
+        if abs(np.linalg.det(posed.world_from_node)) > SINGULAR:
             place = world[node] @ np.linalg.inv(posed.world_from_node) @ posed.world_from_geometry
             parts.append(Part(rigid, (node,), place[None]))
     return parts

@@ -13,10 +13,13 @@ from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
+import numpy.typing as npt
 
 from app.rig.figure import Figure, Origin
-from app.rig.figure_build import Nodes, Part, build_figure, turned
+from app.rig.figure_build import SINGULAR, Nodes, Part, apart, build_figure, rest_pose, turned
 from app.rig.source import Source, build_mesh, read_source
+
+FloatArray = npt.NDArray[np.float64]
 
 THUMBS_OF_VRM0: Final = {"ThumbProximal": "ThumbMetacarpal", "ThumbIntermediate": "ThumbProximal"}
 PRESETS_OF_VRM0: Final = {
@@ -45,6 +48,9 @@ ABOUT_FACE: Final = np.diag([-1.0, 1.0, -1.0, 1.0])
 def gltf_figure(path: Path) -> Figure:
     """Read a figure from a glTF 2.0 or VRM file. Raises FileError."""
     source = read_source(path)
+    posed = source.world_from_node
+    bound = _bind_pose(source)
+    source = replace(source, world_from_node=rest_pose([node.parent for node in source.gltf.nodes], posed, bound))
     nodes, parts = _nodes(source), tuple(_parts(source))
     extensions = source.gltf.extensions
     origin: Origin = "gltf"
@@ -57,6 +63,41 @@ def gltf_figure(path: Path) -> Figure:
         nodes, parts = turned(nodes, parts, ABOUT_FACE)
     nodes = replace(nodes, joints={*nodes.joints, *humanoid.values()})
     return build_figure(source.file, origin, nodes, parts, humanoid, expressions)
+
+
+def _bind_pose(source: Source) -> Mapping[int, FloatArray]:
+    """Where each joint of a skin was when it was bound; empty where skins contradict one another.
+
+    A skin is bound in a space of its own: where that lies in the world, the joint says that all others hang from, or
+    one that another skin has bound.
+    """
+    bound: dict[int, FloatArray] = {}
+    depths = _depths(source)
+    for skin in sorted(source.gltf.skins, key=lambda skin: -len(skin.joints)):
+        if not len(skin.joints) or (np.abs(np.linalg.det(skin.joint_from_mesh_bind)) < SINGULAR).any():
+            return {}
+        mesh_from_joint = np.linalg.inv(skin.joint_from_mesh_bind)
+        known = [place for place, joint in enumerate(skin.joints) if joint in bound]
+        if known:
+            world_from_mesh = bound[skin.joints[known[0]]] @ skin.joint_from_mesh_bind[known[0]]
+        else:
+            top = min(range(len(skin.joints)), key=lambda place: depths[skin.joints[place]])
+            world_from_mesh = source.world_from_node[skin.joints[top]] @ skin.joint_from_mesh_bind[top]
+        for joint, placed in zip(skin.joints, world_from_mesh @ mesh_from_joint, strict=True):
+            if apart(bound.setdefault(joint, placed), placed):
+                return {}
+    return bound
+
+
+def _depths(source: Source) -> list[int]:
+    """How many nodes each node hangs from."""
+    depths = []
+    for node in source.gltf.nodes:
+        depth, above = 0, node.parent
+        while above >= 0:
+            depth, above = depth + 1, source.gltf.nodes[above].parent
+        depths.append(depth)
+    return depths
 
 
 def _nodes(source: Source) -> Nodes:
