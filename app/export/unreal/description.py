@@ -184,8 +184,8 @@ def describe(
             instrument=figure(layout.instruments[player.id]),
         )
 
-    last = max(score.end_tick - 1, 0)
-    numbers = range(0 if score.pickup_ticks else 1, score.bar_of_tick(last) + 1)
+    first, last = bars or (0 if score.pickup_ticks else 1, score.bar_of_tick(max(score.end_tick - 1, 0)))
+    numbers = range(first, last + 1)
     starts = [(number, score.tick_of_bar(number)) for number in numbers]
     told = [Bar(number, tick, after_s(tick), frame(after_s(tick))) for number, tick in starts]
     cues = [

@@ -1,0 +1,5 @@
+"""Unreal runs this when the editor starts: it adds the menu."""
+
+from suisou_import import menu
+
+menu.register()

@@ -1,0 +1,217 @@
+"""Skeletal meshes, skeletons, animations and the sound: made, updated in place, and removed when nobody plays them.
+
+FBX goes through the importer that names its factory, since newer engines would take Interchange by themselves. Every
+asset of ours bears the name of its piece as metadata; what does not is somebody else's and is not touched.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from typing import TypeVar
+
+import unreal
+
+from suisou_import.performance import Figure, Performance
+from suisou_import.problem import problem, text
+
+_Asset = TypeVar("_Asset", bound=unreal.Object)
+
+PIECE_TAG = "SuisouPiece"
+MADE_FOR_TAG = "SuisouMadeFor"
+"""On what an importer makes beside a mesh, its materials: the path of the mesh."""
+BONES_TAG = "SuisouBones"
+
+
+def existing(path: str) -> unreal.Object | None:
+    """The asset of a path; None where there is none."""
+    return unreal.EditorAssetLibrary.load_asset(path) if unreal.EditorAssetLibrary.does_asset_exist(path) else None
+
+
+def is_ours(asset: unreal.Object, piece: str) -> bool:
+    """Whether an asset was made here for a piece."""
+    return unreal.EditorAssetLibrary.get_metadata_tag(asset, PIECE_TAG) == piece
+
+
+def tag(asset: unreal.Object, performance: Performance) -> None:
+    """Mark an asset as ours."""
+    unreal.EditorAssetLibrary.set_metadata_tag(asset, PIECE_TAG, performance.piece)
+
+
+def import_mesh(performance: Performance, figure: Figure) -> bool:
+    """Make the mesh and the skeleton of a figure, or bring them up to date.
+
+    Returns
+    -------
+    bool
+        Whether they are made anew although they were there, because the bones are others now.
+    """
+    bones = hashlib.sha256("\n".join(figure.bones).encode("utf-8")).hexdigest()
+    skeleton = existing(figure.skeleton)
+    anew = False
+    if skeleton is not None and unreal.EditorAssetLibrary.get_metadata_tag(skeleton, BONES_TAG) != bones:
+        for path in (figure.animation, figure.mesh, figure.skeleton):
+            _delete(path)
+        skeleton, anew = None, True
+    folder = figure.mesh.rpartition("/")[0]
+    before = set(_listed(folder))
+    _import(performance, figure.file, figure.mesh, _mesh_options(skeleton))
+    mesh = _made(performance, figure.mesh, figure.file, unreal.SkeletalMesh)
+    made = mesh.skeleton
+    if made is None:
+        raise problem("not_imported", asset=figure.skeleton, file=figure.file)
+    if skeleton is None:
+        # The importer calls it after the mesh.
+        if not unreal.EditorAssetLibrary.rename_loaded_asset(made, figure.skeleton):
+            raise problem("not_changed", asset=figure.skeleton)
+        tag(made, performance)
+        unreal.EditorAssetLibrary.set_metadata_tag(made, BONES_TAG, bones)
+    for path in set(_listed(folder)) - before - {figure.mesh, figure.skeleton}:
+        beside = existing(path)
+        if beside is not None:
+            tag(beside, performance)
+            unreal.EditorAssetLibrary.set_metadata_tag(beside, MADE_FOR_TAG, figure.mesh)
+    return anew
+
+
+def import_animation(performance: Performance, figure: Figure) -> unreal.AnimSequence:
+    """Make the animation of a figure on its skeleton, or bring it up to date."""
+    skeleton = existing(figure.skeleton)
+    if not isinstance(skeleton, unreal.Skeleton):
+        raise problem("not_imported", asset=figure.skeleton, file=figure.file)
+    _import(performance, figure.file, figure.animation, _animation_options(skeleton, performance.rate))
+    return _made(performance, figure.animation, figure.file, unreal.AnimSequence)
+
+
+def import_sound(performance: Performance) -> unreal.SoundWave:
+    """Make the sound, or bring it up to date."""
+    _import(performance, performance.sound.file, performance.sound.asset, None)
+    return _made(performance, performance.sound.asset, performance.sound.file, unreal.SoundWave)
+
+
+def remove_leftovers(performance: Performance) -> list[str]:
+    """Remove what is ours and belongs to nobody any more; what is told of it."""
+    wanted = set(performance.assets)
+    gone: list[str] = []
+    for path in _listed(performance.content):
+        asset = existing(path)
+        if asset is None or path in wanted or not is_ours(asset, performance.piece):
+            continue
+        made_for = unreal.EditorAssetLibrary.get_metadata_tag(asset, MADE_FOR_TAG)
+        if made_for not in wanted:
+            gone.append(path)
+    told = []
+    inside = performance.content + "/"
+    for path in sorted(gone, key=_order):
+        users = unreal.EditorAssetLibrary.find_package_referencers_for_asset(path)
+        others = sorted(str(user) for user in users if not str(user).startswith(inside))
+        if others:
+            told.append(text("kept", asset=path, user=others[0]))
+        else:
+            _delete(path)
+            told.append(text("removed", asset=path))
+    return told
+
+
+def _order(path: str) -> tuple[int, str]:
+    """What uses others goes before them."""
+    prefixes = ("A_", "SK_", "SKEL_")
+    name = path.rpartition("/")[2]
+    return next((index for index, prefix in enumerate(prefixes) if name.startswith(prefix)), len(prefixes)), path
+
+
+def _mesh_options(skeleton: unreal.Object | None) -> unreal.FbxImportUI:
+    options = _fbx_options(unreal.FBXImportType.FBXIT_SKELETAL_MESH)
+    options.set_editor_property("import_mesh", True)
+    options.set_editor_property("import_animations", False)
+    options.set_editor_property("import_materials", True)
+    if isinstance(skeleton, unreal.Skeleton):
+        options.set_editor_property("skeleton", skeleton)
+    data = options.get_editor_property("skeletal_mesh_import_data")
+    data.set_editor_property("convert_scene", True)
+    data.set_editor_property("convert_scene_unit", True)
+    data.set_editor_property("force_front_x_axis", False)
+    data.set_editor_property("import_uniform_scale", 1.0)
+    data.set_editor_property("import_morph_targets", True)
+    data.set_editor_property("preserve_smoothing_groups", True)
+    data.set_editor_property("use_t0_as_ref_pose", False)
+    data.set_editor_property("update_skeleton_reference_pose", True)
+    return options
+
+
+def _animation_options(skeleton: unreal.Skeleton, rate: tuple[int, int]) -> unreal.FbxImportUI:
+    options = _fbx_options(unreal.FBXImportType.FBXIT_ANIMATION)
+    options.set_editor_property("import_mesh", False)
+    options.set_editor_property("import_animations", True)
+    options.set_editor_property("import_materials", False)
+    options.set_editor_property("skeleton", skeleton)
+    data = options.get_editor_property("anim_sequence_import_data")
+    data.set_editor_property("convert_scene", True)
+    data.set_editor_property("convert_scene_unit", True)
+    data.set_editor_property("force_front_x_axis", False)
+    data.set_editor_property("import_uniform_scale", 1.0)
+    data.set_editor_property("animation_length", unreal.FBXAnimationLengthImportType.FBXALIT_EXPORTED_TIME)
+    # Left alone, everything is sampled at 30 frames per second.
+    data.set_editor_property("use_default_sample_rate", False)
+    data.set_editor_property("custom_sample_rate", sample_rate(rate))
+    data.set_editor_property("snap_to_closest_frame_boundary", True)
+    data.set_editor_property("import_bone_tracks", True)
+    data.set_editor_property("import_custom_attribute", False)
+    data.set_editor_property("remove_redundant_keys", False)
+    # The face: curves that bear the names of the morph targets. Those that are flat now go.
+    data.set_editor_property("do_not_import_curve_with_zero", True)
+    data.set_editor_property("delete_existing_morph_target_curves", True)
+    data.set_editor_property("add_curve_metadata_to_skeleton", True)
+    return options
+
+
+def sample_rate(rate: tuple[int, int]) -> int:
+    """What the importer is told: the rate, or 0 (the best for the file's keys) where it is no whole number."""
+    numerator, denominator = rate
+    return 0 if numerator % denominator else numerator // denominator
+
+
+def _fbx_options(kind: unreal.FBXImportType) -> unreal.FbxImportUI:
+    options = unreal.FbxImportUI()
+    options.set_editor_property("automated_import_should_detect_type", False)
+    options.set_editor_property("original_import_type", kind)
+    options.set_editor_property("mesh_type_to_import", kind)
+    options.set_editor_property("import_as_skeletal", True)
+    options.set_editor_property("import_textures", False)
+    options.set_editor_property("create_physics_asset", False)
+    return options
+
+
+def _import(performance: Performance, file: str, asset: str, options: unreal.FbxImportUI | None) -> None:
+    folder, _, name = asset.rpartition("/")
+    task = unreal.AssetImportTask()
+    task.set_editor_property("filename", str(performance.path(file)))
+    task.set_editor_property("destination_path", folder)
+    task.set_editor_property("destination_name", name)
+    task.set_editor_property("replace_existing", True)
+    task.set_editor_property("replace_existing_settings", True)
+    task.set_editor_property("automated", True)
+    task.set_editor_property("save", False)
+    if options is not None:
+        task.set_editor_property("factory", unreal.FbxFactory())
+        task.set_editor_property("options", options)
+    unreal.AssetToolsHelpers.get_asset_tools().import_asset_tasks([task])
+
+
+def _made(performance: Performance, path: str, file: str, kind: type[_Asset]) -> _Asset:
+    asset = existing(path)
+    if not isinstance(asset, kind):
+        raise problem("not_imported", asset=path, file=performance.path(file))
+    tag(asset, performance)
+    return asset
+
+
+def _listed(folder: str) -> set[str]:
+    """Paths of the assets in a folder and those below."""
+    if not unreal.EditorAssetLibrary.does_directory_exist(folder):
+        return set()
+    return {str(path).split(".")[0] for path in unreal.EditorAssetLibrary.list_assets(folder)}
+
+
+def _delete(path: str) -> None:
+    if existing(path) is not None and not unreal.EditorAssetLibrary.delete_asset(path):
+        raise problem("not_changed", asset=path)

@@ -1,0 +1,53 @@
+"""Everything that the import needs, asked before anything is changed."""
+
+from __future__ import annotations
+
+import unreal
+
+from suisou_import import assets
+from suisou_import.performance import Performance, check_files
+from suisou_import.problem import problem
+
+PLUGINS = {
+    "EditorScriptingUtilities": ("EditorAssetLibrary", "EditorDialog"),
+    "SequencerScripting": ("MovieSceneScriptingDoubleChannel",),
+    "LevelSequenceEditor": ("LevelSequenceFactoryNew", "LevelSequenceEditorSubsystem"),
+}
+"""What each plug-in brings; without it the names are not there."""
+FUNCTIONS = {
+    "LevelSequence": ("add_track", "find_tracks_by_exact_type", "set_tick_resolution", "delete_marked_frame"),
+    "MovieSceneSection": ("get_all_channels", "set_range_seconds"),
+    "EditorAssetLibrary": ("find_package_referencers_for_asset", "set_metadata_tag"),
+    "ScopedSlowTask": ("should_cancel",),
+    "FbxFactory": (),
+}
+"""What an older engine may lack."""
+
+
+def check_engine() -> None:
+    """Raise `Problem` where the editor lacks something."""
+    for plugin, names in PLUGINS.items():
+        if not all(hasattr(unreal, name) for name in names):
+            raise problem("plugin_off", name=plugin)
+    missing = [name for name in FUNCTIONS if not hasattr(unreal, name)]
+    missing += [
+        f"{name}.{function}"
+        for name, functions in FUNCTIONS.items()
+        for function in functions
+        if hasattr(unreal, name) and not hasattr(getattr(unreal, name), function)
+    ]
+    if missing:
+        version = unreal.SystemLibrary.get_engine_version()
+        raise problem("old_engine", version=version, names=", ".join(missing))
+
+
+def check_performance(performance: Performance) -> None:
+    """Raise `Problem` where files are not what was exported, or an asset of somebody else's would be replaced."""
+    check_files(performance)
+    for path in performance.assets:
+        asset = assets.existing(path)
+        if asset is not None and not assets.is_ours(asset, performance.piece):
+            raise problem("not_ours", asset=path)
+    sequence = assets.existing(performance.sequence)
+    if isinstance(sequence, unreal.LevelSequence) and sequence.is_read_only():
+        raise problem("read_only", asset=performance.sequence)

@@ -1,0 +1,121 @@
+"""The menu: Import Performance and Update Performance."""
+
+from __future__ import annotations
+
+import traceback
+from collections.abc import Callable
+from pathlib import Path
+
+import unreal
+
+from suisou_import import assets, checks, run
+from suisou_import.performance import Performance, found, read
+from suisou_import.problem import Cancelled, Problem, problem, text
+
+SOURCES = "SuisouSource"
+_MENU = "LevelEditor.MainMenu"
+_SECTION = "Suisou"
+
+
+def register() -> None:
+    """Add the menu to the editor's; nothing where there is no editor to see, as when a project is packaged."""
+    main = unreal.ToolMenus.get().find_menu(_MENU)
+    if main is None:
+        return
+    menu = main.add_sub_menu("Suisou", "", "Suisou", text("title"), "")
+    # What a menu runs is one of these two lines, whatever a piece is called.
+    _add(menu, "import", "from suisou_import import menu; menu.import_performance()")
+    _add(menu, "update", "from suisou_import import menu; menu.update_performance()")
+    unreal.ToolMenus.get().refresh_all_widgets()
+
+
+def import_performance() -> None:
+    """Import what was exported and is not in the project yet."""
+    _guarded(_import_new)
+
+
+def update_performance() -> None:
+    """Bring what was imported up to date with what is exported now."""
+    _guarded(_update)
+
+
+def _import_new() -> None:
+    everything = _everything()
+    new = [performance for performance in everything if assets.existing(performance.sequence) is None]
+    if not new:
+        raise problem("nothing_new", names=", ".join(performance.title for performance in everything))
+    _bring_in(new, "ask_import", "done_import")
+
+
+def _update() -> None:
+    there = [performance for performance in _everything() if assets.existing(performance.sequence) is not None]
+    if not there:
+        raise problem("nothing_imported")
+    _bring_in(there, "ask_update", "done_update")
+
+
+def _everything() -> list[Performance]:
+    checks.check_engine()
+    project = unreal.Paths.convert_relative_path_to_full(unreal.Paths.project_dir())
+    folder = Path(project) / SOURCES
+    everything = [read(path) for path in found(folder)]
+    if not everything:
+        raise problem("nothing_exported", folder=folder)
+    return everything
+
+
+def _bring_in(performances: list[Performance], question: str, done: str) -> None:
+    for performance in _chosen(performances, question):
+        told = run.bring_in(performance)
+        run.show(performance)
+        first = text(done, name=performance.title, count=len(performance.assets), folder=performance.content)
+        _show("\n".join([first, *([""] if told else []), *told]))
+
+
+def _chosen(performances: list[Performance], question: str) -> list[Performance]:
+    """Those that a person wants: the only one there is, or what is answered."""
+    if len(performances) == 1:
+        return performances
+    chosen: list[Performance] = []
+    answers = unreal.AppReturnType
+    for index, performance in enumerate(performances):
+        asked = text(question, name=performance.title)
+        answer = unreal.EditorDialog.show_message(text("title"), asked, unreal.AppMsgType.YES_NO_YES_ALL_NO_ALL_CANCEL)
+        if answer == answers.YES_ALL:
+            return chosen + performances[index:]
+        if answer == answers.YES:
+            chosen.append(performance)
+        elif answer == answers.NO_ALL:
+            return chosen
+        elif answer != answers.NO:
+            raise Cancelled
+    return chosen
+
+
+def _guarded(action: Callable[[], None]) -> None:
+    """Do something; whatever is wrong becomes a dialog."""
+    try:
+        action()
+    except Problem as error:
+        _show(str(error))
+    except Cancelled:
+        _show(text("cancelled"))
+    except Exception as error:
+        unreal.log_error(traceback.format_exc())
+        _show(text("fault", detail=f"{type(error).__name__}: {error}"))
+
+
+def _show(message: str) -> None:
+    if not hasattr(unreal, "EditorDialog"):
+        # It comes with a plug-in that is off, which is what the message says.
+        unreal.log_error(message)
+        return
+    unreal.EditorDialog.show_message(text("title"), message, unreal.AppMsgType.OK)
+
+
+def _add(menu: unreal.ToolMenu, name: str, command: str) -> None:
+    entry = unreal.ToolMenuEntry(name=f"Suisou.{name}", type=unreal.MultiBlockType.MENU_ENTRY)
+    entry.set_label(text(name))
+    entry.set_tool_tip(text(name + "_tip"))
+    entry.set_string_command(unreal.ToolMenuStringCommandType.PYTHON, "", command)
+    menu.add_menu_entry(_SECTION, entry)

@@ -1,0 +1,66 @@
+"""A performance into the project, step by step, with what a person sees meanwhile and afterwards."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import unreal
+
+from suisou_import import assets, checks, sequence
+from suisou_import.performance import Performance
+from suisou_import.problem import Cancelled, problem, text
+
+
+def bring_in(performance: Performance) -> list[str]:
+    """Import a performance, or bring what was imported up to date.
+
+    Returns
+    -------
+    list of str
+        What a person is told besides that it is done.
+
+    Raises
+    ------
+    Problem, Cancelled
+    """
+    told: list[str] = []
+    count = 2 * len(performance.figures) + 4
+    with unreal.ScopedSlowTask(count, performance.title) as task:
+        task.make_dialog(True)
+
+        def step(name: str, /, **arguments: object) -> None:
+            if task.should_cancel():
+                raise Cancelled
+            task.enter_progress_frame(1, text(name, **arguments))
+
+        step("step_check")
+        checks.check_performance(performance)
+        _assets(performance, step, told)
+    return told
+
+
+def _assets(performance: Performance, step: Callable[..., None], told: list[str]) -> None:
+    anew: set[str] = set()
+    for figure in performance.figures:
+        step("step_mesh", name=figure.name)
+        if assets.import_mesh(performance, figure):
+            anew.add(figure.mesh)
+            told.append(text("new_skeleton", asset=figure.mesh))
+        step("step_animation", name=figure.name)
+        assets.import_animation(performance, figure)
+    step("step_sound")
+    assets.import_sound(performance)
+    step("step_sequence")
+    told += sequence.build(performance, anew)
+    told += assets.remove_leftovers(performance)
+    step("step_save")
+    if not unreal.EditorAssetLibrary.save_directory(performance.content, only_if_is_dirty=True, recursive=True):
+        raise problem("not_saved", folder=performance.content)
+
+
+def show(performance: Performance) -> None:
+    """Open the sequence; where it is open already, show it as it is now."""
+    asset = assets.existing(performance.sequence)
+    if isinstance(asset, unreal.LevelSequence):
+        unreal.LevelSequenceEditorBlueprintLibrary.open_level_sequence(asset)
+        unreal.LevelSequenceEditorBlueprintLibrary.refresh_current_level_sequence()

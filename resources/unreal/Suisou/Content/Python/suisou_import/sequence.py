@@ -1,0 +1,275 @@
+"""The level sequence: who stands where and plays what, the sound, the bars.
+
+What was put there is remembered in the sequence's metadata, so that an update changes that and nothing else: tracks,
+actors and marks of the artist's stay, and so does a place where the artist has moved somebody.
+"""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import unreal
+
+from suisou_import import assets
+from suisou_import.performance import Figure, Performance, Place
+from suisou_import.problem import problem, text
+
+STATE_TAG = "SuisouSequence"
+_NEAR = 1e-3
+"""Centimetres or degrees within which a place is the same."""
+
+
+def build(performance: Performance, anew: set[str]) -> list[str]:
+    """Make the sequence of a performance, or bring it up to date.
+
+    Parameters
+    ----------
+    anew : set of str
+        Meshes that were made anew: what showed them before shows nothing now.
+
+    Returns
+    -------
+    list of str
+        What a person is told.
+    """
+    sequence = _sequence(performance)
+    state = _state(sequence)
+    _set_time(sequence, performance)
+    told: list[str] = []
+    known: dict[str, Any] = state["figures"]
+    figures: dict[str, Any] = {}
+    for figure in performance.figures:
+        before = None if figure.mesh in anew else known.get(figure.mesh)
+        binding = None if before is None else _binding(sequence, before["id"])
+        if binding is None:
+            _remove(sequence, known.get(figure.mesh))
+            binding, before = _new_binding(sequence, figure), None
+        if not _put(binding, figure.place, None if before is None else Place(*before["place"])):
+            told.append(text("moved", name=figure.name))
+        _play(binding, figure, performance)
+        figures[figure.mesh] = {"id": binding.get_id().to_string(), "place": list(figure.place)}
+    for mesh, before in known.items():
+        if mesh not in figures:
+            _remove(sequence, before)
+    _sound(sequence, performance)
+    marks = _mark_bars(sequence, performance, set(state["marks"]))
+    _remember(sequence, {"figures": figures, "marks": marks})
+    assets.tag(sequence, performance)
+    return told
+
+
+def last_frame(performance: Performance) -> int:
+    """Where everything ends: an animation of n keys lasts n - 1 frames, and a section that is longer begins again."""
+    return max(performance.frames - 1, 1)
+
+
+def _sequence(performance: Performance) -> unreal.LevelSequence:
+    sequence = assets.existing(performance.sequence)
+    if sequence is None:
+        folder, _, name = performance.sequence.rpartition("/")
+        sequence = unreal.AssetToolsHelpers.get_asset_tools().create_asset(
+            name, folder, unreal.LevelSequence, unreal.LevelSequenceFactoryNew()
+        )
+    if not isinstance(sequence, unreal.LevelSequence):
+        raise problem("not_changed", asset=performance.sequence)
+    return sequence
+
+
+def _set_time(sequence: unreal.LevelSequence, performance: Performance) -> None:
+    numerator, denominator = performance.rate
+    sequence.set_display_rate(unreal.FrameRate(numerator, denominator))
+    ticks = sequence.get_tick_resolution()
+    # Frames are to be whole ticks: 24000 in a second do for most rates, not for 30000/1001.
+    if ticks.numerator * denominator % (ticks.denominator * numerator):
+        sequence.set_tick_resolution(unreal.FrameRate(numerator * -(-24000 // numerator), 1))
+    end = last_frame(performance)
+    sequence.set_playback_start(0)
+    sequence.set_playback_end(end)
+    end_s = end * denominator / numerator
+    margin_s = 0.05 * end_s
+    sequence.set_work_range_start(-margin_s)
+    sequence.set_work_range_end(end_s + margin_s)
+    sequence.set_view_range_start(-margin_s)
+    sequence.set_view_range_end(end_s + margin_s)
+
+
+# Actors
+
+
+def _binding(sequence: unreal.LevelSequence, id: str) -> unreal.MovieSceneBindingProxy | None:
+    for binding in sequence.get_bindings():
+        if binding.get_id().to_string() == id:
+            return binding
+    return None
+
+
+def _remove(sequence: unreal.LevelSequence, before: dict[str, Any] | None) -> None:
+    binding = None if before is None else _binding(sequence, before["id"])
+    if binding is not None:
+        binding.remove()
+
+
+def _new_binding(sequence: unreal.LevelSequence, figure: Figure) -> unreal.MovieSceneBindingProxy:
+    """An actor that the sequence itself brings into whatever level it is played in."""
+    actors = unreal.get_editor_subsystem(unreal.EditorActorSubsystem)
+    mesh = assets.existing(figure.mesh)
+    if actors is None or mesh is None:
+        raise problem("no_actor", asset=figure.mesh)
+    place = figure.place
+    location = unreal.Vector(place.x_cm, place.y_cm, place.z_cm)
+    actor = actors.spawn_actor_from_object(mesh, location, unreal.Rotator(0.0, 0.0, place.yaw_deg))
+    if actor is None:
+        raise problem("no_actor", asset=figure.mesh)
+    try:
+        actor.set_actor_label(figure.name)
+        editor = unreal.get_editor_subsystem(unreal.LevelSequenceEditorSubsystem)
+        if editor is not None and hasattr(editor, "add_spawnable_from_instance"):
+            binding = editor.add_spawnable_from_instance(sequence, actor)
+        else:
+            binding = sequence.add_spawnable_from_instance(actor)
+    finally:
+        # The sequence has a copy.
+        actors.destroy_actor(actor)
+    binding.set_display_name(figure.name)
+    return binding
+
+
+def _put(binding: unreal.MovieSceneBindingProxy, place: Place, before: Place | None) -> bool:
+    """Put an actor at its place; whether that was done: where the artist has moved it, it stays."""
+    tracks = binding.find_tracks_by_exact_type(unreal.MovieScene3DTransformTrack)
+    track = tracks[0] if tracks else binding.add_track(unreal.MovieScene3DTransformTrack)
+    sections = track.get_sections()
+    section = sections[0] if sections else track.add_section()
+    section.set_start_frame_bounded(False)
+    section.set_end_frame_bounded(False)
+    wanted = _channel_values(place)
+    channels = {
+        str(channel.channel_name): channel
+        for channel in section.get_all_channels()
+        if isinstance(channel, unreal.MovieSceneScriptingDoubleChannel)
+    }
+    if before is not None and sections:
+        left = _channel_values(before)
+        for name, value in left.items():
+            channel = channels.get(name)
+            if channel is not None and (channel.get_num_keys() or abs(channel.get_default() - value) > _NEAR):
+                return False
+    for name, value in wanted.items():
+        if name in channels:
+            channels[name].set_default(value)
+    return True
+
+
+def _channel_values(place: Place) -> dict[str, float]:
+    """The channels of a transform section: rotations about X, Y and Z are roll, pitch and yaw."""
+    return {
+        "Location.X": place.x_cm,
+        "Location.Y": place.y_cm,
+        "Location.Z": place.z_cm,
+        "Rotation.X": 0.0,
+        "Rotation.Y": 0.0,
+        "Rotation.Z": place.yaw_deg,
+        "Scale.X": 1.0,
+        "Scale.Y": 1.0,
+        "Scale.Z": 1.0,
+    }
+
+
+def _play(binding: unreal.MovieSceneBindingProxy, figure: Figure, performance: Performance) -> None:
+    """Have an actor play its animation from frame 0 to the end."""
+    animation = assets.existing(figure.animation)
+    if not isinstance(animation, unreal.AnimSequence):
+        raise problem("not_imported", asset=figure.animation, file=figure.file)
+    section = _animation_section(binding, figure.animation)
+    params = section.params
+    params.animation = animation
+    # A copy was asked for: it has to be given back.
+    section.params = params
+    section.set_range(0, last_frame(performance))
+
+
+def _animation_section(binding: unreal.MovieSceneBindingProxy, path: str) -> unreal.MovieSceneSkeletalAnimationSection:
+    tracks = binding.find_tracks_by_exact_type(unreal.MovieSceneSkeletalAnimationTrack)
+    for track in tracks:
+        for section in track.get_sections():
+            if isinstance(section, unreal.MovieSceneSkeletalAnimationSection):
+                animation = section.params.animation
+                # One that lost its animation is ours too: the animation was made anew.
+                if animation is None or _path_of(animation) == path:
+                    return section
+    track = tracks[0] if tracks else binding.add_track(unreal.MovieSceneSkeletalAnimationTrack)
+    made = track.add_section()
+    assert isinstance(made, unreal.MovieSceneSkeletalAnimationSection)
+    return made
+
+
+# Sound and marks
+
+
+def _sound(sequence: unreal.LevelSequence, performance: Performance) -> None:
+    sound = assets.existing(performance.sound.asset)
+    if not isinstance(sound, unreal.SoundBase):
+        raise problem("not_imported", asset=performance.sound.asset, file=performance.sound.file)
+    section = _sound_section(sequence, performance.sound.asset)
+    if section is None:
+        track = sequence.add_track(unreal.MovieSceneAudioTrack)
+        track.set_display_name(text("sound_track"))
+        made = track.add_section()
+        assert isinstance(made, unreal.MovieSceneAudioSection)
+        section = made
+    section.set_sound(sound)
+    section.set_looping(False)
+    start_s = performance.sound.offset_s
+    section.set_range_seconds(start_s, start_s + performance.sound.duration_s)
+
+
+def _sound_section(sequence: unreal.LevelSequence, path: str) -> unreal.MovieSceneAudioSection | None:
+    for track in sequence.find_tracks_by_exact_type(unreal.MovieSceneAudioTrack):
+        for section in track.get_sections():
+            if isinstance(section, unreal.MovieSceneAudioSection):
+                sound = section.get_sound()
+                if sound is not None and _path_of(sound) == path:
+                    return section
+    return None
+
+
+def _mark_bars(sequence: unreal.LevelSequence, performance: Performance, before: set[str]) -> list[str]:
+    """Mark the bars; the labels that are ours now."""
+    in_frames = hasattr(sequence, "add_marked_frame_to_sequence")
+    there = list(sequence.get_marked_frames_from_sequence() if in_frames else sequence.get_marked_frames())
+    for index in reversed(range(len(there))):
+        if str(there[index].label) in before:
+            sequence.delete_marked_frame(index)
+    labels = []
+    for number, frame in performance.bars:
+        label = text("bar", number=number)
+        labels.append(label)
+        if in_frames:
+            sequence.add_marked_frame_to_sequence(unreal.MovieSceneMarkedFrame(unreal.FrameNumber(frame), label))
+        else:
+            ticks, (numerator, denominator) = sequence.get_tick_resolution(), performance.rate
+            tick = frame * denominator * ticks.numerator // (numerator * ticks.denominator)
+            sequence.add_marked_frame(unreal.MovieSceneMarkedFrame(unreal.FrameNumber(tick), label))
+    return labels
+
+
+# What is ours in it
+
+
+def _state(sequence: unreal.LevelSequence) -> dict[str, Any]:
+    """What was put into a sequence the last time; nothing if that cannot be told."""
+    try:
+        state = json.loads(unreal.EditorAssetLibrary.get_metadata_tag(sequence, STATE_TAG))
+        return {"figures": dict(state["figures"]), "marks": list(state["marks"])}
+    except (ValueError, KeyError, TypeError):
+        return {"figures": {}, "marks": []}
+
+
+def _remember(sequence: unreal.LevelSequence, state: dict[str, Any]) -> None:
+    unreal.EditorAssetLibrary.set_metadata_tag(sequence, STATE_TAG, json.dumps(state))
+
+
+def _path_of(asset: unreal.Object) -> str:
+    """The path of an asset, without the name of the object in it."""
+    return str(asset.get_path_name()).split(".")[0]
