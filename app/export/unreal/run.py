@@ -255,7 +255,7 @@ def _checked(
     check_wave(sources / sound.file, RATE_HZ, sound.channels, round(sound.duration_s * RATE_HZ))
     bones: dict[str, tuple[str, ...]] = {}
     for index, player in enumerate(request.players):
-        instrument = request.performance.instrument(player)
+        instrument = request.performance.held(player)
         character, model = character_of(player), model_of(instrument)
         target = target_skeleton(character, request.skeleton)
         parts = tuple(bone.name for bone in instrument_bones(instrument, model))
