@@ -78,6 +78,11 @@ def add_command(commands: Commands) -> None:
         help="an FBX, VRM or glTF file of the asset: every bone is compared with its, and nothing is written that the "
         "asset would lose; the mannequin's rest rotations are taken from it",
     )
+    command.add_argument(
+        "--sound",
+        action="store_true",
+        help="also the sound as WAV, from the first frame on; USD files refer to it (a project always gets it)",
+    )
     command.add_argument("--from-bar", type=whole_number, metavar="N", help="first bar, as printed (a pickup is bar 0)")
     command.add_argument("--to-bar", type=whole_number, metavar="N", help="last bar, inclusive")
     command.set_defaults(run=export)
@@ -126,6 +131,7 @@ def export(arguments: argparse.Namespace) -> None:
         creator=f"Suisou {program_version()}",
         skeleton=arguments.skeleton,
         asset=arguments.check_skeleton,
+        sound=arguments.sound,
     )
     try:
         with _terminable():

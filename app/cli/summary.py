@@ -20,9 +20,8 @@ _HEAD = ("player", "notes", "controls", "fingers mm", "grips mm", "lips mm", "fe
 
 def summary(report: Report, folder: Path) -> str:
     """The table of measures, what was written, what is not played and what to look at."""
-    files = sum(len(player.files) for player in report.players) + 1
     lines = [
-        f"{files} files in {folder}: {report.frames} frames at {report.fps_exact} frames/s; "
+        f"{report.file_count} files in {folder}: {report.frames} frames at {report.fps_exact} frames/s; "
         f"the sound starts at {-report.first_frame_s:.3f} s"
     ]
     return "\n".join([*lines, *_judgement(report)])

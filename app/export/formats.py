@@ -15,6 +15,19 @@ Held = Literal["character", "instrument"]
 
 
 @dataclass(frozen=True)
+class Beside:
+    """What some kinds of file take beside the scene.
+
+    Attributes
+    ----------
+    sound : str or None
+        Name of a sound file in the same folder that starts with frame 0.
+    """
+
+    sound: str | None = None
+
+
+@dataclass(frozen=True)
 class FileFormat:
     """A kind of file.
 
@@ -35,20 +48,20 @@ class FileFormat:
     suffix: str
     holds: tuple[Held, ...]
     work: float
-    write: Callable[[Path, Scene], None]
+    write: Callable[[Path, Scene, Beside], None]
     refuse: Callable[[], None] = lambda: None
 
 
 # The writers are loaded when something is written: the command line names the formats in its help.
 
 
-def _fbx(path: Path, scene: Scene) -> None:
+def _fbx(path: Path, scene: Scene, beside: Beside) -> None:
     from app.formats.fbx.write import write_scene
 
     write_scene(path, scene)
 
 
-def _bvh(path: Path, scene: Scene) -> None:
+def _bvh(path: Path, scene: Scene, beside: Beside) -> None:
     from app.export.skeleton import scene_bvh
     from app.formats.atomic import atomic_write
     from app.formats.bvh import encode_bvh
@@ -57,23 +70,23 @@ def _bvh(path: Path, scene: Scene) -> None:
         stream.write(encode_bvh(scene_bvh(scene)))
 
 
-def _glb(path: Path, scene: Scene) -> None:
+def _glb(path: Path, scene: Scene, beside: Beside) -> None:
     from app.formats.gltf.write import write_glb
 
     write_glb(path, scene)
 
 
-def _usd(path: Path, scene: Scene) -> None:
-    from app.formats.usd import write_usd
+def _usd(path: Path, scene: Scene, beside: Beside) -> None:
+    from app.formats.usd import Sound, write_usd
 
-    write_usd(path, scene)
+    write_usd(path, scene, None if beside.sound is None else Sound(beside.sound, 0.0))
 
 
 FILE_FORMATS: Final[Mapping[Format, FileFormat]] = {
     "fbx": FileFormat(".fbx", ("character", "instrument"), 3.0, _fbx),
     "bvh": FileFormat(".bvh", ("character",), 1.0, _bvh),
     "glb": FileFormat(".glb", ("character", "instrument"), 2.0, _glb),
-    "usd": FileFormat(".usdc", ("character", "instrument"), 2.0, _usd, refuse_without_usd),
+    "usd": FileFormat(".usdc", ("character", "instrument"), 6.0, _usd, refuse_without_usd),
 }
 """In the order in which they are written and listed."""
 

@@ -81,6 +81,13 @@ class Report(msgspec.Struct, frozen=True):
     players: tuple[PlayerReport, ...]
     warnings: tuple[str, ...]
     unplayed: tuple[UnplayedPart, ...]
+    sound: str | None = None
+    """File that starts with frame 0; None where none was asked for."""
+
+    @property
+    def file_count(self) -> int:
+        """Files that were written, this report among them."""
+        return sum(len(player.files) for player in self.players) + (self.sound is not None) + 1
 
 
 def encode_report(report: Report) -> bytes:

@@ -17,10 +17,11 @@ from app.errors import Cancelled, FileError, Message
 from app.export.character import character_scene
 from app.export.control_judge import FloatArray
 from app.export.folder import files_into
-from app.export.formats import FILE_FORMATS, Format, Held
+from app.export.formats import FILE_FORMATS, Beside, Format, Held
 from app.export.instrument import instrument_scene
 from app.export.measure import Measured, greatest_correlations, measure_player
 from app.export.report import PlayerReport, Report, SkeletonReport, StagePlace, UnplayedPart, encode_report
+from app.export.sound import write_sound
 from app.export.target import SkeletonChoice, TargetSkeleton
 from app.export.targets import CheckedTarget, checked_targets, refuse_grave
 from app.formats.atomic import atomic_write
@@ -44,6 +45,8 @@ MOST_FRAMES = 432_000
 
 _MOTION_WORK, _MEASURES_WORK = 1.0, 5.0
 """Beside `FileFormat.work`."""
+_SOUND_WORK = 0.3
+"""Beside a player's."""
 
 
 @dataclass(frozen=True)
@@ -65,6 +68,8 @@ class Request:
         Name of the piece's file; program and version.
     skeleton : SkeletonChoice
         What the characters are written on; instruments have one skeleton only.
+    sound : bool
+        Whether what is heard is written as a WAV file, from the first frame to the last.
     asset : path or None
         File of the asset that the animation is for: every player's skeleton is compared with its.
     """
@@ -79,6 +84,7 @@ class Request:
     creator: str
     skeleton: SkeletonChoice = "own"
     asset: Path | None = None
+    sound: bool = False
 
 
 def export(
@@ -116,13 +122,14 @@ def export(
     stems, names = _stems(request.performance), file_names(request.performance, request.formats)
     reports: list[PlayerReport] = []
     torsos: dict[str, FloatArray] = {}
+    whole = len(request.players) + (_SOUND_WORK if request.sound else 0.0)
     with files_into(request.folder) as folder:
         for index, player in enumerate(request.players):
 
             def told(share: float, done: int = index, name: str = player.name) -> None:
                 if stop_wanted():
                     raise Cancelled("work.stopped")
-                progress((done + share) / len(request.players), name)
+                progress((done + share) / whole, name)
 
             target = checked[player.id].target
             report, measured = _export_player(request, player, target, stems[player.id], names[player.id], folder, told)
@@ -132,6 +139,13 @@ def export(
             reports.append(report)
             if measured is not None:
                 torsos[player.id] = measured.torso_rad
+        if request.sound:
+            sound = sound_name(request.source)
+
+            def mixed(share: float) -> None:
+                progress((len(request.players) + _SOUND_WORK * share) / whole, sound)
+
+            write_sound(folder / sound, request.performance.project, request.span, mixed, stop_wanted)
         report_value = _report(request, checked, _compared(reports, request.players, torsos), wording)
         with atomic_write(folder / REPORT) as stream:
             stream.write(encode_report(report_value))
@@ -153,6 +167,12 @@ def file_names(performance: Performance, formats: frozenset[Format]) -> dict[str
     return names
 
 
+def sound_name(source: str) -> str:
+    """Name of the sound's file, after the piece's."""
+    (stem,) = file_stems([Path(source).stem])
+    return f"{stem}.wav"
+
+
 REPORT = "report.json"
 """Name of the file that says what the others hold."""
 
@@ -172,10 +192,11 @@ def _export_player(
     work = _MOTION_WORK + sum(kind.work for kind in wanted.values()) + _MEASURES_WORK * ("fbx" in wanted)
     motion = player_motion(performance, player, request.span, progress=lambda share: told(_MOTION_WORK / work * share))
     scenes = _scenes(request, player, target, motion, stem, {held for kind in wanted.values() for held in kind.holds})
+    beside = Beside(sound=sound_name(request.source) if request.sound else None)
     done = _MOTION_WORK
     for name, kind in wanted.items():
         for held in kind.holds:
-            kind.write(folder / files[f"{held}_{name}"], scenes[held])
+            kind.write(folder / files[f"{held}_{name}"], scenes[held], beside)
         done += kind.work
         told(done / work)
     del motion, scenes  # the files are measured, not what they were made from
@@ -294,4 +315,5 @@ def _report(
         unplayed=tuple(
             UnplayedPart(part.name, wording(part.reason), part.note_count) for part in project.score.unplayed
         ),
+        sound=sound_name(request.source) if request.sound else None,
     )

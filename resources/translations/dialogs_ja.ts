@@ -88,6 +88,10 @@
         <translation>USD（キャラクターと楽器）</translation>
     </message>
     <message>
+        <source>Sound (WAV)</source>
+        <translation>音声（WAV）</translation>
+    </message>
+    <message>
         <source> beats</source>
         <translation> 拍</translation>
     </message>

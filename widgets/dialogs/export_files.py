@@ -33,7 +33,7 @@ from PySide6.QtWidgets import (
 from app.errors import AppError, Message
 from app.export.formats import FILE_FORMATS, USUAL_FORMATS, Format
 from app.export.report import Report
-from app.export.run import REPORT, Request, export, file_names
+from app.export.run import REPORT, Request, export, file_names, sound_name
 from app.performance.ensemble import Performance
 from app.performance.span import bars_span, whole_span
 from widgets.common.session import Session
@@ -106,6 +106,8 @@ class ExportDialog(QDialog):
             box.setObjectName(f"export_{name}")
             box.setChecked(name in USUAL_FORMATS)
             box.setEnabled(name not in self._missing)
+        self._sound = QCheckBox()
+        self._sound.setObjectName("export_sound")
         self._range = QComboBox()
         self._range.setObjectName("export_range")
         self._first_bar, self._last_bar = QSpinBox(), QSpinBox()
@@ -172,7 +174,7 @@ class ExportDialog(QDialog):
             self._range.currentIndexChanged,
             self._first_bar.valueChanged,
             self._last_bar.valueChanged,
-            *(box.toggled for box in self._formats.values()),
+            *(box.toggled for box in (*self._formats.values(), self._sound)),
         ):
             signal.connect(self._show_outcome)
         self.retranslate()
@@ -186,8 +188,8 @@ class ExportDialog(QDialog):
         left.addWidget(self._players, 1)
         formats = QGridLayout()
         formats.setHorizontalSpacing(18)
-        for index, box in enumerate(self._formats.values()):
-            formats.addWidget(box, *divmod(index, _FORMAT_COLUMNS))
+        for index, box in enumerate((*self._formats.values(), self._sound)):
+            formats.addWidget(box, *divmod(index, _FORMAT_COLUMNS), Qt.AlignmentFlag.AlignLeft)
         formats.setColumnStretch(_FORMAT_COLUMNS, 1)
         bars = QHBoxLayout()
         bars.addWidget(self._range, 1)
@@ -258,6 +260,7 @@ class ExportDialog(QDialog):
             bars=bars,
             source=self._source,
             creator=self._creator,
+            sound=self._sound.isChecked(),
         )
 
     # Doing it
@@ -292,7 +295,7 @@ class ExportDialog(QDialog):
         self._progress.setValue(round(1000 * self._share[0]))
 
     def _done(self, report: Report) -> None:
-        count = sum(len(player.files) for player in report.players) + 1
+        count = report.file_count
         self._files.setText(
             self.tr("Files written to {folder}: {count}").format(folder=self._folder.text(), count=count)
             + "".join(f"\n⚠ {warning}" for warning in report.warnings[:6])
@@ -320,7 +323,7 @@ class ExportDialog(QDialog):
     def _enable(self, enabled: bool) -> None:
         for widget in (
             *(self._players, self._everybody, self._range, self._first_bar, self._last_bar, self._preroll),
-            *(self._rate, self._folder, self._choose, self._export, *self._formats.values()),
+            *(self._rate, self._folder, self._choose, self._export, self._sound, *self._formats.values()),
         ):
             widget.setEnabled(enabled)
         for name in self._missing:
@@ -361,6 +364,8 @@ class ExportDialog(QDialog):
             return
         names = file_names(Performance(self._project), self.formats)
         wanted = [name for player_id in self.player_ids for name in names[player_id].values()] + [REPORT]
+        if self._sound.isChecked():
+            wanted.append(sound_name(self._source))
         replaced = [name for name in wanted if (Path(folder) / name).exists()]
         text = self.tr("Files that will be written: {count}").format(count=len(wanted))
         if replaced:
@@ -393,6 +398,7 @@ class ExportDialog(QDialog):
             if "usd" in self._missing
             else self.tr("USD (characters and instruments)")
         )
+        self._sound.setText(self.tr("Sound (WAV)"))
         for name, message in self._missing.items():
             self._formats[name].setToolTip(message_text(message))
         self._preroll.setSuffix(self.tr(" beats"))

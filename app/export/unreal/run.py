@@ -132,7 +132,7 @@ def export_into(
     Parameters
     ----------
     request : Request
-        Its folder and its formats do not count.
+        Its folder, its formats and whether it wants the sound do not count.
     project : UnrealProject
     wording : callable
         Words a message for the report.
@@ -198,7 +198,7 @@ def _figures(
     """Write the FBX files under their names in the project; the report knows them by these."""
     draft = sources / "draft"
     report = export(
-        replace(request, folder=draft, formats=frozenset(("fbx",))),
+        replace(request, folder=draft, formats=frozenset(("fbx",)), sound=False),
         wording,
         stop_wanted,
         lambda share, label: progress(_SHARES["files"] * share, label),

@@ -63,7 +63,11 @@ def _primitive(mesh: SkinnedMesh, material: int, triangles: IntArray) -> Primiti
         rows = np.concatenate([vertices[:, None], *(values[places] for values in by_corner)], axis=1)
         _, kept, indices = np.unique(rows, axis=0, return_index=True, return_inverse=True)
     else:
-        _, kept, indices = np.unique(vertices, return_index=True, return_inverse=True)
+        # As `np.unique` would, without sorting.
+        place_of_vertex = np.full(count, -1)
+        place_of_vertex[vertices] = np.arange(len(vertices))
+        kept = place_of_vertex[place_of_vertex >= 0]
+        indices = (np.cumsum(place_of_vertex >= 0) - 1)[vertices]
 
     def own(values: FloatArray) -> FloatArray:
         return np.asarray(values[vertices[kept]] if len(values) == count else values[places[kept]], dtype=np.float64)

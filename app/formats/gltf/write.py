@@ -217,7 +217,9 @@ def _document(scene: Scene) -> _Document:
         out.nodes.append(gltf.Node(name=mesh.name, mesh=len(out.meshes) - 1, skin=0))
     out.materials = [_material(material) for material in materials]
     if scene.meshes:
-        out.skins.append(_skin(document, scene.meshes[0].world_from_bone_bind, scene.bones[0].name))
+        # Programs call the armature so.
+        name = scene.bones[0].name if scene.clip is None else scene.clip.name
+        out.skins.append(_skin(document, scene.meshes[0].world_from_bone_bind, name))
     if scene.clip is not None:
         out.animations.append(_animation(document, scene, scene.clip))
     out.scenes.append(gltf.Scene(nodes=roots))

@@ -149,12 +149,16 @@ def test_usd_is_greyed_where_it_cannot_be_written(
 
 def test_all_kinds_of_file_at_once(dialog: ExportDialog, session: Session, tmp_path: Path) -> None:
     one_player_two_bars(dialog)
-    for name in ("export_glb", *(["export_usd"] if usd.usd_installed() else [])):
+    for name in ("export_sound", "export_glb", *(["export_usd"] if usd.usd_installed() else [])):
         box = dialog.findChild(QCheckBox, name)
         assert box is not None
         QTest.mouseClick(box, Qt.MouseButton.LeftButton)
     assert dialog.formats >= {"bvh", "glb"}
+    outcome = dialog.findChild(QLabel, "export_outcome")
+    assert outcome is not None
+    promised = outcome.text()
     start(dialog)
+    assert str(len(list((tmp_path / "out").iterdir()))) in promised
     suffixes = sorted(path.suffix for path in (tmp_path / "out").iterdir())
     usdc = [".usdc"] * 2 if usd.usd_installed() else []
-    assert suffixes == sorted([".bvh", ".glb", ".glb", ".json", *usdc])
+    assert suffixes == sorted([".bvh", ".glb", ".glb", ".json", ".wav", *usdc])

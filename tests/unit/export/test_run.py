@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import soundfile
 
 from app.cli import main
 from app.export.playback import Playback
@@ -189,6 +190,25 @@ def test_several_formats_at_once_and_nothing_to_measure_without_fbx(tmp_path: Pa
     model = read_glb(tmp_path / "out" / "Trumpet 1.glb")
     assert {node.name for node in model.nodes} >= {"root", "hips", "rightIndexDistal"}
     assert set(ARKIT_MORPHS) <= {morph.name for morph in model.meshes[0].primitives[0].morphs}
+
+
+def test_the_sound_starts_with_the_first_frame_and_usd_refers_to_it(tmp_path: Path) -> None:
+    kind = "usd" if usd.usd_installed() else "bvh"
+    arguments = ("--fps", "25", "--from-bar", "2", "--to-bar", "2", "--player", PLAYERS[0], "--format", kind, "--sound")
+    report = export(tmp_path / "out", *arguments)
+    assert report["sound"] == "quartet.wav"
+    sound, rate_hz = soundfile.read(tmp_path / "out" / "quartet.wav")
+    assert (rate_hz, sound.shape) == (48_000, (round(report["frames"] / 25 * 48_000), 2))
+    # The piece is heard from its first note on, which is after the pre-roll.
+    first_s = np.flatnonzero(np.abs(sound).max(axis=1) > 1e-3)[0] / 48_000
+    assert 0.2 < first_s < report["frames"] / 25 - 0.5
+    if kind == "usd":
+        from pxr import Usd, UsdMedia
+
+        stage = Usd.Stage.Open(str(tmp_path / "out" / "Trumpet 1.usdc"))
+        audio = UsdMedia.SpatialAudio(stage.GetDefaultPrim().GetChild("Sound"))
+        assert Path(audio.GetFilePathAttr().Get().resolvedPath) == tmp_path / "out" / "quartet.wav"
+        assert audio.GetStartTimeAttr().Get().GetValue() == 0
 
 
 def test_without_usd_core_nothing_is_begun(

@@ -1,0 +1,36 @@
+"""The sound of an export as a WAV file, from the first frame to the last: what is heard in the editor."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import soundfile
+
+from app.audio.mix import mixdown
+from app.audio.track import RATE_HZ
+from app.errors import FileError
+from app.performance.span import FrameSpan
+from app.project.model import Project
+
+
+def write_sound(
+    path: Path,
+    project: Project,
+    span: FrameSpan,
+    progress: Callable[[float], None] = lambda share: None,
+    stop_wanted: Callable[[], bool] = lambda: False,
+) -> None:
+    """Write the recording, or else the synthesiser, as 16-bit PCM; its first sample belongs to the first frame.
+
+    Raises
+    ------
+    FileError
+        The recording cannot be read; ``file.cannot_write``.
+    Cancelled
+    """
+    block = mixdown(project, span.first_frame_s, span.end_s, RATE_HZ, progress, stop_wanted)
+    try:
+        soundfile.write(path, block, RATE_HZ, subtype="PCM_16")
+    except (OSError, soundfile.SoundFileError) as error:
+        raise FileError("file.cannot_write", file=str(path), reason=str(error)) from error
