@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -20,14 +21,33 @@ import numpy.typing as npt
 
 from app.rig.figure import Figure
 from app.rig.figure_character import REQUIRED_JOINTS, figure_character
+from app.rig.humanoid import JointMapping, map_joints
 from app.rig.landmarks import found_landmarks
 from app.rig.model import Character, Landmark, Mesh, Skeleton
 from app.rig.read_figure import read_figure
 from app.rig.source import Source, build_mesh, invalid, moved_mesh, read_source
-from metadata.load import load_skeleton
+from app.rig.t_pose import facing_ahead, upright
 from metadata.model import ARKIT_MORPHS
 
 FloatArray = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Reading:
+    """A figure and what of it is what.
+
+    Attributes
+    ----------
+    figure : Figure
+        Upright, facing +Z.
+    joints : JointMapping
+    morphs : mapping of str to mapping of str to float
+        By ARKit name: weights of the figure's morphs that make it.
+    """
+
+    figure: Figure
+    joints: JointMapping
+    morphs: Mapping[str, Mapping[str, float]]
 
 
 def load_character(
@@ -58,18 +78,32 @@ def load_character(
             source = read_source(path)
             if _extras(source):
                 return _build(source, id or path.stem)
-        figure = read_figure(path)
-        bones, faces = _named(figure)
-        return figure_character(figure, id or path.stem, bones, faces)
+        reading = read_character(path, joints, morphs)
+        return figure_character(reading.figure, id or path.stem, reading.joints.bones, reading.morphs)
     except (KeyError, IndexError, TypeError, ValueError) as error:
         raise invalid(path, f"damaged: {error!r}") from error
 
 
-def _named(figure: Figure) -> tuple[Mapping[str, int], Mapping[str, Mapping[str, float]]]:
-    """Joints that the file itself names, else bones called as joints are; morphs called as ARKit calls them."""
-    joints = [joint.name for joint in load_skeleton().joints]
-    bones = {name: bone for bone, name in enumerate(figure.bone_names) if name in joints and name != "root"}
-    return figure.humanoid or bones, {name: {name: 1.0} for name in figure.morph_names if name in ARKIT_MORPHS}
+def read_character(
+    path: Path, joints: Mapping[str, str] | None = None, morphs: Mapping[str, Mapping[str, float]] | None = None
+) -> Reading:
+    """Read a figure and find out what of it is what. Raises FileError; a figure that lacks joints raises none.
+
+    Parameters
+    ----------
+    path : Path
+    joints, morphs : mapping
+        A person's corrections, as in `load_character`.
+    """
+    figure = read_figure(path)
+    found = map_joints(figure, joints)
+    if set(REQUIRED_JOINTS) <= set(found.bones):
+        facing = facing_ahead(upright(figure, found.bones), found.bones)
+        if facing is not figure:
+            # Which side is left depends on where ahead is.
+            figure, found = facing, map_joints(facing, joints)
+    faces = {name: {name: 1.0} for name in figure.morph_names if name in ARKIT_MORPHS}
+    return Reading(figure, found, {**faces, **(morphs or {})})
 
 
 def _build(source: Source, id: str) -> Character:

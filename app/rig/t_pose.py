@@ -34,6 +34,8 @@ WRIST_TWIST_DEG: Final = 30.0
 """What of a hand's turn about the arm is more than this is the forearm's."""
 ALIKE: Final = float(np.cos(np.radians(8.0)))
 """Bones whose own axes point along them do so at least this well."""
+BACKWARDS: Final = 0.3
+"""Feet point back if they reach so much farther behind the ankle than before it, of their length."""
 ASKEW_DEG: Final = 20.0
 """A figure that stands turned by less stands as it was meant to."""
 UP: Final = np.array([0.0, 1.0, 0.0])
@@ -65,6 +67,16 @@ def rest_of(figure: Figure) -> Rest:
     return Rest(positions, rotations)
 
 
+def heaviest(figure: Figure) -> tuple[FloatArray, npt.NDArray[np.int64]]:
+    """All vertices (V, 3) at rest and the bone (V,) that holds most of each."""
+    points, holders = [np.zeros((0, 3))], [np.zeros(0, np.int64)]
+    for mesh in figure.meshes:
+        points.append(mesh.positions_m.astype(np.float64))
+        best = np.argmax(mesh.weights, axis=1)
+        holders.append(np.take_along_axis(mesh.joints, best[:, None], axis=1)[:, 0].astype(np.int64))
+    return np.concatenate(points), np.concatenate(holders)
+
+
 def upright(figure: Figure, bones: Mapping[str, int]) -> Figure:
     """The figure turned to stand up and face +Z, as its legs and its head say; itself where it does.
 
@@ -89,6 +101,25 @@ def upright(figure: Figure, bones: Mapping[str, int]) -> Figure:
     if abs(np.degrees(yaw)) > ASKEW_DEG:
         turn = Rotation.from_euler("y", -yaw).as_matrix() @ turn
     return figure if np.allclose(turn, np.eye(3)) else turned_figure(figure, turn)
+
+
+def facing_ahead(figure: Figure, bones: Mapping[str, int]) -> Figure:
+    """The figure turned about where its feet point back; itself where they point ahead or nowhere."""
+    rest = rest_of(figure)
+    ahead, size = 0.0, 0.0
+    for side in ("left", "right"):
+        foot = bones[side + "Foot"]
+        ankle = rest.positions_m[foot]
+        if side + "Toes" in bones:
+            ways = (rest.positions_m[bones[side + "Toes"]] - ankle)[None]
+        else:
+            points, holders = heaviest(figure)
+            if not (holders == foot).any():
+                continue
+            ways = points[holders == foot] - ankle
+        ahead += float(ways[:, 2].max() + ways[:, 2].min())
+        size += float(np.abs(ways[:, 2]).max())
+    return turned_figure(figure, np.diag([-1.0, 1.0, -1.0])) if ahead < -BACKWARDS * size < 0.0 else figure
 
 
 def turned_figure(figure: Figure, turn: FloatArray) -> Figure:
@@ -145,6 +176,7 @@ class _Pose:
     def __init__(self, figure: Figure, rest: Rest, bones: Mapping[str, int]) -> None:
         self._rest, self._bones = rest, bones
         self._joint_of = {bone: name for name, bone in bones.items()}
+        self._figure = figure
         self._children: dict[int, list[int]] = {}
         for bone, parent in enumerate(figure.parents):
             self._children.setdefault(parent, []).append(bone)
@@ -186,7 +218,9 @@ class _Pose:
         wrist = self._at(side + "Hand")
         assert wrist is not None
         middle = knuckles["Middle"] if knuckles["Middle"] is not None else np.mean(present, axis=0) if present else None
-        if middle is None or np.linalg.norm(middle - wrist) < 1e-6:
+        if middle is None:
+            middle = self._mitten(side)
+        if middle is None or np.linalg.norm(middle - wrist) < 1e-3:
             return turn_lower
         direction = _unit(middle - wrist)
         across = present[0] - present[-1] if len(present) > 1 else None
@@ -200,6 +234,17 @@ class _Pose:
         x_axis, z_axis = sign * direction, _unit(across)
         rest_frame = np.column_stack([x_axis, np.cross(z_axis, x_axis), z_axis])
         return quaternion.from_matrix(rest_frame.T)
+
+    def _mitten(self, side: str) -> FloatArray | None:
+        """The middle of a hand without fingers, the thumb left out; None where it has no skin."""
+        own = {self._bones[side + "Hand"]}
+        thumbs = {self._bones[side + name] for name in THUMB if side + name in self._bones}
+        for bone, parent in enumerate(self._figure.parents):
+            if parent in own and bone not in thumbs:
+                own.add(bone)
+        points, holders = heaviest(self._figure)
+        held = np.isin(holders, list(own))
+        return points[held].mean(axis=0) if held.any() else None
 
     def _chain(self, joints: Sequence[str]) -> list[tuple[str, FloatArray | None]]:
         """Present joints of a chain and where each points."""

@@ -12,6 +12,7 @@ from scipy.spatial.transform import Rotation
 
 from app.errors import FileError
 from app.rig import quaternion
+from app.rig.character import load_character, read_character
 from app.rig.character_library import character_named
 from app.rig.figure import Figure
 from app.rig.figure_build import unit_factor
@@ -258,6 +259,37 @@ def test_whoever_lies_or_looks_aside_is_stood_up(
     else:
         off = rest_positions(again.skeleton) - rest_positions(made_again(figure, made).skeleton)
         assert np.abs(off).max() < 0.03
+
+
+def mixamo(name: str) -> str:
+    side = next((side for side in ("left", "right") if name.startswith(side)), "")
+    part = name[len(side) :]
+    known = {"spine": "Spine", "chest": "Spine1", "upperChest": "Spine2", "UpperArm": "Arm", "LowerArm": "ForeArm"}
+    known |= {"UpperLeg": "UpLeg", "LowerLeg": "Leg", "Toes": "ToeBase"}
+    if finger := next((f for f in ("Thumb", "Index", "Middle", "Ring", "Little") if part.startswith(f)), ""):
+        phalanges = (
+            ("Metacarpal", "Proximal", "Distal") if finger == "Thumb" else ("Proximal", "Intermediate", "Distal")
+        )
+        part = f"Hand{finger.replace('Little', 'Pinky')}{phalanges.index(part[len(finger) :]) + 1}"
+    return f"mixamorig:{side.capitalize()}{known.get(part, part[:1].upper() + part[1:])}"
+
+
+def test_whoever_faces_away_is_turned_and_keeps_the_sides(ours: Character, tmp_path: Path) -> None:
+    made = foreign(ours, rename=mixamo)
+    about = np.diag([-1.0, 1.0, -1.0, 1.0])
+    turned = [
+        replace(
+            mesh,
+            positions_m=(mesh.positions_m * np.float32([-1, 1, -1])),
+            morphs=tuple(replace(m, deltas_m=m.deltas_m * np.float32([-1, 1, -1])) for m in mesh.morphs),
+        )
+        for mesh in made.meshes
+    ]
+    path = write_glb(tmp_path / "away.glb", replace(made, world=about @ made.world, meshes=turned))
+    reading = read_character(path)
+    assert reading.figure.bone_names[reading.joints.bones["leftHand"]] == "mixamorig:LeftHand"
+    assert not reading.joints.doubtful
+    assert_same_body(load_character(path), ours, some_pose(ours))
 
 
 def test_expressions_of_vrm0_get_the_names_of_vrm1(ours: Character, tmp_path: Path) -> None:
