@@ -5,11 +5,9 @@ from __future__ import annotations
 from collections.abc import Collection
 from itertools import count
 
-from app.capture.journal import Journal, Pass, passes
+from app.capture.journal import Journal, passes
 from app.score.take import Cleaning, Take, Wiring
 from app.score.tempo import TempoMap
-
-_ALL_NOTES_OFF = 0x7B
 
 
 def takes_of(
@@ -49,7 +47,6 @@ def takes_of(
         first_us, last_us = round(points[0].position_s * 1e6), round(points[-1].position_s * 1e6)
         if start_s is not None and not result:
             first_us = round(start_s * 1e6)
-        events = _with_gaps(played, wiring)
         result.append(
             Take(
                 id="",
@@ -61,9 +58,9 @@ def takes_of(
                 cleaning=cleaning or Cleaning(),
                 tempo_map=tempo_map,
                 start_us=first_us,
-                end_us=max(last_us, first_us, *(time_us for time_us, _ in events[-1:])),
-                times_us=tuple(time_us for time_us, _ in events),
-                messages=tuple(message for _, message in events),
+                end_us=max(last_us, first_us, *played.times_us[-1:]),
+                times_us=played.times_us,
+                messages=tuple(message.hex() for message in played.messages),
             )
         )
     return tuple(result)
@@ -71,11 +68,3 @@ def takes_of(
 
 def _numbers(journal: Journal) -> set[int]:
     return {point.pass_ for point in journal.syncs}
-
-
-def _with_gaps(played: Pass, wiring: Wiring) -> list[tuple[int, str]]:
-    """The events as a take has them; where the device went away, what sounded ends."""
-    events = [(time_us, message.hex()) for time_us, message in zip(played.times_us, played.messages, strict=True)]
-    off = bytes((0xB0 + max(wiring.channel - 1, 0), _ALL_NOTES_OFF, 0)).hex()
-    events += [(lost_us, off) for lost_us, _ in played.gaps_us]
-    return sorted(events, key=lambda event: event[0])

@@ -16,6 +16,7 @@ import math
 import os
 from bisect import bisect_left
 from collections.abc import Iterable, Iterator, Sequence
+from heapq import merge
 from io import FileIO
 from itertools import pairwise
 from pathlib import Path
@@ -111,14 +112,11 @@ class Pass(msgspec.Struct, frozen=True):
     times_us : tuple of int
         Microseconds, not descending; before the first note negative.
     messages : tuple of bytes
-    gaps_us : tuple of (int, int)
-        Where the device was away.
     """
 
     number: int
     times_us: tuple[int, ...]
     messages: tuple[bytes, ...]
-    gaps_us: tuple[tuple[int, int], ...] = ()
 
 
 def is_whole(message: bytes) -> bool:
@@ -275,7 +273,8 @@ def read_journal(path: Path) -> Journal:
 
 
 def passes(journal: Journal) -> tuple[Pass, ...]:
-    """The passes of a take in the performance's time, the latency taken off; none where nothing was heard.
+    """The passes of a take in the performance's time, the latency taken off; none where nothing was heard. What sounded
+    when the device went away ends there.
 
     Between two moments at which it is known what was heard the time is interpolated, outside them it goes on as a
     clock does. Between two passes the return lies where the first of the next is said to begin; where that is not said
@@ -289,30 +288,41 @@ def passes(journal: Journal) -> tuple[Pass, ...]:
     latency_ns = round(journal.header.latency_s * 1e9)
     returns = [(a[-1].ns + b[0].ns) // 2 for a, b in pairwise(by_pass.values())]
     edges_ns = [-_LARGEST_NS, *returns, _LARGEST_NS]
+    times_ns, messages = _ended(journal)
     found = []
     for (number, points), (begin_ns, end_ns) in zip(by_pass.items(), pairwise(edges_ns), strict=True):
-        begin = bisect_left(journal.times_ns, begin_ns + latency_ns)
-        end = bisect_left(journal.times_ns, end_ns + latency_ns)
+        begin = bisect_left(times_ns, begin_ns + latency_ns)
+        end = bisect_left(times_ns, end_ns + latency_ns)
         found.append(
             Pass(
                 number=number,
-                times_us=tuple(_performance_us(journal.times_ns[begin:end], latency_ns, points)),
-                messages=journal.messages[begin:end],
-                gaps_us=tuple(_gaps_us(journal.gaps, latency_ns, (begin_ns, end_ns), points)),
+                times_us=tuple(_performance_us(times_ns[begin:end], latency_ns, points)),
+                messages=tuple(messages[begin:end]),
             )
         )
     return tuple(found)
 
 
-def _gaps_us(
-    gaps: Sequence[Gap], latency_ns: int, span_ns: tuple[int, int], points: Sequence[SyncPoint]
-) -> Iterator[tuple[int, int]]:
-    for lost_ns, back_ns in gaps:
-        end_ns = points[-1].ns + latency_ns if back_ns is None else back_ns
-        first_ns, last_ns = max(lost_ns, span_ns[0] + latency_ns), min(end_ns, span_ns[1] + latency_ns)
-        if first_ns < last_ns:
-            first_us, last_us = _performance_us((first_ns, last_ns), latency_ns, points)
-            yield first_us, last_us
+def _ended(journal: Journal) -> tuple[Sequence[int], Sequence[bytes]]:
+    """The events, and an end for every note that sounded when the device went away: it will not send it."""
+    if not journal.gaps:
+        return journal.times_ns, journal.messages
+    events = [(ns, message) for ns, message in zip(journal.times_ns, journal.messages, strict=True)]
+    lost = [(lost_ns, None) for lost_ns, _ in journal.gaps]
+    found: list[tuple[int, bytes]] = []
+    held: dict[tuple[int, int], int] = {}
+    for ns, message in merge(events, lost, key=lambda event: event[0]):
+        if message is None:
+            for (channel, note), count in held.items():
+                found += [(ns, bytes((0x80 | channel, note, 0)))] * count
+            held.clear()
+            continue
+        if message[0] >> 4 in (0x8, 0x9):
+            begins = message[0] >> 4 == 0x9 and message[2] > 0
+            key = message[0] & 0x0F, message[1]
+            held[key] = max(held.get(key, 0) + (1 if begins else -1), 0)
+        found.append((ns, message))
+    return [ns for ns, _ in found], [message for _, message in found]
 
 
 def _performance_us(times_ns: Iterable[int], latency_ns: int, points: Sequence[SyncPoint]) -> Iterator[int]:

@@ -184,7 +184,6 @@ def _write(target: Path, path: Path, tempo: float) -> None:
         take.messages,
         name=journal.header.port,
         beats_per_minute=tempo,
-        gaps_us=take.gaps_us,
         end_us=end_us,
     )
     path.unlink()

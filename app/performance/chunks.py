@@ -97,10 +97,10 @@ def poses_of(chunks: Sequence[Chunk], frame: int, share: float) -> list[Pose]:
     values = np.concatenate([chunk.values[frame] for chunk in chunks])
     if share > 0.0:
         later = [(chunk, min(frame + 1, chunk.frames - 1)) for chunk in chunks]
-        mixed = _between(np.concatenate(turns), np.concatenate([chunk.rotations[at] for chunk, at in later]), share)
+        mixed = between(np.concatenate(turns), np.concatenate([chunk.rotations[at] for chunk, at in later]), share)
         turns = np.split(mixed, np.cumsum([len(own) for own in turns[:-1]]))
         placed_after = np.array([chunk.placed[at] for chunk, at in later])
-        held = _between(placed[:, 6:], placed_after[:, 6:], share)
+        held = between(placed[:, 6:], placed_after[:, 6:], share)
         placed += np.float32(share) * (placed_after - placed)
         placed[:, 6:] = held
         values += np.float32(share) * (np.concatenate([chunk.values[at] for chunk, at in later]) - values)
@@ -124,7 +124,7 @@ def poses_of(chunks: Sequence[Chunk], frame: int, share: float) -> list[Pose]:
     return result
 
 
-def _between(before: Floats, after: Floats, share: float) -> Floats:
+def between(before: Floats, after: Floats, share: float) -> Floats:
     """Rotations (N, 4) on the straight way from one frame's to the next one's, which are near each other."""
     sign = np.where(np.einsum("ji,ji->j", before, after) < 0.0, np.float32(-share), np.float32(share))
     mixed: Floats = before * np.float32(1.0 - share) + after * sign[:, None]

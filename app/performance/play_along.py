@@ -8,19 +8,21 @@ begins with its onset; nothing is known beforehand. The layers of the body, the 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
 
 from app.motion.perform import Frames, Playing
+from app.motion.pose import Poses
 from app.motion.reach import Help
 from app.motion.solve import Curves, helped, needs, poses
 from app.performance.chunks import Pose
 from app.performance.live_breath import LiveBreath, LiveLook
 from app.performance.live_hands import FRAMES, LiveHands
 from app.performance.live_help import LiveHelp
+from app.plan.model import PoseEvent
 from app.score.take import SILENCING, Wiring, decoded, is_wired, said
 from instrument_maps.model import Fingering
 from metadata.load import load_expressions
@@ -53,6 +55,7 @@ class PlayAlong:
         self._breath = LiveBreath(playing, known)
         self._look = LiveLook(playing)
         self._help = LiveHelp()
+        self._poses, self._at_s = playing.layers.poses, -math.inf
         self._held: dict[int, int] = {}
         """Notes that are held with their velocities, in the order they began."""
         self._ended_s = -math.inf
@@ -143,9 +146,22 @@ class PlayAlong:
                 self.bend(time_s, value)
         return message.type in ("note_on", "note_off")
 
-    def pose(self, time_s: float) -> Pose:
-        """How the player stands now."""
+    def hold(self, poses: Sequence[PoseEvent]) -> None:
+        """Stand as an animator wants it, from now on."""
+        self._poses = Poses.of(poses)
+
+    def pose(self, time_s: float, at_s: float | None = None) -> Pose:
+        """How the player stands now.
+
+        Parameters
+        ----------
+        time_s : float
+        at_s : float, optional
+            Which moment of the piece it is: what an animator holds differently there is held so. Without it, as last
+            time.
+        """
         now_s = self._time(time_s)
+        self._at_s = self._at_s if at_s is None else at_s
         curves, given = self._solved(now_s)
         player, now = self._playing.player, curves[:1]
         motion = poses(player, replace(now, body=helped(player, now.body, given)), ONE_FRAME, now_s)
@@ -171,8 +187,9 @@ class PlayAlong:
         that far hands are given now."""
         hands, breathing, look = self._hands.at(now_s), self._breath.at(now_s), self._look.at(now_s)
         times_s = np.full(FRAMES, now_s)
+        levels = replace(breathing.levels, held=self._poses.sample(np.full(FRAMES, self._at_s)))
         curves = self._playing.curves(
-            Frames(times_s, breathing.levels, look, breathing.face, hands.controls, hands.placed, hands.raised)
+            Frames(times_s, levels, look, breathing.face, hands.controls, hands.placed, hands.raised)
         )
         return curves, self._help.at(now_s, hands.arrived_s, needs(self._playing.player, curves))
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from functools import cache, cached_property
+from functools import cached_property, lru_cache
 from typing import Final, TypeAlias
 
 import mido
@@ -226,7 +226,7 @@ def is_wired(message: mido.Message, wiring: Wiring) -> bool:
     return not wiring.channel or bool(message.channel + 1 == wiring.channel)
 
 
-@cache
+@lru_cache(8192)
 def decoded(raw: str) -> mido.Message | None:
     """A message of a channel; None for any other, and for bytes that are none."""
     try:

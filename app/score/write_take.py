@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Final
 
@@ -23,13 +23,12 @@ def write_take(
     *,
     name: str,
     beats_per_minute: float = 120.0,
-    gaps_us: Iterable[tuple[int, int]] = (),
     end_us: int | None = None,
 ) -> int:
     """Write what was played from time 0 on; the number of notes.
 
     Of what was before that stays how the controllers stood, and notes played a little early or still held, which begin
-    at 0. Notes that are held at the end, or whose device went away, end there.
+    at 0. Notes that are held at the end end with it.
 
     Parameters
     ----------
@@ -42,8 +41,6 @@ def write_take(
         Of the track.
     beats_per_minute : float
         Quarters.
-    gaps_us : iterable of (int, int)
-        Where the device was away.
     end_us : int, optional
         Where the take ends, if not with its last message.
 
@@ -53,7 +50,7 @@ def write_take(
         ``file.cannot_write`` (file, reason).
     """
     last_us = max(end_us or 0, times_us[-1] if times_us else 0, 0)
-    played = ended(times_us, [mido.Message.from_bytes(data) for data in messages], gaps_us, last_us)
+    played = ended(times_us, [mido.Message.from_bytes(data) for data in messages], last_us)
     played = from_zero(played)
     ticks_per_us = TICKS_PER_QUARTER * beats_per_minute / 60e6
     file = mido.MidiFile(type=1, ticks_per_beat=TICKS_PER_QUARTER, charset="utf-8")
@@ -75,21 +72,11 @@ def write_take(
     return sum(_begins(message) for _, message in played)
 
 
-def ended(
-    times_us: Sequence[int], messages: Sequence[mido.Message], gaps_us: Iterable[tuple[int, int]], last_us: int
-) -> list[tuple[int, mido.Message]]:
-    """The messages with their times, and an end for every note without: where the device went away, or at last."""
-    events = [(time_us, 0, message) for time_us, message in zip(times_us, messages, strict=True)]
-    events += [(lost_us, 1, None) for lost_us, _ in gaps_us]
-    events.append((last_us, 1, None))
+def ended(times_us: Sequence[int], messages: Sequence[mido.Message], last_us: int) -> list[tuple[int, mido.Message]]:
+    """The messages with their times, ends without a begin left out, and an end at last for every note without."""
     found: list[tuple[int, mido.Message]] = []
     held: dict[tuple[int, int], int] = {}
-    for time_us, _, message in sorted(events, key=lambda event: event[:2]):
-        if message is None:
-            for (channel, note), count in held.items():
-                found += [(time_us, mido.Message("note_off", channel=channel, note=note))] * count
-            held.clear()
-            continue
+    for time_us, message in zip(times_us, messages, strict=True):
         if message.type in ("note_on", "note_off"):
             key = (message.channel, message.note)
             count = held.get(key, 0) + (1 if _begins(message) else -1)
@@ -97,6 +84,8 @@ def ended(
                 continue
             held[key] = count
         found.append((time_us, message))
+    for (channel, note), count in held.items():
+        found += [(last_us, mido.Message("note_off", channel=channel, note=note))] * count
     return found
 
 

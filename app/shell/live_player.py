@@ -11,6 +11,7 @@ from PySide6.QtCore import QObject, QTimer
 from app.errors import AppError
 from app.performance.motion import playing_of
 from app.performance.play_along import PlayAlong
+from app.plan.model import PoseEvent
 from app.score.take import Wiring
 from widgets.common.session import Session
 
@@ -34,6 +35,7 @@ class LivePlayer(QObject):
         self._session, self._chosen = session, chosen
         self._play_along: PlayAlong | None = None
         self._of: tuple[object, ...] = ()
+        self._poses: tuple[PoseEvent, ...] = ()
         """What the one that plays along was made from."""
         self._rest = QTimer(self, singleShot=True, interval=round(1000 * REST_S))
         self._rest.timeout.connect(self._rested)
@@ -76,6 +78,7 @@ class LivePlayer(QObject):
         player = next((player for player in performance.project.players if player.id == player_id), None)
         if player is None or player.id not in performance.plans:
             return None
+        poses = performance.plans[player.id].poses
         of = (player.id, player.instrument_id, player.character_id, player.parameters)
         if of != self._of:
             if self._play_along is not None:
@@ -88,4 +91,7 @@ class LivePlayer(QObject):
             else:
                 self._session.live_players.begin(self._play_along)
             self._of = of
+        if self._play_along is not None and poses is not self._poses:
+            self._play_along.hold(poses)
+        self._poses = poses
         return self._play_along

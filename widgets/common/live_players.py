@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Mapping
+from dataclasses import dataclass
 from time import perf_counter
 from types import MappingProxyType
 from typing import Final
@@ -16,6 +17,21 @@ from app.score.take import Wiring
 
 SAME_S: Final = 0.006
 """A pose that is asked for again so soon is the same: the window shows it, and the network is sent it."""
+BLEND_S: Final = 0.2
+"""From the performance to who is played now, and back."""
+
+
+@dataclass(frozen=True)
+class _Blend:
+    """How much of a player is played now, 0..1."""
+
+    since_s: float
+    before: float
+    after: float
+
+    def at(self, now_s: float) -> float:
+        gone = min(max((now_s - self.since_s) / BLEND_S, 0.0), 1.0)
+        return self.before + (self.after - self.before) * gone * gone * (3.0 - 2.0 * gone)
 
 
 class LivePlayers(QObject):
@@ -42,24 +58,35 @@ class LivePlayers(QObject):
         self._lock = threading.Lock()
         """What plays along is asked for poses by the thread that streams them, too."""
         self._poses: dict[str, tuple[float, Pose]] = {}
-        """The pose that was made last of each, and when."""
+        """The pose that was made last of each, and when; of who has just ended, the last one."""
+        self._blends: dict[str, _Blend] = {}
 
     @property
     def playing(self) -> Mapping[str, PlayAlong]:
         """By the player's id."""
         return MappingProxyType(self._playing)
 
+    @property
+    def is_shown(self) -> bool:
+        """Whether somebody is played now, or has just ended and is on the way back to the performance."""
+        with self._lock:
+            now_s = perf_counter()
+            return bool(self._playing) or any(blend.at(now_s) > 0.0 for blend in self._blends.values())
+
     def begin(self, play_along: PlayAlong) -> None:
         """Show this player as played from now on."""
         with self._lock:
             self._playing[play_along.player_id] = play_along
             self._poses.pop(play_along.player_id, None)
+            self._go(play_along.player_id, 1.0)
         self.changed.emit()
 
     def end(self, player_id: str) -> None:
         """Show a player as the performance has it again."""
         with self._lock:
             gone = self._playing.pop(player_id, None)
+            if gone is not None:
+                self._go(player_id, 0.0)
         if gone is not None:
             self.changed.emit()
 
@@ -73,14 +100,36 @@ class LivePlayers(QObject):
         if struck:
             self.struck.emit()
 
-    def pose(self, player_id: str) -> Pose | None:
-        """How a player stands now; None for who is not played."""
+    def pose(self, player_id: str, at_s: float) -> tuple[Pose, float] | None:
+        """How a player stands now, and how much of that is to be seen, 0..1; None for who is not played.
+
+        Parameters
+        ----------
+        player_id : str
+        at_s : float
+            Which moment of the piece it is.
+        """
         with self._lock:
-            play_along = self._playing.get(player_id)
-            if play_along is None:
-                return None
             now_s = perf_counter()
-            known = self._poses.get(player_id)
-            if known is None or now_s - known[0] > SAME_S:
-                known = self._poses[player_id] = (now_s, play_along.pose(now_s))
-            return known[1]
+            live, share = self._live(player_id, now_s, at_s), self._share(player_id, now_s)
+        return (live, share) if live is not None and share > 0.0 else None
+
+    def _live(self, player_id: str, now_s: float, at_s: float) -> Pose | None:
+        play_along, known = self._playing.get(player_id), self._poses.get(player_id)
+        if play_along is not None and (known is None or now_s - known[0] > SAME_S):
+            known = self._poses[player_id] = (now_s, play_along.pose(now_s, at_s))
+        return known[1] if known is not None else None
+
+    def _share(self, player_id: str, now_s: float) -> float:
+        blend = self._blends.get(player_id)
+        share = blend.at(now_s) if blend is not None else 0.0
+        if blend is not None and share == blend.after == 0.0:
+            # Back at the performance.
+            del self._blends[player_id]
+            self._poses.pop(player_id, None)
+        return share
+
+    def _go(self, player_id: str, share: float) -> None:
+        now_s = perf_counter()
+        before = self._blends.get(player_id)
+        self._blends[player_id] = _Blend(now_s, before.at(now_s) if before is not None else 0.0, share)

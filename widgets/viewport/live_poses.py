@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from widgets.common.session import Session
-from widgets.viewport.poses import Posed, Poses
+from widgets.viewport.poses import Posed, Poses, blended
 
 
 class LivePoses:
@@ -23,16 +23,23 @@ class LivePoses:
 
     @property
     def is_live(self) -> bool:
-        """Whether somebody is played now."""
-        return bool(self._session.live_players.playing)
+        """Whether somebody is played now, or has just been."""
+        return self._session.live_players.is_shown
 
     def poses(self, player_ids: Sequence[str], time_s: float) -> Sequence[Posed | None]:
         """See `Poses.poses`."""
         found = self._poses.poses(player_ids, time_s)
         live = self._session.live_players
-        if not live.playing:
+        if not live.is_shown:
             return found
-        return [live.pose(player_id) or pose for player_id, pose in zip(player_ids, found, strict=True)]
+        return [self._shown(player_id, pose, time_s) for player_id, pose in zip(player_ids, found, strict=True)]
+
+    def _shown(self, player_id: str, performed: Posed | None, time_s: float) -> Posed | None:
+        now = self._session.live_players.pose(player_id, time_s)
+        if now is None:
+            return performed
+        live, share = now
+        return live if performed is None or share >= 1.0 else blended(performed, live, share)
 
     def pose_now(self, player_id: str, time_s: float) -> Posed | None:
         """See `Poses.pose_now`: pictures of the performance show the performance."""

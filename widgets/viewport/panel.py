@@ -409,7 +409,7 @@ class ViewportPanel(QWidget):
 
     def _live_changed(self) -> None:
         """Draw all the time while somebody is played now."""
-        if self._session.live_players.playing and self._canvas is not None:
+        if self._session.live_players.is_shown and self._canvas is not None:
             self._live.start()
         else:
             self._live.stop()
@@ -422,6 +422,10 @@ class ViewportPanel(QWidget):
             self.refresh()
 
     def _show_live(self) -> None:
+        if not self._session.live_players.is_shown:
+            # Whoever was played is back in the performance.
+            self._live.stop()
+            self.refresh()
         # While the performance is heard the playhead's changes draw already.
         if not self._session.playing:
             self.refresh()

@@ -8,6 +8,8 @@ from typing import Protocol
 import numpy as np
 import numpy.typing as npt
 
+from app.performance.chunks import Pose, between
+
 Floats = npt.NDArray[np.floating]
 
 
@@ -37,6 +39,29 @@ class Posed(Protocol):
     @property
     def instrument_rotation(self) -> Floats:
         """Rotation of the instrument (4,), xyzw."""
+
+
+def blended(one: Posed, other: Posed, share: float) -> Posed:
+    """A pose on the way from one to another: 0 is the one, 1 the other."""
+
+    def mixed(before: Mapping[str, float], after: Mapping[str, float]) -> dict[str, float]:
+        names = {**before, **after}
+        return {name: (1.0 - share) * before.get(name, 0.0) + share * after.get(name, 0.0) for name in names}
+
+    def moved(before: Floats, after: Floats) -> npt.NDArray[np.float32]:
+        return np.asarray(before + share * (after - before), np.float32)
+
+    def turned(before: Floats, after: Floats) -> npt.NDArray[np.float32]:
+        return between(np.asarray(before, np.float32), np.asarray(after, np.float32), share)
+
+    return Pose(
+        rotations=turned(one.rotations, other.rotations),
+        hips_m=moved(one.hips_m, other.hips_m),
+        morphs=mixed(one.morphs, other.morphs),
+        controls=mixed(one.controls, other.controls),
+        instrument_position_m=moved(one.instrument_position_m, other.instrument_position_m),
+        instrument_rotation=turned(one.instrument_rotation[None], other.instrument_rotation[None])[0],
+    )
 
 
 def same(one: Posed | None, other: Posed | None) -> bool:

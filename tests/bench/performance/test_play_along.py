@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import gc
+import sys
 import time
+from collections.abc import Iterator
 
 import numpy as np
 import pytest
 
 from app.performance.play_along import PlayAlong
+from app.score.take import Wiring
 from instrument_maps.load import bundled_maps
 from tests.bench.performance.large import calibration_s
 from tests.support.live import QUARTER, playing_alone
@@ -15,6 +19,10 @@ from tests.support.live import QUARTER, playing_alone
 EVENTS = 250
 FRAMES_AFTER = 6
 """Frames between two onsets, at 60 a second: notes of a tenth of a second."""
+
+
+HOUR_S, MINUTE_S = 3600, 60
+BREATH_HZ, BEND_HZ, NOTES_HZ = 50, 10, 4
 
 
 def told(what: str, spent_s: list[float], unit_s: float) -> None:
@@ -58,3 +66,38 @@ def test_from_event_to_pose(instrument_id: str) -> None:
         now_s += FRAMES_AFTER / 60.0
     told(f"{instrument_id}, from event to pose", heard, unit_s)
     told(f"{instrument_id}, a pose on the way", shown, unit_s)
+
+
+def second(number: int, low: int, high: int) -> Iterator[tuple[float, str]]:
+    """What a controller sends in a second, as bytes in hexadecimal: breath, bend, and legato notes."""
+    random = np.random.default_rng(number)
+    events = [(step / BREATH_HZ, f"b002{value:02x}") for step, value in enumerate(random.integers(0, 128, BREATH_HZ))]
+    bends = random.integers(0, 128, (BEND_HZ, 2)).tolist()
+    events += [(step / BEND_HZ, f"e0{low_bits:02x}{high_bits:02x}") for step, (low_bits, high_bits) in enumerate(bends)]
+    for step, pitch in enumerate(random.integers(low, high + 1, NOTES_HZ).tolist()):
+        events += [(step / NOTES_HZ, f"90{pitch:02x}50"), ((step + 0.9) / NOTES_HZ, f"80{pitch:02x}00")]
+    yield from sorted(events)
+
+
+@pytest.mark.bench
+@pytest.mark.parametrize("instrument_id", ["clarinet_Bb", "trombone_tenor_F_attachment"])
+def test_an_hour(instrument_id: str) -> None:
+    """An hour of somebody's clock, as fast as it goes: all that is sent, and every second the pose after a note."""
+    limits = bundled_maps()[instrument_id].range
+    player = PlayAlong(playing_alone(instrument_id, [(4 * QUARTER, QUARTER, limits.low)]))
+    wiring, spent_s, blocks = Wiring(0, "cc2", "pitch_bend"), list[float](), list[int]()
+    for number in range(HOUR_S):
+        for at_s, raw in second(number, limits.low, limits.high):
+            player.hear(number + at_s, raw, wiring)
+        start_s = time.thread_time()
+        player.note_on(number + 0.99, limits.easy_low + number % 7)
+        player.pose(number + 0.994)
+        spent_s.append(time.thread_time() - start_s)
+        player.all_off(number + 0.995)
+        if (number + 1) % (HOUR_S // 6) == 0:
+            gc.collect()
+            blocks.append(sys.getallocatedblocks())
+    unit_s = calibration_s()
+    told(f"{instrument_id}, from event to pose in the second minute", spent_s[MINUTE_S : 2 * MINUTE_S], unit_s)
+    told(f"{instrument_id}, from event to pose in the last minute", spent_s[-MINUTE_S:], unit_s)
+    print(f"\n{instrument_id}: blocks of memory every ten minutes: {blocks}", end="")

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from time import perf_counter
 
+import numpy as np
+import pytest
 from pytestqt.qtbot import QtBot
 
 from app.performance.chunks import Pose
 from app.performance.ensemble import Performance
 from app.performance.motion import playing_of
 from app.performance.play_along import PlayAlong
+from app.plan.corrections import PoseCorrection
+from app.project.edit.corrections import put
 from app.score.take import Wiring
 from widgets.common.session import Session
 from widgets.viewport.panel import ViewportPanel
@@ -21,9 +26,9 @@ class Still(PlayAlong):
 
     asked = 0
 
-    def pose(self, time_s: float) -> Pose:
+    def pose(self, time_s: float, at_s: float | None = None) -> Pose:
         self.asked += 1
-        return super().pose(time_s)
+        return super().pose(time_s, at_s)
 
 
 def play_along(session: Session, index: int = 0) -> Still:
@@ -102,3 +107,82 @@ def test_pictures_of_the_performance_show_the_performance(
     live.note_on(0.0, 60)
     qtbot.waitUntil(lambda: live.asked > 1)
     assert (viewport.render_image(160, 90, 6.0) == plain).all()
+
+
+def test_who_begins_and_ends_goes_there_and_back_without_a_jump(
+    session: Session, viewport: ViewportPanel, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    now_s = [100.0]
+    monkeypatch.setattr("widgets.common.live_players.perf_counter", lambda: now_s[0])
+    live, players = play_along(session), session.live_players
+    lowest = session.performance.instrument(session.project.players[0]).range.low
+    live.breath(99.0, 1.0)
+    live.note_on(99.0, lowest + 9)
+    for frame in range(60):
+        live.pose(99.0 + frame / 60)
+    performed = shown(viewport)[live.player_id]
+    assert performed is not None
+    far = away(live.pose(100.0), performed)
+    assert far > 0.05
+
+    def steps(count: int) -> list[float]:
+        """How far from the performance, frame by frame, in parts of the whole way."""
+        found = []
+        for _ in range(count):
+            now_s[0] += 1 / 60
+            viewport.refresh()
+            pose = shown(viewport)[live.player_id]
+            assert pose is not None
+            found.append(away(pose, performed) / far)
+        return found
+
+    players.begin(live)
+    there = steps(16)
+    assert there[0] < 0.1
+    assert there[5] == pytest.approx(0.5, abs=0.15)
+    assert min(there[12:]) > 0.9
+    players.end(live.player_id)
+    assert players.is_shown
+    back = steps(16)
+    assert back[0] > 0.9 * there[-1]
+    assert back[5] == pytest.approx(0.5, abs=0.15)
+    assert max(back[12:]) < 0.01
+    assert not players.is_shown
+    pose = shown(viewport)[live.player_id]
+    assert pose is not None
+    assert away(pose, performed) < 0.01 * far
+    for course in ([0.0, *there], [there[-1], *back]):
+        assert max(abs(a - b) for a, b in pairwise(course)) < 0.2
+    # Somebody who comes back on the way goes on from there.
+    players.begin(live)
+    steps(16)
+    players.end(live.player_id)
+    left = steps(5)[-1]
+    players.begin(live)
+    assert steps(1)[0] == pytest.approx(left, abs=0.1)
+
+
+def away(one: Posed, other: Posed) -> float:
+    """The farthest that any joint is turned, in quaternions."""
+    return float(np.max(np.abs(np.abs(np.einsum("ji,ji->j", one.rotations, other.rotations)) - 1.0)) ** 0.5)
+
+
+def test_what_an_animator_holds_differently_is_held_so_by_who_plays(session: Session) -> None:
+    player = session.project.players[0]
+    lift = PoseCorrection("own-1", "head", 960, 3840, up_deg=-10.0)
+    project = put(session.project, player.id, (lift,))
+    clock, performance = project.score.tempo_map, Performance(project)
+    inside, outside = clock.seconds(2400.0), clock.seconds(9600.0)
+    plain, held = play_along(session), PlayAlong(playing_of(performance, project.players[0]))
+    head = held._playing.player.skeleton.names.index("head")
+
+    def angle(one: PlayAlong, at_s: float) -> float:
+        turned = abs(float(np.dot(one.pose(1.0, at_s).rotations[head], plain.pose(1.0, at_s).rotations[head])))
+        return float(np.degrees(2.0 * np.arccos(min(turned, 1.0))))
+
+    assert angle(held, outside) == pytest.approx(0.0, abs=0.1)
+    assert angle(held, inside) > 3.0
+    held.hold(())
+    assert angle(held, inside) == pytest.approx(0.0, abs=0.1)
+    held.hold(performance.plans[player.id].poses)
+    assert angle(held, inside) > 3.0

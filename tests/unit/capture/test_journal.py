@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 from pathlib import Path
 
+import msgspec
 import pytest
 
 from app.capture.journal import Header, Journal, JournalWriter, Pass, SyncPoint, is_whole, passes, read_journal
@@ -226,10 +227,28 @@ def test_before_the_first_moment_time_goes_back() -> None:
 def test_a_loop_s_return_begins_another_pass() -> None:
     syncs = [(10, 4.0, 0), (12, 6.0, 0), (12, 4.0, 1), (14, 6.0, 1), (14, 4.0, 2)]
     journal = of(syncs=syncs, events_s=[10.512, 12.011, 12.013, 14.212], gaps_s=[(11.512, 12.512), (14.112, None)])
+    off = bytes((0x80 | ON[0] & 0x0F, ON[1], 0))
     first, second, third = passes(journal)
-    assert first == Pass(0, (4_500_000, 5_999_000), (ON, ON), ((5_500_000, 6_000_000),))
-    assert second == Pass(1, (4_001_000,), (ON,), ((4_000_000, 4_500_000),))
-    assert third == Pass(2, (4_200_000,), (ON,))
+    assert first == Pass(0, (4_500_000, 5_500_000, 5_999_000), (ON, off, ON))
+    # What is held when the loop returns is ended where the device goes, in the pass that is heard then.
+    assert second == Pass(1, (4_001_000,), (ON,))
+    assert third == Pass(2, (4_100_000, 4_100_000, 4_200_000), (off, off, ON))
+
+
+def test_what_sounded_when_the_device_went_away_ends_there_and_nothing_else() -> None:
+    sent = [(10.0, "903c50"), (10.1, "923e50"), (10.2, "903c00"), (10.5, "b00240"), (14.0, "823e00"), (15.0, "903c50")]
+    journal = Journal(
+        header=msgspec.structs.replace(HEADER, latency_s=0.0),
+        times_ns=tuple(round(at * S) for at, _ in sent),
+        messages=tuple(bytes.fromhex(raw) for _, raw in sent),
+        syncs=(SyncPoint(10 * S, 0.0, 0), SyncPoint(20 * S, 10.0, 0)),
+        gaps=((11 * S, 13 * S), (12 * S, 13 * S), (16 * S, None)),
+        complete=True,
+    )
+    (found,) = passes(journal)
+    ends = [(at, raw.hex()) for at, raw in zip(found.times_us, found.messages, strict=True) if raw[0] >> 4 == 8]
+    assert ends == [(1_000_000, "823e00"), (4_000_000, "823e00"), (6_000_000, "803c00")]
+    assert len(found.messages) == len(sent) + 2
 
 
 def test_a_return_that_is_not_said_to_the_moment_lies_in_the_middle() -> None:

@@ -29,7 +29,6 @@ def file_of(
     events: list[Event],
     *,
     tempo: float = 120.0,
-    gaps: list[tuple[float, float]] | None = None,
     end_s: float | None = None,
     name: str = "EWI ウインド",
 ) -> tuple[int, mido.MidiFile]:
@@ -40,7 +39,6 @@ def file_of(
         [message for _, message in events],
         name=name,
         beats_per_minute=tempo,
-        gaps_us=[(round(a * 1e6), round(b * 1e6)) for a, b in gaps or []],
         end_us=None if end_s is None else round(end_s * 1e6),
     )
     return count, mido.MidiFile(path, charset="utf-8")
@@ -84,12 +82,6 @@ def test_our_own_reader_reads_it(tmp_path: Path) -> None:
 def test_held_notes_end_with_the_take(tmp_path: Path) -> None:
     _, file = file_of(tmp_path, [(0.0, on(60)), (0.5, on(62)), (1.0, off(62))], end_s=2.0)
     assert played(file)[-1] == (2.0, "803C40")
-
-
-def test_notes_end_where_the_device_went_away(tmp_path: Path) -> None:
-    events = [(0.0, on(60)), (3.0, off(60)), (3.5, on(60)), (4.0, off(60))]
-    _, file = file_of(tmp_path, events, gaps=[(1.0, 2.5)])
-    assert played(file) == [(0.0, "903C50"), (1.0, "803C40"), (3.5, "903C50"), (4.0, "803C40")]
 
 
 def test_an_end_without_a_begin_is_left_out(tmp_path: Path) -> None:
