@@ -17,7 +17,16 @@ from typing import TypeVar, get_args
 import msgspec
 
 from app.errors import MapError, Message
-from metadata.model import ARKIT_MORPHS, Body, BoneNames, Controller, EmbouchureKind, Expression, SkeletonProfile
+from metadata.model import (
+    ARKIT_MORPHS,
+    Body,
+    BoneNames,
+    Controller,
+    EmbouchureKind,
+    Expression,
+    FaceNames,
+    SkeletonProfile,
+)
 
 ROOT = Path(__file__).parent
 _KIND_FOLDERS = {
@@ -25,6 +34,7 @@ _KIND_FOLDERS = {
     "body": "bodies",
     "skeleton": "skeletons",
     "bone_names": "bone_names",
+    "face_names": "faces",
     "controller": "controllers",
 }
 GENERIC_CONTROLLER = "generic"
@@ -63,6 +73,12 @@ def load_skeleton(name: str = "vrm1") -> SkeletonProfile:
 def load_bone_names() -> dict[str, BoneNames]:
     """Every bundled table of bone names, by name. Raises MapError."""
     return {name: read_bone_names(_path("bone_names", name)) for name in names("bone_names")}
+
+
+@cache
+def load_face_names() -> dict[str, FaceNames]:
+    """Every bundled table of names of faces' morphs, by name. Raises MapError."""
+    return {name: read_face_names(_path("face_names", name)) for name in names("face_names")}
 
 
 @cache
@@ -183,6 +199,18 @@ def read_bone_names(path: Path) -> BoneNames:
     return table
 
 
+def read_face_names(path: Path) -> FaceNames:
+    """Read and check a table of names of a face's morphs. Raises MapError."""
+    table = _decode(path, FaceNames)
+    _check_name(path, table.name)
+    _check_morphs(path, "morphs", table.morphs)
+    for shape in table.morphs:
+        for way in table.ways(shape):
+            if not way or "" in way:
+                raise _invalid(path, f"morphs.{shape}", "a way that names nothing")
+    return table
+
+
 def read_body(path: Path) -> Body:
     """Read and check a body against its skeleton profile. Raises MapError."""
     body = _decode(path, Body)
@@ -248,7 +276,7 @@ def _check_name(path: Path, name: str) -> None:
         raise _invalid(path, "name", f"{name!r} is not the file's name {path.stem!r}")
 
 
-def _check_morphs(path: Path, key: str, weights: dict[str, float]) -> None:
+def _check_morphs(path: Path, key: str, weights: Iterable[str]) -> None:
     for morph in weights:
         if morph not in _MORPHS:
             raise _invalid(path, f"{key}.{morph}", "not one of the 52 ARKit morph targets")
@@ -270,5 +298,5 @@ def _check_axes(path: Path, key: str, axes: tuple[tuple[float, float, float], ..
 
 # msgspec works a type out when it is first used, and two threads that do so at once crash it: it is done here, under
 # the import's lock.
-for _type in (Body, BoneNames, Controller, Expression, SkeletonProfile):
+for _type in (Body, BoneNames, Controller, Expression, FaceNames, SkeletonProfile):
     msgspec.json.Decoder(_type)

@@ -343,7 +343,7 @@ def bone_key(name: str) -> str:
 
     Full-width digits and letters are plain ones; ``Armature|mixamorig:Left_Arm`` and ``leftarm`` are the same.
     """
-    last = re.split(r"[:|]", unicodedata.normalize("NFKC", name))[-1]
+    last = re.split(r"[:|]", unicodedata.normalize("NFKC", name).rstrip(":|"))[-1]
     return "".join(letter for letter in last.casefold() if letter.isalnum())
 
 
@@ -386,6 +386,43 @@ class BoneNames(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
             for joint, names in self.sides.items():
                 found[side + joint] = tuple(name.replace("{side}", word) for name in names for word in words)
         return {joint: tuple(dict.fromkeys(map(bone_key, names))) for joint, names in found.items()}
+
+
+def morph_key(name: str) -> str:
+    """As `bone_key`, and without the name of a mesh or blend shape node before a dot, or ExPlus's number (``A14_``)."""
+    return bone_key(re.sub(r"^A\d\d[_ ]", "", unicodedata.normalize("NFKC", name).rsplit(".", 1)[-1]))
+
+
+Parts: TypeAlias = dict[str, Fraction01]
+"""Weights of a figure's own morphs that make one shape."""
+
+
+class FaceNames(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
+    """How the morphs of a kind of face are named, and what of them makes an ARKit shape.
+
+    Attributes
+    ----------
+    name : str
+        Id; the file's name.
+    title, source : str
+        As in `BoneNames`.
+    of : str
+        Whether the names are those of morphs or of the file's expressions.
+    morphs : dict of str to tuple
+        By ARKit shape the ways to make it, the best first: a name, or weights of several. A way counts where a figure
+        has all that it names. Names are compared by `morph_key`.
+    """
+
+    name: str
+    title: str
+    source: str
+    morphs: dict[str, Annotated[tuple[str | Parts, ...], msgspec.Meta(min_length=1)]]
+    of: Literal["morphs", "expressions"] = "morphs"
+
+    def ways(self, shape: str) -> tuple[Parts, ...]:
+        """The ways to make a shape as weights; names as they are compared."""
+        ways = ({way: 1.0} if isinstance(way, str) else way for way in self.morphs.get(shape, ()))
+        return tuple({morph_key(name): weight for name, weight in way.items()} for way in ways)
 
 
 BreathSource: TypeAlias = Literal["cc2", "cc7", "cc11", "channel_pressure"]

@@ -35,6 +35,8 @@ TEMPLATES: Final[dict[str, str]] = {
     "map.unknown": "there is no instrument map named {id!r}",
     "figure.no_joint": "{file}: there is no joint named {joint!r}; there are: {joints}",
     "figure.no_bone": "{file} has no bone named {bone!r}, which is said to be {joint}",
+    "figure.no_shape": "{file}: there is no shape of the face named {shape!r} among ARKit's",
+    "figure.no_morph": "{file} has no morph named {morph!r}, which is said to make {shape}",
     "metadata.missing": "there is no {kind} named {name!r}; there are: {known}",
     "metadata.syntax": "{file}: {detail}",
     "metadata.invalid": "{file}: {key}: {detail}",

@@ -36,6 +36,8 @@ REQUIRED: Final = (
 SPINE: Final = ("spine", "chest", "upperChest")
 ENDS: Final = re.compile(r"(Toes|Eye|Metacarpal|Proximal|Intermediate|Distal)$")
 """Joints that names may add to what a file says of itself."""
+CLEARLY: Final = 0.5
+"""Sides are swapped where this part of the way from right to left leads to -X: not where a figure faces sideways."""
 NUMBERED: Final = re.compile(r"[_.]\d+$")
 MOST_NUMBERED: Final = 0.8
 """Where so many names end in a number, the numbers are some program's, not the names'."""
@@ -255,7 +257,10 @@ def _turn_sides(tree: Tree, bones: dict[str, int]) -> set[str]:
         ("Eye", r"Eye$"),
     ):
         left, right = bones.get(f"left{at}"), bones.get(f"right{at}")
-        if left is None or right is None or tree.positions_m[left, 0] >= tree.positions_m[right, 0]:
+        if left is None or right is None:
+            continue
+        across = tree.positions_m[left] - tree.positions_m[right]
+        if across[0] > -CLEARLY * float(np.linalg.norm(across)) or across[0] == 0.0:
             continue
         swapped = {joint: bone for joint, bone in bones.items() if re.search(own, joint)}
         for joint in swapped:

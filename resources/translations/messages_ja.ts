@@ -1420,6 +1420,14 @@
             <translation>{file} には、{joint} に指定されたボーン {bone!r} がありません</translation>
         </message>
         <message>
+            <source>{file}: there is no shape of the face named {shape!r} among ARKit's</source>
+            <translation>{file}：{shape!r} という形は ARKit のブレンドシェイプにありません</translation>
+        </message>
+        <message>
+            <source>{file} has no morph named {morph!r}, which is said to make {shape}</source>
+            <translation>{file} には、{shape} に指定されたモーフ {morph!r} がありません</translation>
+        </message>
+        <message>
             <source>there is no {kind} named {name!r}; there are: {known}</source>
             <translation>{kind} に {name!r} はありません。使えるもの: {known}</translation>
         </message>

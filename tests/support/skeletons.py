@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
 from app.rig.figure import Figure
+from app.rig.model import Mesh, Morph
 
 FOLDER = Path(__file__).parents[1] / "data" / "skeletons"
 
@@ -85,3 +86,22 @@ def figure_of(
         meshes=(),
         humanoid=humanoid or {},
     )
+
+
+def face_of(morphs: Sequence[str], expressions: dict[str, dict[str, float]] | None = None) -> Figure:
+    """A figure of one bone whose mesh has morphs of these names."""
+    corners = np.eye(3, dtype=np.float32)
+    mesh = Mesh(
+        name="face",
+        positions_m=corners,
+        normals=corners,
+        uvs=np.zeros((3, 2), dtype=np.float32),
+        triangles=np.array([[0, 1, 2]], dtype=np.int32),
+        triangle_materials=np.zeros(1, dtype=np.int32),
+        materials=(),
+        joints=np.zeros((3, 1), dtype=np.int32),
+        weights=np.ones((3, 1), dtype=np.float32),
+        morphs=tuple(Morph(name, np.array([0], dtype=np.int32), corners[:1], None) for name in morphs),
+    )
+    bones = [ListedBone("head", "", (0.0, 1.5, 0.0), "head")]
+    return replace(figure_of(bones), meshes=(mesh,), expressions=expressions or {})

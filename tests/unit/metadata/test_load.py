@@ -19,17 +19,32 @@ from metadata.load import (
     load_skeleton,
     names,
     read_body,
+    read_bone_names,
     read_controller,
     read_expression,
+    read_face_names,
     read_skeleton,
     recognised_controller,
 )
-from metadata.model import ARKIT_MORPHS, Body, Controller, Expression, SkeletonProfile, at_amplitude
+from metadata.model import (
+    ARKIT_MORPHS,
+    Body,
+    BoneNames,
+    Controller,
+    Expression,
+    FaceNames,
+    SkeletonProfile,
+    at_amplitude,
+    bone_key,
+    morph_key,
+)
 
 READERS = {
     "bodies": read_body,
+    "bone_names": read_bone_names,
     "controllers": read_controller,
     "expressions": read_expression,
+    "faces": read_face_names,
     "skeletons": read_skeleton,
 }
 
@@ -68,7 +83,36 @@ def test_every_bundled_table_loads() -> None:
     assert names("skeleton") == ("vrm1",)
     for folder, reader in READERS.items():
         for path in (ROOT / folder).glob("*.toml"):
-            assert isinstance(reader(path), Body | Controller | Expression | SkeletonProfile)
+            assert isinstance(reader(path), Body | BoneNames | Controller | Expression | FaceNames | SkeletonProfile)
+
+
+@pytest.mark.parametrize(
+    ("name", "key"),
+    [
+        ("mixamorig:LeftArm", "leftarm"),
+        ("Armature|ns:Left Arm", "leftarm"),
+        ("upper_arm.L.001", "upperarml001"),
+        ("左人指１", "左人指1"),
+        ("name:", "name"),
+        ("::", ""),
+    ],
+)
+def test_names_of_bones_are_compared_without_what_does_not_count(name: str, key: str) -> None:
+    assert bone_key(name) == key
+
+
+@pytest.mark.parametrize(
+    ("name", "key"),
+    [
+        ("A14_Eye_Blink_Left", "eyeblinkleft"),
+        ("Wolf3D_Head.eyeBlinkLeft", "eyeblinkleft"),
+        ("blendShape1.MTH_A", "mtha"),
+        ("ｳｨﾝｸ２右", "ウィンク2右"),
+        ("A1_Stage", "a1stage"),
+    ],
+)
+def test_names_of_morphs_are_compared_without_what_does_not_count(name: str, key: str) -> None:
+    assert morph_key(name) == key
 
 
 def test_there_are_52_morph_targets() -> None:
@@ -194,6 +238,17 @@ def changed(tmp_path: Path, source: str, old: str, new: str, name: str | None = 
          "lowerBack"),
         ("bodies/adult.toml", "mouthFunnel = 0.05", "mouthFunny = 0.05", "embouchure.cup.air.mouthFunny", "ARKit"),
         ("bodies/adult.toml", "side_deg = [0.35, 2.2, 6.0]", "side_deg = [0.35, 2.2]", "sway.side_deg", "length"),
+        ("bone_names/mixamo.toml", 'name = "mixamo"', 'name = "adobe"', "name", "adobe"),
+        ("bone_names/mixamo.toml", "Hand = [", "Paw = [", "sides", "leftPaw"),
+        ("bone_names/mixamo.toml", "hips = [", "spine = [", "middle", "spine"),
+        ("bone_names/mixamo.toml", '"{side}Shoulder"', '"LeftShoulder"', "sides.Shoulder", "{side}"),
+        ("bone_names/mixamo.toml", 'neck = ["Neck"]', 'neck = ["HEAD"]', "head", "neck"),
+        ("bone_names/mixamo.toml", 'neck = ["Neck"]', 'neck = ["_"]', "neck", "without letters"),
+        ("bone_names/mixamo.toml", 'left = ["Left"]', "left = []", "left", "length"),
+        ("faces/vrm.toml", "jawOpen =", "jawWide =", "morphs.jawWide", "ARKit"),
+        ("faces/vrm.toml", "oh = 0.7", "oh = 7", "morphs", "<= 1.0"),
+        ("faces/vrm.toml", "{ oh = 0.7 }", "{}", "morphs.mouthFunnel", "names nothing"),
+        ("faces/vrm.toml", 'of = "expressions"', 'of = "bones"', "of", "bones"),
         ("skeletons/vrm1.toml", 'parent = "hips", kind = "spine"', 'parent = "belly", kind = "spine"',
          "joints[2].parent", "belly"),
         ("skeletons/vrm1.toml", '{ name = "hips", parent = "root"', '{ name = "root", parent = "root"',

@@ -148,6 +148,15 @@ def test_left_is_where_the_body_has_it() -> None:
     assert "hips" not in mapping.doubtful
 
 
+def test_a_figure_that_faces_sideways_keeps_the_sides_it_names() -> None:
+    bones = listed("mixamo")
+    turned = [
+        replace(bone, place_m=(bone.place_m[2] - 0.002 * bone.place_m[0], bone.place_m[1], -bone.place_m[0]))
+        for bone in bones
+    ]
+    assert by_name(turned, map_joints(figure_of(turned))) == known(bones)
+
+
 @pytest.mark.parametrize(
     ("count", "expected"),
     [

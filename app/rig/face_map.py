@@ -1,0 +1,138 @@
+"""Which of a foreign figure's own morphs make the 52 ARKit shapes that faces are played with.
+
+Names come from the tables in ``metadata/faces``. The table that makes most shapes leads; what it leaves out is taken
+from the others. What no table makes is missing, and is told as such.
+
+Messages
+--------
+figure.no_shape : file, shape
+figure.no_morph : file, shape, morph
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import Final
+
+from app.errors import FileError
+from app.rig.figure import Figure
+from metadata.load import load_face_names
+from metadata.model import ARKIT_MORPHS, FaceNames, morph_key
+
+SHAPES: Final = frozenset(ARKIT_MORPHS)
+LEAST_ALIKE: Final = 2
+"""So many known names must stand between the same affixes before these are taken for the maker's."""
+SHORTEST_AFFIXED: Final = 4
+"""Names shorter than this count only as they are."""
+
+
+@dataclass(frozen=True)
+class FaceMapping:
+    """What of a figure's own morphs makes which ARKit shape.
+
+    Attributes
+    ----------
+    profile : str
+        Id of the table that makes most of the shapes; empty where none makes any.
+    morphs : mapping of str to mapping of str to float
+        By ARKit shape: weights of the figure's morphs.
+    missing : tuple of str
+        Shapes that the face cannot make.
+    """
+
+    profile: str
+    morphs: Mapping[str, Mapping[str, float]]
+    missing: tuple[str, ...]
+
+
+def map_morphs(figure: Figure, wanted: Mapping[str, Mapping[str, float]] | None = None) -> FaceMapping:
+    """Find what makes the ARKit shapes of a figure's face.
+
+    Parameters
+    ----------
+    figure : Figure
+    wanted : mapping of str to mapping of str to float
+        A person's corrections, weights of own morphs by shape; none: the face does not make it.
+
+    Raises
+    ------
+    FileError
+        A correction names a shape or a morph that there is not.
+    """
+    found = {name: _shapes(figure, table) for name, table in load_face_names().items()}
+    order = sorted(found, key=lambda name: (-len(found[name]), name))
+    morphs: dict[str, Mapping[str, float]] = {}
+    for name in order:
+        for shape, weights in found[name].items():
+            morphs.setdefault(shape, weights)
+    for shape, own in (wanted or {}).items():
+        _check(figure, shape, own)
+        morphs.pop(shape, None)
+        if own:
+            morphs[shape] = dict(own)
+    return FaceMapping(
+        profile=order[0] if order and found[order[0]] else "",
+        morphs={shape: morphs[shape] for shape in ARKIT_MORPHS if shape in morphs},
+        missing=tuple(shape for shape in ARKIT_MORPHS if shape not in morphs),
+    )
+
+
+def _check(figure: Figure, shape: str, own: Mapping[str, float]) -> None:
+    if shape not in SHAPES:
+        raise FileError("figure.no_shape", file=figure.file, shape=shape)
+    for morph in own:
+        if morph not in figure.morph_names:
+            raise FileError("figure.no_morph", file=figure.file, shape=shape, morph=morph)
+
+
+def _shapes(figure: Figure, table: FaceNames) -> dict[str, dict[str, float]]:
+    """What a table makes of a figure."""
+    ways = {shape: table.ways(shape) for shape in table.morphs}
+    known = {name for own in ways.values() for way in own for name in way}
+    if table.of == "expressions":
+        holders = {morph_key(name): dict(weights) for name, weights in figure.expressions.items() if weights}
+    else:
+        # Several morphs may be one: those of eyes and lashes carry their mesh's name.
+        holders = {
+            name: dict.fromkeys(morphs, 1.0) for name, morphs in _named(figure.morph_names, known).items() if morphs
+        }
+    made = {}
+    for shape, own in ways.items():
+        way = next((way for way in own if all(name in holders for name in way)), None)
+        if way is not None:
+            weights: dict[str, float] = defaultdict(float)
+            for name, weight in way.items():
+                for morph, share in holders[name].items():
+                    weights[morph] += weight * share
+            made[shape] = dict(weights)
+    return made
+
+
+def _named(morphs: Iterable[str], known: set[str]) -> dict[str, list[str]]:
+    """The morphs of each known name, whatever the maker put before and after all of them."""
+    keys = {morph: morph_key(morph) for morph in morphs}
+    affixes: dict[tuple[str, str], set[str]] = defaultdict(set)
+    affixes["", ""] = set(known)
+    for key in keys.values():
+        for name in known:
+            at = key.rfind(name) if len(name) >= SHORTEST_AFFIXED else -1
+            if at >= 0 and len(name) < len(key):
+                affixes[key[:at], key[at + len(name) :]].add(name)
+    common = [affix for affix, names in affixes.items() if len(names) >= LEAST_ALIKE]
+    found: dict[str, list[str]] = defaultdict(list)
+    for morph, key in keys.items():
+        if key in known:
+            found[key].append(morph)
+            continue
+        inner = [
+            key[len(before) : len(key) - len(after)]
+            for before, after in common
+            if key.startswith(before) and key.endswith(after) and len(key) > len(before) + len(after)
+        ]
+        # The longest name is the one meant: an eye's blink, not a blink.
+        name = max((name for name in inner if name in known), key=lambda name: (len(name), name), default="")
+        if name:
+            found[name].append(morph)
+    return found
