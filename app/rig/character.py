@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from app.rig.face_map import map_morphs
 from app.rig.figure import Figure
 from app.rig.figure_character import REQUIRED_JOINTS, figure_character
 from app.rig.humanoid import JointMapping, map_joints
@@ -27,7 +28,6 @@ from app.rig.model import Character, Landmark, Mesh, Skeleton
 from app.rig.read_figure import read_figure
 from app.rig.source import Source, build_mesh, invalid, moved_mesh, read_source
 from app.rig.t_pose import facing_ahead, upright
-from metadata.model import ARKIT_MORPHS
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -102,8 +102,7 @@ def read_character(
         if facing is not figure:
             # Which side is left depends on where ahead is.
             figure, found = facing, map_joints(facing, joints)
-    faces = {name: {name: 1.0} for name in figure.morph_names if name in ARKIT_MORPHS}
-    return Reading(figure, found, {**faces, **(morphs or {})})
+    return Reading(figure, found, map_morphs(figure, morphs).morphs)
 
 
 def _build(source: Source, id: str) -> Character:

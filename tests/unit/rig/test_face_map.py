@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from app.errors import FileError
 from app.messages import TEMPLATES
+from app.rig.character import load_character
 from app.rig.face_map import map_morphs
 from app.rig.read_figure import read_figure
 from metadata.load import load_face_names
@@ -149,6 +150,16 @@ def test_faces_of_foreign_characters(name: str) -> None:
     mapping = map_morphs(read_figure(CHARACTERS / name))
     assert mapping.morphs == EXPECTED[name]
     assert set(mapping.missing) == set(ARKIT_MORPHS) - set(EXPECTED[name])
+
+
+def test_a_character_of_another_maker_makes_faces() -> None:
+    character = load_character(CHARACTERS / "toddler_vrm1.vrm")
+    made = {morph.name: morph for mesh in character.meshes for morph in mesh.morphs}
+    assert set(made) == set(EXPECTED["toddler_vrm1.vrm"])
+    own = {morph.name: morph for mesh in read_figure(CHARACTERS / "toddler_vrm1.vrm").meshes for morph in mesh.morphs}
+    size = {name: float(abs(morph.deltas_m).max()) for name, morph in (made | own).items()}
+    assert size["mouthPucker"] == pytest.approx(0.8 * size["Fcl_MTH_U"], rel=0.05)
+    assert size["jawOpen"] == pytest.approx(size["Fcl_MTH_A"], rel=0.05)
 
 
 @settings(max_examples=25, deadline=None)
