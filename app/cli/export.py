@@ -19,6 +19,7 @@ from app.export.formats import FILE_FORMATS, USUAL_FORMATS, Format
 from app.messages import text
 from app.project.parameters import select_players
 from app.version import program_version
+from metadata.load import names
 
 if TYPE_CHECKING:
     from app.export.target import SkeletonChoice
@@ -79,6 +80,13 @@ def add_command(commands: Commands) -> None:
         "asset would lose; the mannequin's rest rotations are taken from it",
     )
     command.add_argument(
+        "--bvh-names",
+        choices=names("bone_names"),
+        default="",
+        metavar="PROFILE",
+        help="whose bone names the BVH files have (default: the skeleton's own): " + ", ".join(names("bone_names")),
+    )
+    command.add_argument(
         "--sound",
         action="store_true",
         help="also the sound as WAV, from the first frame on; USD files refer to it (a project always gets it)",
@@ -132,6 +140,7 @@ def export(arguments: argparse.Namespace) -> None:
         skeleton=arguments.skeleton,
         asset=arguments.check_skeleton,
         sound=arguments.sound,
+        bvh_names=arguments.bvh_names,
     )
     try:
         with _terminable():

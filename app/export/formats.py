@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final, Literal
 
@@ -22,9 +22,12 @@ class Beside:
     ----------
     sound : str or None
         Name of a sound file in the same folder that starts with frame 0.
+    bone_names : mapping of int to str
+        Other names than the scene's, by bone, for files that are chosen by the names of their bones.
     """
 
     sound: str | None = None
+    bone_names: Mapping[int, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -67,7 +70,7 @@ def _bvh(path: Path, scene: Scene, beside: Beside) -> None:
     from app.formats.bvh import encode_bvh
 
     with atomic_write(path) as stream:
-        stream.write(encode_bvh(scene_bvh(scene)))
+        stream.write(encode_bvh(scene_bvh(scene, beside.bone_names)))
 
 
 def _glb(path: Path, scene: Scene, beside: Beside) -> None:

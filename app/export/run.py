@@ -14,6 +14,7 @@ from pathlib import Path
 import msgspec
 
 from app.errors import Cancelled, FileError, Message
+from app.export.bone_names import profile_names
 from app.export.character import character_scene
 from app.export.control_judge import FloatArray
 from app.export.folder import files_into
@@ -70,6 +71,8 @@ class Request:
         What the characters are written on; instruments have one skeleton only.
     sound : bool
         Whether what is heard is written as a WAV file, from the first frame to the last.
+    bvh_names : str
+        Table of bone names that BVH files have; empty: those of the skeleton.
     asset : path or None
         File of the asset that the animation is for: every player's skeleton is compared with its.
     """
@@ -85,6 +88,7 @@ class Request:
     skeleton: SkeletonChoice = "own"
     asset: Path | None = None
     sound: bool = False
+    bvh_names: str = ""
 
 
 def export(
@@ -192,7 +196,10 @@ def _export_player(
     work = _MOTION_WORK + sum(kind.work for kind in wanted.values()) + _MEASURES_WORK * ("fbx" in wanted)
     motion = player_motion(performance, player, request.span, progress=lambda share: told(_MOTION_WORK / work * share))
     scenes = _scenes(request, player, target, motion, stem, {held for kind in wanted.values() for held in kind.holds})
-    beside = Beside(sound=sound_name(request.source) if request.sound else None)
+    beside = Beside(
+        sound=sound_name(request.source) if request.sound else None,
+        bone_names=profile_names(request.bvh_names, target, character_of(player).skeleton) if request.bvh_names else {},
+    )
     done = _MOTION_WORK
     for name, kind in wanted.items():
         for held in kind.holds:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
+
 import numpy as np
 import numpy.typing as npt
 
@@ -17,7 +20,7 @@ OWN_VERTEX = 0.5
 _SHORTEST_CM = 1.0
 
 
-def scene_bvh(scene: Scene) -> BvhClip:
+def scene_bvh(scene: Scene, names: Mapping[int, str] = MappingProxyType({})) -> BvhClip:
     """The skeleton from the bone that is moved (the hips) on, with the motion of all bones above it in its own.
 
     BVH moves its root only, so that what another bone is moved by is left out.
@@ -26,11 +29,13 @@ def scene_bvh(scene: Scene) -> BvhClip:
     ----------
     scene : Scene
         With a clip.
+    names : mapping of int to str
+        By bone, for those that are to have another name than in the scene.
     """
     clip = scene.clip
     if clip is None:
         raise ValueError("a scene without a clip has no motion")
-    first = min(clip.translations_cm, default=0)
+    first = _first(scene, clip)
     chosen = _below(scene, first)
     place = {bone: index for index, bone in enumerate(chosen)}
     translation_cm, rotation = _world(scene, clip, first)
@@ -39,7 +44,7 @@ def scene_bvh(scene: Scene) -> BvhClip:
     offsets_cm = np.stack([np.asarray(scene.bones[bone].translation_cm, np.float64) for bone in chosen])
     offsets_cm[0] = 0.0
     return BvhClip(
-        names=tuple(scene.bones[bone].name for bone in chosen),
+        names=_distinct([names.get(bone, scene.bones[bone].name) for bone in chosen]),
         parents=tuple(-1 if bone == first else place[scene.bones[bone].parent] for bone in chosen),
         offsets_cm=offsets_cm,
         end_sites_cm={place[bone]: end for bone, end in _end_sites_cm(scene, chosen).items()},
@@ -47,6 +52,28 @@ def scene_bvh(scene: Scene) -> BvhClip:
         root_translation_cm=translation_cm,
         rotations_xyzw=rotations,
     )
+
+
+def _first(scene: Scene, clip: Clip) -> int:
+    """The lowest bone that is moved and has most of the skeleton below it: what moves a hand or a prop is none."""
+    below = {bone: len(_below(scene, bone)) for bone in clip.translations_cm}
+    trunk = [bone for bone, count in below.items() if 2 * count > len(scene.bones)]
+    return max(trunk, default=0)
+
+
+def _distinct(names: Sequence[str]) -> tuple[str, ...]:
+    """Names as BVH takes them: without blanks, and different however they are written."""
+    taken: set[str] = set()
+    result = []
+    for name in names:
+        joined = "_".join(name.split()) or "bone"
+        unique, number = joined, 1
+        while unique.casefold() in taken:
+            number += 1
+            unique = f"{joined}_{number}"
+        taken.add(unique.casefold())
+        result.append(unique)
+    return tuple(result)
 
 
 def _below(scene: Scene, first: int) -> list[int]:

@@ -177,7 +177,7 @@ def test_a_second_run_has_the_same_bits_and_a_cut_the_wholes_frames(
 
 def test_several_formats_at_once_and_nothing_to_measure_without_fbx(tmp_path: Path) -> None:
     arguments = ("--fps", "25", "--from-bar", "2", "--to-bar", "2", "--player", PLAYERS[0])
-    report = export(tmp_path / "out", *arguments, "--format", "glb, BVH", "--format", "bvh")
+    report = export(tmp_path / "out", *arguments, "--format", "glb, BVH", "--format", "bvh", "--bvh-names", "cmu")
     (player,) = report["players"]
     assert player["files"] == {
         "character_bvh": "Trumpet 1.bvh",
@@ -187,6 +187,7 @@ def test_several_formats_at_once_and_nothing_to_measure_without_fbx(tmp_path: Pa
     assert player["measures"] is None
     written = {path.name for path in (tmp_path / "out").iterdir()}
     assert written == {*player["files"].values(), "report.json"}
+    assert {"Hips", "LowerBack", "LeftForeArm", "leftIndexDistal"} <= set(read_bvh(tmp_path / "out" / "Trumpet 1.bvh").names)
     model = read_glb(tmp_path / "out" / "Trumpet 1.glb")
     assert {node.name for node in model.nodes} >= {"root", "hips", "rightIndexDistal"}
     assert set(ARKIT_MORPHS) <= {morph.name for morph in model.meshes[0].primitives[0].morphs}
@@ -194,7 +195,7 @@ def test_several_formats_at_once_and_nothing_to_measure_without_fbx(tmp_path: Pa
 
 def test_the_sound_starts_with_the_first_frame_and_usd_refers_to_it(tmp_path: Path) -> None:
     kind = "usd" if usd.usd_installed() else "bvh"
-    arguments = ("--fps", "25", "--from-bar", "2", "--to-bar", "2", "--player", PLAYERS[0], "--format", kind, "--sound")
+    arguments = ("--fps", "25", "--from-bar", "1", "--to-bar", "1", "--player", PLAYERS[0], "--format", kind, "--sound")
     report = export(tmp_path / "out", *arguments)
     assert report["sound"] == "quartet.wav"
     sound, rate_hz = soundfile.read(tmp_path / "out" / "quartet.wav")
