@@ -34,6 +34,7 @@ from app.plan.model import BreathEvent, PlayerPlan
 from app.rig.lips import meeting
 from app.rig.model import Character
 from app.rig.stations import MOST_HOVER_M, aside_m, only_at, stations, stations_of_notes, worked_by
+from app.rig.suited import mouth_opens
 from instrument_maps.model import ROOT, Contact, InstrumentMap
 from metadata.model import Body, SkeletonProfile
 
@@ -202,7 +203,7 @@ def measure_player(
         },
         limits=_limits(joints.rotations, joints.names, body, profile),
         acceleration=_acceleration(joints.rotations, joints.names, body, profile, float(fps)),
-        breaths=_breaths(plan.breaths, times_s, joints.curve("jawOpen"), traces.torso),
+        breaths=_breaths(plan.breaths, times_s, joints.curve("jawOpen"), traces.torso, mouth_opens(character)),
         hovering=_hovering(instrument, traces, judge, working),
     )
     return Measured(measures, traces.torso)
@@ -475,9 +476,10 @@ def _acceleration(
 
 
 def _breaths(
-    events: Sequence[BreathEvent], times_s: FloatArray, jaw: FloatArray, torso_rad: FloatArray
+    events: Sequence[BreathEvent], times_s: FloatArray, jaw: FloatArray, torso_rad: FloatArray, mouth: bool
 ) -> BreathMeasure:
-    """Whether during each breath the jaw opens and the torso leans back against what was just before."""
+    """Whether during each breath the jaw opens and the torso leans back against what was just before; without a
+    ``mouth`` that opens, the torso alone shows it."""
     planned = opened = back = shown = 0
     for event in events:
         first, last = np.searchsorted(times_s, [event.start_s - 1e-9, event.end_s + 1e-9])
@@ -488,5 +490,5 @@ def _breaths(
         leans = bool(torso_rad[first - 1, 1] - torso_rad[first : last + 1, 1].min() >= TORSO_BACK_RAD)
         opened += opens
         back += leans
-        shown += opens and leans
+        shown += leans and (opens or not mouth)
     return BreathMeasure(planned, opened, back, shown)

@@ -9,6 +9,7 @@ TEMPLATES: Final[dict[str, str]] = {
     "work.save": "saving",
     "work.autosave": "writing unsaved work down",
     "work.plan": "planning what {players} players do",
+    "work.hold": "finding out how {players} players hold their instruments",
     "work.instruments": "reading your instruments",
     "work.load_figures": "loading the players' figures",
     "work.compare": "what the generator would do for {player}",

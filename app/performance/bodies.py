@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
+import contextlib
+from functools import cache, lru_cache
 
+from app.errors import FileError, MapError, UsageError
 from app.identity_cache import IdentityCache
 from app.project.model import Player
-from app.rig.character_library import character_named
+from app.rig.character_library import bundled_characters, character_named, character_revision
+from app.rig.grip_search import Told, unheard
 from app.rig.hold import Hold
-from app.rig.hold_file import hold_for
+from app.rig.hold_file import bundled_path, hold_for
 from app.rig.instrument import load_instrument
 from app.rig.model import Character, InstrumentModel
 from app.rig.stature import leg_size, sized_body, sized_model
 from app.rig.suited import Suited, suited
-from instrument_maps.library import model_path
+from instrument_maps.library import library, model_path
+from instrument_maps.load import bundled_maps
 from instrument_maps.model import InstrumentMap
 from metadata.load import load_body
 from metadata.model import Body
@@ -21,8 +25,8 @@ from metadata.model import Body
 _MODELS: IdentityCache[InstrumentModel] = IdentityCache(128)
 """More than there are instruments: in an orchestra with one more than these, each would be read again at every edit."""
 _HOLDS: IdentityCache[Hold] = IdentityCache(256)
-
-
+_HELD: set[tuple[str, int, str, int]] = set()
+"""Pairs of character and instrument, by id and revision, whose holds were asked for."""
 _SUITED: IdentityCache[Suited] = IdentityCache(256)
 
 
@@ -58,7 +62,36 @@ def suited_to(player: Player, instrument: InstrumentMap) -> Suited:
     )
 
 
-def hold_of(player: Player, instrument: InstrumentMap) -> Hold:
-    """How a player's body holds an instrument that is suited to it; fitted once for each pair."""
+def hold_of(player: Player, instrument: InstrumentMap, told: Told = unheard) -> Hold:
+    """How a player's body holds an instrument that is suited to it; fitted once for each pair.
+
+    ``told`` hears of a fit how far it is, and may stop it.
+    """
     character, model, body = character_of(player), model_of(instrument), body_of(player)
-    return _HOLDS.get((character, model, instrument, body), lambda: hold_for(character, model, instrument, body))
+    return _HOLDS.get((character, model, instrument, body), lambda: hold_for(character, model, instrument, body, told))
+
+
+def is_held(player: Player, instrument: InstrumentMap) -> bool:
+    """Whether it takes no time to say how a player holds an instrument of the library. Never slow itself."""
+    ours = player.character_id in bundled_characters() and bundled_maps().get(instrument.id) is instrument
+    return (ours and _is_stored(player.character_id, instrument.id)) or _pair(player, instrument) in _HELD
+
+
+def hold_now(player: Player, instrument: InstrumentMap, told: Told = unheard) -> None:
+    """Find out how a player holds an instrument of the library, so that it is held from now on (`is_held`).
+
+    What is wrong with a character or a model is told where they are asked for.
+    """
+    with contextlib.suppress(UsageError, FileError, MapError):
+        hold_of(player, suited_to(player, instrument).instrument, told)
+    _HELD.add(_pair(player, instrument))
+
+
+def _pair(player: Player, instrument: InstrumentMap) -> tuple[str, int, str, int]:
+    revision = library().revisions.get(instrument.id, 0)
+    return player.character_id, character_revision(player.character_id), instrument.id, revision
+
+
+@cache
+def _is_stored(character_id: str, instrument_id: str) -> bool:
+    return bundled_path(character_id, instrument_id).is_file()

@@ -12,8 +12,8 @@ from threading import RLock
 
 import msgspec
 
-from app.errors import AppError, MapError, Message
-from app.performance.bodies import character_of, suited_to
+from app.errors import AppError, Cancelled, MapError, Message
+from app.performance.bodies import character_of, hold_now, is_held, suited_to
 from app.performance.loudness import heard, note_loudness
 from app.performance.reach import reached
 from app.plan.corrections import RemoveEvent, SetBreath, SetCue, Vary
@@ -252,6 +252,40 @@ class Performance:
     def instrument(self, player: Player) -> InstrumentMap:
         """The map of what a player plays. Raises MapError where there is none of its id."""
         return self.library.find(player.instrument_id)
+
+    @property
+    def unheld(self) -> tuple[Player, ...]:
+        """The players of whom it is not known yet how they hold their instruments: finding out takes seconds each."""
+        found = []
+        for player in self.project.players:
+            instrument = self.library.maps.get(player.instrument_id)
+            if instrument is not None and not is_held(player, instrument):
+                found.append(player)
+        return tuple(found)
+
+    def hold(
+        self,
+        stop_wanted: Callable[[], bool] = lambda: False,
+        progress: Callable[[float], None] = lambda share: None,
+    ) -> None:
+        """Find out how the players hold their instruments, where that is not known yet.
+
+        Raises
+        ------
+        Cancelled
+            ``stop_wanted`` said so; holds that were finished stay.
+        """
+        players = self.unheld
+
+        for number, player in enumerate(players):
+
+            def told(share: float, before: int = number) -> None:
+                if stop_wanted():
+                    raise Cancelled("work.stopped")
+                progress((before + share) / len(players))
+
+            told(0.0)
+            hold_now(player, self.instrument(player), told)
 
     def held(self, player: Player) -> InstrumentMap:
         """That map as the player's body plays it: of its size, touched by what the body has. Raises MapError,

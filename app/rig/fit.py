@@ -29,7 +29,7 @@ from app.rig.grip_fingers import MOVED_VALUES, STILL_VALUES, Scene, finger_table
 from app.rig.grip_judge import judge
 from app.rig.grip_lean import Leaning, lean_of, leanings, whole_hand
 from app.rig.grip_problem import Problem, grip_problem, joint_angles, travel, wrist_transform
-from app.rig.grip_search import search, search_knots
+from app.rig.grip_search import Told, finished, search_knots, starts, unheard
 from app.rig.grip_ways import lifted_ways
 from app.rig.hold import HandHold, Hold, NodeMotion, Reach, StationTable
 from app.rig.lips import fit_lips
@@ -42,13 +42,23 @@ from metadata.model import Body
 
 FloatArray = npt.NDArray[np.float64]
 
+TOUCH_M, GRIP_M, INSIDE_M = 0.002, 0.003, 0.003
+"""A hold ends well where what works a control is off by no more than this, what carries the instrument by no more than
+this, and no skin is deeper inside it than this."""
+
 FIT_VERSION = 15
 """Part of the digest of stored holds (`app.rig.hold_file`): raise it when a fit comes out differently ..."""
 PLACES_VERSION = 3
 """... and this one when it does so only where fingers wait over what they work, or work it at several places."""
 
 
-def fit_hold(character: Character, model: InstrumentModel, instrument_map: InstrumentMap, body: Body) -> Hold:
+def fit_hold(
+    character: Character,
+    model: InstrumentModel,
+    instrument_map: InstrumentMap,
+    body: Body,
+    told: Told = unheard,
+) -> Hold:
     """Fit how a character holds an instrument; deterministic, and slow: `app.rig.hold_file.hold_for` keeps the results.
 
     Parameters
@@ -58,6 +68,8 @@ def fit_hold(character: Character, model: InstrumentModel, instrument_map: Instr
     instrument_map : InstrumentMap
     body : Body
         Limits of the joints and posture.
+    told : callable
+        Told the share 0..1 that is done; what it raises stops the work.
 
     Returns
     -------
@@ -80,10 +92,18 @@ def fit_hold(character: Character, model: InstrumentModel, instrument_map: Instr
         stand = Upright(stand.joints_m / size, stand.instrument_m / size, stand.instrument_rotation)
     # The matrices are small: more threads make it no faster, far slower on a busy machine, and change the last bits.
     with threadpool_limits(limits=1, user_api="blas"):
-        fitted = [_fit_hand(character, model, instrument_map, body, seed, stand) for seed in instrument_map.hands]
+        fitted = []
+        for number, seed in enumerate(instrument_map.hands):
+            part = _part(told, number / len(instrument_map.hands), (number + 1) / len(instrument_map.hands))
+            fitted.append(_fit_hand(character, model, instrument_map, body, seed, stand, size, part))
     hands = tuple(sized(hand, size) for hand, _ in fitted)
     reach = tuple(sized(reach, size) for _, reach in fitted)
     return Hold(character.id, instrument_map.id, hands, lips, reach)
+
+
+def _part(told: Told, first: float, last: float) -> Told:
+    """Tells of a part of the work as of that share of the whole."""
+    return lambda share: told(first + (last - first) * share)
 
 
 def require_landmarks(character: Character, instrument_map: InstrumentMap) -> None:
@@ -102,25 +122,60 @@ def _fit_hand(
     body: Body,
     seed: HandSeed,
     stand: Upright,
+    size: float,
+    told: Told,
 ) -> tuple[HandHold, Reach]:
+    """Fit one hand. Where the best start does not end well, the next ones are tried; the best end counts."""
     problem, carrier = grip_problem(character, model, instrument_map, body, seed, stand)
-    hand = problem.hand
-    if carrier is None:
-        values = MOVED_VALUES if problem.worked else STILL_VALUES
-        best = search(problem)
-        path = best[None]
-    else:
-        values = MOVED_VALUES
-        knots, holds = search_knots(problem, model, instrument_map, carrier)
-        best = holds[0]
+    if carrier is not None:
+        knots, holds = search_knots(problem, model, instrument_map, carrier, _part(told, 0.0, 0.55))
         from scipy.interpolate import PchipInterpolator  # heavy; holds are fitted seldom
 
         # A wrist between knots follows a smooth curve; the fingers are then solved for it.
-        path = PchipInterpolator(knots, holds)(values)
+        path = PchipInterpolator(knots, holds)(MOVED_VALUES)
+        return _held(problem, model, instrument_map, carrier, holds[0], path, seed, stand, _part(told, 0.55, 1.0))
+    best: tuple[HandHold, Reach] | None = None
+    for number, start in enumerate(starts(problem, _part(told, 0.0, 0.4))):
+        part = _part(told, 0.4 + 0.2 * number, 0.6 + 0.2 * number)
+        part(0.0)
+        whole = finished(problem, start)
+        found = _held(problem, model, instrument_map, None, whole, whole[None], seed, stand, part)
+        if best is None or _missed(found[0], size) < _missed(best[0], size):
+            best = found
+        if _missed(best[0], size) <= 1.0:
+            break
+    assert best is not None
+    return best
+
+
+def _missed(hold: HandHold, size: float) -> float:
+    """What is worst about a hold, as a multiple of what a touch may be off, and skin may be inside."""
+    touches = [one for one in hold.contacts if one.firm]
+    off = [one.distance_m / (GRIP_M if one.control is None else TOUCH_M) for one in touches]
+    return size * max(*off, hold.penetration_m / INSIDE_M, 0.0)
+
+
+def _held(
+    problem: Problem,
+    model: InstrumentModel,
+    instrument_map: InstrumentMap,
+    carrier: Control | None,
+    best: FloatArray,
+    path: FloatArray,
+    seed: HandSeed,
+    stand: Upright,
+    told: Told,
+) -> tuple[HandHold, Reach]:
+    """A solved hand: its fingers at all their places, how it gives way for them, and how well it all meets.
+
+    ``best`` (n,) are the parameters that were found, ``path`` (S, n) those along what carries the hand.
+    """
+    hand = problem.hand
+    values = MOVED_VALUES if carrier is not None or problem.worked else STILL_VALUES
     position, turn = wrist_transform(problem, path)
     scene = Scene(model, instrument_map, carrier, position, quaternion.to_matrix(turn))
-    solved = solve_tables(problem, scene, joint_angles(problem, path), best)
-    leant = leanings(problem, scene, best, solved)
+    solved = solve_tables(problem, scene, joint_angles(problem, path), best, _part(told, 0.0, 0.3))
+    leant = leanings(problem, scene, best, solved, _part(told, 0.3, 0.9))
     leans = tuple(lean_of(problem, scene, one) for one in leant)
     at_leans = {(one.solved.number, one.solved.station): one.solved for one in leant}
     solved = tuple(at_leans.get((one.number, one.station), one) for one in solved)

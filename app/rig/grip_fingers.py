@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from copy import copy
 from dataclasses import dataclass, replace
 
@@ -105,7 +105,13 @@ def values_of(scene: Scene, station: Station) -> FloatArray:
     return HOVER_VALUES if hover_m(station, scene.instrument_map) else MOVED_VALUES
 
 
-def solve_tables(problem: Problem, scene: Scene, angles: FloatArray, elsewhere: FloatArray) -> tuple[Solved, ...]:
+def solve_tables(
+    problem: Problem,
+    scene: Scene,
+    angles: FloatArray,
+    elsewhere: FloatArray,
+    told: Callable[[float], None] = lambda share: None,
+) -> tuple[Solved, ...]:
     """Solve the fingers at each of their stations over the values of their controls, the wrist held; a finger that
     touches nothing keeps its relaxed bend.
 
@@ -124,6 +130,7 @@ def solve_tables(problem: Problem, scene: Scene, angles: FloatArray, elsewhere: 
     others = {(one.number, one.station.controls): elsewhere[one.angles] for one in problem.elsewhere}
     for number, places in enumerate(problem.stations):
         for index, station in enumerate(places or (Station("", (), ()),)):
+            told((number + index / (len(places) + 1)) / len(problem.stations))
             values = values_of(scene, station)
             pose = angles[:, 0] if len(angles) == len(values) else np.repeat(angles[:1, 0], len(values), axis=0)
             if not station.contacts:

@@ -6,7 +6,7 @@ station the wrist is solved again, near its home, and the other fingers with it.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -63,13 +63,20 @@ class Leaning:
     others: tuple[Solved, ...]
 
 
-def leanings(problem: Problem, scene: Scene, x: FloatArray, solved: Sequence[Solved]) -> tuple[Leaning, ...]:
+def leanings(
+    problem: Problem,
+    scene: Scene,
+    x: FloatArray,
+    solved: Sequence[Solved],
+    told: Callable[[float], None] = lambda share: None,
+) -> tuple[Leaning, ...]:
     """Let the hand give way for every station that its finger misses."""
     found = []
     if scene.carrier is not None:
         return ()
     homes = {one.number: one for one in reversed(solved)}
-    for one in solved:
+    for place, one in enumerate(solved):
+        told(place / len(solved))
         index = problem.stations[one.number].index(one.station) if one.station in problem.stations[one.number] else 0
         missed = missed_m(problem, scene, one)
         if not index or missed <= LEAN_FROM_M:

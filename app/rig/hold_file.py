@@ -8,7 +8,9 @@ from __future__ import annotations
 
 import contextlib
 import hashlib
+from collections.abc import Mapping
 from dataclasses import replace
+from functools import lru_cache
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
@@ -22,6 +24,7 @@ from app.formats.atomic import atomic_write
 from app.formats.cache import cache_folder
 from app.rig.carriage import usual_posture
 from app.rig.fit import FIT_VERSION, PLACES_VERSION, fit_hold, require_landmarks
+from app.rig.grip_search import Told, unheard
 from app.rig.hold import HandHold, Hold, Lips, Reach
 from app.rig.lips import fit_lips
 from app.rig.model import Character, InstrumentModel
@@ -86,6 +89,23 @@ def bundled_path(character_id: str, instrument_id: str) -> Path:
     return Path(str(files("resources"))) / "holds" / f"{character_id}.{instrument_id}.json"
 
 
+@lru_cache(maxsize=128)
+def usual_wrists(instrument_id: str) -> Mapping[str, tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]]:
+    """Where the wrists of one of our bodies are on an instrument, by side: place (3,) and rotation (4,) in its frame.
+    Empty for an instrument that none of them holds yet."""
+    for path in sorted(bundled_path("*", instrument_id).parent.glob(f"*.{instrument_id}.json")):
+        with contextlib.suppress(OSError, msgspec.MsgspecError, UnicodeDecodeError):
+            kept = _DECODER.decode(path.read_bytes())
+            return {
+                hand.side: (
+                    np.atleast_2d(hand.instrument_from_hand_m)[0],
+                    np.atleast_2d(hand.instrument_from_hand_rotation)[0],
+                )
+                for hand in kept.hands
+            }
+    return {}
+
+
 def write_hold(path: Path, digest: str, hold: Hold) -> None:
     """Write a hold; the file appears whole or not at all. Raises FileError."""
     with atomic_write(path) as file:
@@ -111,8 +131,13 @@ def read_hold(path: Path, digest: str, lips: Lips) -> Hold | None:
     return Hold(stored.character_id, stored.instrument_id, stored.hands, lips, stored.reach)
 
 
-def hold_for(character: Character, model: InstrumentModel, instrument: InstrumentMap, body: Body) -> Hold:
-    """Return how a body holds an instrument: the stored hold, or a new fit, which is then kept in the cache."""
+def hold_for(
+    character: Character, model: InstrumentModel, instrument: InstrumentMap, body: Body, told: Told = unheard
+) -> Hold:
+    """Return how a body holds an instrument: the stored hold, or a new fit, which is then kept in the cache.
+
+    ``told`` hears of the fit, and may stop it (`fit_hold`).
+    """
     require_landmarks(character, instrument)
     digest = digest_of(character, model, instrument, body)
     cached = cache_folder("holds") / f"{digest}.json"
@@ -121,7 +146,7 @@ def hold_for(character: Character, model: InstrumentModel, instrument: Instrumen
         hold = read_hold(path, digest, lips)
         if hold is not None:
             return hold
-    hold = stored(fit_hold(character, model, instrument, body))
+    hold = stored(fit_hold(character, model, instrument, body, told))
     # A cache that cannot be written costs the next run some seconds and nothing else.
     with contextlib.suppress(OSError, FileError):
         cached.parent.mkdir(parents=True, exist_ok=True)
@@ -143,4 +168,4 @@ def _array(kind: Any, value: Any) -> Any:
 
 
 # Worked out here, under the import's lock: two threads that use a type for the first time at once crash msgspec.
-msgspec.json.Decoder(_StoredHold, dec_hook=_array)
+_DECODER = msgspec.json.Decoder(_StoredHold, dec_hook=_array)

@@ -27,22 +27,27 @@ from app.errors import Message
 from app.rig import quaternion
 from app.rig.carriage import Upright, upright
 from app.rig.grip_problem import seed_turn, travel
+from app.rig.hold_file import usual_wrists
 from app.rig.landmarks import JAW_MORPHS
 from app.rig.lips import fit_lips
 from app.rig.model import Character, InstrumentModel
 from app.rig.skeleton import forward, rest_positions
 from app.rig.skinning import landmark_joints, landmark_positions, mesh_named
 from app.rig.stature import arm_m, arm_size, hand_size
-from instrument_maps.model import FINGERS, Contact, Hand, HandSeed, InstrumentMap
+from instrument_maps.model import FINGERS, Carriage, Contact, Hand, HandSeed, InstrumentMap
 from instrument_maps.size import scaled
 from metadata.load import load_skeleton
 from metadata.model import Body
 
 FloatArray = npt.NDArray[np.float64]
 
-REACH_SHARE, CARRIED_SHARE = 1.10, 1.70
-"""A palm at its seed is at most so far from the shoulder, as a multiple of the arm: the hand will lie nearer, and on a
-slide, far out, shoulders and trunk help. What the instruments ask of our own grown-ups, about."""
+REACH_SHARE, CARRIED_SHARE = 0.95, 1.70
+"""A wrist is at most so far from its shoulder, as a multiple of the arm; on a slide, far out, shoulders and trunk help.
+What the instruments ask of our own grown-ups, about."""
+LOWERED, WORTH = (0.0, 0.5, 1.0, -0.5), 0.02
+"""Shares of the way to its lowest carriage that an instrument is tried at: another than usual has to be worth it."""
+SAME = (0.95, 1.06)
+"""Hands of so many times a grown-up's play a grown-up's instrument."""
 STEP = 0.01
 """Sizes are looked at so far apart."""
 BENDS = 0.5
@@ -68,10 +73,9 @@ def suited(character: Character, instrument: InstrumentMap, body: Body, model: C
         Loads the map's model; asked only where arms are short.
     """
     held, told = _touched(character, instrument)
-    size = _size(character, held, body, model)
-    if size != 1.0:
-        held = scaled(held, size)
-        told = (Message("character.instrument_size", {"percent": round(100.0 * size)}), *told)
+    held = _carried(character, held, body, model)
+    if held.size != 1.0:
+        told = (Message("character.instrument_size", {"percent": round(100.0 * held.size)}), *told)
     return Suited(held, told)
 
 
@@ -91,7 +95,7 @@ def _touched(character: Character, instrument: InstrumentMap) -> tuple[Instrumen
             told.append(Message("character.no_fingers", {"side": side}))
     if "lips.contact" not in character.landmarks:
         told.append(Message("character.no_lips", {}))
-    elif not _mouth_opens(character):
+    elif not mouth_opens(character):
         told.append(Message("character.lips_still", {}))
     if contacts is instrument.contacts and hands is instrument.hands:
         return instrument, tuple(told)
@@ -128,54 +132,89 @@ def _bends(character: Character, side: Hand, finger: str) -> bool:
     return float((mesh.weights[mark.vertices] * own).sum(axis=1).mean()) > BENDS
 
 
-def _mouth_opens(character: Character) -> bool:
+def mouth_opens(character: Character) -> bool:
+    """Whether a character has a mouth, and a morph that opens it."""
+    if "lips.contact" not in character.landmarks:
+        return False
     mesh = mesh_named(character, character.landmarks["lips.contact"].mesh)
     return any(morph.name in JAW_MORPHS for morph in mesh.morphs)
 
 
-def _size(character: Character, instrument: InstrumentMap, body: Body, model: Callable[[], InstrumentModel]) -> float:
-    """The size nearest to 1 at which hands of this size play and both arms reach; where they never do, the one at which
-    they come nearest."""
+def _carried(
+    character: Character, instrument: InstrumentMap, body: Body, model: Callable[[], InstrumentModel]
+) -> InstrumentMap:
+    """The instrument of the size nearest to 1 at which hands of this size play and both arms reach, moved within the
+    range of its carriage where that lets it be larger; where they never reach, as near as they come."""
     low, high = instrument.hold.size_range
-    wanted = min(max(hand_size(character.skeleton), low), high)
-    arms = [arm_size(character.skeleton, seed.hand) for seed in instrument.hands]
-    if min(arms, default=1.0) < 1.0:
-        sizes = np.append(np.arange(wanted, low, -STEP), low)
-        stand = upright(character, instrument, body, fit_lips(character, instrument, body))
-        asked = np.max(
-            [_asked(character, instrument, model(), seed, stand, sizes) for seed in instrument.hands], axis=0
-        )
+    hands = hand_size(character.skeleton)
+    wanted = 1.0 if SAME[0] < hands < SAME[1] else round(min(max(hands, low), high), 2)
+    if min((arm_size(character.skeleton, seed.hand) for seed in instrument.hands), default=1.0) == 1.0:
+        return scaled(instrument, wanted)
+    sizes = np.append(np.arange(wanted, low, -STEP), low)
+    mouth = fit_lips(character, instrument, body)
+    best, found = (-np.inf, 0.0), instrument
+    for share in LOWERED:
+        moved = _lowered(instrument, share)
+        stand = upright(character, moved, body, mouth)
+        asked = np.max([_asked(character, moved, model, seed, stand, sizes) for seed in moved.hands], axis=0)
         reached = np.flatnonzero(asked <= 1.0)
-        wanted = float(sizes[reached[0] if len(reached) else int(asked.argmin())])
-    return round(wanted, 2)
+        row = reached[0] if len(reached) else int(asked.argmin())
+        judged = (-max(float(asked[row]), 1.0), float(sizes[row]))
+        if judged > (best[0] + WORTH, best[1]) or (judged[0] >= best[0] and judged[1] > best[1] + WORTH):
+            best, found = judged, moved
+    return scaled(found, round(best[1], 2))
+
+
+def _lowered(instrument: InstrumentMap, share: float) -> InstrumentMap:
+    """The instrument usually carried so much nearer to the lowest (its bell down) of its range."""
+
+    def lower(carriage: Carriage | None) -> Carriage | None:
+        if carriage is None:
+            return None
+        highest, usual, lowest = carriage.pitch_down_deg
+        return msgspec.structs.replace(carriage, pitch_down_deg=(highest, usual + share * (lowest - usual), lowest))
+
+    if share == 0.0:
+        return instrument
+    hold = instrument.hold
+    hold = msgspec.structs.replace(hold, standing=lower(hold.standing), seated=lower(hold.seated))
+    return msgspec.structs.replace(instrument, hold=hold)
 
 
 def _asked(
     character: Character,
     instrument: InstrumentMap,
-    model: InstrumentModel,
+    model: Callable[[], InstrumentModel],
     seed: HandSeed,
     stand: Upright,
     sizes: FloatArray,
 ) -> FloatArray:
-    """How much of what an arm can do each size (S,) asks of it; where it is beyond 1 the hand is not reached."""
-    skeleton = character.skeleton
+    """How much of what an arm can do each size (S,) asks of it; where it is beyond 1 the hand is not reached.
+
+    The palm lies where a grown-up's does, if somebody's hold is known, else where its seed is.
+    """
+    skeleton, side = character.skeleton, seed.hand
     rim_m = np.asarray(instrument.mouthpiece.position_m)
     mouth_m = stand.instrument_m + quaternion.rotate(stand.instrument_rotation, rim_m)
     back = quaternion.conjugate(stand.instrument_rotation)
-    shoulder_m = quaternion.rotate(back, stand.joints_m[skeleton.index(f"{seed.hand}UpperArm")] - mouth_m)
-    place_m = model.node_positions_m[model.node_names.index(seed.node)] + seed.palm_position_m - rim_m
-    carrier = next((control for control in instrument.controls if control.node == seed.node), None)
-    asked = np.zeros(len(sizes))
-    for way_m, share in (
-        (np.zeros(3), REACH_SHARE),
-        (np.zeros(3) if carrier is None else travel(carrier), CARRIED_SHARE),
-    ):
-        wrists_m = np.multiply.outer(sizes, place_m + way_m) - quaternion.rotate(
-            seed_turn(seed), _palm_m(character, seed.hand)
+    shoulder_m = quaternion.rotate(back, stand.joints_m[skeleton.index(f"{side}UpperArm")] - mouth_m)
+    palm_m = _palm_m(character, side)
+    known = usual_wrists(instrument.id).get(side)
+    if known is None:
+        nodes = model()
+        place_m, turn = (
+            nodes.node_positions_m[nodes.node_names.index(seed.node)] + seed.palm_position_m,
+            seed_turn(seed),
         )
-        far_m = np.linalg.norm(wrists_m - shoulder_m, axis=1)
-        asked = np.maximum(asked, far_m / (share * arm_m(skeleton, seed.hand)))
+    else:
+        wrist_m, turn = known
+        place_m = wrist_m + quaternion.rotate(turn, palm_m / hand_size(skeleton))
+    carrier = next((control for control in instrument.controls if control.node == seed.node), None)
+    ways_m = np.zeros((2, 3)) if carrier is None else np.stack([np.zeros(3), travel(carrier)])
+    asked = np.zeros(len(sizes))
+    for way_m, share in zip(ways_m, (REACH_SHARE, CARRIED_SHARE), strict=True):
+        wrists_m = np.multiply.outer(sizes, place_m - rim_m + way_m) - quaternion.rotate(turn, palm_m)
+        asked = np.maximum(asked, np.linalg.norm(wrists_m - shoulder_m, axis=1) / (share * arm_m(skeleton, side)))
     return asked
 
 

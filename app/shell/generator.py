@@ -51,6 +51,10 @@ REST_WHILE_PLAYING = 1.0
 """While the performance plays the worker rests this many times as long as it worked."""
 
 
+def _goes_on() -> bool:
+    return False
+
+
 class Generator(QObject):
     """Makes performance and motion of a session's project, until it is closed.
 
@@ -80,6 +84,10 @@ class Generator(QObject):
         """Number of the newest that was shown, or would be of no use: older ones are dropped."""
         self._long = False
         """Whether a long planning is under way."""
+        self._holding: frozenset[tuple[str, str]] = frozenset()
+        """Characters and instruments whose holds are being found ..."""
+        self._hold_stopped: StopWanted = _goes_on
+        """... and whether the person has stopped that."""
         self._ready = -1.0
         self.live = LiveMotion(session.performance)
         """The motion of all players: the viewport draws `LiveMotion.pose`."""
@@ -128,6 +136,9 @@ class Generator(QObject):
         except AppError as error:
             self._session.notice(error.message, Severity.ERROR)
             return
+        if performance.unheld:
+            self._hold_told(performance)
+            return
         self._asked += 1
         notes = performance.unplanned_notes
         if notes > TOLD_NOTES:
@@ -154,6 +165,26 @@ class Generator(QObject):
             self.live.show(performance)
             for player_id in self._session.players[:1]:
                 self.live.make_now(player_id, self._session.playhead_s)
+
+    def _hold_told(self, performance: Performance) -> None:
+        """Find out first how instruments are held that nobody held before, then plan what the project is by then. Where
+        the person stops that, the plans before stay, and the next edit asks again."""
+        wanted = frozenset((player.character_id, player.instrument_id) for player in performance.unheld)
+        if wanted <= self._holding and not self._hold_stopped():
+            return
+        self._holding, self._hold_stopped = wanted, _goes_on
+
+        def work(progress: Progress, stop_wanted: StopWanted) -> None:
+            self._hold_stopped = stop_wanted
+            performance.hold(stop_wanted, progress)
+
+        def ended() -> None:
+            # Also what was stopped because other players came has ended then: theirs go on.
+            if self._holding is wanted:
+                self._holding = frozenset()
+
+        name = Message("work.hold", {"players": len(performance.unheld)})
+        self._tasks.run(name, work, lambda _: self._plan_again(), key="hold", ended=ended)
 
     def _plan_told(self, performance: Performance) -> None:
         number = self._asked

@@ -1588,6 +1588,10 @@
             <translation>{players} 人の演奏を組み立てています</translation>
         </message>
         <message>
+            <source>finding out how {players} players hold their instruments</source>
+            <translation>{players} 人の楽器の持ち方を計算しています</translation>
+        </message>
+        <message>
             <source>reading your instruments</source>
             <translation>自分の楽器を読み込んでいます</translation>
         </message>

@@ -12,15 +12,19 @@ import pytest
 from pytestqt.qtbot import QtBot
 
 from app.errors import Message
+from app.performance import bodies
 from app.performance.chunks import Pose
 from app.performance.ensemble import Performance
 from app.performance.live import LiveMotion
 from app.plan.corrections import AddExpression, AddGesture, SetEmbouchure
+from app.project.edit import players
 from app.project.edit.corrections import put
+from app.rig.character_library import character_named
 from app.shell import generator as module
 from app.shell.commands.problems import go_to_problem
 from app.shell.generator import Generator
 from app.shell.tasks import ThreadTasks
+from tests.support.bodies import playing as odd_bodies
 from widgets.common.session import Session, Severity
 from widgets.common.text import message_text
 from widgets.timeline.axis import TimeAxis
@@ -259,3 +263,48 @@ def test_a_broken_contact_is_listed_walked_and_gone_when_it_is_mended(
         session.document.undo()
     assert session.problems(player.id) == before
     assert lane.problems == before
+
+
+def test_how_a_new_body_holds_an_instrument_is_found_beside_the_window(
+    session: Session, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    here, where, go = threading.current_thread(), list[threading.Thread](), threading.Event()
+    ours = bodies.hold_for
+
+    def slow(character, model, instrument, body, told=lambda share: None):  # type: ignore[no-untyped-def]
+        if character.id != "unmarked":
+            return ours(character, model, instrument, body)
+        where.append(threading.current_thread())
+        while not go.wait(0.01):
+            told(0.5)
+        return ours(character_named("woman_adult"), model, instrument, body)
+
+    monkeypatch.setattr(bodies, "hold_for", slow)
+    monkeypatch.setattr(bodies, "_HELD", set())
+    with odd_bodies():
+        tasks = ThreadTasks()
+        generator = Generator(session, tasks)
+        try:
+            before = session.performance
+            first = session.project.players[0]
+            session.apply(EDIT, players.change(session.project, [first.id], character_id="unmarked"))
+            qtbot.waitUntil(lambda: bool(where), timeout=10_000)
+            assert where[0] is not here
+            assert session.performance is before
+            # Another edit meanwhile begins nothing again, and is not lost.
+            _correct(session, 0.8)
+            # Stopped, the plans before stay; the next edit asks again.
+            tasks.cancel(tasks.running[0])
+            qtbot.waitUntil(lambda: not tasks.running, timeout=10_000)
+            assert len(where) == 1
+            assert not generator.up_to_date
+            _correct(session, 0.7)
+            qtbot.waitUntil(lambda: len(where) == 2, timeout=10_000)
+            go.set()
+            qtbot.waitUntil(lambda: generator.up_to_date, timeout=20_000)
+            assert session.performance.plan(session.project.players[0]).embouchures[20].tension == 0.7
+            assert all(thread is not here for thread in where)
+        finally:
+            go.set()
+            generator.close()
+            tasks.cancel_all(1.0)
