@@ -23,8 +23,6 @@ from app.rig.figure import Figure
 from app.rig.model import Character, Mesh
 
 CENTIMETRES = 100.0
-HIPS = "hips"
-"""The joint whose translation a motion gives."""
 
 
 def character_scene(
@@ -86,8 +84,7 @@ def character_clip(
 ) -> Clip:
     """What the bones and the face do. Our own root stays at the origin; only the hips are moved."""
     if target.choice == "suisou":  # every bone is its joint: there is nothing to work out
-        hips = character.skeleton.index(HIPS)
-        bones = BoneMotion(motion.rotations, {hips: motion.hips_m.astype(np.float64)})
+        bones = BoneMotion(motion.rotations, {target.hips: motion.hips_m.astype(np.float64)})
     else:
         bones = bone_motion(target, character.skeleton, motion)
     return Clip(

@@ -18,7 +18,6 @@ from app.rig.model import Character, Landmark
 FloatArray = npt.NDArray[np.float64]
 
 _CHUNK = 4096
-_HIPS = "hips"
 _TRUNK = ("spine", "chest", "upperChest", "neck", "head")
 
 
@@ -46,7 +45,7 @@ class JointPlayback:
         if absent:
             raise ValueError(f"the file lacks bones of the skeleton that it was written on: {', '.join(absent)}")
         self._bones = {joint: place[target.names[bone]] for joint, bone in target.bone_of_joint.items()}
-        self._moved = {place[target.names[bone]] for bone in target.tied}
+        self._moved = {place[target.names[bone]] for bone in (target.hips, *target.tied)}
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -63,9 +62,8 @@ class JointPlayback:
     @cached_property
     def rigid(self) -> npt.NDArray[np.bool_]:
         """Bones (B,) whose length must stay: all but the hips, their roots and what is tied to another bone."""
-        moved = self._moved | {self.bone(_HIPS)}
         parents = self.playback.parents
-        return np.array([parent >= 0 and bone not in moved for bone, parent in enumerate(parents)])
+        return np.array([parent >= 0 and bone not in self._moved for bone, parent in enumerate(parents)])
 
     @cached_property
     def rotations(self) -> FloatArray:

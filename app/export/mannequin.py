@@ -17,7 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from app.export.own_skeleton import limb_twist
-from app.export.target import TargetSkeleton, Twist, local_placements
+from app.export.target import HIPS, TargetSkeleton, Twist, local_placements
 from app.rig import quaternion
 from app.rig.figure import Figure
 from app.rig.figure_character import REQUIRED_JOINTS
@@ -187,7 +187,19 @@ def mannequin_target(skeleton: Skeleton, asset: MannequinAxes | None = None) -> 
     joint_from_bone = np.where((np.array(joint_of_bone) >= 0)[:, None], turned, quaternion.IDENTITY)
     twists = _twists(skeleton, places)
     joint_from_bone[list(twists)] = turned[list(twists)]
-    return TargetSkeleton("ue5", names, parents, offsets, rest, t_pose, joint_of_bone, joint_from_bone, twists, tied)
+    return TargetSkeleton(
+        "ue5",
+        names,
+        parents,
+        offsets,
+        rest,
+        t_pose,
+        joint_of_bone,
+        joint_from_bone,
+        twists,
+        tied,
+        hips=joint_of_bone.index(skeleton.index(HIPS)),
+    )
 
 
 def _places(skeleton: Skeleton, joint_of_bone: tuple[int, ...], tied: Mapping[int, int]) -> FloatArray:

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from app.errors import Message
-from app.export.target import TargetSkeleton, Twist, world_placements
+from app.export.target import HIPS, TargetSkeleton, Twist, world_placements
 from app.rig import quaternion
 from app.rig.figure import Figure, OwnSkeleton
 from app.rig.model import Character, Skeleton
@@ -67,6 +67,7 @@ def own_target(character: Character) -> TargetSkeleton:
         tuple(joint_of_bone),
         joint_from_bone,
         twists,
+        hips=own.bone_of_joint[character.skeleton.index(HIPS)],
     )
     if has_armature(figure):
         return _without_armature(target, figure)
@@ -146,6 +147,7 @@ def _without_armature(target: TargetSkeleton, figure: Figure) -> TargetSkeleton:
         target.joint_of_bone[1:],
         target.joint_from_bone[1:],
         {bone - 1: twist for bone, twist in target.twists.items()},
+        hips=target.hips - 1,
         messages=(
             Message(
                 "skeleton.armature_left_out",
@@ -171,5 +173,6 @@ def _with_root(target: TargetSkeleton, figure: Figure) -> TargetSkeleton:
         (-1, *target.joint_of_bone),
         np.concatenate([unturned, target.joint_from_bone]),
         {bone + 1: twist for bone, twist in target.twists.items()},
+        hips=target.hips + 1,
         messages=(Message("skeleton.root_added", {"file": figure.file, "root": name, "bones": tops}),),
     )

@@ -28,7 +28,8 @@ SkeletonChoice: TypeAlias = Literal["suisou", "own", "ue5"]
 STEADY_M = 5e-6
 """A bone that leaves its place on its parent by no more than this is not moved: that much is rounding."""
 _CHUNK = 4096
-_HIPS = "hips"
+HIPS = "hips"
+"""The joint whose translation a motion gives."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,6 +78,8 @@ class TargetSkeleton:
         By bone.
     tied : mapping of int to int
         Bones that are where another, earlier one is.
+    hips : int
+        The bone that a motion moves.
     messages : tuple of Message
         What had to be changed.
     """
@@ -91,6 +94,7 @@ class TargetSkeleton:
     joint_from_bone: FloatArray
     twists: Mapping[int, Twist] = field(default_factory=dict)
     tied: Mapping[int, int] = field(default_factory=dict)
+    hips: int = 0
     messages: tuple[Message, ...] = ()
 
     @cached_property
@@ -167,9 +171,8 @@ def bone_motion(target: TargetSkeleton, skeleton: Skeleton, motion: Motion) -> B
             if bone in translations:
                 translations[bone][span] = translation_m
                 wanders[bone] |= bool(np.abs(translation_m - target.offsets_m[bone]).max(initial=0.0) > STEADY_M)
-    hips = target.bone_of_joint.get(skeleton.index(_HIPS))
     return BoneMotion(
-        rotations, {bone: values for bone, values in translations.items() if wanders[bone] or bone == hips}
+        rotations, {bone: values for bone, values in translations.items() if wanders[bone] or bone == target.hips}
     )
 
 
@@ -217,4 +220,5 @@ def normalised_target(skeleton: Skeleton) -> TargetSkeleton:
         unturned,
         tuple(range(count)),
         unturned,
+        hips=skeleton.index(HIPS),
     )

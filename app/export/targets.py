@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+
+import numpy as np
 
 from app.errors import FileError, Message
 from app.export.check_skeleton import Difference, check_skeleton, told
 from app.export.mannequin import mannequin_axes, mannequin_target
 from app.export.own_skeleton import own_target
-from app.export.target import SkeletonChoice, TargetSkeleton, normalised_target
+from app.export.target import SkeletonChoice, TargetSkeleton, local_placements, normalised_target
 from app.performance.bodies import character_of
 from app.project.model import Player
+from app.rig import quaternion
 from app.rig.figure import Figure
 from app.rig.model import Character, Mesh
 
@@ -62,9 +65,24 @@ def checked_targets(
     """The skeleton of every player, by id, compared with an asset's."""
     result = {}
     for player in players:
-        target = target_skeleton(character_of(player), choice, asset)
-        result[player.id] = CheckedTarget(target, () if asset is None else check_skeleton(target, asset))
+        character = character_of(player)
+        target = target_skeleton(character, choice, asset)
+        compared = () if asset is None else check_skeleton(_as_bound(character, target), asset)
+        result[player.id] = CheckedTarget(target, compared)
     return result
+
+
+def _as_bound(character: Character, target: TargetSkeleton) -> TargetSkeleton:
+    """A target at rest where its mesh is bound, which is the rest pose that Unreal and our reader take.
+
+    Ours is in the T-pose as its nodes say and bound in an A-pose; any other is compared as it is.
+    """
+    if target.choice != "suisou":
+        return target
+    world_from_joint = np.linalg.inv(character.joint_from_mesh).astype(np.float64)
+    turned = quaternion.from_matrix(world_from_joint[:, :3, :3])
+    offsets, rest = local_placements(target.parents, world_from_joint[:, :3, 3], turned)
+    return replace(target, offsets_m=offsets, rest=rest)
 
 
 def refuse_grave(

@@ -17,6 +17,7 @@ TEMPLATES: Final[dict[str, str]] = {
     "work.portraits": "drawing the characters' portraits",
     "work.stream": "looking for {host}",
     "work.export": "writing the files",
+    "work.compare_skeleton": "comparing the skeletons with {file}",
     "work.export_midi": "writing the MIDI file",
     "work.playblast": "making the film",
     "work.synthesise": "making the sound",

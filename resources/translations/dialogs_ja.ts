@@ -48,6 +48,10 @@
         <translation>ファイル</translation>
     </message>
     <message>
+        <source>Skeleton</source>
+        <translation>スケルトン</translation>
+    </message>
+    <message>
         <source>Range</source>
         <translation>範囲</translation>
     </message>
@@ -1045,6 +1049,65 @@
     <message>
         <source>Used by: {names}. Assigning takes it away there.</source>
         <translation>使用中: {names}。割り当てると、そちらから外れます。</translation>
+    </message>
+</context>
+<context>
+    <name>SkeletonChooser</name>
+    <message>
+        <source>The skeletons are being compared.</source>
+        <translation>スケルトンを比較しています。</translation>
+    </message>
+    <message>
+        <source>There is no file of this name to compare with.</source>
+        <translation>比較する相手のファイルが見つかりません。</translation>
+    </message>
+    <message>
+        <source>The asset has another skeleton: its animation would be lost or spoilt.</source>
+        <translation>アセットのスケルトンが異なります。アニメーションが失われるか、崩れます。</translation>
+    </message>
+    <message>
+        <source>Comparing...</source>
+        <translation>比較しています…</translation>
+    </message>
+    <message>
+        <source>✓ Every bone is as in the asset.</source>
+        <translation>✓ すべてのボーンがアセットと一致します。</translation>
+    </message>
+    <message>
+        <source>With an FBX of the mannequin exported from Unreal, its rest rotations are taken. Without one the axes are the usual ones: use Unreal&apos;s IK retargeter.</source>
+        <translation>Unreal から書き出したマネキンの FBX を指定すると、そのレスト回転を使います。指定しない場合は一般的な軸になるため、Unreal の IK リターゲッタを使ってください。</translation>
+    </message>
+    <message>
+        <source>and {count} more</source>
+        <translation type="unfinished">ほか {count} 件</translation>
+    </message>
+    <message>
+        <source>File of the asset</source>
+        <translation>アセットのファイル</translation>
+    </message>
+    <message>
+        <source>Characters</source>
+        <translation>キャラクター</translation>
+    </message>
+    <message>
+        <source>Of the character&apos;s own file</source>
+        <translation>キャラクターのファイルのまま</translation>
+    </message>
+    <message>
+        <source>Unreal Engine 5 mannequin</source>
+        <translation>Unreal Engine 5 マネキン</translation>
+    </message>
+    <message>
+        <source>Suisou (VRM 1.0)</source>
+        <translation>Suisou（VRM 1.0）</translation>
+    </message>
+    <message>
+        <source>FBX of the asset to compare with (optional)</source>
+        <translation>比較するアセットの FBX（任意）</translation>
+    </message>
+    <message>
+        <source>Choose...</source>
+        <translation type="unfinished">選択...</translation>
     </message>
 </context>
 <context>

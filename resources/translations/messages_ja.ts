@@ -1620,6 +1620,10 @@
             <translation>ファイルを書き出しています</translation>
         </message>
         <message>
+            <source>comparing the skeletons with {file}</source>
+            <translation>スケルトンを {file} と比較中</translation>
+        </message>
+        <message>
             <source>writing the MIDI file</source>
             <translation>MIDI ファイルの書き出し</translation>
         </message>

@@ -36,10 +36,12 @@ from app.export.report import Report
 from app.export.run import REPORT, Request, export, file_names, sound_name
 from app.performance.ensemble import Performance
 from app.performance.span import bars_span, whole_span
+from app.project.model import Player
 from widgets.common.session import Session
 from widgets.common.tasks import Progress, StopWanted
 from widgets.common.text import message_text
 from widgets.common.tokens import LEAST_TARGET_PX
+from widgets.dialogs.export_skeleton import SkeletonChooser
 
 RATES = tuple(map(Fraction, ("24", "25", "30000/1001", "30", "48", "50", "60000/1001", "60", "120")))
 SHOW_MS = 50
@@ -138,6 +140,7 @@ class ExportDialog(QDialog):
         self._choose = QPushButton()
         self._choose.setAutoDefault(False)
         self._choose.clicked.connect(self._choose_folder)
+        self._skeleton = SkeletonChooser(session, self._chosen_players)
         self._files = QLabel()
         self._files.setObjectName("export_outcome")
         self._files.setWordWrap(True)
@@ -165,11 +168,11 @@ class ExportDialog(QDialog):
         self._timer.timeout.connect(self._show_share)
 
         self._labels = {
-            name: QLabel() for name in ("players", "files", "range", "preroll", "rate", "folder", "outcome")
+            name: QLabel() for name in ("players", "files", "skeleton", "range", "preroll", "rate", "folder", "outcome")
         }
         self._lay_out()
         for signal in (
-            self._players.itemChanged,
+            self._skeleton.changed,
             self._folder.textChanged,
             self._range.currentIndexChanged,
             self._first_bar.valueChanged,
@@ -177,6 +180,7 @@ class ExportDialog(QDialog):
             *(box.toggled for box in (*self._formats.values(), self._sound)),
         ):
             signal.connect(self._show_outcome)
+        self._players.itemChanged.connect(self._show_players)
         self.retranslate()
 
     def _lay_out(self) -> None:
@@ -203,6 +207,7 @@ class ExportDialog(QDialog):
         form = QFormLayout()
         form.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
         form.addRow(self._labels["files"], formats)
+        form.addRow(self._labels["skeleton"], self._skeleton)
         form.addRow(self._labels["range"], bars)
         form.addRow(self._labels["preroll"], self._preroll)
         form.addRow(self._labels["rate"], self._rate)
@@ -250,10 +255,9 @@ class ExportDialog(QDialog):
             if bars is None
             else bars_span(performance, fps, bars, self._preroll.value())
         )
-        wanted = set(self.player_ids)
         return Request(
             performance=performance,
-            players=tuple(player for player in project.players if player.id in wanted),
+            players=self._chosen_players(),
             folder=Path(self._folder.text()),
             formats=self.formats,
             span=span,
@@ -261,7 +265,13 @@ class ExportDialog(QDialog):
             source=self._source,
             creator=self._creator,
             sound=self._sound.isChecked(),
+            skeleton=self._skeleton.choice,
+            asset=self._skeleton.asset,
         )
+
+    def _chosen_players(self) -> tuple[Player, ...]:
+        wanted = set(self.player_ids)
+        return tuple(player for player in self._project.players if player.id in wanted)
 
     # Doing it
 
@@ -323,7 +333,8 @@ class ExportDialog(QDialog):
     def _enable(self, enabled: bool) -> None:
         for widget in (
             *(self._players, self._everybody, self._range, self._first_bar, self._last_bar, self._preroll),
-            *(self._rate, self._folder, self._choose, self._export, self._sound, *self._formats.values()),
+            *(self._skeleton, self._rate, self._folder, self._choose, self._export, self._sound),
+            *self._formats.values(),
         ):
             widget.setEnabled(enabled)
         for name in self._missing:
@@ -344,6 +355,10 @@ class ExportDialog(QDialog):
 
     # What will come of it
 
+    def _show_players(self) -> None:
+        self._skeleton.compare()
+        self._show_outcome()
+
     def _show_outcome(self) -> None:
         ticked = self._range.currentData() == _BARS
         for widget in (self._first_bar, self._dash, self._last_bar):
@@ -358,6 +373,8 @@ class ExportDialog(QDialog):
             problem = self.tr("The last bar comes before the first one.")
         elif not folder:
             problem = self.tr("Choose a folder.")
+        else:
+            problem = self._skeleton.problem
         self._export.setEnabled(not problem and not self._running)
         if problem:
             self._files.setText(problem)
@@ -381,6 +398,7 @@ class ExportDialog(QDialog):
         texts = {
             "players": self.tr("Players"),
             "files": self.tr("Files"),
+            "skeleton": self.tr("Skeleton"),
             "range": self.tr("Range"),
             "preroll": self.tr("Pre-roll"),
             "rate": self.tr("Frames per second"),

@@ -1,0 +1,147 @@
+"""The skeleton of an export, chosen by mouse and keys and held against an asset's file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication, QComboBox, QLabel, QLineEdit, QPushButton
+from pytestqt.qtbot import QtBot
+
+from app.export.character import character_scene
+from app.export.targets import target_skeleton
+from app.formats.fbx.write import write_scene
+from app.performance.bodies import character_of
+from app.performance.ensemble import Performance
+from app.performance.motion import player_motion
+from app.performance.span import cut_span
+from tests.gui.japanese import FromFiles
+from widgets.common.session import Session
+from widgets.dialogs.export_files import ExportDialog
+
+
+@pytest.fixture
+def dialog(session: Session, qtbot: QtBot, tmp_path: Path) -> ExportDialog:
+    dialog = ExportDialog(session, tmp_path / "out", "quartet.mid", "Suisou test")
+    dialog.show()
+    for row in range(1, dialog._players.count()):
+        dialog._players.item(row).setCheckState(Qt.CheckState.Unchecked)
+    return dialog
+
+
+@pytest.fixture
+def mannequin(session: Session, tmp_path: Path) -> Path:
+    """A file of a mannequin that one of the players would fit."""
+    player = session.project.players[0]
+    performance = Performance(session.project)
+    motion = player_motion(performance, player, cut_span(performance.time_frame, session.project.fps, 0.0, 0.1))
+    character = character_of(player)
+    target = target_skeleton(character, "ue5")
+    write_scene(tmp_path / "mannequin.fbx", character_scene(character, motion, "x", "test", target))
+    return tmp_path / "mannequin.fbx"
+
+
+def choose(dialog: ExportDialog, key: Qt.Key) -> None:
+    box = dialog.findChild(QComboBox, "export_skeleton")
+    assert box is not None
+    QTest.keyClick(box, key)
+
+
+def name(dialog: ExportDialog, path: Path) -> None:
+    field = dialog.findChild(QLineEdit, "export_asset")
+    assert field is not None
+    field.setFocus()
+    field.selectAll()
+    QTest.keyClicks(field, str(path))
+
+
+def told(dialog: ExportDialog) -> str:
+    label = dialog.findChild(QLabel, "export_differences")
+    assert label is not None
+    return label.text()
+
+
+def can_start(dialog: ExportDialog) -> bool:
+    button = dialog.findChild(QPushButton, "export_start")
+    assert button is not None
+    return button.isEnabled()
+
+
+def test_a_request_has_what_is_chosen(dialog: ExportDialog, mannequin: Path) -> None:
+    assert dialog._request().skeleton == "own"
+    choose(dialog, Qt.Key.Key_Down)
+    assert "IK retargeter" in told(dialog)
+    name(dialog, mannequin)
+    request = dialog._request()
+    assert (request.skeleton, request.asset) == ("ue5", mannequin)
+
+
+def test_an_asset_that_fits_is_said_to_fit(dialog: ExportDialog, mannequin: Path, qtbot: QtBot) -> None:
+    choose(dialog, Qt.Key.Key_Down)
+    name(dialog, mannequin)
+    qtbot.waitUntil(lambda: "✓" in told(dialog))
+    assert can_start(dialog)
+
+
+def test_an_asset_that_would_lose_the_animation_is_refused(dialog: ExportDialog, mannequin: Path, qtbot: QtBot) -> None:
+    name(dialog, mannequin)
+    qtbot.waitUntil(lambda: "⚠" in told(dialog))
+    assert "the asset has no bone hips: what it does would be lost" in told(dialog).casefold().replace("⚠ ", "")
+    assert "more" in told(dialog)
+    assert not can_start(dialog)
+    field = dialog.findChild(QLineEdit, "export_asset")
+    assert field is not None
+    field.clear()
+    assert can_start(dialog)
+    assert told(dialog) == ""
+
+
+def test_a_file_that_is_none_is_named(dialog: ExportDialog, tmp_path: Path, qtbot: QtBot) -> None:
+    name(dialog, tmp_path / "absent.fbx")
+    outcome = dialog.findChild(QLabel, "export_outcome")
+    assert outcome is not None
+    assert "no file of this name" in outcome.text()
+    assert not can_start(dialog)
+    (tmp_path / "broken.fbx").write_bytes(b"Kaydara FBX Binary  \x00\x1a\x00 and nothing more")
+    name(dialog, tmp_path / "broken.fbx")
+    qtbot.waitUntil(lambda: "broken.fbx" in outcome.text())
+    assert not can_start(dialog)
+
+
+def test_what_was_chosen_meanwhile_counts(dialog: ExportDialog, mannequin: Path) -> None:
+    """An answer to a question that is not asked any more changes nothing."""
+    name(dialog, mannequin)
+    chooser = dialog._skeleton
+    assert chooser._wanted is not None
+    old = chooser._wanted
+    choose(dialog, Qt.Key.Key_Down)
+    before = dict(chooser._checked)
+    chooser._found((old, {}, None))
+    assert chooser._checked == before
+
+
+def test_both_languages(dialog: ExportDialog, qt_app: QApplication) -> None:
+    box = dialog.findChild(QComboBox, "export_skeleton")
+    assert box is not None
+    assert box.itemText(1) == "Unreal Engine 5 mannequin"
+    japanese = FromFiles("dialogs", "messages")
+    qt_app.installTranslator(japanese)
+    try:
+        dialog._skeleton.retranslate()
+        assert box.itemText(1) == "Unreal Engine 5 マネキン"
+    finally:
+        qt_app.removeTranslator(japanese)
+
+
+def test_our_own_file_is_an_asset_that_fits_ours(
+    dialog: ExportDialog, session: Session, tmp_path: Path, qtbot: QtBot
+) -> None:
+    """Bound in an A-pose, as Unreal sees it, though its bones stand in a T-pose."""
+    player = session.project.players[0]
+    performance = Performance(session.project)
+    motion = player_motion(performance, player, cut_span(performance.time_frame, session.project.fps, 0.0, 0.1))
+    write_scene(tmp_path / "ours.fbx", character_scene(character_of(player), motion, "x", "test"))
+    name(dialog, tmp_path / "ours.fbx")
+    qtbot.waitUntil(lambda: "✓" in told(dialog))

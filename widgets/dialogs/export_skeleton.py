@@ -1,0 +1,201 @@
+"""What an export is written on: which skeleton, which asset it is for, and in what the two differ."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TypeAlias
+
+from PySide6.QtCore import QEvent, QSize, Signal
+from PySide6.QtWidgets import (
+    QComboBox,
+    QFileDialog,
+    QHBoxLayout,
+    QLabel,
+    QLineEdit,
+    QPushButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from app.errors import AppError, Message
+from app.export.target import SkeletonChoice
+from app.export.targets import CheckedTarget, checked_targets
+from app.project.model import Player
+from app.rig.read_figure import SUFFIXES, read_figure
+from widgets.common.session import Session
+from widgets.common.tasks import Progress, StopWanted
+from widgets.common.text import sentence
+
+Wanted: TypeAlias = tuple[SkeletonChoice, Path | None, tuple[str, ...]]
+"""Choice, asset, and the characters of the players."""
+Found: TypeAlias = tuple[Wanted, dict[str, CheckedTarget], AppError | None]
+CHOICES: tuple[SkeletonChoice, ...] = ("own", "ue5", "suisou")
+MOST_LINES = 5
+_KEY = "compare_skeleton"
+
+
+class SkeletonChooser(QWidget):
+    """A choice of skeleton and an optional file of the asset; says beside the window's work what differs.
+
+    Parameters
+    ----------
+    session : Session
+    players : callable
+        Those that are to be exported.
+    parent : QWidget, optional
+    """
+
+    changed = Signal()
+
+    def __init__(
+        self, session: Session, players: Callable[[], tuple[Player, ...]], parent: QWidget | None = None
+    ) -> None:
+        super().__init__(parent)
+        self._session, self._players = session, players
+        self._wanted: Wanted | None = None
+        """What the last comparison was of: what it found for anything else is out of date."""
+        self._checked: dict[str, CheckedTarget] = {}
+        self._error: AppError | None = None
+        self._comparing = False
+        self._box = QComboBox()
+        self._box.setObjectName("export_skeleton")
+        for choice in CHOICES:
+            self._box.addItem("", choice)
+        self._asset = QLineEdit()
+        self._asset.setObjectName("export_asset")
+        self._asset.setClearButtonEnabled(True)
+        self._choose = QPushButton()
+        self._choose.setAutoDefault(False)
+        self._choose.clicked.connect(self._choose_asset)
+        self._told = QLabel()
+        self._told.setObjectName("export_differences")
+        self._told.setWordWrap(True)
+        asset = QHBoxLayout()
+        asset.addWidget(self._asset, 1)
+        asset.addWidget(self._choose)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.addWidget(self._box)
+        layout.addLayout(asset)
+        layout.addWidget(self._told)
+        self._box.currentIndexChanged.connect(self.compare)
+        self._asset.textChanged.connect(self.compare)
+        self.retranslate()
+
+    @property
+    def choice(self) -> SkeletonChoice:
+        """The skeleton chosen."""
+        return CHOICES[self._box.currentIndex()]
+
+    @property
+    def asset(self) -> Path | None:
+        """The asset's file; None where none is named."""
+        text = self._asset.text().strip()
+        return Path(text) if text else None
+
+    @property
+    def problem(self) -> str:
+        """Why nothing can be written yet; empty where nothing is in the way."""
+        if self._comparing:
+            return self.tr("The skeletons are being compared.")
+        if self._error is not None:
+            return sentence(self._error.message)
+        if self.asset is not None and not self.asset.is_file():
+            return self.tr("There is no file of this name to compare with.")
+        if any(difference.grave for checked in self._checked.values() for difference in checked.differences):
+            return self.tr("The asset has another skeleton: its animation would be lost or spoilt.")
+        return ""
+
+    def compare(self) -> None:
+        """Compare what is chosen with the asset's file, in the background."""
+        players, choice, asset = self._players(), self.choice, self.asset
+        # Typing a path gives many that are none; reading what was read already tells nothing new.
+        wanted = (choice, asset, tuple(player.character_id for player in players))
+        if wanted == self._wanted:
+            return
+        self._wanted, self._checked, self._error = wanted, {}, None
+        self._comparing = asset is not None and asset.is_file()
+        if self._comparing and asset is not None:
+            name = Message("work.compare_skeleton", {"file": asset.name})
+            self._session.tasks.run(name, _comparison(wanted, players, choice, asset), self._found, key=_KEY)
+        self._show()
+
+    def _found(self, found: Found) -> None:
+        wanted, checked, error = found
+        if wanted == self._wanted:  # something else may have been chosen meanwhile
+            self._checked, self._error, self._comparing = checked, error, False
+            self._show()
+
+    def _show(self) -> None:
+        lines: list[str] = []
+        if self._comparing:
+            lines = [self.tr("Comparing...")]
+        elif self.asset is not None and self._checked:
+            lines = self._differences() or [self.tr("✓ Every bone is as in the asset.")]
+        elif self.asset is None and self.choice == "ue5":
+            lines = [
+                self.tr(
+                    "With an FBX of the mannequin exported from Unreal, its rest rotations are taken. Without one the "
+                    "axes are the usual ones: use Unreal's IK retargeter."
+                )
+            ]
+        if len(lines) > MOST_LINES:
+            lines = [*lines[: MOST_LINES - 1], self.tr("and {count} more").format(count=len(lines) - MOST_LINES + 1)]
+        self._told.setText("\n".join(lines))
+        self._told.setVisible(bool(lines))
+        self.changed.emit()
+
+    def _differences(self) -> list[str]:
+        """One line per difference; players of the same character differ alike."""
+        names = {player.id: player.name for player in self._players()}
+        said: dict[str, list[str]] = {}
+        for player, checked in self._checked.items():
+            for message in checked.messages:
+                said.setdefault(sentence(message), []).append(names.get(player, ""))
+        everybody = len(self._checked)
+        return [f"⚠ {text}" if len(who) == everybody else f"⚠ {', '.join(who)}: {text}" for text, who in said.items()]
+
+    def _choose_asset(self) -> None:
+        patterns = " ".join(f"*{suffix}" for suffix in SUFFIXES)
+        folder = str(self.asset.parent) if self.asset is not None else ""
+        chosen, _ = QFileDialog.getOpenFileName(
+            self, self.tr("File of the asset"), folder, self.tr("Characters") + f" ({patterns})"
+        )
+        if chosen:
+            self._asset.setText(chosen)
+
+    def retranslate(self) -> None:
+        """Set every text anew."""
+        texts: dict[SkeletonChoice, str] = {
+            "own": self.tr("Of the character's own file"),
+            "ue5": self.tr("Unreal Engine 5 mannequin"),
+            "suisou": self.tr("Suisou (VRM 1.0)"),
+        }
+        for index, choice in enumerate(CHOICES):
+            self._box.setItemText(index, texts[choice])
+        self._asset.setPlaceholderText(self.tr("FBX of the asset to compare with (optional)"))
+        self._choose.setText(self.tr("Choose..."))
+        self._show()
+
+    def sizeHint(self) -> QSize:
+        return QSize(360, super().sizeHint().height())
+
+    def changeEvent(self, event: QEvent) -> None:
+        if event.type() == QEvent.Type.LanguageChange:
+            self.retranslate()
+        super().changeEvent(event)
+
+
+def _comparison(
+    wanted: Wanted, players: tuple[Player, ...], choice: SkeletonChoice, asset: Path
+) -> Callable[[Progress, StopWanted], Found]:
+    """The work of comparing: it knows nothing of the window."""
+
+    def work(progress: Progress, stop_wanted: StopWanted) -> Found:
+        try:
+            return wanted, checked_targets(players, choice, read_figure(asset)), None
+        except AppError as error:
+            return wanted, {}, error
+
+    return work
