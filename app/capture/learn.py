@@ -1,4 +1,4 @@
-"""Where a player's breath is, found from a few seconds of blowing."""
+"""Where a player's breath is, found from a few seconds of blowing, and the bite, from a few of biting."""
 
 from __future__ import annotations
 
@@ -10,9 +10,11 @@ from typing import Final
 
 import msgspec
 
-from metadata.model import BreathSource
+from metadata.model import BiteSource, BreathSource
 
 _CONTROLLERS: Final[dict[int, BreathSource]] = {2: "cc2", 7: "cc7", 11: "cc11"}
+_BITES: Final[tuple[BiteSource, ...]] = ("pitch_bend", "cc1", "channel_pressure")
+_STATUS: Final[dict[BiteSource, int]] = {"pitch_bend": 0xE, "cc1": 0xB, "channel_pressure": 0xD}
 _LEAST_VALUES: Final = 6
 _LEAST_RANGE: Final = 16
 _LARGEST_STEP: Final = 24
@@ -54,6 +56,36 @@ def learned(events: Iterable[tuple[int, bytes]], trusted: Sequence[BreathSource]
         (found for found, movement in moved.items() if movement >= _AS_MUCH * most),
         key=lambda found: (order.index(found.source), -moved[found], found.channel),
     )
+
+
+def learned_bite(
+    bitten: Iterable[tuple[int, bytes]], blown: Iterable[tuple[int, bytes]], breath: Learned
+) -> BiteSource | None:
+    """What moves most while somebody bites; None where nothing does.
+
+    Parameters
+    ----------
+    bitten, blown : iterable of (int, bytes)
+        Moments and messages while somebody bit, and while they blew before.
+    breath : Learned
+        What was found then. A pressure that moved with it doubles the breath.
+    """
+    moved = {source: _range(bitten, source, breath.channel) for source in _BITES if source != breath.source}
+    if _range(blown, "channel_pressure", breath.channel) >= _LEAST_RANGE:
+        moved.pop("channel_pressure", None)
+    source = max(moved, key=lambda source: moved[source])
+    return source if moved[source] >= _LEAST_RANGE else None
+
+
+def _range(events: Iterable[tuple[int, bytes]], source: BiteSource, channel: int) -> int:
+    values = [
+        message[-1]
+        for _, message in events
+        if (message[0] & 0x0F) + 1 == channel
+        and (message[0] >> 4 == _STATUS[source])
+        and (source != "cc1" or message[1] == 1)
+    ]
+    return max(values) - min(values) if len(set(values)) >= _LEAST_VALUES else 0
 
 
 def breath_value(message: bytes, source: BreathSource) -> int | None:

@@ -529,8 +529,12 @@
         <translation>機器から何も届きませんでした。電源は入っていますか?</translation>
     </message>
     <message>
-        <source>Found: {source} on channel {number}.</source>
-        <translation>検出: チャンネル {number} の {source}。</translation>
+        <source>Found: breath {source}, bite {bite}, channel {number}.</source>
+        <translation>検出しました: ブレスは {source}、バイトは {bite}、チャンネル {number}。</translation>
+    </message>
+    <message>
+        <source>Found: breath {source}, channel {number}. No bite came in.</source>
+        <translation>検出しました: ブレスは {source}、チャンネル {number}。バイトは届きませんでした。</translation>
     </message>
     <message>
         <source>Cancel</source>
@@ -543,6 +547,10 @@
     <message>
         <source>Blow now: soft, loud and soft again. {count} s</source>
         <translation>弱く、強く、また弱く吹いてください。あと {count} 秒</translation>
+    </message>
+    <message>
+        <source>Now blow evenly, bite and let go, several times. {count} s</source>
+        <translation>一定に吹きながら、リードを噛んで緩める動作を何度か繰り返してください。あと {count} 秒</translation>
     </message>
     <message>
         <source>{count} ms</source>
@@ -629,8 +637,8 @@
         <translation>測定...</translation>
     </message>
     <message>
-        <source>Finds with what the breath is sent, from {count} s of blowing. Escape cancels.</source>
-        <translation>{count} 秒間吹くと、ブレスがどのメッセージで送られるかを検出します。Esc でキャンセルします。</translation>
+        <source>Finds with what breath and bite are sent, from {count} s each. Escape cancels.</source>
+        <translation>それぞれ {count} 秒で、ブレスとバイトが何で送られるかを調べます。Escで取り消します。</translation>
     </message>
     <message>
         <source>Test Beep</source>

@@ -4,14 +4,28 @@ from __future__ import annotations
 
 import re
 import xml.etree.ElementTree as ET
+from collections.abc import Iterable
 from pathlib import Path
 
 from PySide6.QtCore import QObject, QTranslator
-from PySide6.QtWidgets import QAbstractButton, QComboBox, QLabel, QLineEdit, QTabWidget, QWidget
+from PySide6.QtWidgets import (
+    QAbstractButton,
+    QComboBox,
+    QDoubleSpinBox,
+    QGroupBox,
+    QLabel,
+    QLineEdit,
+    QListWidget,
+    QSpinBox,
+    QTabWidget,
+    QTreeWidget,
+    QWidget,
+)
 
 FOLDER = Path(__file__).parents[2] / "resources" / "translations"
 _FIELD = re.compile(r"{[^}|]*}")
 """Fields of a text; plurals ({count:note|notes}) are English."""
+_PARTS = re.compile(r"({[^}]*})")
 
 
 class FromFiles(QTranslator):
@@ -43,6 +57,16 @@ class FromFiles(QTranslator):
             source for (_, source, _), text in self.texts.items() if text != source and not _FIELD.search(source)
         )
 
+    def shown_in(self, texts: Iterable[str]) -> set[str]:
+        """Those of some texts that are English, their fields filled in or not."""
+        filled = [
+            re.compile("".join(".+" if part.startswith("{") else re.escape(part) for part in _PARTS.split(source)))
+            for (_, source, _), text in self.texts.items()
+            if text != source and _FIELD.search(source) and len(_FIELD.sub("", source).strip()) > 2
+        ]
+        english = self.english
+        return {text for text in texts if text in english or any(one.fullmatch(text) for one in filled)}
+
     # Qt's own names
 
     def isEmpty(self) -> bool:  # noqa: N802
@@ -65,6 +89,17 @@ def texts_of(widget: QWidget) -> set[str]:
             found.add(one.placeholderText())
         if isinstance(one, QComboBox):
             found |= {one.itemText(number) for number in range(one.count())}
+        if isinstance(one, QGroupBox):
+            found.add(one.title())
+        if isinstance(one, QSpinBox | QDoubleSpinBox):
+            found |= {one.prefix().strip(), one.suffix().strip()}
+        if isinstance(one, QListWidget):
+            found |= {one.item(row).text() for row in range(one.count())}
+        if isinstance(one, QTreeWidget):
+            items = [one.headerItem(), *(one.topLevelItem(row) for row in range(one.topLevelItemCount()))]
+            found |= {item.text(column) for item in items if item is not None for column in range(one.columnCount())}
+        if one.isWindow():
+            found.add(one.windowTitle())
         if isinstance(one, QTabWidget):
             found |= {one.tabText(number) for number in range(one.count())}
     return found - {""}

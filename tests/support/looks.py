@@ -30,7 +30,9 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.errors import Message
 from app.project.autosave import Autosave
+from app.project.edit.takes import add_takes, comp_whole
 from app.project.presence import Presence
 from app.project.recovery import Recoverable
 from app.score.read import read_contents
@@ -39,6 +41,7 @@ from app.shell.settings import Settings
 from instrument_maps.load import bundled_maps
 from tests.gui.shell.conftest import Answers
 from tests.support.real_work import LUTKIN
+from tests.support.takes import take_of
 from tests.support.tasks import ImmediateTasks
 from widgets.common.selection import EventKey, Selection
 from widgets.common.tokens import LEAST_TARGET_PX
@@ -232,11 +235,22 @@ class Look:
         self.session.set_players(tuple(one.id for one in self.session.project.players))
         self.at("players")
         self.session.set_players((player.id,))
+        self.takes(player.id)
         self.window._offer_recovery(Recoverable(self.folder / "a.suisou", None, "work", 1.0e9, 400))
         self.at("banner")
         self.window._ask_to_save_over(Path(f"{LUTKIN.stem}.suisou"), None)
         self.at("banner_long")
         self.window.banner.hide()
+
+    def takes(self, player_id: str) -> None:
+        """A take, in the timeline and in the inspector; taken out again."""
+        played = [(1.0 + 0.5 * beat, 1.45 + 0.5 * beat, 60 + beat, 0.7) for beat in range(8)]
+        project, (id,) = add_takes(self.session.project, player_id, [take_of(played)])
+        self.session.attempt(Message("edit.comp_before"), lambda _: comp_whole(project, player_id, id))
+        self.session.select(Selection(take=id))
+        self.at("take")
+        self.session.select(Selection())
+        self.session.document.undo()
 
     def dialogs(self) -> None:
         """Every dialog."""
@@ -249,6 +263,8 @@ class Look:
             "playblast": lambda: self.do("export.playblast"),
             "reimport": lambda: self.do("file.reimport"),
             "import": self._import,
+            "midi_devices": lambda: self.do("record.devices"),
+            "latency": self.window.show_latency,
         }
         for name, show in steps.items():
             show()

@@ -25,9 +25,10 @@ from PySide6.QtWidgets import (
 from app.audio.beep import BEEP_S, beep_track
 from app.audio.playback import Playback
 from app.audio.track import Mix
-from app.capture.learn import learned
+from app.capture.learn import Learned, learned, learned_bite
 from app.capture.protocol import Events
 from metadata.load import load_controllers
+from metadata.model import BiteSource
 from widgets.common.combo import Combo, Option
 from widgets.common.instrument_name import language
 from widgets.common.session import Session
@@ -75,6 +76,8 @@ class MidiDevicesDialog(QDialog):
         self._session, self._playback = session, playback
         playback.setParent(self)
         self._learning: list[tuple[int, bytes]] | None = None
+        self._blown: tuple[Learned, list[tuple[int, bytes]]] | None = None
+        """The breath that was found, and from what, while the bite is looked for."""
         self._left_s = 0
         self._listed: tuple[object, ...] = ()
         self._list = QTreeWidget()
@@ -202,12 +205,15 @@ class MidiDevicesDialog(QDialog):
             self._stop_learning()
             self._told.clear()
         else:
-            self._learning, self._left_s = [], LEARN_S
-            self._second.start()
-            self._show()
+            self._start_learning()
+
+    def _start_learning(self) -> None:
+        self._learning, self._left_s = [], LEARN_S
+        self._second.start()
+        self._show()
 
     def _stop_learning(self) -> None:
-        self._learning = None
+        self._learning = self._blown = None
         self._second.stop()
         self._show()
 
@@ -220,8 +226,11 @@ class MidiDevicesDialog(QDialog):
         if self._left_s > 0:
             self._show()
             return
-        recording, events = self._session.recording, self._learning or []
+        recording, events, blown = self._session.recording, self._learning or [], self._blown
         self._stop_learning()
+        if blown is not None:
+            self._learn_bite(blown[0], learned_bite(events, blown[1], blown[0]))
+            return
         found = learned(events, load_controllers()[recording.controller].breath)
         if found is None:
             why = self.tr("No breath came in. Blow harder, or turn breath sending on in the device, and try again.")
@@ -230,8 +239,18 @@ class MidiDevicesDialog(QDialog):
             self._tell(self._told, why, wrong=True)
             return
         self._wire(breath=found.source, channel=found.channel)
-        text = self.tr("Found: {source} on channel {number}.")
-        self._tell(self._told, text.format(source=source_name(found.source), number=found.channel))
+        self._blown = found, events
+        self._start_learning()
+
+    def _learn_bite(self, breath: Learned, bite: BiteSource | None) -> None:
+        """Say what was found; who has bitten nothing keeps what was known of the bite."""
+        if bite is not None:
+            self._wire(bite=bite)
+            text = self.tr("Found: breath {source}, bite {bite}, channel {number}.")
+        else:
+            text = self.tr("Found: breath {source}, channel {number}. No bite came in.")
+        names = {"source": source_name(breath.source), "bite": source_name(bite or "none")}
+        self._tell(self._told, text.format(**names, number=breath.channel))
 
     # What is shown
 
@@ -245,7 +264,7 @@ class MidiDevicesDialog(QDialog):
     def _show(self) -> None:
         recording = self._session.recording
         if self._learning is not None and recording.connection != "open":
-            self._learning = None
+            self._learning = self._blown = None
             self._second.stop()
             self._told.clear()
         self._show_devices()
@@ -254,7 +273,10 @@ class MidiDevicesDialog(QDialog):
         self._learn.setEnabled(is_open)
         self._learn.setText(self.tr("Cancel") if is_learning else self.tr("Learn by Blowing"))
         if is_learning:
-            self._tell(self._told, self.tr("Blow now: soft, loud and soft again. {count} s").format(count=self._left_s))
+            text = self.tr("Blow now: soft, loud and soft again. {count} s")
+            if self._blown is not None:
+                text = self.tr("Now blow evenly, bite and let go, several times. {count} s")
+            self._tell(self._told, text.format(count=self._left_s))
         self._late.setText(self.tr("{count} ms").format(count=f"{1000 * recording.latency_s:.0f}"))
 
     def _show_devices(self) -> None:
@@ -349,7 +371,7 @@ class MidiDevicesDialog(QDialog):
         self._late_name.setText(self.tr("Latency"))
         self._measure.setText(self.tr("Measure..."))
         self._learn.setToolTip(
-            self.tr("Finds with what the breath is sent, from {count} s of blowing. Escape cancels.").format(
+            self.tr("Finds with what breath and bite are sent, from {count} s each. Escape cancels.").format(
                 count=LEARN_S
             )
         )

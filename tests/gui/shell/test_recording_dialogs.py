@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+import re
 from typing import TypeVar
 
 import pytest
@@ -25,6 +26,8 @@ from app.errors import Message
 from app.score.take import Wiring
 from app.shell.recording import recorder_of
 from instrument_maps.library import all_maps
+from metadata.load import load_controllers
+from tests.gui.japanese import FromFiles, texts_of
 from tests.support.recorder import EWI
 from tests.support.studio import Studio
 from widgets.common.pitch import pitch_name
@@ -177,9 +180,14 @@ def test_where_the_breath_is_is_learned_by_blowing(studio: Studio) -> None:
     click(learn)
     assert told(dialog, "midi_learned").startswith("Blow now")
     swell(studio, channel=3, controller=11)
-    studio.wait(lambda: told(dialog, "midi_learned").startswith("Found"))
-    assert told(dialog, "midi_learned") == "Found: CC 11 (expression) on channel 3."
+    studio.wait(lambda: told(dialog, "midi_learned").startswith("Now blow evenly"))
     assert studio.session.recording.wiring == Wiring(3, "cc11", "pitch_bend")
+    for value in [*range(0, 100, 10), *range(100, 0, -10)]:
+        studio.link.play(bytes((0xB2, 11, 60 + value % 3)))
+        studio.link.play(bytes((0xB2, 1, value)))
+    studio.wait(lambda: told(dialog, "midi_learned").startswith("Found"))
+    assert told(dialog, "midi_learned") == "Found: breath CC 11 (expression), bite CC 1 (modulation), channel 3."
+    assert studio.session.recording.wiring == Wiring(3, "cc11", "cc1")
     assert part(dialog, QComboBox, "midi_breath_source").currentText() == "CC 11 (expression)"
     # It is remembered of this device.
     recorder = recorder_of(studio.session)
@@ -203,6 +211,17 @@ def test_escape_cancels_learning_and_leaves_the_dialog(studio: Studio) -> None:
     assert studio.session.recording.wiring == before
     QTest.keyClick(dialog, Qt.Key.Key_Escape)
     assert not dialog.isVisible()
+
+
+def test_who_does_not_bite_keeps_what_was_known_of_the_bite(studio: Studio) -> None:
+    dialog = devices(studio)
+    click(part(dialog, QPushButton, "midi_learn"))
+    swell(studio)
+    studio.wait(lambda: told(dialog, "midi_learned").startswith("Now blow evenly"))
+    swell(studio)
+    studio.wait(lambda: told(dialog, "midi_learned").startswith("Found"))
+    assert told(dialog, "midi_learned").endswith("No bite came in.")
+    assert studio.session.recording.wiring == Wiring(1, "cc2", "pitch_bend")
 
 
 def test_nothing_blown_is_nothing_learned(studio: Studio) -> None:
@@ -242,11 +261,55 @@ def test_the_status_line_says_how_the_device_stands_and_opens_the_dialog(studio:
 
 
 def test_the_dialogs_speak_japanese(studio: Studio) -> None:
+    assert not FromFiles("dialogs").faults
+    known = FromFiles("dialogs", "common", "shell", "messages")
     dialog = devices(studio)
     studio.program.editor.speak("ja")
-    QApplication.processEvents()
-    assert dialog.windowTitle() == "MIDI機器"
-    studio.program.editor.speak("en")
+
+    def judge(shown: QWidget, state: str) -> None:
+        QApplication.processEvents()
+        texts = texts_of(shown)
+        assert not known.shown_in(texts), state
+        # Names, units and notes aside nothing is written in Latin letters alone.
+        plain = {text for text in texts if text.isascii() and re.search("[A-Za-z]{2}", text)}
+        titles = {found.title.ja for found in load_controllers().values()}
+        assert plain <= {EWI, USB, "ms", "C4", *titles} | {one for one in plain if one[:3] == "CC " or one[-3:] == " ms"}
+
+    try:
+        studio.link.play(bytes((0xB0, 2, 100)))
+        studio.link.play(bytes((0x90, 60, 90)))
+        studio.link.play(bytes((0xE0, 0, 70)))
+        studio.wait(lambda: told(dialog, "midi_note") == "C4")
+        judge(dialog, "played")
+        click(part(dialog, QPushButton, "midi_beep"))
+        judge(dialog, "beep")
+        click(part(dialog, QPushButton, "midi_learn"))
+        judge(dialog, "blow")
+        swell(studio)
+        studio.wait(lambda: dialog._blown is not None)
+        judge(dialog, "bite")
+        studio.wait(lambda: dialog._learning is None)
+        judge(dialog, "learned")
+        for news in (
+            [Lost(EWI, 0), Ports((USB,), (), "test")],
+            [Ports((), (), ""), Refused(Message("capture.no_system"))],
+            [Ports((EWI,), (), "test"), Refused(Message("capture.port_refused", {"port": EWI, "detail": "使用中"}))],
+        ):
+            studio.link.say(*news)
+            studio.wait(lambda: not studio.link.told)
+            judge(dialog, str(news))
+        dialog.close()
+        late = latency(studio)
+        judge(late, "no device")
+        studio.link.say(Back(EWI, 0))
+        studio.wait(lambda: studio.session.recording.connection == "open")
+        judge(late, "latency")
+        click(part(late, QPushButton, "latency_start"))
+        judge(late, "clicks")
+        QTest.keyClick(late, Qt.Key.Key_Escape)
+        judge(late, "stopped")
+    finally:
+        studio.program.editor.speak("en")
 
 
 # The latency

@@ -7,7 +7,7 @@ import random
 
 import pytest
 
-from app.capture.learn import Learned, breath_value, learned
+from app.capture.learn import Learned, breath_value, learned, learned_bite
 from metadata.load import load_controllers
 from metadata.model import BreathSource
 from tests.support.wind_player import phrase
@@ -66,3 +66,28 @@ def test_nothing_blown_is_nothing_learned() -> None:
 def test_the_synthetic_player_breathes_where_an_ewi_does(name: str) -> None:
     events = [(round(at_s * 1e9), message) for at_s, message in phrase([60, 62, 64, 65], ghosts=2)]
     assert learned(events, load_controllers()[name].breath) == Learned("cc2", 1)
+
+
+def bends(channel: int = 1) -> list[tuple[int, bytes]]:
+    return [(step, bytes((0xDF + channel, 0, 64 + 8 * (step % 7)))) for step in range(40)]
+
+
+@pytest.mark.parametrize(
+    ("bitten", "blown", "found"),
+    [
+        (bends(), [], "pitch_bend"),
+        ([(step, bytes((0xB0, 1, 9 * (step % 8)))) for step in range(40)], [], "cc1"),
+        ([(step, bytes((0xD0, 9 * (step % 8)))) for step in range(40)], [], "channel_pressure"),
+        # It moved with the breath before: that is the breath once more.
+        ([(step, bytes((0xD0, 9 * (step % 8)))) for step in range(40)],
+         [(step, bytes((0xD0, 3 * step))) for step in range(40)], None),
+        (bends(channel=2), [], None),
+        ([(step, bytes((0xE0, 0, 64 + step % 3))) for step in range(40)], [], None),
+        ([(step, bytes((0xB0, 7, 9 * (step % 8)))) for step in range(40)], [], None),
+        ([], [], None),
+    ],
+)  # fmt: skip
+def test_the_bite_is_what_moves_while_one_bites(
+    bitten: list[tuple[int, bytes]], blown: list[tuple[int, bytes]], found: str | None
+) -> None:
+    assert learned_bite(bitten, blown, Learned("cc2", 1)) == found
