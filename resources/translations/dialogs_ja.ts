@@ -1087,7 +1087,7 @@
     </message>
     <message>
         <source>and {count} more</source>
-        <translation type="unfinished">ほか {count} 件</translation>
+        <translation>ほか {count} 件</translation>
     </message>
     <message>
         <source>File of the asset</source>
@@ -1115,7 +1115,7 @@
     </message>
     <message>
         <source>Choose...</source>
-        <translation type="unfinished">選択...</translation>
+        <translation>選択...</translation>
     </message>
 </context>
 <context>
