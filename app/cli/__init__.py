@@ -11,6 +11,7 @@ import os
 import sys
 from collections.abc import Callable, Sequence
 
+import app.cli.characters
 import app.cli.edit
 import app.cli.export
 import app.cli.inspect
@@ -39,6 +40,8 @@ examples:
   suisou stream quartet.mid --player horn --loop
   suisou instruments
   suisou instruments scale trumpet_Bb
+  suisou characters check figure.vrm
+  suisou characters add figure.vrm --name "Ms Mori"
   suisou ports
   suisou record --port EWI --to take.mid --count-in 1 --tempo 96
 """
@@ -59,6 +62,7 @@ def parser() -> argparse.ArgumentParser:
     app.cli.export.add_command(commands)
     app.cli.midi.add_command(commands)
     app.cli.instruments.add_command(commands)
+    app.cli.characters.add_command(commands)
     app.cli.ports.add_command(commands)
     app.cli.record.add_command(commands)
     app.cli.stream.add_command(commands)

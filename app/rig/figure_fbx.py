@@ -32,8 +32,9 @@ def fbx_figure(path: Path) -> Figure:
     posed = np.array([node.world_from_node for node in content.nodes])
     world = rest_pose([node.parent for node in content.nodes], posed, bound)
     parts: list[Part] = []
+    hidden = _hidden(content.nodes)
     for mesh in content.meshes:
-        parts += _parts(mesh, content.nodes, world)
+        parts += _parts(mesh, content.nodes, world, hidden)
     nodes = Nodes(
         names=[node.name for node in content.nodes],
         parents=[node.parent for node in content.nodes],
@@ -63,8 +64,23 @@ def _bind_pose(content: FbxContent) -> Mapping[int, FloatArray]:
     return bound
 
 
-def _parts(mesh: FbxMesh, nodes: tuple[FbxNode, ...], world: FloatArray) -> list[Part]:
-    if not len(mesh.points) or not len(mesh.faces) or not mesh.nodes:
+def _hidden(nodes: tuple[FbxNode, ...]) -> frozenset[int]:
+    """Nodes that are not shown: invisible ones, and all levels of detail but the first of each group."""
+    hidden: set[int] = set()
+    grouped: set[int] = set()
+    for index, node in enumerate(nodes):
+        if node.parent in hidden or not node.visible:
+            hidden.add(index)
+        elif node.parent >= 0 and nodes[node.parent].kind == "LOD_GROUP":
+            if node.parent in grouped:
+                hidden.add(index)
+            grouped.add(node.parent)
+    return frozenset(hidden)
+
+
+def _parts(mesh: FbxMesh, nodes: tuple[FbxNode, ...], world: FloatArray, hidden: frozenset[int]) -> list[Part]:
+    shown = [node for node in mesh.nodes if node not in hidden]
+    if not len(mesh.points) or not len(mesh.faces) or not shown:
         return []
     clusters = [cluster for skin in mesh.skins for cluster in skin if len(cluster.points)]
     built, points = _triangulated(mesh)
@@ -76,7 +92,7 @@ def _parts(mesh: FbxMesh, nodes: tuple[FbxNode, ...], world: FloatArray) -> list
     count = len(built.positions_m)
     rigid = _with_skin(built, np.zeros((count, 1), np.int32), np.ones((count, 1), np.float32))
     parts = []
-    for node in mesh.nodes:
+    for node in shown:
         posed = nodes[node]
         if abs(np.linalg.det(posed.world_from_node)) > SINGULAR:
             place = world[node] @ np.linalg.inv(posed.world_from_node) @ posed.world_from_geometry

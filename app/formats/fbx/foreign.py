@@ -49,7 +49,8 @@ class FbxNode:
     parent : int
         -1: none.
     kind : str
-        What hangs on it: ``BONE``, ``MESH``, ``EMPTY``, ``CAMERA`` ...
+        What hangs on it: ``BONE``, ``MESH``, ``EMPTY``, ``CAMERA``, ``LOD_GROUP`` ...
+    visible : bool
     world_from_node, world_from_geometry : (4, 4) float64
         As the file poses it. The vertices of a mesh on the node are in its geometry's space.
     """
@@ -57,6 +58,7 @@ class FbxNode:
     name: str
     parent: int
     kind: str
+    visible: bool
     world_from_node: FloatArray
     world_from_geometry: FloatArray
 
@@ -207,6 +209,7 @@ def _content(content: dict[str, Any], arrays: dict[str, npt.NDArray[Any]]) -> Fb
             node["name"],
             node["parent"],
             node["kind"],
+            node["visible"],
             _matrix(node["world_from_node"]),
             _matrix(node["world_from_geometry"]),
         )

@@ -174,6 +174,7 @@ def read(path: str) -> tuple[dict[str, Any], dict[str, npt.NDArray[Any]]]:
             "parent": -1 if (parent := _keep(node.parent)) is None else parent.typed_id,
             "is_root": node.is_root,
             "kind": _keep(node.attrib_type).name,
+            "visible": bool(node.visible),
             "world_from_node": _matrix(node.node_to_world),
             "world_from_geometry": _matrix(node.geometry_to_world),
         }

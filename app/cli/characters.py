@@ -1,0 +1,207 @@
+"""``suisou characters``: list the characters, check whether a file's figure can play, add one."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from app.cli.options import Commands
+from app.errors import AppError, Message, UsageError
+from app.messages import text
+
+PLAYED = "clarinet_Bb"
+"""What a figure is checked with: it asks for nine fingers, two thumbs and lips."""
+
+
+class CannotPlayError(AppError):
+    """A checked figure cannot play; why has been printed."""
+
+
+def add_command(commands: Commands) -> None:
+    """Declare the sub-command."""
+    command = commands.add_parser(
+        "characters",
+        help="list the characters, check whether a file's figure can play, add one",
+        description="Lists the characters the program knows, bundled and your own. 'characters check FILE' says which "
+        "of its bones are which joints, which morphs make its face and what it will not play, 'characters add FILE' "
+        "copies a VRM, glTF (.glb) or FBX file into your own folder.",
+    )
+    command.add_argument("--json", action="store_true", help="print as JSON")
+    command.set_defaults(run=list_characters)
+    actions = command.add_subparsers(title="actions", metavar="ACTION")
+    check = actions.add_parser(
+        "check",
+        help="say what of a figure is what, what is missing and what will not be played",
+        description="Reads a figure and says what maps to what. Exit status 0: it can play, 1: it cannot.",
+    )
+    _add_file(check)
+    check.add_argument("--json", action="store_true", help="print as JSON")
+    check.set_defaults(run=check_character)
+    add = actions.add_parser(
+        "add",
+        help="copy a character's file into your own folder",
+        description="Copies a file whose figure can play into your own folder, with the corrections given, and prints "
+        "the id it is cast by.",
+    )
+    _add_file(add)
+    add.add_argument("--name", default="", metavar="NAME", help="what the character is called; else by its file")
+    add.set_defaults(run=add_character)
+
+
+def _add_file(command: argparse.ArgumentParser) -> None:
+    command.add_argument("file", type=Path, metavar="FILE", help="a .vrm, .glb, .gltf or .fbx file")
+    command.add_argument(
+        "--joint",
+        action="append",
+        default=[],
+        metavar="JOINT=BONE",
+        help="the bone that is a VRM 1.0 joint, against what is found; none after '=': there is no such joint",
+    )
+    command.add_argument(
+        "--morph",
+        action="append",
+        default=[],
+        metavar="SHAPE=MORPH[:WEIGHT][+...]",
+        help="what makes an ARKit shape of the face, e.g. jawOpen=Mouth_A:0.8+Teeth_A:0.8",
+    )
+
+
+def list_characters(arguments: argparse.Namespace) -> None:
+    """Print every character: id, title and file; then a person's own folder and what is wrong in it."""
+    from app.rig.character_library import character_library, character_problems
+
+    known = character_library()
+    rows = [
+        {"id": id, "title": source.entry.title if source.entry else "", "file": str(source.path), "own": id in known.own}
+        for id, source in known.sources.items()
+    ]
+    problems = {id: text(problem) for id, problem in character_problems().items()}
+    if arguments.json:
+        found = {"characters": rows, "folder": str(known.folder), "problems": problems}
+        print(json.dumps(found, ensure_ascii=False, indent=2))
+        return
+    for row in rows:
+        print(f"{row['id']}{'*' if row['own'] else ''}".ljust(28), row["title"] or row["id"])
+    print(f"\nyour own (*): {known.folder}")
+    for problem in problems.values():
+        print(f"  {problem}")
+
+
+def check_character(arguments: argparse.Namespace) -> None:
+    """Print what of a figure is what.
+
+    Raises
+    ------
+    CannotPlayError
+        It cannot play.
+    """
+    found = checked(arguments.file, joints_of(arguments.joint), morphs_of(arguments.morph))
+    print(json.dumps(found, ensure_ascii=False, indent=2) if arguments.json else as_text(found))
+    if not found["plays"]:
+        raise CannotPlayError("character.cannot_play", file=arguments.file.name)
+
+
+def add_character(arguments: argparse.Namespace) -> None:
+    """Add a character and print its id. Raises FileError, UsageError."""
+    from app.rig.character_library import add_character as add
+
+    print(add(arguments.file, arguments.name, joints_of(arguments.joint), morphs_of(arguments.morph)))
+
+
+def joints_of(texts: list[str]) -> dict[str, str]:
+    """Corrections of joints. Raises UsageError."""
+    found = {}
+    for given in texts:
+        joint, equals, bone = given.partition("=")
+        if not equals or not joint:
+            raise UsageError("characters.joint", text=given)
+        found[joint] = bone
+    return found
+
+
+def morphs_of(texts: list[str]) -> dict[str, dict[str, float]]:
+    """Corrections of the face. Raises UsageError."""
+    found: dict[str, dict[str, float]] = {}
+    for given in texts:
+        shape, equals, parts = given.partition("=")
+        if not equals or not shape:
+            raise UsageError("characters.morph", text=given)
+        found[shape] = {}
+        for part in filter(None, parts.split("+")):
+            name, colon, weight = part.rpartition(":")
+            try:
+                found[shape][name if colon else part] = float(weight) if colon else 1.0
+            except ValueError as error:
+                raise UsageError("characters.morph", text=given) from error
+    return found
+
+
+def checked(path: Path, joints: Mapping[str, str], morphs: Mapping[str, Mapping[str, float]]) -> dict[str, Any]:
+    """What of a file's figure is what, as JSON has it. Raises FileError where there is no figure in it."""
+    from app.rig.character import read_character
+    from app.rig.figure_character import REQUIRED_JOINTS, figure_character
+
+    reading = read_character(path, joints, morphs)
+    names = reading.figure.bone_names
+    lacking = [joint for joint in REQUIRED_JOINTS if joint not in reading.joints.bones]
+    told = list(reading.figure.notes)
+    if not lacking:
+        character = figure_character(reading.figure, path.stem, reading.joints.bones, reading.face.morphs)
+        told += _told(character)
+    return {
+        "file": str(path),
+        "kind": reading.figure.origin,
+        "plays": not lacking,
+        "bones": len(names),
+        "meshes": [mesh.name for mesh in reading.figure.meshes],
+        "names": reading.joints.profile,
+        "joints": {joint: names[bone] for joint, bone in reading.joints.bones.items()},
+        "missing_joints": list(reading.joints.missing),
+        "required_joints": lacking,
+        "doubtful_joints": list(reading.joints.doubtful),
+        "face": reading.face.profile,
+        "morphs": {shape: dict(own) for shape, own in reading.face.morphs.items()},
+        "missing_morphs": list(reading.face.missing),
+        "notes": [text(note) for note in told],
+    }
+
+
+def _told(character: Any) -> tuple[Message, ...]:
+    """What an animator should know of the character with an instrument."""
+    from app.rig.instrument import load_instrument
+    from app.rig.suited import suited
+    from instrument_maps.library import find_map, model_path
+    from metadata.load import load_body
+
+    played = find_map(PLAYED)
+    return suited(character, played, load_body(), lambda: load_instrument(model_path(played), played)).told
+
+
+def as_text(found: Mapping[str, Any]) -> str:
+    """What was found, for people."""
+    doubtful = set(found["doubtful_joints"])
+    by_what = {"": "by shape", "vrm0": "by the file (VRM 0.x)", "vrm1": "by the file (VRM 1.0)"}
+    lines = [
+        f"{found['file']}: {found['kind']}, {found['bones']} bones, {len(found['meshes'])} meshes",
+        "",
+        f"joints, {by_what.get(found['names'], found['names'])} (?: in doubt):",
+        *(f"  {joint.ljust(26)}{'?' if joint in doubtful else ' '} {bone}" for joint, bone in found["joints"].items()),
+    ]
+    if found["missing_joints"]:
+        lines += ["", f"joints without a bone: {', '.join(found['missing_joints'])}"]
+    lines += ["", f"face, {found['face'] or 'no known names'}:"]
+    for shape, own in found["morphs"].items():
+        lines.append(f"  {shape.ljust(26)}  {' + '.join(_share(name, weight) for name, weight in own.items())}")
+    if found["missing_morphs"]:
+        lines.append(f"shapes that nothing makes: {', '.join(found['missing_morphs'])}")
+    lines += ["", *found["notes"]]
+    if found["required_joints"]:
+        lines.append(f"It cannot play: no bone was found for {', '.join(found['required_joints'])}.")
+    return "\n".join(lines).rstrip()
+
+
+def _share(name: str, weight: float) -> str:
+    return name if weight == 1.0 else f"{name} x {weight:g}"

@@ -1,0 +1,84 @@
+"""`suisou characters`: what is printed of a figure, corrections by hand, adding."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from app.cli import main
+from app.cli.characters import joints_of, morphs_of
+from app.errors import UsageError
+from app.rig import character_library
+from app.rig.character_library import FOLDER_VARIABLE, characters
+
+DATA = Path(__file__).parents[2] / "data" / "characters"
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    own = tmp_path / "characters"
+    monkeypatch.setenv(FOLDER_VARIABLE, str(own))
+    monkeypatch.setattr(character_library, "_library", None)
+    return own
+
+
+@pytest.mark.parametrize("name", ["child_mixamo.fbx", "elder_vrm0.vrm", "toddler_vrm1.vrm", "woman_game_engine.glb", "man_cmu.fbx"])
+def test_a_figure_that_we_did_not_make_can_play(name: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["characters", "check", str(DATA / name), "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["plays"]
+    assert not found["required_joints"]
+    assert {"hips", "head", "leftHand", "rightFoot"} <= set(found["joints"])
+    assert main(["characters", "check", str(DATA / name)]) == 0
+    printed = capsys.readouterr().out
+    for bone in found["joints"].values():
+        assert bone in printed
+
+
+def test_what_lacks_a_joint_cannot_play_and_says_which(capsys: pytest.CaptureFixture[str]) -> None:
+    file = str(DATA / "child_mixamo.fbx")
+    assert main(["characters", "check", file, "--joint", "leftHand="]) == 1
+    assert "leftHand" in capsys.readouterr().out.splitlines()[-1]
+    assert main(["characters", "add", file, "--joint", "leftHand="]) == 1
+    assert main(["characters", "check", file, "--joint", "leftHand=no such bone"]) == 1
+    assert "no such bone" in capsys.readouterr().err
+
+
+def test_a_correction_is_kept_with_the_character(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = str(DATA / "toddler_vrm1.vrm")
+    given = ["--name", "The Baby", "--joint", "leftEye=", "--morph", "jawOpen=Fcl_MTH_A:0.5+Fcl_MTH_O:0.25"]
+    assert main(["characters", "add", file, *given]) == 0
+    assert capsys.readouterr().out.strip() == "the_baby"
+    assert "the_baby" in characters()
+    entry = character_library.character_library().own["the_baby"]
+    assert entry.joints == {"leftEye": ""}
+    assert entry.morphs == {"jawOpen": {"Fcl_MTH_A": 0.5, "Fcl_MTH_O": 0.25}}
+    character = character_library.character_named("the_baby")
+    assert character.own is not None
+    assert character.own.bone_of_joint[character.skeleton.index("leftEye")] == -1
+    assert character.own.morphs["jawOpen"] == {"Fcl_MTH_A": 0.5, "Fcl_MTH_O": 0.25}
+    assert main(["characters"]) == 0
+    printed = capsys.readouterr().out
+    assert "the_baby*" in printed
+    assert "The Baby" in printed
+    assert str(folder) in printed
+    assert main(["characters", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert [row["id"] for row in found["characters"] if row["own"]] == ["the_baby"]
+
+
+def test_a_file_that_is_no_figure_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "x.vrm").write_bytes(b"glTF")
+    assert main(["characters", "check", str(tmp_path / "x.vrm")]) == 1
+    assert "x.vrm" in capsys.readouterr().err
+    assert main(["characters", "add", str(tmp_path / "absent.fbx")]) == 1
+
+
+def test_corrections_are_read() -> None:
+    assert joints_of(["leftHand=Wrist=L", "jaw="]) == {"leftHand": "Wrist=L", "jaw": ""}
+    assert morphs_of(["jawOpen=a:b:0.5+c", "tongueOut="]) == {"jawOpen": {"a:b": 0.5, "c": 1.0}, "tongueOut": {}}
+    for wrong in ("leftHand", "=x"):
+        with pytest.raises(UsageError):
+            joints_of([wrong])
+    with pytest.raises(UsageError):
+        morphs_of(["jawOpen=a:b"])
