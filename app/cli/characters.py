@@ -75,7 +75,12 @@ def list_characters(arguments: argparse.Namespace) -> None:
 
     known = character_library()
     rows = [
-        {"id": id, "title": source.entry.title if source.entry else "", "file": str(source.path), "own": id in known.own}
+        {
+            "id": id,
+            "title": source.entry.title if source.entry else "",
+            "file": str(source.path),
+            "own": source.entry is not None,
+        }
         for id, source in known.sources.items()
     ]
     problems = {id: text(problem) for id, problem in character_problems().items()}

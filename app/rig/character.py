@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from app.rig.face_map import map_morphs
+from app.rig.face_map import FaceMapping, map_morphs
 from app.rig.figure import Figure
 from app.rig.figure_character import REQUIRED_JOINTS, figure_character
 from app.rig.humanoid import JointMapping, map_joints
@@ -41,13 +41,12 @@ class Reading:
     figure : Figure
         Upright, facing +Z.
     joints : JointMapping
-    morphs : mapping of str to mapping of str to float
-        By ARKit name: weights of the figure's morphs that make it.
+    face : FaceMapping
     """
 
     figure: Figure
     joints: JointMapping
-    morphs: Mapping[str, Mapping[str, float]]
+    face: FaceMapping
 
 
 def load_character(
@@ -79,7 +78,7 @@ def load_character(
             if _extras(source):
                 return _build(source, id or path.stem)
         reading = read_character(path, joints, morphs)
-        return figure_character(reading.figure, id or path.stem, reading.joints.bones, reading.morphs)
+        return figure_character(reading.figure, id or path.stem, reading.joints.bones, reading.face.morphs)
     except (KeyError, IndexError, TypeError, ValueError) as error:
         raise invalid(path, f"damaged: {error!r}") from error
 
@@ -102,7 +101,7 @@ def read_character(
         if facing is not figure:
             # Which side is left depends on where ahead is.
             figure, found = facing, map_joints(facing, joints)
-    return Reading(figure, found, map_morphs(figure, morphs).morphs)
+    return Reading(figure, found, map_morphs(figure, morphs))
 
 
 def _build(source: Source, id: str) -> Character:

@@ -1364,6 +1364,18 @@
             <translation>{file} に書かれた {name} が同じフォルダーにありません</translation>
         </message>
         <message>
+            <source>{file} cannot play; what it lacks is said above</source>
+            <translation>{file} は演奏できません。足りないものは上に示したとおりです</translation>
+        </message>
+        <message>
+            <source>{text!r} names no joint and its bone; write e.g. leftHand=Wrist_L</source>
+            <translation>{text!r} は関節とボーンの指定ではありません。leftHand=Wrist_L のように書いてください</translation>
+        </message>
+        <message>
+            <source>{text!r} names no shape and what makes it; write e.g. jawOpen=Mouth_A:0.8+Teeth_A:0.8</source>
+            <translation>{text!r} はシェイプとモーフの指定ではありません。jawOpen=Mouth_A:0.8+Teeth_A:0.8 のように書いてください</translation>
+        </message>
+        <message>
             <source>{file} is not valid; problems: {count}</source>
             <translation>{file} に問題が {count} 件あります</translation>
         </message>

@@ -22,7 +22,9 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return own
 
 
-@pytest.mark.parametrize("name", ["child_mixamo.fbx", "elder_vrm0.vrm", "toddler_vrm1.vrm", "woman_game_engine.glb", "man_cmu.fbx"])
+@pytest.mark.parametrize(
+    "name", ["child_mixamo.fbx", "elder_vrm0.vrm", "toddler_vrm1.vrm", "woman_game_engine.glb", "man_cmu.fbx"]
+)
 def test_a_figure_that_we_did_not_make_can_play(name: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["characters", "check", str(DATA / name), "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
