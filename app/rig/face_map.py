@@ -114,25 +114,22 @@ def _named(morphs: Iterable[str], known: set[str]) -> dict[str, list[str]]:
     """The morphs of each known name, whatever the maker put before and after all of them."""
     keys = {morph: morph_key(morph) for morph in morphs}
     affixes: dict[tuple[str, str], set[str]] = defaultdict(set)
-    affixes["", ""] = set(known)
     for key in keys.values():
         for name in known:
-            at = key.rfind(name) if len(name) >= SHORTEST_AFFIXED else -1
-            if at >= 0 and len(name) < len(key):
+            at = key.rfind(name) if len(name) >= SHORTEST_AFFIXED or name == key else -1
+            if at >= 0:
                 affixes[key[:at], key[at + len(name) :]].add(name)
-    common = [affix for affix, names in affixes.items() if len(names) >= LEAST_ALIKE]
+    if not affixes:
+        return {}
+    # What stands before may differ from mesh to mesh; what stands after is the maker's, the rest are correctives.
+    _, after = min(affixes, key=lambda affix: (-len(affixes[affix]), len(affix[0] + affix[1]), affix))
+    before = {start for start, end in affixes if end == after and len(affixes[start, end]) >= LEAST_ALIKE}
     found: dict[str, list[str]] = defaultdict(list)
     for morph, key in keys.items():
-        if key in known:
-            found[key].append(morph)
-            continue
-        inner = [
-            key[len(before) : len(key) - len(after)]
-            for before, after in common
-            if key.startswith(before) and key.endswith(after) and len(key) > len(before) + len(after)
-        ]
+        inner = [key[len(start) : len(key) - len(after)] for start in before if key.startswith(start)]
+        named = [name for name in inner if name in known] if key.endswith(after) else []
         # The longest name is the one meant: an eye's blink, not a blink.
-        name = max((name for name in inner if name in known), key=lambda name: (len(name), name), default="")
+        name = key if key in known else max(named, key=lambda name: (len(name), name), default="")
         if name:
             found[name].append(morph)
     return found

@@ -80,6 +80,7 @@ class _Found:
     astray: frozenset[str]
     """Joints whose bone is not below the bone of the joint above."""
     skinned: int
+    """How many of the bones move skin: controls and mechanics of a rig have the same names."""
 
     @property
     def required(self) -> int:
@@ -87,7 +88,7 @@ class _Found:
 
     @property
     def score(self) -> float:
-        return len(self.bones) + self.required - 2.0 * len(self.astray) + 0.001 * self.skinned
+        return len(self.bones) + self.required - 2.0 * len(self.astray) + 3.0 * self.skinned
 
 
 def map_joints(figure: Figure, wanted: Mapping[str, str] | None = None) -> JointMapping:

@@ -71,11 +71,13 @@ def figure_of(
     bones: Sequence[ListedBone],
     rename: Callable[[str], str] = lambda name: name,
     humanoid: dict[str, int] | None = None,
+    skinned: Sequence[str] = (),
 ) -> Figure:
-    """A figure without meshes; a parent must be before its children."""
+    """A figure, with a vertex for each of the skinned bones; a parent must be before its children."""
     at = {bone.name: index for index, bone in enumerate(bones)}
     parents = [at[bone.parent] if bone.parent else -1 for bone in bones]
     places = np.array([bone.place_m for bone in bones])
+    meshes = (_dots(places[[at[name] for name in skinned]], [at[name] for name in skinned]),) if skinned else ()
     return Figure(
         file="list",
         origin="vrm1" if humanoid else "gltf",
@@ -83,25 +85,31 @@ def figure_of(
         parents=tuple(parents),
         translations_m=places - np.where(np.array(parents)[:, None] >= 0, places[parents], 0.0),
         rotations=np.tile([0.0, 0.0, 0.0, 1.0], (len(bones), 1)),
-        meshes=(),
+        meshes=meshes,
         humanoid=humanoid or {},
+    )
+
+
+def _dots(places: np.ndarray, bones: Sequence[int], morphs: Sequence[Morph] = ()) -> Mesh:
+    """A mesh without triangles whose vertices each hang on one bone."""
+    count = len(bones)
+    return Mesh(
+        name="dots",
+        positions_m=places.astype(np.float32),
+        normals=np.tile(np.array([0.0, 0.0, 1.0], dtype=np.float32), (count, 1)),
+        uvs=np.zeros((count, 2), dtype=np.float32),
+        triangles=np.zeros((0, 3), dtype=np.int32),
+        triangle_materials=np.zeros(0, dtype=np.int32),
+        materials=(),
+        joints=np.array(bones, dtype=np.int32)[:, None],
+        weights=np.ones((count, 1), dtype=np.float32),
+        morphs=tuple(morphs),
     )
 
 
 def face_of(morphs: Sequence[str], expressions: dict[str, dict[str, float]] | None = None) -> Figure:
     """A figure of one bone whose mesh has morphs of these names."""
-    corners = np.eye(3, dtype=np.float32)
-    mesh = Mesh(
-        name="face",
-        positions_m=corners,
-        normals=corners,
-        uvs=np.zeros((3, 2), dtype=np.float32),
-        triangles=np.array([[0, 1, 2]], dtype=np.int32),
-        triangle_materials=np.zeros(1, dtype=np.int32),
-        materials=(),
-        joints=np.zeros((3, 1), dtype=np.int32),
-        weights=np.ones((3, 1), dtype=np.float32),
-        morphs=tuple(Morph(name, np.array([0], dtype=np.int32), corners[:1], None) for name in morphs),
-    )
+    place = np.array([[0.0, 1.5, 0.0]], dtype=np.float32)
+    mesh = _dots(place, [0], [Morph(name, np.array([0], dtype=np.int32), place, None) for name in morphs])
     bones = [ListedBone("head", "", (0.0, 1.5, 0.0), "head")]
     return replace(figure_of(bones), meshes=(mesh,), expressions=expressions or {})

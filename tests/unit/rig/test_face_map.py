@@ -109,6 +109,21 @@ def test_lashes_close_with_their_eyes() -> None:
     assert mapping.morphs["eyeBlinkRight"] == {lids[1]: 1.0, lashes[1]: 1.0}
 
 
+def test_correctives_are_not_the_shapes_they_correct() -> None:
+    own = [
+        "mouthSmileLeft",
+        "mouthSmileRight",
+        "jawOpen",
+        "mouthSmileLeft_fix1",
+        "mouthSmileRight_fix1",
+        "jawOpen_fix2",
+    ]
+    for prefix in ("", "head__"):
+        mapping = map_morphs(face_of([prefix + name for name in own]))
+        assert mapping.morphs["mouthSmileLeft"] == {f"{prefix}mouthSmileLeft": 1.0}
+        assert mapping.morphs["jawOpen"] == {f"{prefix}jawOpen": 1.0}
+
+
 def test_what_the_best_table_leaves_out_is_taken_from_others() -> None:
     """A face of VRoid Studio whose file says by an expression where it looks."""
     mapping = map_morphs(

@@ -136,6 +136,109 @@ def test_numbers_that_a_program_added_to_every_name_are_no_part_of_it() -> None:
     assert by_name(bones, mapping) == known(bones)
 
 
+def test_of_a_rig_the_bones_that_move_the_skin_are_taken() -> None:
+    """Controls, mechanics and originals have the same names; Rigify's deforming bones hang below the originals."""
+    own = listed("rigify")
+    bones = [ListedBone("root", "", (0.0, 0.0, 0.0), "")]
+    for bone in own:
+        for layer in ("", "ORG-", "MCH-", "DEF-"):
+            parent = f"{'ORG-' if layer == 'DEF-' else layer}{bone.parent}" if bone.parent else "root"
+            bones.append(replace(bone, name=f"{layer}{bone.name}", parent=parent, joint=""))
+    figure = figure_of(bones, skinned=[f"DEF-{bone.name}" for bone in own])
+    mapping = map_joints(figure)
+    assert by_name(bones, mapping) == {joint: f"DEF-{bone}" for joint, bone in known(own).items()}
+    assert mapping.profile == "rigify"
+    # They do not hang on one another: whoever looks is told.
+    assert "leftUpperArm" in mapping.doubtful
+
+
+SPELLINGS = {
+    "side last": ("unity", """
+        hips=Hips spine=Spine chest=Chest upperChest=Upper_Chest neck=Neck head=Head Shoulder=Shoulder.L
+        UpperArm=Upper_Arm.L LowerArm=Lower_Arm.L Hand=Hand.L UpperLeg=Upper_Leg.L LowerLeg=Lower_Leg.L Foot=Foot.L
+        Toes=Toes.L ThumbMetacarpal=Thumb_Proximal.L IndexProximal=Index_Proximal.L
+        LittleProximal=Little_Proximal.L"""),
+    "side first": ("unity", """
+        hips=hips spine=spine chest=chest head=head UpperArm=L_UpperArm LowerArm=L_LowerArm Hand=L_Hand
+        UpperLeg=L_UpperLeg LowerLeg=L_LowerLeg Foot=L_Foot Toes=L_Toe"""),
+    "cats": ("cats", """
+        hips=Hips spine=Spine chest=Chest neck=Neck head=Head Shoulder=Left_shoulder UpperArm=Left_arm
+        LowerArm=Left_elbow Hand=Left_wrist UpperLeg=Left_leg LowerLeg=Left_knee Foot=Left_ankle Toes=Left_toe
+        ThumbMetacarpal=Thumb0_L
+        ThumbProximal=Thumb1_L ThumbDistal=Thumb2_L IndexProximal=IndexFinger1_L"""),
+    "mmd tools": ("cats", """
+        hips=center spine=upper_body chest=upper_body2 neck=neck head=head Shoulder=shoulder_L UpperArm=arm_L
+        LowerArm=elbow_L Hand=wrist_L UpperLeg=leg_L LowerLeg=knee_L Foot=ankle_L Toes=toe_L ThumbMetacarpal=thumb0_L
+        IndexProximal=fore1_L RingProximal=third1_L"""),
+    "mmd": ("mmd", """
+        hips=センター spine=上半身 chest=上半身2 neck=首 head=頭 Shoulder=左肩 UpperArm=左腕 LowerArm=左ひじ Hand=左手首
+        UpperLeg=左足 LowerLeg=左ひざ Foot=左足首 Toes=左つま先 ThumbProximal=左親指１ ThumbDistal=左親指２
+        IndexProximal=左人指１ MiddleProximal=左中指１ RingProximal=左薬指１ LittleProximal=左小指１ Eye=左目"""),
+    "character creator": ("character_creator", """
+        hips=CC_Base_Hip spine=CC_Base_Waist chest=CC_Base_Spine01 upperChest=CC_Base_Spine02 neck=CC_Base_NeckTwist01
+        head=CC_Base_Head Shoulder=CC_Base_L_Clavicle UpperArm=CC_Base_L_Upperarm LowerArm=CC_Base_L_Forearm
+        Hand=CC_Base_L_Hand UpperLeg=CC_Base_L_Thigh LowerLeg=CC_Base_L_Calf Foot=CC_Base_L_Foot Toes=CC_Base_L_ToeBase
+        MiddleProximal=CC_Base_L_Mid1"""),
+    "biped": ("biped", """
+        hips=Bip001_Pelvis spine=Bip001_Spine chest=Bip001_Spine1 neck=Bip001_Neck head=Bip001_Head
+        Shoulder=Bip001_L_Clavicle UpperArm=Bip001_L_UpperArm LowerArm=Bip001_L_Forearm Hand=Bip001_L_Hand
+        UpperLeg=Bip001_L_Thigh LowerLeg=Bip001_L_Calf Foot=Bip001_L_Foot Toes=Bip001_L_Toe0
+        ThumbMetacarpal=Bip001_L_Finger0 ThumbProximal=Bip001_L_Finger01 IndexProximal=Bip001_L_Finger1
+        IndexIntermediate=Bip001_L_Finger11 IndexDistal=Bip001_L_Finger12"""),
+    "daz": ("daz", """
+        hips=hip spine=abdomenLower chest=chestLower upperChest=chestUpper neck=neckLower head=head Shoulder=lCollar
+        UpperArm=lShldrBend LowerArm=lForearmBend Hand=lHand UpperLeg=lThighBend LowerLeg=lShin Foot=lFoot Toes=lToe
+        ThumbMetacarpal=lThumb1 MiddleProximal=lMid1 LittleProximal=lPinky1"""),
+    "vroid": ("vroid", """
+        hips=J_Bip_C_Hips spine=J_Bip_C_Spine chest=J_Bip_C_Chest upperChest=J_Bip_C_UpperChest neck=J_Bip_C_Neck
+        head=J_Bip_C_Head Shoulder=J_Bip_L_Shoulder UpperArm=J_Bip_L_UpperArm LowerArm=J_Bip_L_LowerArm
+        Hand=J_Bip_L_Hand UpperLeg=J_Bip_L_UpperLeg LowerLeg=J_Bip_L_LowerLeg Foot=J_Bip_L_Foot Toes=J_Bip_L_ToeBase
+        ThumbMetacarpal=J_Bip_L_Thumb1 LittleProximal=J_Bip_L_Little1 Eye=J_Adj_L_FaceEye"""),
+    "unity-chan": ("mixamo", """
+        hips=Character1_Hips spine=Character1_Spine chest=Character1_Spine1 upperChest=Character1_Spine2
+        neck=Character1_Neck head=Character1_Head Shoulder=Character1_LeftShoulder UpperArm=Character1_LeftArm
+        LowerArm=Character1_LeftForeArm Hand=Character1_LeftHand UpperLeg=Character1_LeftUpLeg
+        LowerLeg=Character1_LeftLeg Foot=Character1_LeftFoot Toes=Character1_LeftToeBase
+        ThumbMetacarpal=Character1_LeftHandThumb1 RingProximal=Character1_LeftHandRing1"""),
+}  # fmt: skip
+"""Joints and names as other makers write them, put together by hand; of both sides the left."""
+OTHER_SIDE = (("Left", "Right"), ("左", "右"), ("_L_", "_R_"), (".L", ".R"), ("_L", "_R"))
+
+
+def other_side(name: str) -> str:
+    if name.startswith("L_") or not any(left in name for left, _ in OTHER_SIDE):
+        return {"l": "r", "L": "R"}[name[0]] + name[1:]
+    left, right = next((left, right) for left, right in OTHER_SIDE if left in name)
+    return name.replace(left, right)
+
+
+def spelt(pairs: str) -> list[ListedBone]:
+    """A body whose bones are called so."""
+    body, profile = {bone.joint: bone for bone in listed("rigify") if bone.joint}, load_skeleton()
+    names: dict[str, str] = {}
+    for joint, name in (pair.split("=") for pair in pairs.split()):
+        if joint[0].isupper():
+            names |= {f"left{joint}": name, f"right{joint}": other_side(name)}
+        else:
+            names[joint] = name
+    bones = [ListedBone("stage", "", (0.0, 0.0, 0.0), "")]
+    for joint in sorted(names, key=JOINTS.index):
+        above = profile.joint(joint).parent
+        while above not in names and above != "root":
+            above = profile.joint(above).parent
+        bones.append(ListedBone(names[joint], names.get(above, "stage"), body[joint].place_m, joint))
+    return bones
+
+
+@pytest.mark.parametrize(("profile", "pairs"), SPELLINGS.values(), ids=SPELLINGS)
+def test_names_as_other_makers_write_them(profile: str, pairs: str) -> None:
+    bones = spelt(pairs)
+    mapping = map_joints(figure_of(bones))
+    assert by_name(bones, mapping) == known(bones)
+    assert mapping.profile == profile
+    assert mapping.doubtful == ()
+
+
 def test_left_is_where_the_body_has_it() -> None:
     bones = listed("mixamo")
     mirrored = [replace(bone, place_m=(-bone.place_m[0], *bone.place_m[1:])) for bone in bones]
