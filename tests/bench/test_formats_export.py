@@ -21,6 +21,8 @@ from scipy.spatial.transform import Rotation
 
 from app.formats.bvh import write_bvh
 from app.formats.fbx import Bone, Clip, Material, MorphTarget, Scene, SkinnedMesh, write_scene
+from app.formats.gltf.write import write_glb
+from app.formats.usd import usd_installed, write_usd
 
 BONES, FRAMES, FPS = 60, 10_800, 60
 TOOL = Path(__file__).parent.parent / "support" / "blender_reference.py"
@@ -118,3 +120,26 @@ def test_bvh_is_five_times_faster_than_blender(blender: dict[str, float], tmp_pa
     )
     _say("BVH", ours, blender["bvh_s"], path, blender["bvh_bytes"])
     assert blender["bvh_s"] / ours >= 5
+
+
+@pytest.mark.bench
+def test_glb_takes_no_longer_than_fbx(tmp_path: Path) -> None:
+    scene, fbx, glb = _scene(), tmp_path / "ours.fbx", tmp_path / "ours.glb"
+    fbx_s = _median_s(lambda: write_scene(fbx, scene))
+    glb_s = _median_s(lambda: write_glb(glb, scene))
+    print(
+        f"\nGLB: {glb_s:.3f} s, {glb.stat().st_size / 1e6:.1f} MB; FBX: {fbx_s:.3f} s, {fbx.stat().st_size / 1e6:.1f} MB",
+        file=sys.stderr,
+    )
+    assert glb_s < fbx_s
+
+
+@pytest.mark.bench
+def test_usd_takes_at_most_five_times_as_long_as_fbx(tmp_path: Path) -> None:
+    if not usd_installed():
+        pytest.skip("usd-core is not installed")
+    scene, fbx, usd = _scene(), tmp_path / "ours.fbx", tmp_path / "ours.usdc"
+    fbx_s = _median_s(lambda: write_scene(fbx, scene))
+    usd_s = _median_s(lambda: write_usd(usd, scene))
+    print(f"\nUSD: {usd_s:.3f} s, {usd.stat().st_size / 1e6:.1f} MB; FBX: {fbx_s:.3f} s", file=sys.stderr)
+    assert usd_s < 5 * fbx_s

@@ -13,19 +13,25 @@ import pytest
 from app.export.character import character_scene
 from app.export.instrument import instrument_scene
 from app.export.playback import Playback, Surface
+from app.export.target import SkeletonChoice
+from app.export.targets import target_skeleton
 from app.formats.fbx.read import read_scene
 from app.formats.fbx.write import write_scene
 from app.formats.gltf.write import write_glb
 from app.formats.scene import Scene
 from app.formats.usd import usd_installed, write_usd
+from app.motion.model import Motion
 from app.performance.bodies import character_of, model_of
 from app.performance.ensemble import Performance
 from app.performance.motion import player_motion
 from app.performance.span import bars_span
+from app.rig.character import load_character
 from tests.gui.conftest import quartet_project
 from tests.support import readers
 from tests.support.skinned import GlbFile, Shown, UsdFile
+from tests.unit.formats import scenes
 
+FOREIGN = Path(__file__).parents[2] / "data" / "characters"
 RATES = [Fraction(24), Fraction(25), Fraction(30000, 1001), Fraction(30), Fraction(60)]
 BARS = (2, 3)
 WITHIN_CM = 0.01
@@ -109,6 +115,29 @@ def test_the_files_agree(performance: Performance, fps: Fraction, held: str, tmp
             f"surfaces {surfaces_cm * 1e4:.2f} um, weights {weights:.1e}",
             file=sys.stderr,
         )
+        assert max(joints_cm, surfaces_cm) < WITHIN_CM
+        assert weights < WEIGHTS_WITHIN
+
+
+@pytest.mark.skipif(not usd_installed(), reason="usd-core is not installed")
+@pytest.mark.parametrize("choice", ["own", "ue5"])
+@pytest.mark.parametrize("file", ["elder_vrm0.vrm", "child_mixamo.fbx", "woman_game_engine.glb"])
+def test_characters_of_other_makers_agree_on_their_skeletons(file: str, choice: SkeletonChoice, tmp_path: Path) -> None:
+    character = load_character(FOREIGN / file, "foreign")
+    turns = scenes.rotations(5, 6, len(character.skeleton.names), 0.3).astype(np.float32)
+    turns[:, 0] = [0, 0, 0, 1]
+    hips_m = np.tile(np.float32(character.skeleton.offsets_m[character.skeleton.index("hips")]), (6, 1))
+    known = {} if character.own is None else character.own.morphs
+    morphs = {name: np.linspace(0, 1, 6, dtype=np.float32) for name in known}
+    still = np.zeros((6, 3), np.float32), np.tile(np.float32([0, 0, 0, 1]), (6, 1))
+    motion = Motion(Fraction(30), 0.0, turns, hips_m, morphs, {}, *still)
+    scene = character_scene(character, motion, "take", "Suisou", target_skeleton(character, choice))
+    write_glb(tmp_path / "player.glb", scene)
+    write_usd(tmp_path / "player.usdc", scene)
+    glb, usd = GlbFile(tmp_path / "player.glb"), UsdFile(tmp_path / "player.usdc")
+    assert glb.names == usd.names == [bone.name for bone in scene.bones]
+    for frame in (0, 5):
+        joints_cm, surfaces_cm, weights = _compare(glb.shown(frame), usd.shown(frame))
         assert max(joints_cm, surfaces_cm) < WITHIN_CM
         assert weights < WEIGHTS_WITHIN
 

@@ -187,7 +187,9 @@ def test_several_formats_at_once_and_nothing_to_measure_without_fbx(tmp_path: Pa
     assert player["measures"] is None
     written = {path.name for path in (tmp_path / "out").iterdir()}
     assert written == {*player["files"].values(), "report.json"}
-    assert {"Hips", "LowerBack", "LeftForeArm", "leftIndexDistal"} <= set(read_bvh(tmp_path / "out" / "Trumpet 1.bvh").names)
+    assert {"Hips", "LowerBack", "LeftForeArm", "leftIndexDistal"} <= set(
+        read_bvh(tmp_path / "out" / "Trumpet 1.bvh").names
+    )
     model = read_glb(tmp_path / "out" / "Trumpet 1.glb")
     assert {node.name for node in model.nodes} >= {"root", "hips", "rightIndexDistal"}
     assert set(ARKIT_MORPHS) <= {morph.name for morph in model.meshes[0].primitives[0].morphs}
