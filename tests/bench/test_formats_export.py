@@ -128,7 +128,8 @@ def test_glb_takes_no_longer_than_fbx(tmp_path: Path) -> None:
     fbx_s = _median_s(lambda: write_scene(fbx, scene))
     glb_s = _median_s(lambda: write_glb(glb, scene))
     print(
-        f"\nGLB: {glb_s:.3f} s, {glb.stat().st_size / 1e6:.1f} MB; FBX: {fbx_s:.3f} s, {fbx.stat().st_size / 1e6:.1f} MB",
+        f"\nGLB: {glb_s:.3f} s, {glb.stat().st_size / 1e6:.1f} MB;"
+        f" FBX: {fbx_s:.3f} s, {fbx.stat().st_size / 1e6:.1f} MB",
         file=sys.stderr,
     )
     assert glb_s < fbx_s

@@ -273,7 +273,9 @@ def test_the_dialogs_speak_japanese(studio: Studio) -> None:
         # Names, units and notes aside nothing is written in Latin letters alone.
         plain = {text for text in texts if text.isascii() and re.search("[A-Za-z]{2}", text)}
         titles = {found.title.ja for found in load_controllers().values()}
-        assert plain <= {EWI, USB, "ms", "C4", *titles} | {one for one in plain if one[:3] == "CC " or one[-3:] == " ms"}
+        assert plain <= {EWI, USB, "ms", "C4", *titles} | {
+            one for one in plain if one[:3] == "CC " or one[-3:] == " ms"
+        }
 
     try:
         studio.link.play(bytes((0xB0, 2, 100)))
