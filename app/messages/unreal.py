@@ -34,6 +34,7 @@ TEMPLATES: Final[dict[str, str]] = {
         "{file} was written wrongly ({what}: {found}, not {wanted}); nothing was changed in the project; please report "
         "this"
     ),
+    "unreal.done": "files written into the Unreal project {project}: {count}",
     "unreal.formats": "--format is for a folder of files; an Unreal project gets what Unreal reads",
     "tree.busy": "{file}: another export into it is under way; wait until it has finished, then export again",
     "tree.refused": (

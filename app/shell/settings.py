@@ -280,6 +280,24 @@ class Settings:
         self._set("files/export_folder", value)
 
     @property
+    def unreal_project(self) -> str:
+        """The Unreal project that players were last exported into; empty: none."""
+        return self._get("files/unreal_project", "")
+
+    @unreal_project.setter
+    def unreal_project(self, value: str) -> None:
+        self._set("files/unreal_project", value)
+
+    @property
+    def export_into(self) -> str:
+        """Where players were last exported to: ``"folder"`` or ``"unreal"``."""
+        return self._get("files/export_into", "folder")
+
+    @export_into.setter
+    def export_into(self, value: str) -> None:
+        self._set("files/export_into", value)
+
+    @property
     def recent(self) -> tuple[str, ...]:
         """Files opened lately, the newest first."""
         count = self._file.beginReadArray("recent")

@@ -8,6 +8,20 @@
         <translation>{folder} に書き出したファイル: {count}</translation>
     </message>
     <message>
+        <source>Files written into the project {name}: {count}
+In Unreal choose Suisou &gt; Import Performance; if it was imported before, Update Performance.</source>
+        <translation>プロジェクト {name} に書き出したファイル: {count}
+Unreal で「Suisou &gt; 演奏をインポート」を選んでください。インポート済みの場合は「演奏を更新」を選びます。</translation>
+    </message>
+    <message>
+        <source>If Unreal has the project open, start it again: the menu is new.</source>
+        <translation>Unreal でこのプロジェクトを開いている場合は、再起動するとメニューが表示されます。</translation>
+    </message>
+    <message>
+        <source>Unreal project</source>
+        <translation>Unreal プロジェクト</translation>
+    </message>
+    <message>
         <source>Folder for the files</source>
         <translation>書き出し先フォルダー</translation>
     </message>
@@ -28,6 +42,18 @@
         <translation>フォルダーを選んでください。</translation>
     </message>
     <message>
+        <source>Choose the .uproject file of your Unreal project.</source>
+        <translation>Unreal プロジェクトの .uproject ファイルを選んでください。</translation>
+    </message>
+    <message>
+        <source>version not told</source>
+        <translation>バージョン不明</translation>
+    </message>
+    <message>
+        <source>{name} (Unreal Engine {engine})</source>
+        <translation>{name} (Unreal Engine {engine})</translation>
+    </message>
+    <message>
         <source>Files that will be written: {count}</source>
         <translation>書き出すファイル: {count}</translation>
     </message>
@@ -36,12 +62,20 @@
         <translation>うち {count} 個は上書きされます: {names}</translation>
     </message>
     <message>
+        <source>No longer needed, {count} will be removed: {names}</source>
+        <translation>不要になったファイル {count} 個を削除します: {names}</translation>
+    </message>
+    <message>
         <source>Export</source>
         <translation>書き出し</translation>
     </message>
     <message>
         <source>Players</source>
         <translation>プレイヤー</translation>
+    </message>
+    <message>
+        <source>Into</source>
+        <translation>書き出し先</translation>
     </message>
     <message>
         <source>Files</source>
@@ -68,8 +102,20 @@
         <translation>フォルダー</translation>
     </message>
     <message>
+        <source>Project</source>
+        <translation>プロジェクト</translation>
+    </message>
+    <message>
         <source>All or none</source>
         <translation>すべて選択/解除</translation>
+    </message>
+    <message>
+        <source>A folder of files</source>
+        <translation>ファイルのフォルダー</translation>
+    </message>
+    <message>
+        <source>An Unreal project</source>
+        <translation>Unreal プロジェクト</translation>
     </message>
     <message>
         <source>FBX (characters and instruments)</source>

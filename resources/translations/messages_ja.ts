@@ -1572,6 +1572,10 @@
             <translation>{file} が正しく書き出されませんでした ({what}: {wanted} ではなく {found})。プロジェクトは変更していません。この問題を報告してください</translation>
         </message>
         <message>
+            <source>files written into the Unreal project {project}: {count}</source>
+            <translation>Unreal プロジェクト {project} に書き出したファイル: {count}</translation>
+        </message>
+        <message>
             <source>--format is for a folder of files; an Unreal project gets what Unreal reads</source>
             <translation>--format はフォルダーへの書き出し用です。Unreal プロジェクトには Unreal が読み込むファイルを書き出します</translation>
         </message>

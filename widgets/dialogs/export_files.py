@@ -32,8 +32,7 @@ from PySide6.QtWidgets import (
 
 from app.errors import AppError, Message
 from app.export.formats import FILE_FORMATS, USUAL_FORMATS, Format
-from app.export.report import Report
-from app.export.run import REPORT, Request, export, file_names, sound_name
+from app.export.run import Request
 from app.performance.ensemble import Performance
 from app.performance.span import bars_span, whole_span
 from app.project.model import Player
@@ -41,13 +40,17 @@ from widgets.common.session import Session
 from widgets.common.tasks import Progress, StopWanted
 from widgets.common.text import message_text
 from widgets.common.tokens import LEAST_TARGET_PX
+from widgets.dialogs.export_destination import Destination, Done, foresee, write
 from widgets.dialogs.export_skeleton import SkeletonChooser
 
 RATES = tuple(map(Fraction, ("24", "25", "30000/1001", "30", "48", "50", "60000/1001", "60", "120")))
 SHOW_MS = 50
 """Progress is shown this often."""
 _FORMAT_COLUMNS = 2
+_NAMES = 6
+"""Of the files that are replaced or removed, so many are named."""
 _WHOLE, _BARS, _SELECTION = "whole", "bars", "selection"
+_FOLDER, _UNREAL = "folder", "unreal"
 
 
 def _missing() -> dict[Format, Message]:
@@ -61,6 +64,10 @@ def _missing() -> dict[Format, Message]:
     return missing
 
 
+def _some(names: tuple[str, ...]) -> str:
+    return ", ".join(names[:_NAMES]) + (" …" if len(names) > _NAMES else "")
+
+
 class ExportDialog(QDialog):
     """Writes the players' files; stays usable while it works, and says what was written.
 
@@ -69,16 +76,27 @@ class ExportDialog(QDialog):
     session : Session
     folder : Path
         Where the last export went, or beside the project.
+    unreal : Path, optional
+        The Unreal project that was exported into before.
+    destination : str
+        Where the last export went: ``"folder"`` or ``"unreal"``.
     source, creator : str
         Name of the piece's file; program and version, for the report.
     parent : QWidget, optional
     """
 
-    exported = Signal(object)
-    """The folder that files were written to."""
+    exported = Signal(str, object)
+    """The destination, and the place that files were written to."""
 
     def __init__(
-        self, session: Session, folder: Path, source: str, creator: str, parent: QWidget | None = None
+        self,
+        session: Session,
+        folder: Path,
+        source: str,
+        creator: str,
+        parent: QWidget | None = None,
+        unreal: Path | None = None,
+        destination: Destination = "folder",
     ) -> None:
         super().__init__(parent)
         self.setObjectName("export_files")
@@ -102,6 +120,11 @@ class ExportDialog(QDialog):
         self._everybody.setObjectName("export_everybody")
         self._everybody.setAutoDefault(False)
         self._everybody.clicked.connect(self._toggle_everybody)
+        self._destination = QComboBox()
+        self._destination.setObjectName("export_destination")
+        self._places = {_FOLDER: str(folder), _UNREAL: "" if unreal is None else str(unreal)}
+        """What is typed for each destination."""
+        self._shown_folder = folder
         self._missing = _missing()
         self._formats: dict[Format, QCheckBox] = {name: QCheckBox() for name in FILE_FORMATS}
         for name, box in self._formats.items():
@@ -135,7 +158,7 @@ class ExportDialog(QDialog):
         for rate in sorted({*RATES, self._project.fps}):
             self._rate.addItem(f"{float(rate):.6g}", str(rate))
         self._rate.setCurrentIndex(self._rate.findData(str(self._project.fps)))
-        self._folder = QLineEdit(str(folder))
+        self._folder = QLineEdit()
         self._folder.setObjectName("export_folder")
         self._choose = QPushButton()
         self._choose.setAutoDefault(False)
@@ -168,9 +191,16 @@ class ExportDialog(QDialog):
         self._timer.timeout.connect(self._show_share)
 
         self._labels = {
-            name: QLabel() for name in ("players", "files", "skeleton", "range", "preroll", "rate", "folder", "outcome")
+            name: QLabel()
+            for name in ("players", "into", "folder", "files", "skeleton", "range", "preroll", "rate", "outcome")
         }
         self._lay_out()
+        for kind in (_FOLDER, _UNREAL):
+            self._destination.addItem("", kind)
+        self._destination.setCurrentIndex(self._destination.findData(destination))
+        self._folder.setText(self._places[destination])
+        self._folder.textChanged.connect(self._remember_place)
+        self._destination.currentIndexChanged.connect(self._change_destination)
         for signal in (
             self._skeleton.changed,
             self._folder.textChanged,
@@ -204,14 +234,15 @@ class ExportDialog(QDialog):
         folder = QHBoxLayout()
         folder.addWidget(self._folder, 1)
         folder.addWidget(self._choose)
-        form = QFormLayout()
+        self._form = form = QFormLayout()
         form.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
+        form.addRow(self._labels["into"], self._destination)
+        form.addRow(self._labels["folder"], folder)
         form.addRow(self._labels["files"], formats)
         form.addRow(self._labels["skeleton"], self._skeleton)
         form.addRow(self._labels["range"], bars)
         form.addRow(self._labels["preroll"], self._preroll)
         form.addRow(self._labels["rate"], self._rate)
-        form.addRow(self._labels["folder"], folder)
         form.addRow(self._labels["outcome"], self._files)
         columns = QHBoxLayout()
         columns.setSpacing(18)
@@ -236,6 +267,11 @@ class ExportDialog(QDialog):
     def formats(self) -> frozenset[Format]:
         """The ticked kinds of file."""
         return frozenset(name for name, box in self._formats.items() if box.isChecked())
+
+    @property
+    def destination(self) -> Destination:
+        """A folder of files, or an Unreal project."""
+        return "unreal" if self._destination.currentData() == _UNREAL else "folder"
 
     def _bars(self) -> tuple[int, int] | None:
         if self._range.currentData() == _WHOLE:
@@ -287,14 +323,14 @@ class ExportDialog(QDialog):
         self._show.hide()
         self._enable(False)
         self.retranslate()
-        request = self._request()
+        request, destination = self._request(), self.destination
 
-        def work(progress: Progress, stop_wanted: StopWanted) -> Report:
+        def work(progress: Progress, stop_wanted: StopWanted) -> Done:
             def told(share: float, label: str) -> None:
                 progress(share)
                 written[0] = share
 
-            return export(request, message_text, lambda: stop.is_set() or stop_wanted(), told)
+            return write(destination, request, lambda: stop.is_set() or stop_wanted(), told)
 
         self._timer.start()
         self._session.tasks.run(
@@ -304,15 +340,23 @@ class ExportDialog(QDialog):
     def _show_share(self) -> None:
         self._progress.setValue(round(1000 * self._share[0]))
 
-    def _done(self, report: Report) -> None:
-        count = report.file_count
-        self._files.setText(
-            self.tr("Files written to {folder}: {count}").format(folder=self._folder.text(), count=count)
-            + "".join(f"\n⚠ {warning}" for warning in report.warnings[:6])
-        )
+    def _done(self, done: Done) -> None:
+        if done.project is None:
+            text = self.tr("Files written to {folder}: {count}").format(folder=done.folder, count=done.count)
+            told = Message("export.done", {"count": done.count, "folder": str(done.folder)})
+        else:
+            text = self.tr(
+                "Files written into the project {name}: {count}\n"
+                "In Unreal choose Suisou > Import Performance; if it was imported before, Update Performance."
+            ).format(name=done.project.name, count=done.count)
+            if done.new_plugin:
+                text += "\n" + self.tr("If Unreal has the project open, start it again: the menu is new.")
+            told = Message("unreal.done", {"count": done.count, "project": done.project.name})
+        self._files.setText(text + "".join(f"\n⚠ {warning}" for warning in done.warnings[:6]))
+        self._shown_folder = done.folder
         self._show.show()
-        self._session.notice(Message("export.done", {"count": count, "folder": self._folder.text()}))
-        self.exported.emit(Path(self._folder.text()))
+        self._session.notice(told)
+        self.exported.emit(self.destination, Path(self._folder.text()))
 
     def _failed(self, error: AppError) -> None:
         self._files.setText(message_text(error.message))
@@ -333,7 +377,7 @@ class ExportDialog(QDialog):
     def _enable(self, enabled: bool) -> None:
         for widget in (
             *(self._players, self._everybody, self._range, self._first_bar, self._last_bar, self._preroll),
-            *(self._skeleton, self._rate, self._folder, self._choose, self._export, self._sound),
+            *(self._skeleton, self._rate, self._destination, self._folder, self._choose, self._export, self._sound),
             *self._formats.values(),
         ):
             widget.setEnabled(enabled)
@@ -345,13 +389,27 @@ class ExportDialog(QDialog):
         for row in range(self._players.count()):
             self._players.item(row).setCheckState(state)
 
+    def _remember_place(self, text: str) -> None:
+        self._places[self.destination] = text
+
+    def _change_destination(self) -> None:
+        self._show.hide()
+        self._folder.setText(self._places[self.destination])
+        self.retranslate()
+
     def _choose_folder(self) -> None:
+        if self.destination == "unreal":
+            title = self.tr("Unreal project")
+            file, _ = QFileDialog.getOpenFileName(self, title, self._folder.text(), f"{title} (*.uproject)")
+            if file:
+                self._folder.setText(file)
+            return
         chosen = QFileDialog.getExistingDirectory(self, self.tr("Folder for the files"), self._folder.text())
         if chosen:
             self._folder.setText(chosen)
 
     def _show_folder(self) -> None:
-        QDesktopServices.openUrl(QUrl.fromLocalFile(self._folder.text()))
+        QDesktopServices.openUrl(QUrl.fromLocalFile(str(self._shown_folder)))
 
     # What will come of it
 
@@ -363,51 +421,75 @@ class ExportDialog(QDialog):
         ticked = self._range.currentData() == _BARS
         for widget in (self._first_bar, self._dash, self._last_bar):
             widget.setVisible(ticked)
-        folder = self._folder.text().strip()
+        self._form.setRowVisible(self._labels["files"], self.destination == "folder")
+        place = self._folder.text().strip()
         problem = ""
         if not self.player_ids:
             problem = self.tr("Tick at least one player.")
-        elif not self.formats:
+        elif not self.formats and self.destination == "folder":
             problem = self.tr("Tick at least one kind of file.")
         elif ticked and self._first_bar.value() > self._last_bar.value():
             problem = self.tr("The last bar comes before the first one.")
-        elif not folder:
+        elif not place and self.destination == "folder":
             problem = self.tr("Choose a folder.")
+        elif not place:
+            problem = self.tr("Choose the .uproject file of your Unreal project.")
         else:
             problem = self._skeleton.problem
+        text = problem
+        if not problem:
+            try:
+                text = self._foreseen(Path(place))
+            except AppError as error:
+                problem = text = message_text(error.message)
         self._export.setEnabled(not problem and not self._running)
-        if problem:
-            self._files.setText(problem)
-            return
-        names = file_names(Performance(self._project), self.formats)
-        wanted = [name for player_id in self.player_ids for name in names[player_id].values()] + [REPORT]
-        if self._sound.isChecked():
-            wanted.append(sound_name(self._source))
-        replaced = [name for name in wanted if (Path(folder) / name).exists()]
-        text = self.tr("Files that will be written: {count}").format(count=len(wanted))
-        if replaced:
-            shown = ", ".join(replaced[:6]) + (" …" if len(replaced) > 6 else "")
-            text += "\n" + self.tr("Of these, {count} will be replaced: {names}").format(
-                count=len(replaced), names=shown
-            )
         self._files.setText(text)
+
+    def _foreseen(self, place: Path) -> str:
+        """What will be written, replaced and removed."""
+        performance = Performance(self._project)
+        seen = foresee(
+            self.destination,
+            place,
+            performance,
+            self.player_ids,
+            self.formats,
+            self._source,
+            self._sound.isChecked(),
+        )
+        lines = []
+        if seen.project is not None:
+            engine = self.tr("version not told") if seen.project.version is None else seen.project.engine
+            lines.append(self.tr("{name} (Unreal Engine {engine})").format(name=seen.project.name, engine=engine))
+        lines.append(self.tr("Files that will be written: {count}").format(count=seen.count))
+        if seen.replaced:
+            replaced = self.tr("Of these, {count} will be replaced: {names}")
+            lines.append(replaced.format(count=len(seen.replaced), names=_some(seen.replaced)))
+        if seen.removed:
+            removed = self.tr("No longer needed, {count} will be removed: {names}")
+            lines.append(removed.format(count=len(seen.removed), names=_some(seen.removed)))
+        lines += [f"⚠ {message_text(message)}" for message in seen.kept]
+        return "\n".join(lines)
 
     def retranslate(self) -> None:
         """Set every text anew."""
         self.setWindowTitle(self.tr("Export"))
         texts = {
             "players": self.tr("Players"),
+            "into": self.tr("Into"),
             "files": self.tr("Files"),
             "skeleton": self.tr("Skeleton"),
             "range": self.tr("Range"),
             "preroll": self.tr("Pre-roll"),
             "rate": self.tr("Frames per second"),
-            "folder": self.tr("Folder"),
+            "folder": self.tr("Project") if self.destination == "unreal" else self.tr("Folder"),
             "outcome": "",
         }
         for name, text in texts.items():
             self._labels[name].setText(text)
         self._everybody.setText(self.tr("All or none"))
+        self._destination.setItemText(0, self.tr("A folder of files"))
+        self._destination.setItemText(1, self.tr("An Unreal project"))
         self._formats["fbx"].setText(self.tr("FBX (characters and instruments)"))
         self._formats["bvh"].setText(self.tr("BVH (body motion)"))
         self._formats["glb"].setText(self.tr("GLB (characters and instruments)"))

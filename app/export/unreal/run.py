@@ -16,9 +16,7 @@ from pathlib import Path, PurePosixPath
 
 import msgspec
 import numpy as np
-import soundfile
 
-from app.audio.mix import mixdown
 from app.audio.track import RATE_HZ
 from app.errors import Cancelled, FileError, Message
 from app.export.character import CENTIMETRES
@@ -27,6 +25,7 @@ from app.export.report import Report, encode_report
 from app.export.run import REPORT as EXPORTED_REPORT
 from app.export.run import Progress, Request, export
 from app.export.targets import target_skeleton, written_meshes
+from app.export.sound import write_sound
 from app.export.tree import TreeChange, files_below, recover, tree_into
 from app.export.unreal.check import Expected, check_fbx, check_wave
 from app.export.unreal.description import Sound, describe, encode_description
@@ -84,13 +83,21 @@ class Written:
     report: Report
 
 
-def plan_export(performance: Performance, player_ids: tuple[str, ...], source: str, project: UnrealProject) -> Plan:
+def plan_export(
+    performance: Performance,
+    player_ids: tuple[str, ...],
+    source: str,
+    project: UnrealProject,
+    by_length: bool = False,
+) -> Plan:
     """What an export of some players would do in a project; nothing is written.
 
     Parameters
     ----------
     source : str
         Name of the piece's file, after which its folders are called.
+    by_length : bool
+        Whether what is there is told from what we wrote by its length alone, which takes no time.
 
     Raises
     ------
@@ -105,7 +112,7 @@ def plan_export(performance: Performance, player_ids: tuple[str, ...], source: s
         if plugin:
             done.append((PurePosixPath(PLUGIN), (*plugin, PurePosixPath(MANIFEST))))
         found: list[tuple[PurePosixPath, Changes]] = [
-            (folder, changes(project.folder / folder, coming)) for folder, coming in done
+            (folder, changes(project.folder / folder, coming, by_length)) for folder, coming in done
         ]
     except OSError as error:
         reason = error.strerror or str(error)
@@ -221,25 +228,23 @@ def _sound(
 ) -> Sound:
     """Write what is heard from the first frame to the last."""
     project, span = request.performance.project, request.span
-    block = mixdown(
-        project,
-        span.first_frame_s,
-        span.end_s,
-        RATE_HZ,
-        lambda share: progress(_SHARES["files"] + _SHARES["sound"] * share, layout.sound_file.name),
-        stop_wanted,
-    )
     file = sources / layout.sound_file
     file.parent.mkdir(parents=True, exist_ok=True)
-    soundfile.write(file, block, RATE_HZ, subtype="PCM_16")
+    write_sound(
+        file,
+        project,
+        span,
+        lambda share: progress(_SHARES["files"] + _SHARES["sound"] * share, file.name),
+        stop_wanted,
+    )
     return Sound(
         file=layout.sound_file.as_posix(),
         asset=layout.sound,
         source="synthesiser" if project.audio is None else "recording",
         offset_s=0.0,
-        duration_s=len(block) / RATE_HZ,
+        duration_s=round((span.end_s - span.first_frame_s) * RATE_HZ) / RATE_HZ,
         rate_hz=RATE_HZ,
-        channels=block.shape[1],
+        channels=2,
     )
 
 

@@ -123,8 +123,25 @@ def export_files(session: Session) -> None:
     folder = editor.settings.export_folder or str(Path(editor.files.folder) / "export")
     from widgets.dialogs.export_files import ExportDialog  # it brings all formats with it
 
-    dialog = ExportDialog(session, Path(folder), editor.files.name, f"Suisou {program_version()}", editor.window)
-    dialog.exported.connect(lambda chosen: setattr(editor.settings, "export_folder", str(chosen)))
+    unreal = editor.settings.unreal_project
+    dialog = ExportDialog(
+        session,
+        Path(folder),
+        editor.files.name,
+        f"Suisou {program_version()}",
+        editor.window,
+        Path(unreal) if unreal else None,
+        "unreal" if unreal and editor.settings.export_into == "unreal" else "folder",
+    )
+
+    def remember(destination: str, place: Path) -> None:
+        editor.settings.export_into = destination
+        if destination == "unreal":
+            editor.settings.unreal_project = str(place)
+        else:
+            editor.settings.export_folder = str(place)
+
+    dialog.exported.connect(remember)
     dialog.show()
 
 

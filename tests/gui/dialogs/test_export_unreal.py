@@ -1,0 +1,151 @@
+"""The export dialog into an Unreal project, by mouse and keys."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QCheckBox, QComboBox, QLabel, QLineEdit, QPushButton, QSpinBox
+from pytestqt.qtbot import QtBot
+
+from app.export.unreal.project import find_project
+from widgets.common.session import Session
+from widgets.dialogs.export_files import ExportDialog
+
+
+@pytest.fixture
+def game(tmp_path: Path) -> Path:
+    folder = tmp_path / "Game"
+    folder.mkdir()
+    (folder / "Game.uproject").write_text(json.dumps({"FileVersion": 3, "EngineAssociation": "5.6"}))
+    return folder
+
+
+@pytest.fixture
+def dialog(session: Session, qtbot: QtBot, tmp_path: Path) -> ExportDialog:
+    dialog = ExportDialog(session, tmp_path / "out", "quartet.mid", "Suisou test")
+    dialog.show()
+    return dialog
+
+
+def outcome(dialog: ExportDialog) -> str:
+    label = dialog.findChild(QLabel, "export_outcome")
+    assert label is not None
+    return label.text()
+
+
+def start_button(dialog: ExportDialog) -> QPushButton:
+    button = dialog.findChild(QPushButton, "export_start")
+    assert button is not None
+    return button
+
+
+def place(dialog: ExportDialog, text: str) -> None:
+    line = dialog.findChild(QLineEdit, "export_folder")
+    assert line is not None
+    line.setFocus()
+    line.selectAll()
+    QTest.keyClick(line, Qt.Key.Key_Delete)
+    QTest.keyClicks(line, text)
+
+
+def into_unreal(dialog: ExportDialog) -> None:
+    box = dialog.findChild(QComboBox, "export_destination")
+    assert box is not None
+    QTest.keyClick(box, Qt.Key.Key_Down)
+    assert box.currentData() == "unreal"
+
+
+def one_player_one_bar(dialog: ExportDialog) -> None:
+    for row in range(1, dialog._players.count()):
+        dialog._players.item(row).setCheckState(Qt.CheckState.Unchecked)
+    box = dialog.findChild(QComboBox, "export_range")
+    assert box is not None
+    QTest.keyClick(box, Qt.Key.Key_Down)
+    last = dialog.findChild(QSpinBox, "export_last_bar")
+    assert last is not None
+    last.setFocus()
+    last.selectAll()
+    QTest.keyClicks(last, "1")
+    QTest.keyClick(last, Qt.Key.Key_Tab)
+    rate = dialog.findChild(QComboBox, "export_rate")
+    assert rate is not None
+    QTest.keyClick(rate, Qt.Key.Key_Home)
+
+
+def test_it_exports_into_a_project_and_again(dialog: ExportDialog, game: Path) -> None:
+    told: list[tuple[str, Path]] = []
+    dialog.exported.connect(lambda destination, path: told.append((destination, path)))
+    one_player_one_bar(dialog)
+    into_unreal(dialog)
+    assert not start_button(dialog).isEnabled()
+    assert ".uproject" in outcome(dialog)
+    place(dialog, str(game / "Game.uproject"))
+    assert "Game (Unreal Engine 5.6)" in outcome(dialog)
+    assert "replaced" not in outcome(dialog)
+    assert find_project(game).name == "Game"
+    assert sorted(path.name for path in game.iterdir()) == ["Game.uproject"]
+    QTest.mouseClick(start_button(dialog), Qt.MouseButton.LeftButton)
+    assert "Import Performance" in outcome(dialog)
+    sources = game / "SuisouSource" / "quartet"
+    description = json.loads((sources / "performance.json").read_text(encoding="utf-8"))
+    assert [player["name"] for player in description["players"]] == [dialog._project.players[0].name]
+    assert description["rate"] == {"numerator": 24, "denominator": 1}
+    assert told == [("unreal", game / "Game.uproject")]
+    assert dialog._shown_folder == sources
+    # The same again says what it replaces, another player what goes.
+    dialog._players.item(1).setCheckState(Qt.CheckState.Checked)
+    assert "will be replaced: " in outcome(dialog)
+    assert "S_quartet.wav" in outcome(dialog)
+    dialog._players.item(0).setCheckState(Qt.CheckState.Unchecked)
+    assert "2 will be removed: " in outcome(dialog)
+
+
+def test_formats_are_for_folders(dialog: ExportDialog, game: Path) -> None:
+    box = dialog.findChild(QCheckBox, "export_fbx")
+    assert box is not None
+    assert box.isVisible()
+    into_unreal(dialog)
+    assert not box.isVisible()
+    for name, format_box in dialog._formats.items():
+        format_box.setChecked(False)
+        assert name not in dialog.formats
+    place(dialog, str(game))
+    assert start_button(dialog).isEnabled()
+
+
+def test_each_destination_keeps_its_place(dialog: ExportDialog, game: Path, tmp_path: Path) -> None:
+    into_unreal(dialog)
+    place(dialog, str(game))
+    box = dialog.findChild(QComboBox, "export_destination")
+    line = dialog.findChild(QLineEdit, "export_folder")
+    assert box is not None
+    assert line is not None
+    QTest.keyClick(box, Qt.Key.Key_Up)
+    assert line.text() == str(tmp_path / "out")
+    into_unreal(dialog)
+    assert line.text() == str(game)
+
+
+def test_what_is_wrong_is_told_before_anything_is_written(dialog: ExportDialog, game: Path, tmp_path: Path) -> None:
+    into_unreal(dialog)
+    place(dialog, str(tmp_path))
+    assert "is no Unreal project" in outcome(dialog)
+    assert not start_button(dialog).isEnabled()
+    mine = game / "SuisouSource" / "quartet" / "Audio" / "S_quartet.wav"
+    mine.parent.mkdir(parents=True)
+    mine.write_bytes(b"mine")
+    place(dialog, str(game))
+    assert "S_quartet.wav is not from this program" in outcome(dialog)
+    assert not start_button(dialog).isEnabled()
+
+
+def test_the_project_is_remembered(session: Session, qtbot: QtBot, game: Path, tmp_path: Path) -> None:
+    dialog = ExportDialog(session, tmp_path / "out", "quartet.mid", "Suisou", None, game / "Game.uproject", "unreal")
+    dialog.show()
+    assert dialog.destination == "unreal"
+    assert "Game (Unreal Engine 5.6)" in outcome(dialog)
+    assert start_button(dialog).isEnabled()

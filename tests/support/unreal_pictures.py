@@ -1,0 +1,101 @@
+"""Draws the picture of ``docs/into-unreal.md``: the export dialog before it exports into an Unreal project again.
+
+Run from the repository: ``python -m tests.support.unreal_pictures``; needs a display (without a screen:
+``xvfb-run -a -s "-screen 0 2560x1600x24"``). With a folder as its argument it draws there, in both languages and
+themes, before the first export, before another and after it.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+import tempfile
+import time
+from pathlib import Path
+from typing import Final
+
+from PySide6.QtCore import QEventLoop, Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QComboBox, QPushButton, QSpinBox
+
+from app.project.autosave import Autosave
+from app.project.presence import Presence
+from app.shell.app import Program, make_application
+from app.shell.commands.exchange import export_files
+from app.shell.settings import Settings
+from widgets.dialogs.export_files import ExportDialog
+
+ROOT: Final = Path(__file__).parents[2]
+PIECE: Final = ROOT / "resources" / "examples" / "quartet.mid"
+PICTURE: Final = ROOT / "docs" / "pictures" / "export-unreal.png"
+SIZE: Final = (1000, 500)
+
+
+class Artist:
+    """Who exports the quartet into a project."""
+
+    def __init__(self, folder: Path, language: str, theme: str) -> None:
+        self.application = make_application()
+        settings = Settings(folder / "editor.ini")
+        settings.language, settings.theme = language, theme
+        settings.export_into = "unreal"
+        project = folder / "Concert" / "Concert.uproject"
+        project.parent.mkdir(exist_ok=True)
+        project.write_text(json.dumps({"FileVersion": 3, "EngineAssociation": "5.6"}))
+        settings.unreal_project = str(project)
+        self.program = Program(settings, autosave=Autosave(Presence(folder / "recovery")))
+        self.program.window.show()
+        self.program.editor.files.open(PIECE, ask=False)
+        self.live(lambda: self.program.editor.files.is_open)
+        export_files(self.program.session)
+        found = self.program.window.findChild(ExportDialog)
+        assert found is not None
+        self.dialog = found
+        self.dialog.resize(*SIZE)
+        bars, last = (
+            self.dialog.findChild(QComboBox, "export_range"),
+            self.dialog.findChild(QSpinBox, "export_last_bar"),
+        )
+        assert bars is not None
+        assert last is not None
+        bars.setCurrentIndex(1)
+        last.setValue(2)
+
+    def live(self, until: object, most_s: float = 240.0) -> None:
+        """Let the window live until something is so."""
+        end_s = time.monotonic() + most_s
+        assert callable(until)
+        while not until():
+            assert time.monotonic() < end_s
+            self.application.processEvents(QEventLoop.ProcessEventsFlag.AllEvents, 50)
+        self.application.processEvents()
+
+    def export(self) -> None:
+        """Export, and wait for it."""
+        start = self.dialog.findChild(QPushButton, "export_start")
+        assert start is not None
+        QTest.mouseClick(start, Qt.MouseButton.LeftButton)
+        self.live(start.isEnabled)
+
+    def look(self, path: Path) -> None:
+        """A picture of the dialog."""
+        self.application.processEvents()
+        self.dialog.grab().save(str(path))
+
+
+def main(target: Path | None, language: str, theme: str) -> None:
+    """Draw."""
+    with tempfile.TemporaryDirectory() as folder:
+        artist = Artist(Path(folder), language, theme)
+        if target is not None:
+            artist.look(target / f"first_{language}_{theme}.png")
+        artist.export()
+        if target is not None:
+            artist.look(target / f"done_{language}_{theme}.png")
+        artist.dialog._players.item(3).setCheckState(Qt.CheckState.Unchecked)
+        artist.look(PICTURE if target is None else target / f"again_{language}_{theme}.png")
+        artist.dialog.close()
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]) if sys.argv[1:] else None, *(sys.argv[2:] or ["en", "dark"]))

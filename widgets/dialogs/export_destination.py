@@ -1,0 +1,112 @@
+"""Where an export goes: a folder of files, or an Unreal project; what it will find there, and how it is written."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+from app.errors import Message
+from app.export.formats import Format
+from app.export.run import REPORT, Request, export, file_names, sound_name
+from app.export.unreal.project import UnrealProject, find_project
+from app.export.unreal.run import export_into, plan_export
+from app.performance.ensemble import Performance
+from widgets.common.text import message_text
+
+Destination = Literal["folder", "unreal"]
+
+
+@dataclass(frozen=True)
+class Foreseen:
+    """What an export will do.
+
+    Attributes
+    ----------
+    count : int
+        Files that will be written.
+    replaced, removed : tuple of str
+        Names of files that are there.
+    kept : tuple of Message
+    project : UnrealProject or None
+    """
+
+    count: int
+    replaced: tuple[str, ...] = ()
+    removed: tuple[str, ...] = ()
+    kept: tuple[Message, ...] = ()
+    project: UnrealProject | None = None
+
+
+@dataclass(frozen=True)
+class Done:
+    """What an export has done: how many files, the folder to show, what to look at; whether Unreal has a plug-in now
+    that it loads when its editor starts."""
+
+    count: int
+    folder: Path
+    warnings: tuple[str, ...]
+    project: UnrealProject | None = None
+    new_plugin: bool = False
+
+
+def foresee(
+    destination: Destination,
+    place: Path,
+    performance: Performance,
+    player_ids: tuple[str, ...],
+    formats: frozenset[Format],
+    source: str,
+    sound: bool,
+) -> Foreseen:
+    """What an export will do.
+
+    Parameters
+    ----------
+    place : path
+        The folder, or the Unreal project's file or folder.
+    source : str
+        Name of the piece's file.
+    sound : bool
+        Whether a folder gets what is heard; an Unreal project always does.
+
+    Raises
+    ------
+    FileError
+        There is no project, or something of somebody else's is in the way.
+    """
+    if destination == "unreal":
+        project = find_project(place)
+        plan = plan_export(performance, player_ids, source, project, by_length=True)
+        return Foreseen(
+            count=len(plan.written),
+            replaced=tuple(path.name for path in plan.replaced),
+            removed=tuple(path.name for path in plan.removed),
+            kept=plan.kept,
+            project=project,
+        )
+    names = file_names(performance, formats)
+    wanted = [name for player_id in player_ids for name in names[player_id].values()] + [REPORT]
+    if sound:
+        wanted.append(sound_name(source))
+    return Foreseen(len(wanted), tuple(name for name in wanted if (place / name).exists()))
+
+
+def write(
+    destination: Destination,
+    request: Request,
+    stop_wanted: Callable[[], bool],
+    progress: Callable[[float, str], None],
+) -> Done:
+    """Write an export; the request's folder is the place."""
+    if destination == "unreal":
+        project = find_project(request.folder)
+        written = export_into(request, project, message_text, stop_wanted, progress)
+        kept = tuple(message_text(message) for message in written.plan.kept)
+        folder = project.folder / written.plan.layout.sources
+        return Done(
+            len(written.plan.written), folder, kept + written.report.warnings, project, bool(written.plan.plugin)
+        )
+    report = export(request, message_text, stop_wanted, progress)
+    return Done(report.file_count, request.folder, report.warnings)
