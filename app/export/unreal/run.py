@@ -24,8 +24,8 @@ from app.export.instrument import instrument_bones
 from app.export.report import Report, encode_report
 from app.export.run import REPORT as EXPORTED_REPORT
 from app.export.run import Progress, Request, export
-from app.export.targets import target_skeleton, written_meshes
 from app.export.sound import write_sound
+from app.export.targets import target_skeleton, written_meshes
 from app.export.tree import TreeChange, files_below, recover, tree_into
 from app.export.unreal.check import Expected, check_fbx, check_wave
 from app.export.unreal.description import Sound, describe, encode_description
