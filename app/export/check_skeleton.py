@@ -24,6 +24,8 @@ from app.rig.figure import Figure
 FloatArray = npt.NDArray[np.float64]
 DifferenceKind: TypeAlias = Literal["root", "unit", "parent", "additional", "missing", "rotation", "position"]
 
+MOST_LISTED: Final = 8
+"""Bones that are named where many differ alike; the report names them all."""
 POSITION_MM: Final = 0.5
 ROTATION_DEG: Final = 0.1
 _MEASURED: Final[dict[str, str]] = {"position": "skeleton.position", "rotation": "skeleton.rotation"}
@@ -78,7 +80,8 @@ def check_skeleton(target: TargetSkeleton, asset: Figure) -> tuple[Difference, .
         our_parent = target.names[above] if above >= 0 else ""
         their_parent = asset.bone_names[other_above] if other_above >= 0 else ""
         if our_parent != their_parent:
-            if our_parent and their_parent:  # otherwise it is a matter of roots, and told
+            # A matter of roots, or of parents that have other names, is told there.
+            if our_parent and their_parent and (our_parent in theirs or their_parent in ours):
                 found.append(Difference("parent", name, grave=True, ours=our_parent, theirs=their_parent))
             continue
         off_mm = 1000.0 * float(np.linalg.norm(target.offsets_m[bone] - asset.translations_m[other]))
@@ -110,23 +113,30 @@ def without_armature(asset: Figure) -> Figure:
 
 
 def told(differences: Sequence[Difference]) -> tuple[Message, ...]:
-    """The differences in words: grave ones one by one, of the others how many there are of a kind, and the largest."""
-    messages = [_grave(difference) for difference in differences if difference.grave]
+    """The differences in words, the gravest first: how many there are of a kind, and which, or the largest."""
+    messages = [
+        _grave(difference) for difference in differences if difference.grave and difference.kind != "additional"
+    ]
+    lost = [difference for difference in differences if difference.grave and difference.kind == "additional"]
+    if lost:
+        messages.append(Message("skeleton.not_in_asset", {"count": len(lost), "bones": _listed(lost)}))
     mild = [difference for difference in differences if not difference.grave]
     for kind in dict.fromkeys(difference.kind for difference in mild):
         alike = [difference for difference in mild if difference.kind == kind]
         most = max(alike, key=lambda difference: difference.amount)
-        bones = ", ".join(difference.bone for difference in alike)
         if kind in _MEASURED:
             messages.append(Message(_MEASURED[kind], {"count": len(alike), "most": most.amount, "bone": most.bone}))
         else:
-            messages.append(Message(_COUNTED[kind], {"count": len(alike), "bones": bones}))
+            messages.append(Message(_COUNTED[kind], {"count": len(alike), "bones": _listed(alike)}))
     return tuple(messages)
 
 
+def _listed(differences: Sequence[Difference]) -> str:
+    names = [difference.bone for difference in differences]
+    return ", ".join(names[:MOST_LISTED]) + (", ..." if len(names) > MOST_LISTED else "")
+
+
 def _grave(difference: Difference) -> Message:
-    if difference.kind == "additional":
-        return Message("skeleton.not_in_asset", {"bone": difference.bone})
     if difference.kind == "unit":
         return Message("skeleton.other_unit", {"factor": difference.amount})
     if difference.kind == "parent":

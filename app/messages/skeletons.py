@@ -12,7 +12,8 @@ TEMPLATES: Final[dict[str, str]] = {
     "skeleton.other_root": "the root bone is {ours}, the asset's is {theirs}: Unreal would refuse the animation",
     "skeleton.other_parent": "{bone} hangs from {ours}, in the asset from {theirs}",
     "skeleton.other_unit": "lengths are {factor} times the asset's: it is in another unit",
-    "skeleton.not_in_asset": "the asset has no bone {bone}: what it does would be lost",
+    "skeleton.not_in_asset": "{count} {count:bone that moves is|bones that move are} not in the asset, so that what "
+    "{count:it does|they do} would be lost: {bones}",
     "skeleton.additional": "{count} {count:bone|bones} that nothing moves {count:is|are} not in the asset: {bones}",
     "skeleton.missing": "{count} {count:bone|bones} of the asset {count:is|are} not in the file and "
     "{count:keeps its|keep their} rest pose: {bones}",

@@ -1264,8 +1264,8 @@
             <translation>長さがアセットの {factor} 倍です。単位が異なります</translation>
         </message>
         <message>
-            <source>the asset has no bone {bone}: what it does would be lost</source>
-            <translation>アセットにボーン {bone} がありません。その動きは失われます</translation>
+            <source>{count} {count:bone that moves is|bones that move are} not in the asset, so that what {count:it does|they do} would be lost: {bones}</source>
+            <translation>動くボーンのうち {count} 個がアセットにないため、その動きは失われます：{bones}</translation>
         </message>
         <message>
             <source>{count} {count:bone|bones} that nothing moves {count:is|are} not in the asset: {bones}</source>
