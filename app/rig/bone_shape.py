@@ -19,6 +19,8 @@ MIRROR_TOLERANCE: Final = 0.03
 """How far a bone may be from its partner's mirror image, of the figure's height."""
 OFF_CENTRE: Final = 0.02
 """A bone farther from the middle than this belongs to a side."""
+ALIKE: Final = 0.1
+"""Distances that differ by less than this part are alike."""
 HIP_BESIDE: Final = 0.03
 """A leg begins farther from the middle than this."""
 ANKLE_HEIGHT: Final = 0.045
@@ -256,7 +258,10 @@ def spread_spine(tree: Tree, chain: Sequence[int]) -> dict[str, int]:
     if len(chain) <= 2:
         return dict(zip(("spine", "chest"), chain, strict=False))
     first, last = chain[0], chain[-1]
-    middle = min(chain[1:-1], key=lambda bone: abs(tree.distance(first, bone) - tree.distance(bone, last)))
+    off = {bone: abs(tree.distance(first, bone) - tree.distance(bone, last)) for bone in chain[1:-1]}
+    # Of two as near to the middle the lower one.
+    near = min(off.values()) + ALIKE * tree.distance(first, last)
+    middle = next(bone for bone in off if off[bone] <= near)
     return {"spine": first, "chest": middle, "upperChest": last}
 
 

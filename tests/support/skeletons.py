@@ -1,4 +1,4 @@
-"""Skeletons as lists of bones: those of other makers in ``tests/data/skeletons``, and any BVH file's."""
+"""Skeletons of other makers as lists of bones (``tests/data/skeletons``), and figures and faces made of names."""
 
 from __future__ import annotations
 
@@ -32,39 +32,6 @@ def listed(name: str) -> list[ListedBone]:
             bone, parent, x, y, z, joint = line.split("\t")
             bones.append(ListedBone(bone, parent, (float(x), float(y), float(z)), joint))
     return bones
-
-
-def bvh_bones(path: Path) -> list[ListedBone]:
-    """The joints of a BVH file at rest, metres; its places are scaled to a figure of about 1.7 m."""
-    names: list[str] = []
-    parents: list[int] = []
-    offsets: list[list[float]] = []
-    stack: list[int] = []
-    for line in path.read_text(encoding="utf-8", errors="replace").splitlines():
-        word, *rest = line.split() or [""]
-        if word in ("ROOT", "JOINT", "End"):
-            parents.append(stack[-1] if stack else -1)
-            stack.append(len(names))
-            names.append(rest[0] if word != "End" else "")
-            offsets.append([])
-        elif word == "OFFSET":
-            offsets[stack[-1]] = [float(number) for number in rest]
-        elif word == "}":
-            stack.pop()
-        elif word == "MOTION":
-            break
-    places = np.array(offsets)
-    places[0] = 0.0
-    for bone, parent in enumerate(parents):
-        if parent >= 0:
-            places[bone] += places[parent]
-    places *= 1.7 / np.ptp(places[:, 1])
-    places[:, 1] -= places[:, 1].min()
-    return [
-        ListedBone(name, names[parent] if parent >= 0 else "", (float(x), float(y), float(z)), "")
-        for name, parent, (x, y, z) in zip(names, parents, places, strict=True)
-        if name
-    ]
 
 
 def figure_of(
