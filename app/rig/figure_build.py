@@ -254,10 +254,11 @@ def _at_rest(part: Part, above: Sequence[int]) -> Mesh:
     mesh = part.mesh
     weights = np.maximum(mesh.weights.astype(np.float64), 0.0)
     total = weights.sum(axis=1)
-    # A vertex that nothing moves stays with the first: nobody meant it to be left behind.
+    bones = np.array([max(above[node], 0) for node in part.nodes], dtype=np.int32)
+    # A vertex that nothing moves goes with the bone all others hang from: nobody meant it to be left behind.
     weights[total <= 0.0] = np.eye(1, weights.shape[1])
     weights /= weights.sum(axis=1, keepdims=True)
-    joints = np.where(total[:, None] > 0.0, mesh.joints, 0)
+    joints = np.where(total[:, None] > 0.0, mesh.joints, int(np.argmin(bones)))
     matrices = part.world_from_mesh[:, :3, :]
     blended = np.zeros((len(joints), 3, 4))
     for column in range(joints.shape[1]):
@@ -274,7 +275,6 @@ def _at_rest(part: Part, above: Sequence[int]) -> Mesh:
     if len(triangles):
         inside_out = mirrored[triangles[:, 0]]
         triangles = np.where(inside_out[:, None], triangles[:, ::-1], triangles)
-    bones = np.array([max(above[node], 0) for node in part.nodes], dtype=np.int32)
     return replace(
         mesh,
         positions_m=positions.astype(np.float32),

@@ -251,6 +251,8 @@ def _lips_by_shape(skins: list[_Skin], head: _Head) -> dict[str, Landmark]:
     # The chin: from there down the profile goes back to the neck.
     foremost_m, middle_m = float(at[:, 2].max()), float(skin.positions[_own(skin, head.joints, 0.5), 2].mean())
     forward = at[:, 2] > foremost_m - 0.65 * (foremost_m - middle_m)
+    if not forward.any():  # Nothing lies before the middle: it is no face.
+        return {}
     chin_m = float(at[forward, 1].min())
     top_m = float(at[:, 1].max())
     eyes_m = head.eyes_m if head.eyes_m is not None else (chin_m + top_m) / 2.0

@@ -139,6 +139,7 @@ def write_glb(
     vrm: int | None = None,
     scale: float = 1.0,
     expressions: Mapping[str, Mapping[str, float]] | None = None,
+    rigid: bool = False,
 ) -> Path:
     """Write a figure as a glTF binary.
 
@@ -152,6 +153,8 @@ def write_glb(
         Bones hang from a node "Armature" of this scale, and are the larger for it.
     expressions : mapping, optional
         By the names of their version; weights of morphs.
+    rigid : bool
+        Without a skin: each vertex in a mesh of the bone that holds most of it, which hangs from that bone.
     """
     writer = _Glb()
     about = np.diag([-1.0, 1.0, -1.0, 1.0]) if vrm == 0 else np.eye(4)
@@ -175,7 +178,11 @@ def write_glb(
     binds = np.linalg.inv(armature @ unscaled) @ about
     skin = {"joints": list(range(1, len(nodes))), "inverseBindMatrices": writer.floats(_columns(binds), "MAT4")}
     meshes, tops = [], [0]
-    for mesh in figure.meshes:
+    for bone, mesh in _pieces(figure) if rigid else ():
+        meshes.append(_gltf_mesh(writer, _with(mesh, positions_m=_local(unscaled[bone], scale, mesh.positions_m))))
+        nodes[bone + 1].setdefault("children", []).append(len(nodes))
+        nodes.append({"name": mesh.name, "mesh": len(meshes) - 1})
+    for mesh in () if rigid else figure.meshes:
         meshes.append(_gltf_mesh(writer, mesh))
         tops.append(len(nodes))
         nodes.append({"name": mesh.name, "mesh": len(meshes) - 1, "skin": 0})
@@ -185,13 +192,41 @@ def write_glb(
         "scenes": [{"nodes": tops}],
         "nodes": nodes,
         "meshes": meshes,
-        "skins": [skin],
+        **({} if rigid else {"skins": [skin]}),
         "materials": [{"name": "plain", "pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.4, 0.3, 1.0]}}],
     }
     if vrm is not None:
         document |= _vrm(vrm, figure, expressions or {})
     writer.write(path, document)
     return path
+
+
+def _pieces(figure: Foreign) -> list[tuple[int, Mesh]]:
+    """Each mesh cut into what its bones hold; vertices stay, triangles are shared out by their first corner."""
+    found = []
+    for mesh in figure.meshes:
+        best = np.argmax(mesh.weights, axis=1)
+        holders = np.take_along_axis(mesh.joints, best[:, None], axis=1)[:, 0]
+        for bone in np.unique(holders):
+            own = holders[mesh.triangles[:, 0]] == bone
+            if own.any():
+                kept = _with(
+                    mesh,
+                    name=f"{mesh.name}_{bone}",
+                    triangles=mesh.triangles[own],
+                    triangle_materials=mesh.triangle_materials[own],
+                    joints=np.zeros((len(mesh.joints), 0), np.int32),
+                    weights=np.zeros((len(mesh.joints), 0), np.float32),
+                    morphs=(),
+                )
+                found.append((int(bone), kept))
+    return found
+
+
+def _local(bone: np.ndarray, scale: float, places_m: np.ndarray) -> np.ndarray:
+    """Places in the world in the space of a bone that hangs from an armature of a scale."""
+    inverse = np.linalg.inv(bone)
+    return (places_m / scale) @ inverse[:3, :3].T + inverse[:3, 3]
 
 
 def _columns(matrices: np.ndarray) -> np.ndarray:

@@ -54,22 +54,23 @@ def _matrix(matrix: Any) -> list[list[float]]:
 
 
 def _vectors(values: Any, width: int) -> npt.NDArray[np.float64]:
-    return np.array([tuple(value) for value in _every(values)], dtype=np.float64).reshape(-1, width)
+    """Numbers of vectors, which are plain tuples and may be freed: a face of many shapes has millions."""
+    numbers = (number for vector in _keep(values) for number in vector)
+    return np.fromiter(numbers, np.float64).reshape(-1, width)
 
 
 def _whole(values: Any) -> npt.NDArray[np.int64]:
-    return np.array(_every(values), dtype=np.int64)
+    return np.fromiter(_keep(values), np.int64)
 
 
 def _mesh(mesh: Any, written: _Written) -> dict[str, Any]:
-    faces = _every(mesh.faces)
-    spans = np.array([(face.index_begin, face.num_indices) for face in faces], dtype=np.int64).reshape(-1, 2)
+    spans = np.array([(face.index_begin, face.num_indices) for face in _keep(mesh.faces)], dtype=np.int64)
     return {
         "name": mesh.name,
         "nodes": [_keep(node).typed_id for node in _every(mesh.instances)],
         "points": written.add(_vectors(mesh.vertices, 3)),
         "corners": written.add(_whole(mesh.vertex_indices)),
-        "faces": written.add(spans),
+        "faces": written.add(spans.reshape(-1, 2)),
         "face_materials": written.add(_whole(mesh.face_material)),
         "normals": _attribute(mesh.vertex_normal, 3, written),
         "uvs": _attribute(mesh.vertex_uv, 2, written),
@@ -122,7 +123,7 @@ def _skin(skin: Any, written: _Written) -> list[dict[str, Any]]:
                 "bone_from_mesh": _matrix(cluster.geometry_to_bone),
                 "world_from_bone": _matrix(cluster.bind_to_world),
                 "points": written.add(_whole(cluster.vertices)),
-                "weights": written.add(np.array(_every(cluster.weights), dtype=np.float64)),
+                "weights": written.add(np.fromiter(_keep(cluster.weights), np.float64)),
             }
         )
     return clusters

@@ -26,7 +26,12 @@ _MOST_BYTES = 2**31
 _MOST_ZEROS = 2**22
 
 # Extensions without which the file can still be read as it is meant here: they change materials only, or add meaning.
-_HARMLESS = ("KHR_materials_", "KHR_texture_transform", "VRMC_", "VRM")
+_HARMLESS = (
+    *("KHR_materials_", "KHR_texture_", "EXT_texture_", "MSFT_texture_", "KHR_lights_punctual"),
+    # Integers for numbers are read with or without it.
+    "KHR_mesh_quantization",
+    *("VRMC_", "VRM"),
+)
 
 
 class Accessors:

@@ -1,6 +1,7 @@
 """Characters of other programs come back as what they were made from, whatever bones, rest pose, unit and format."""
 
 import contextlib
+import subprocess
 from dataclasses import replace
 from pathlib import Path
 
@@ -11,7 +12,8 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from app.errors import FileError
-from app.rig import quaternion
+from app.formats.fbx import foreign as foreign_fbx
+from app.rig import figure_build, quaternion
 from app.rig.character import load_character, read_character
 from app.rig.character_library import character_named
 from app.rig.figure import Figure
@@ -234,6 +236,46 @@ def test_what_is_missing_is_supplied_so_that_the_bones_can_follow_exactly(
         ):
             off = supplied[skeleton.index(name)] - known[ours.skeleton.index(name)]
             assert np.linalg.norm(off) < 0.02, name
+
+
+@pytest.mark.parametrize("scale", [1.0, 0.01])
+def test_parts_that_hang_from_bones_without_a_skin_go_with_them(ours: Character, tmp_path: Path, scale: float) -> None:
+    made = foreign(ours, extra=False)
+    figure = read_figure(write_glb(tmp_path / "x.glb", made, vrm=1, scale=scale, rigid=True))
+    assert len(figure.bone_names) == len(made.names) + 1
+    again = figure_character(figure, "again", figure.humanoid, {})
+    pose = some_pose(ours)
+    order = [ours.skeleton.index(name) for name in again.skeleton.names]
+    body = next(mesh for mesh in ours.meshes if mesh.name == "body")
+    known = deform(patch(ours, body, np.arange(len(body.positions_m))), forward(ours.skeleton, pose))[0]
+    hand = ours.skeleton.index("leftHand")
+    piece = next(mesh for mesh in again.meshes if mesh.name == f"body_{hand}")
+    held = np.where(body.joints == hand, body.weights, 0.0).sum(axis=1) > 1.0 - 1e-6
+    found = deform(patch(again, piece, np.arange(len(piece.positions_m))), forward(again.skeleton, pose[:, order]))[0]
+    assert held.sum() > 20
+    assert np.linalg.norm(found - known, axis=1)[held].max() < CLOSE_M
+
+
+def test_what_no_character_has_is_refused(ours: Character, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = write_glb(tmp_path / "x.glb", foreign(ours))
+    for limit in ("MOST_BONES", "MOST_VERTICES"):
+        with monkeypatch.context() as patched:
+            patched.setattr(figure_build, limit, 10)
+            with pytest.raises(FileError, match="too_large"):
+                read_figure(path)
+    write_fbx(tmp_path / "x.fbx", foreign(ours))
+    monkeypatch.setattr(foreign_fbx, "MOST_BYTES", 10)
+    with pytest.raises(FileError, match="too_large"):
+        read_figure(tmp_path / "x.fbx")
+
+
+def test_a_reader_that_dies_is_an_error_of_the_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = tmp_path / "x.fbx"
+    path.write_bytes(b"Kaydara FBX Binary  \0")
+    died = subprocess.CompletedProcess([], -11, b"", b"")
+    monkeypatch.setattr(foreign_fbx.subprocess, "run", lambda *args, **kwargs: died)
+    with pytest.raises(FileError, match="foreign_damaged"):
+        read_figure(path)
 
 
 def test_every_required_joint_is_asked_for_by_name(ours: Character, tmp_path: Path) -> None:
