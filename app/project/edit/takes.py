@@ -421,8 +421,11 @@ def _spliced(
         first, last = np.searchsorted(ticks, [start_tick, end_tick])
         # Where a span begins and where it ends a value holds that was said before.
         from_index, to_index = np.searchsorted(new_ticks, [start_tick + 1, end_tick])
+        # Where nothing was said before, what a take says must not hold for what was played before it.
+        silent = [(0, 0.0)] if not len(ticks) and start_tick > 0 else []
         goes_on = [(end_tick, _held(ticks, values, end_tick))] if end_tick < LAST_TICK else []
         spliced = (
+            ([tick for tick, _ in silent], [value for _, value in silent]),
             (ticks[:first], values[:first]),
             ([start_tick], [_held(new_ticks, new_values, start_tick)]),
             (new_ticks[from_index:to_index], new_values[from_index:to_index]),

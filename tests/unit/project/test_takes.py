@@ -288,3 +288,14 @@ def test_what_is_blown_is_always_the_take_s_that_the_comp_says(made: list[tuple[
             expected = said[-1] if said else 0.0
         index = -1 if breath is None else int(np.searchsorted(breath.ticks, tick, side="right")) - 1
         assert (breath.values[index] if breath is not None and index >= 0 else 0.0) == expected
+
+
+def test_what_a_take_says_does_not_hold_for_what_was_played_before_it() -> None:
+    project = comp(recorded(ONE), TRUMPET, "take:1", 480, 1200)
+    for curve in project.part(project.player(TRUMPET)).curves:
+        assert (curve.ticks[0], curve.values[0]) == (0, 0.0), curve.kind
+    breath = next(curve for curve in project.part(project.player(TRUMPET)).curves if curve.kind == "breath")
+    assert breath.values[list(breath.ticks).index(480)] > 0.0
+    # Taken from the beginning on there is nothing before.
+    whole = comp(recorded([(0.0, 0.5, 70, 0.5)]), TRUMPET, "take:1", 0, 480)
+    assert whole.part(whole.player(TRUMPET)).curves[0].values[0] > 0.0
