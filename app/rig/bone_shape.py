@@ -19,11 +19,15 @@ MIRROR_TOLERANCE: Final = 0.03
 """How far a bone may be from its partner's mirror image, of the figure's height."""
 OFF_CENTRE: Final = 0.02
 """A bone farther from the middle than this belongs to a side."""
+IN_MIDDLE: Final = 0.004
+"""The same for a bone that has a partner on the other side."""
 ALIKE: Final = 0.1
 """Distances that differ by less than this part are alike."""
 HIP_BESIDE: Final = 0.03
 """A leg begins farther from the middle than this."""
 ANKLE_HEIGHT: Final = 0.045
+FOOT_HEIGHT: Final = 0.12
+"""No ankle is higher."""
 ARM_LENGTH: Final = 0.30
 """Shoulder to wrist."""
 LEG_LENGTH: Final = 0.46
@@ -118,10 +122,9 @@ class _Halves:
 
     def side(self, bone: int) -> int:
         """1: left (+X), -1: right, 0: in the middle."""
-        if self.partner.get(bone, bone) != bone:
-            return 1 if self.tree.positions_m[bone, 0] > self.centre else -1
         off = (float(self.tree.positions_m[bone, 0]) - self.centre) / self.height
-        return 0 if abs(off) < OFF_CENTRE else (1 if off > 0.0 else -1)
+        in_middle = IN_MIDDLE if self.partner.get(bone, bone) != bone else OFF_CENTRE
+        return 0 if abs(off) < in_middle else (1 if off > 0.0 else -1)
 
     def left_ends(self, below: int) -> list[int]:
         """The last bones of the left half below a bone, that have a partner."""
@@ -176,7 +179,7 @@ def joints_by_shape(tree: Tree) -> dict[str, int]:
 
 def _leg(halves: _Halves, side: str, path: list[int]) -> dict[str, int]:
     tree, height = halves.tree, halves.height
-    ankle = min(path, key=lambda bone: abs(tree.positions_m[bone, 1] - halves.floor - ANKLE_HEIGHT * height))
+    ankle = _ankle(halves, path)
     upper = path[: path.index(ankle)]
     beside = [bone for bone in upper if abs(tree.positions_m[bone, 0] - halves.centre) > HIP_BESIDE * height]
     upper = beside if len(beside) >= 2 else upper
@@ -188,6 +191,16 @@ def _leg(halves: _Halves, side: str, path: list[int]) -> dict[str, int]:
     if ahead is not None and tree.positions_m[ahead, 2] > tree.positions_m[ankle, 2]:
         found[f"{side}Toes"] = ahead
     return found
+
+
+def _ankle(halves: _Halves, path: list[int]) -> int:
+    """Where the way down turns ahead, near the floor; without a foot that points ahead, what is as high as an ankle."""
+    places, floor = halves.tree.positions_m, halves.floor
+    for bone, next_ in pairwise(path):
+        ahead = places[next_] - places[bone]
+        if places[bone, 1] - floor < FOOT_HEIGHT * halves.height and ahead[2] > 0.5 * np.linalg.norm(ahead):
+            return bone
+    return min(path, key=lambda bone: abs(float(places[bone, 1]) - floor - ANKLE_HEIGHT * halves.height))
 
 
 def _arm(halves: _Halves, side: str, path: list[int]) -> dict[str, int]:

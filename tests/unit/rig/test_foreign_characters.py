@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -14,6 +16,7 @@ from tests.support import wooden
 from tests.support.skeletons import listed
 
 FOLDER = Path(__file__).parents[2] / "data" / "characters"
+OURS = sorted((Path(__file__).parents[3] / "resources" / "characters").glob("*.glb"))
 FINGERS = ("Index", "Middle", "Ring", "Little")
 PARTS = ("Proximal", "Intermediate", "Distal")
 THUMB = ("ThumbMetacarpal", "ThumbProximal", "ThumbDistal")
@@ -102,6 +105,24 @@ def check(figure: Figure, profile: str, expected: dict[str, str]) -> None:
 @pytest.mark.parametrize("name", EXPECTED)
 def test_every_bone_of_a_foreign_character_is_known(name: str) -> None:
     check(read_figure(FOLDER / name), *EXPECTED[name])
+
+
+@pytest.mark.parametrize("path", [*(FOLDER / name for name in EXPECTED), *OURS], ids=lambda path: path.name)
+def test_limbs_hands_and_head_are_known_by_shape_where_names_say_nothing(path: Path) -> None:
+    figure = read_figure(path)
+    mapping = map_joints(figure)
+    nameless = replace(figure, bone_names=tuple(f"n{bone}" for bone in range(len(figure.bone_names))), humanoid={})
+    found = map_joints(nameless)
+    # A file may leave spine bones out, or say that it has no toes; one lone finger is a mitten's.
+    told = {
+        joint: bone
+        for joint, bone in mapping.bones.items()
+        if not re.search("spine|chest|Eye|jaw", joint, re.IGNORECASE)
+        and (path.name != "man_cmu.fbx" or "Thumb" not in joint)
+    }
+    assert {joint: found.bones.get(joint) for joint in told} == told
+    assert found.profile == ""
+    assert set(found.doubtful) == set(found.bones)
 
 
 def test_a_wooden_mannequin_is_known_though_its_names_mislead(tmp_path: Path) -> None:
