@@ -82,6 +82,10 @@ Unreal で「Suisou &gt; 演奏をインポート」を選んでください。�
         <translation>ファイル</translation>
     </message>
     <message>
+        <source>Bone names in BVH</source>
+        <translation>BVH のボーン名</translation>
+    </message>
+    <message>
         <source>Skeleton</source>
         <translation>スケルトン</translation>
     </message>
@@ -140,6 +144,10 @@ Unreal で「Suisou &gt; 演奏をインポート」を選んでください。�
     <message>
         <source>Sound (WAV)</source>
         <translation>音声（WAV）</translation>
+    </message>
+    <message>
+        <source>Those of the skeleton</source>
+        <translation>スケルトンのまま</translation>
     </message>
     <message>
         <source> beats</source>

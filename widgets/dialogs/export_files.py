@@ -36,6 +36,7 @@ from app.export.run import Request
 from app.performance.ensemble import Performance
 from app.performance.span import bars_span, whole_span
 from app.project.model import Player
+from metadata.load import load_bone_names
 from widgets.common.session import Session
 from widgets.common.tasks import Progress, StopWanted
 from widgets.common.text import message_text
@@ -133,6 +134,13 @@ class ExportDialog(QDialog):
             box.setEnabled(name not in self._missing)
         self._sound = QCheckBox()
         self._sound.setObjectName("export_sound")
+        self._bvh_names = QComboBox()
+        self._bvh_names.setObjectName("export_bvh_names")
+        # As wide as there is room, not as the longest title.
+        self._bvh_names.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+        self._bvh_names.addItem("", "")
+        for profile, table in load_bone_names().items():
+            self._bvh_names.addItem(table.title, profile)
         self._range = QComboBox()
         self._range.setObjectName("export_range")
         self._first_bar, self._last_bar = QSpinBox(), QSpinBox()
@@ -192,7 +200,18 @@ class ExportDialog(QDialog):
 
         self._labels = {
             name: QLabel()
-            for name in ("players", "into", "folder", "files", "skeleton", "range", "preroll", "rate", "outcome")
+            for name in (
+                "players",
+                "into",
+                "folder",
+                "files",
+                "bvh_names",
+                "skeleton",
+                "range",
+                "preroll",
+                "rate",
+                "outcome",
+            )
         }
         self._lay_out()
         for kind in (_FOLDER, _UNREAL):
@@ -239,6 +258,7 @@ class ExportDialog(QDialog):
         form.addRow(self._labels["into"], self._destination)
         form.addRow(self._labels["folder"], folder)
         form.addRow(self._labels["files"], formats)
+        form.addRow(self._labels["bvh_names"], self._bvh_names)
         form.addRow(self._labels["skeleton"], self._skeleton)
         form.addRow(self._labels["range"], bars)
         form.addRow(self._labels["preroll"], self._preroll)
@@ -301,6 +321,7 @@ class ExportDialog(QDialog):
             source=self._source,
             creator=self._creator,
             sound=self._sound.isChecked(),
+            bvh_names=self._bvh_names.currentData(),
             skeleton=self._skeleton.choice,
             asset=self._skeleton.asset,
         )
@@ -378,7 +399,7 @@ class ExportDialog(QDialog):
         for widget in (
             *(self._players, self._everybody, self._range, self._first_bar, self._last_bar, self._preroll),
             *(self._skeleton, self._rate, self._destination, self._folder, self._choose, self._export, self._sound),
-            *self._formats.values(),
+            *(self._bvh_names, *self._formats.values()),
         ):
             widget.setEnabled(enabled)
         for name in self._missing:
@@ -422,6 +443,7 @@ class ExportDialog(QDialog):
         for widget in (self._first_bar, self._dash, self._last_bar):
             widget.setVisible(ticked)
         self._form.setRowVisible(self._labels["files"], self.destination == "folder")
+        self._form.setRowVisible(self._labels["bvh_names"], self.destination == "folder" and "bvh" in self.formats)
         place = self._folder.text().strip()
         problem = ""
         if not self.player_ids:
@@ -478,6 +500,7 @@ class ExportDialog(QDialog):
             "players": self.tr("Players"),
             "into": self.tr("Into"),
             "files": self.tr("Files"),
+            "bvh_names": self.tr("Bone names in BVH"),
             "skeleton": self.tr("Skeleton"),
             "range": self.tr("Range"),
             "preroll": self.tr("Pre-roll"),
@@ -499,6 +522,7 @@ class ExportDialog(QDialog):
             else self.tr("USD (characters and instruments)")
         )
         self._sound.setText(self.tr("Sound (WAV)"))
+        self._bvh_names.setItemText(0, self.tr("Those of the skeleton"))
         for name, message in self._missing.items():
             self._formats[name].setToolTip(message_text(message))
         self._preroll.setSuffix(self.tr(" beats"))

@@ -13,6 +13,7 @@ from pytestqt.qtbot import QtBot
 
 from app.export.run import Request, export
 from app.formats import usd
+from app.formats.bvh import read_bvh
 from app.messages import text
 from app.performance.ensemble import Performance
 from app.performance.span import bars_span
@@ -162,3 +163,20 @@ def test_all_kinds_of_file_at_once(dialog: ExportDialog, session: Session, tmp_p
     suffixes = sorted(path.suffix for path in (tmp_path / "out").iterdir())
     usdc = [".usdc"] * 2 if usd.usd_installed() else []
     assert suffixes == sorted([".bvh", ".glb", ".glb", ".json", ".wav", *usdc])
+
+
+def test_bvh_files_get_the_bone_names_of_another_program(dialog: ExportDialog, tmp_path: Path) -> None:
+    one_player_two_bars(dialog)
+    names = dialog.findChild(QComboBox, "export_bvh_names")
+    assert names is not None
+    assert names.isVisible()
+    names.setFocus()
+    QTest.keyClicks(names, "Mixamo")
+    assert names.currentData() == "mixamo"
+    start(dialog)
+    (path,) = (tmp_path / "out").glob("*.bvh")
+    assert {"Hips", "LeftForeArm", "RightHandIndex1"} <= set(read_bvh(path).names)
+    box = dialog.findChild(QCheckBox, "export_bvh")
+    assert box is not None
+    QTest.mouseClick(box, Qt.MouseButton.LeftButton)
+    assert not names.isVisible()
