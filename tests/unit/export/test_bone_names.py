@@ -16,14 +16,14 @@ from app.export.playback import Playback
 from app.export.skeleton import scene_bvh
 from app.export.target import SkeletonChoice, TargetSkeleton
 from app.export.targets import target_skeleton
-from app.formats.bvh import encode_bvh, read_bvh
+from app.formats.bvh import BvhClip, encode_bvh, read_bvh
 from app.formats.scene import Scene
 from app.motion.model import Motion
 from app.rig.character_library import character_named
 from app.rig.humanoid import map_joints
 from app.rig.model import Character
 from metadata.load import load_bone_names, load_skeleton
-from tests.support.skeletons import bvh_bones, figure_of
+from tests.support.skeletons import ListedBone, figure_of
 from tests.unit.formats import scenes
 
 PROFILES = sorted(load_bone_names())
@@ -63,6 +63,18 @@ def _scene(choice: SkeletonChoice = "suisou") -> tuple[Scene, TargetSkeleton, Ch
     return character_scene(character, motion, "take", "Suisou", target), target, character
 
 
+def _listed(clip: BvhClip) -> list[ListedBone]:
+    """The bones of a BVH file where they are at rest, on the ground."""
+    places_m = np.array(clip.offsets_cm) / 100
+    for bone, parent in enumerate(clip.parents):
+        places_m[bone] += places_m[parent] if parent >= 0 else 0.0
+    places_m[:, 1] -= places_m[:, 1].min()
+    return [
+        ListedBone(name, clip.names[parent] if parent >= 0 else "", (float(x), float(y), float(z)), "")
+        for name, parent, (x, y, z) in zip(clip.names, clip.parents, places_m, strict=True)
+    ]
+
+
 @pytest.mark.parametrize("profile", PROFILES)
 def test_the_motion_is_the_same_and_the_mapper_knows_the_bones(profile: str, tmp_path: Path) -> None:
     scene, target, character = _scene()
@@ -76,7 +88,7 @@ def test_the_motion_is_the_same_and_the_mapper_knows_the_bones(profile: str, tmp
     same = np.abs(np.einsum("fji,fji->fj", named.rotations_xyzw, plain.rotations_xyzw))
     np.testing.assert_allclose(same, 1.0, atol=1e-6)
     # What a stranger's program would make of the names alone.
-    mapping = map_joints(figure_of(bvh_bones(tmp_path / "named.bvh")))
+    mapping = map_joints(figure_of(_listed(named)))
     meant = {joint: bone for bone, joint in enumerate(plain.names) if joint in joint_names(load_bone_names()[profile])}
     found = {joint: bone for joint, bone in mapping.bones.items() if joint in meant}
     assert {joint: named.names[bone] for joint, bone in found.items()} == {
