@@ -13,6 +13,9 @@ TEMPLATES: Final[dict[str, str]] = {
     "unreal.read_only": (
         "{file} is write-protected; nothing was written; allow writing into the project's folder and export again"
     ),
+    "unreal.locked": (
+        "{file} is write-protected, as version control leaves it; nothing was written; check it out, then export again"
+    ),
     "unreal.manifest": (
         "{file} is damaged ({detail}), so that nobody knows which files are whose; nothing was written; move its "
         "folder away, then export again"

@@ -1548,6 +1548,10 @@
             <translation>{file} は書き込み禁止です。何も書き出していません。プロジェクトのフォルダーへの書き込みを許可してから、もう一度書き出してください</translation>
         </message>
         <message>
+            <source>{file} is write-protected, as version control leaves it; nothing was written; check it out, then export again</source>
+            <translation>{file} は書き込み禁止です (バージョン管理でチェックアウトされていないようです)。何も書き出していません。チェックアウトしてから、もう一度書き出してください</translation>
+        </message>
+        <message>
             <source>{file} is damaged ({detail}), so that nobody knows which files are whose; nothing was written; move its folder away, then export again</source>
             <translation>{file} が壊れていて ({detail})、どのファイルがこのプログラムのものか分かりません。何も書き出していません。そのフォルダーを別の場所に移してから、もう一度書き出してください</translation>
         </message>

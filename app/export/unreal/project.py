@@ -2,7 +2,8 @@
 
 Messages
 --------
-unreal.not_found, unreal.no_project, unreal.several, unreal.not_a_project, unreal.too_old, unreal.read_only
+unreal.not_found, unreal.no_project, unreal.several, unreal.not_a_project, unreal.too_old, unreal.read_only,
+unreal.locked
 """
 
 from __future__ import annotations
@@ -10,8 +11,9 @@ from __future__ import annotations
 import json
 import os
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import Final
 
 from app.errors import FileError
@@ -74,13 +76,17 @@ def find_project(path: Path) -> UnrealProject:
     return UnrealProject(found, engine, version)
 
 
-def require_writable(project: UnrealProject) -> None:
-    """Raise ``unreal.read_only`` where nothing can be written into a project's folder.
+def require_writable(project: UnrealProject, paths: Iterable[PurePosixPath] = ()) -> None:
+    """Raise ``unreal.read_only`` where nothing can be written into a project's folder, ``unreal.locked`` where one of
+    its files is write-protected, although some systems would replace it all the same.
 
     The ``.uproject`` file itself may well be write-protected, as version control leaves it: it is not touched.
     """
     if not os.access(project.folder, os.W_OK | os.X_OK):
         raise FileError("unreal.read_only", file=os.fspath(project.folder))
+    for path in paths:
+        if not os.access(project.folder / path, os.W_OK):
+            raise FileError("unreal.locked", file=os.fspath(project.folder / path))
 
 
 def _project_file(path: Path) -> Path:

@@ -117,7 +117,7 @@ def plan_export(
     except OSError as error:
         reason = error.strerror or str(error)
         raise FileError("file.cannot_read", file=os.fspath(project.folder), reason=reason) from error
-    return Plan(
+    plan = Plan(
         layout=layout,
         written=tuple(sorted(folder / path for folder, coming in done for path in coming)),
         replaced=tuple(sorted(folder / path for folder, change in found for path in change.replaced)),
@@ -125,6 +125,8 @@ def plan_export(
         kept=tuple(message for _, change in found for message in change.kept),
         plugin=plugin,
     )
+    require_writable(project, (*plan.replaced, *plan.removed))
+    return plan
 
 
 def export_into(

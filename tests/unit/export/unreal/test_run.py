@@ -188,6 +188,21 @@ def test_what_is_the_artists_is_not_replaced(unreal: UnrealProject, export: Expo
     assert tree_of(unreal.folder) == before
 
 
+def test_a_write_protected_file_is_told_although_it_could_be_replaced(
+    unreal: UnrealProject, export: Export, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    export(request_of(quartet()))
+    before = tree_of(unreal.folder)
+    protected = unreal.folder / SOURCES / "Audio/S_quartet.wav"
+    # Whoever runs the tests may be allowed everything.
+    monkeypatch.setattr(os, "access", lambda path, mode: Path(path) != protected)
+    with pytest.raises(FileError) as caught:
+        export(request_of(quartet(), last_bar=2))
+    assert caught.value.message.id == "unreal.locked"
+    assert str(protected) in text(caught.value.message)
+    assert tree_of(unreal.folder) == before
+
+
 def test_a_manifest_that_leads_elsewhere_is_damaged(unreal: UnrealProject, export: Export) -> None:
     export(request_of(quartet()))
     path = unreal.folder / SOURCES / "manifest.json"
