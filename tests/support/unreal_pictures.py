@@ -8,6 +8,7 @@ themes, before the first export, before another and after it.
 from __future__ import annotations
 
 import json
+import os
 import sys
 import tempfile
 import time
@@ -39,7 +40,9 @@ class Artist:
         settings = Settings(folder / "editor.ini")
         settings.language, settings.theme = language, theme
         settings.export_into = "unreal"
-        project = folder / "Concert" / "Concert.uproject"
+        # Relative, so that the picture shows nobody's folders.
+        os.chdir(folder)
+        project = Path("Concert", "Concert.uproject")
         project.parent.mkdir(exist_ok=True)
         project.write_text(json.dumps({"FileVersion": 3, "EngineAssociation": "5.6"}))
         settings.unreal_project = str(project)
