@@ -126,6 +126,8 @@ def export(arguments: argparse.Namespace) -> None:
     unreal = None if arguments.unreal is None else find_project(arguments.unreal)
     project = open_project(arguments)
     performance = Performance(project)
+    # Before the plans, which say what a body does not reach.
+    performance.hold()
     chosen = select_players(arguments.players, [player.name for player in project.players])
     progress = Progress(sys.stderr)
     request = Request(

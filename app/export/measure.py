@@ -31,6 +31,7 @@ from app.export.target import TargetSkeleton, normalised_target
 from app.formats.scene import Scene
 from app.performance.contacts import FEET_MM, LIPS_MM, TOUCH_MM, bound_mm
 from app.plan.model import BreathEvent, PlayerPlan
+from app.rig.hold import ContactFit
 from app.rig.lips import meeting
 from app.rig.model import Character
 from app.rig.stations import MOST_HOVER_M, aside_m, only_at, stations, stations_of_notes, worked_by
@@ -182,12 +183,12 @@ def measure_player(
     measures = PlayerMeasures(
         sounding_frames=int(sounding.sum()),
         contacts={
-            _contact_name(contact): _contact(index, instrument, traces, judge, values, sounding, working)
+            contact_name(contact): _contact(index, instrument, traces, judge, values, sounding, working)
             for index, contact in enumerate(instrument.contacts)
             if contact.grip != "guide"
         },
         guides={
-            _contact_name(contact): _contact(index, instrument, traces, judge, values, sounding, working)
+            contact_name(contact): _contact(index, instrument, traces, judge, values, sounding, working)
             for index, contact in enumerate(instrument.contacts)
             if contact.grip == "guide"
         },
@@ -287,7 +288,8 @@ def _spread(distances_m: FloatArray, bound_mm: float) -> Spread:
     )
 
 
-def _contact_name(contact: Contact) -> str:
+def contact_name(contact: Contact | ContactFit) -> str:
+    """What a measure of a contact is called."""
     return f"{contact.part} on {'+'.join((contact.control or contact.node, *contact.together))}"
 
 

@@ -20,7 +20,7 @@ from app.export.control_judge import FloatArray
 from app.export.folder import files_into
 from app.export.formats import FILE_FORMATS, Beside, Format, Held
 from app.export.instrument import instrument_scene
-from app.export.measure import Measured, greatest_correlations, measure_player
+from app.export.measure import Measured, contact_name, greatest_correlations, measure_player
 from app.export.report import PlayerReport, Report, SkeletonReport, StagePlace, UnplayedPart, encode_report
 from app.export.sound import write_sound
 from app.export.target import SkeletonChoice, TargetSkeleton
@@ -29,12 +29,14 @@ from app.formats.atomic import atomic_write
 from app.formats.fbx.read import read_scene
 from app.formats.scene import Scene
 from app.motion.model import Motion
-from app.performance.bodies import body_of, character_of, model_of
+from app.performance.bodies import body_of, character_of, hold_of, model_of
 from app.performance.ensemble import Performance
 from app.performance.motion import player_motion
 from app.performance.span import FrameSpan
 from app.project.model import Player
 from app.project.names import file_stems
+from app.rig.fit import INSIDE_M, missed
+from app.rig.hold import Hold
 from app.rig.read_figure import read_figure
 from metadata.load import load_skeleton
 
@@ -255,8 +257,15 @@ def _stems(performance: Performance) -> dict[str, str]:
     return {player.id: stem for player, stem in zip(players, stems, strict=True)}
 
 
+def _missed_mm(hold: Hold) -> dict[str, float]:
+    """What a hold itself misses by how much, by the names of the measures: touches, and skin inside the instrument."""
+    found = {contact_name(one): round(1000.0 * one.distance_m, 2) for one in missed(hold)}
+    deepest_m = max((hand.penetration_m for hand in hold.hands), default=0.0)
+    return found | ({"penetration": round(1000.0 * deepest_m, 2)} if deepest_m > INSIDE_M else {})
+
+
 def _player_report(request: Request, player: Player, files: dict[str, str], measured: Measured | None) -> PlayerReport:
-    plan = request.performance.plan(player)
+    plan, held = request.performance.plan(player), request.performance.held(player)
     span = request.span
     place = player.stage
     return PlayerReport(
@@ -264,7 +273,8 @@ def _player_report(request: Request, player: Player, files: dict[str, str], meas
         part=request.performance.project.part(player).name,
         instrument=player.instrument_id,
         character=player.character_id,
-        size=request.performance.held(player).size,
+        size=held.size,
+        missed=_missed_mm(hold_of(player, held)),
         posture=request.performance.instrument(player).hold.possible(player.parameters.posture),
         files=files,
         stage=StagePlace(round(place.x_m, 4), round(place.z_m, 4), round(math.degrees(place.turn_rad), 3)),

@@ -13,7 +13,7 @@ from threading import RLock
 import msgspec
 
 from app.errors import AppError, Cancelled, MapError, Message
-from app.performance.bodies import character_of, hold_now, is_held, suited_to
+from app.performance.bodies import character_of, hold_now, hold_of, is_held, suited_to
 from app.performance.loudness import heard, note_loudness
 from app.performance.reach import reached
 from app.plan.corrections import RemoveEvent, SetBreath, SetCue, Vary
@@ -21,7 +21,8 @@ from app.plan.generate import BREATH_PARAMETERS, EnsemblePlan, Line, Piece, fram
 from app.plan.memo import Memo
 from app.plan.model import PlayerPlan, Problem, TimeFrame
 from app.project.model import Player, Project
-from app.rig.character_library import characters
+from app.rig.character_library import bundled_characters, characters
+from app.rig.fit import missed
 from instrument_maps.library import library
 from instrument_maps.model import InstrumentMap
 from metadata.load import load_expressions
@@ -185,6 +186,7 @@ class Performance:
         unreached: tuple[Problem, ...] = ()
         try:
             held, lacking = suited_to(player, self.instrument(player))
+            lacking += self._missed(player, held)
             unreached = self._unreached(player, held, plan)
         except AppError as error:
             # A model or character that cannot be read is this player's problem; the others play on.
@@ -198,6 +200,16 @@ class Performance:
             return _with_problems(player, plan, frame, problems + unreached)
 
         return self._memo.step(f"told:{player.id}", told, plan, unreached, frame, *lacking)
+
+    def _missed(self, player: Player, held: InstrumentMap) -> tuple[Message, ...]:
+        """What to tell of touches that a hold does not meet, as soon as it is known; those of our own bodies all do."""
+        if player.character_id in bundled_characters() or not is_held(player, self.instrument(player)):
+            return ()
+        off = missed(hold_of(player, held))
+        if not off:
+            return ()
+        gap_mm = round(1000.0 * off[0].distance_m, 1)
+        return (Message("character.touches_missed", {"count": len(off), "touch": off[0].part, "gap_mm": gap_mm}),)
 
     def _unreached(self, player: Player, held: InstrumentMap, plan: PlayerPlan) -> tuple[Problem, ...]:
         """What the player's hands do not reach."""

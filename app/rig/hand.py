@@ -31,7 +31,7 @@ _PALM_STATIONS = (0.05, 0.25, 0.45, 0.65, 0.85)
 """Balls between the wrist and each knuckle."""
 _FOREARM_M = (0.05, 0.1, 0.15, 0.2)
 """Balls in the forearm, behind the wrist."""
-_SLEEVE_M = 0.006
+_SLEEVE_M, _PALM_M = 0.006, 0.014
 _FOREARM_TAPER = 0.05
 _FINGER_FLESH, _PALM_FLESH = 0.65, 0.85
 """Part of a ball's radius that nothing may enter: touching is measured on the skin, balls keep thin bars out."""
@@ -258,7 +258,7 @@ def _with_skin(hand: HandModel) -> HandModel:
     owner = np.argmax(weights, axis=0)
     found = [*_finger_balls(hand, rest, skin, owner, weights), *_palm_balls(hand, skin, owner)]
     carriers = np.array([joint for joint, _ in found], dtype=np.intp)
-    ball = np.array([ball for _, ball in found])
+    ball = np.array([ball for _, ball in found], dtype=np.float64).reshape(-1, 4)
     finger = np.where(carriers > 0, (carriers - 1) // 3, -1)
     first, second = np.triu_indices(len(ball), 1)
     apart = (finger[first] != finger[second]) & (carriers[first] > 1) & (carriers[second] > 1)
@@ -266,7 +266,8 @@ def _with_skin(hand: HandModel) -> HandModel:
     centres = rest[0, carriers, :, 3] + ball[:, :3]
     gaps = ball[pairs[:, 0], 3] + ball[pairs[:, 1], 3] - 0.001
     at_rest = np.linalg.norm(centres[pairs[:, 0]] - centres[pairs[:, 1]], axis=1)
-    wrist_m = np.median([radius for joint, (_, _, _, radius) in found if joint == 0]) + _SLEEVE_M
+    palm = [radius for joint, (_, _, _, radius) in found if joint == 0]
+    wrist_m = (float(np.median(palm)) if palm else _PALM_M) + _SLEEVE_M
     forearm = [[behind, wrist_m + _FOREARM_TAPER * behind] for behind in _FOREARM_M]
     values = {field: getattr(hand, field) for field in HandModel.__dataclass_fields__}
     values.update(

@@ -146,7 +146,7 @@ def _carried(
     """The instrument of the size nearest to 1 at which hands of this size play and both arms reach, moved within the
     range of its carriage where that lets it be larger; where they never reach, as near as they come."""
     low, high = instrument.hold.size_range
-    hands = hand_size(character.skeleton)
+    hands = _hands(character)
     wanted = 1.0 if SAME[0] < hands < SAME[1] else round(min(max(hands, low), high), 2)
     if min((arm_size(character.skeleton, seed.hand) for seed in instrument.hands), default=1.0) == 1.0:
         return scaled(instrument, wanted)
@@ -163,6 +163,16 @@ def _carried(
         if judged > (best[0] + WORTH, best[1]) or (judged[0] >= best[0] and judged[1] > best[1] + WORTH):
             best, found = judged, moved
     return scaled(found, round(best[1], 2))
+
+
+def _hands(character: Character) -> float:
+    """How large the hands are; of supplied ones, which nobody sees, how long the arms are."""
+    skeleton, own = character.skeleton, character.own
+    if own is not None and any(
+        own.bone_of_joint[skeleton.index(f"{side}MiddleDistal")] < 0 for side in ("left", "right")
+    ):
+        return min(arm_size(skeleton, "left"), arm_size(skeleton, "right"))
+    return hand_size(skeleton)
 
 
 def _lowered(instrument: InstrumentMap, share: float) -> InstrumentMap:
@@ -208,7 +218,7 @@ def _asked(
         )
     else:
         wrist_m, turn = known
-        place_m = wrist_m + quaternion.rotate(turn, palm_m / hand_size(skeleton))
+        place_m = wrist_m + quaternion.rotate(turn, palm_m / _hands(character))
     carrier = next((control for control in instrument.controls if control.node == seed.node), None)
     ways_m = np.zeros((2, 3)) if carrier is None else np.stack([np.zeros(3), travel(carrier)])
     asked = np.zeros(len(sizes))

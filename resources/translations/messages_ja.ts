@@ -700,6 +700,10 @@
             <translation>口を開くモーフがありません。息継ぎは口に表れず、唇は閉じたままです</translation>
         </message>
         <message>
+            <source>{count} touches do not meet this instrument, the {touch} misses by {gap_mm} mm: hands and instrument are of too different sizes or shapes</source>
+            <translation>{count} か所の接点がこの楽器に届きません（{touch}が最大 {gap_mm} mm 外れます）。手と楽器の大きさや形が合っていません</translation>
+        </message>
+        <message>
             <source>the {side} hand comes off the instrument: it stays {gap_mm} mm from its place; lessen the pose correction or the gesture here, or take a character of another size</source>
             <translation>{side}手が楽器から離れています（本来の位置から {gap_mm} mm）。ここのポーズ補正やジェスチャーを弱めるか、体格の違うキャラクターを選んでください</translation>
         </message>

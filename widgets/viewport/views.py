@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 import numpy.typing as npt
 
+from app.rig.stature import face_size, hand_size
 from widgets.common.viewport_state import View
 from widgets.viewport.camera import Camera, frame
 from widgets.viewport.cast import Stage
@@ -29,6 +30,8 @@ _DIRECTIONS_DEG: dict[View, tuple[float, float]] = {
 }
 _HALF_M: dict[View, float] = {"hands": 0.21, "mouth": 0.115, "feet": 0.30}
 """Half the height of a close-up's picture, at least."""
+HEAD_M = 0.16
+"""From a head's joint to its crown."""
 BODY_M = 0.55
 """Room that a player with an instrument takes, from the middle."""
 
@@ -77,8 +80,9 @@ def tracked(view: View, stage: Stage, row: int) -> Floats | None:
         lips = held[:, :3] @ np.asarray(kit.map.mouthpiece.position_m) + held[:, 3]
         # Lips and eyes both, and in a long rest, when the instrument is lowered, still the face.
         head = stage.joints[row, kit.character.skeleton.index("head")]
-        face: Floats = head[:, :3] @ np.array([0.0, 0.02, 0.09]) + head[:, 3]
-        near = float(np.clip(1.0 - (np.linalg.norm(lips - face) - 0.1) / 0.15, 0.0, 1.0))
+        size = face_size(kit.character)
+        face: Floats = head[:, :3] @ (size * np.array([0.0, 0.02, 0.09])) + head[:, 3]
+        near = float(np.clip(1.0 - (np.linalg.norm(lips - face) / size - 0.1) / 0.15, 0.0, 1.0))
         mouth: Floats = (1.0 - 0.6 * near) * face + 0.6 * near * lips
         return mouth
     if view == "feet":
@@ -114,13 +118,15 @@ def bounds(stage: Stage, rows: Sequence[int]) -> tuple[Floats, Floats]:
     for row in rows:
         kit = stage.members[row].kit
         points.append(stage.joints[row, 1 : len(kit.character.skeleton.names), :, 3])
+        head_m = stage.joint_m(row, "head")
+        points.append(head_m[None] + [0.0, (face_size(kit.character) - 1.0) * HEAD_M, 0.0])
         low, high = model_bounds(kit.instrument)
         corners = np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
         held = stage.node_matrix(row)
         points.append(corners @ held[:, :3].T + held[:, 3])
     whole = np.concatenate(points)
-    head_m, flesh_m = 0.16, 0.10
-    low, high = whole.min(axis=0) - flesh_m, whole.max(axis=0) + np.array([flesh_m, head_m, flesh_m])
+    flesh_m = 0.10
+    low, high = whole.min(axis=0) - flesh_m, whole.max(axis=0) + np.array([flesh_m, HEAD_M, flesh_m])
     low[1] = min(float(low[1]), 0.0)
     return low, high
 
@@ -142,8 +148,12 @@ def _hands(stage: Stage, row: int) -> Floats:
 
 
 def _half(view: View, stage: Stage, row: int) -> Floats:
+    kit = stage.members[row].kit
     half = _HALF_M[view]
+    if view == "mouth":
+        half *= face_size(kit.character)
     if view == "hands":
         hands = _hands(stage, row)
+        half *= min(hand_size(kit.character.skeleton), 1.5)
         half = max(half, 0.5 * float(np.linalg.norm(hands[1] - hands[3])) + 0.12)
     return np.full(3, half * 0.58)
