@@ -38,14 +38,14 @@ def require_jack() -> None:
 @contextmanager
 def jack_server(
     name: str, period_frames: int = PATIENT_FRAMES, *, is_in_step: bool = False, is_realtime: bool = False
-) -> Iterator[None]:
+) -> Iterator[Server]:
     """A dummy server that this process and its children use, as long as the block runs."""
     require_jack()
     before = os.environ.get(_VARIABLE)
     server = Server(name, period_frames, is_in_step=is_in_step, is_realtime=is_realtime)
     try:
         os.environ[_VARIABLE] = server.start()
-        yield
+        yield server
     finally:
         server.stop()
         if before is None:

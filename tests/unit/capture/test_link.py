@@ -38,9 +38,9 @@ PHRASE = phrase([60, 62, 64], beat_s=0.2, ghosts=1)
 
 
 @pytest.fixture(scope="module", autouse=True)
-def server() -> Iterator[None]:
-    with jack_server("suisou-link"):
-        yield
+def server() -> Iterator[Server]:
+    with jack_server("suisou-link") as server:
+        yield server
 
 
 @pytest.fixture
@@ -296,29 +296,24 @@ def test_without_a_server_it_says_so_once_and_prints_nothing(
 
 
 @pytest.mark.parametrize("by", [signal.SIGTERM, signal.SIGKILL])
-def test_a_server_that_ends_in_the_middle(by: signal.Signals, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    path = tmp_path / "take"
-    server = Server("suisou-ends", PATIENT_FRAMES, is_in_step=False)
-    name = server.start()
-    monkeypatch.setenv("JACK_DEFAULT_SERVER", name)
-    try:
-        with RecorderLink() as link:
-            ear = Ear(link)
-            with PlayerProcess("EWI", 0.002) as player:
-                started(opened(ear, player.name), path)
-                player.start()
-                ear.wait_for_messages(2)
-                server.stop(by)
-                ear.wait(Lost)
-                assert ear.wait(Refused).reason.id == "capture.no_system"
-            assert server.start() == name
-            with PlayerProcess("EWI", 0.003) as player:
-                ear.wait(Back)
-                player.start()
-                ear.wait_for_messages(5)
-                journal = finished(ear, path)
-    finally:
-        server.stop()
+def test_a_server_that_ends_in_the_middle(by: signal.Signals, tmp_path: Path, server: Server) -> None:
+    path, name = tmp_path / "take", os.environ["JACK_DEFAULT_SERVER"]
+    with RecorderLink() as link:
+        ear = Ear(link)
+        with PlayerProcess("EWI", 0.002) as player:
+            started(opened(ear, player.name), path)
+            player.start()
+            ear.wait_for_messages(2)
+            server.stop(by)
+            ear.wait(Lost)
+            assert ear.wait(Refused).reason.id == "capture.no_system"
+        # Others of this module use it afterwards.
+        assert server.start() == name
+        with PlayerProcess("EWI", 0.003) as player:
+            ear.wait(Back)
+            player.start()
+            ear.wait_for_messages(5)
+            journal = finished(ear, path)
     assert [message[1] for message in journal.messages] == [0, 1, 0, 1, 2]
     ((lost_ns, back_ns),) = journal.gaps
     assert back_ns is not None
