@@ -140,6 +140,7 @@ def write_glb(
     scale: float = 1.0,
     expressions: Mapping[str, Mapping[str, float]] | None = None,
     rigid: bool = False,
+    image: bytes = b"",
 ) -> Path:
     """Write a figure as a glTF binary.
 
@@ -155,6 +156,8 @@ def write_glb(
         By the names of their version; weights of morphs.
     rigid : bool
         Without a skin: each vertex in a mesh of the bone that holds most of it, which hangs from that bone.
+    image : bytes
+        The file of a texture for all surfaces.
     """
     writer = _Glb()
     about = np.diag([-1.0, 1.0, -1.0, 1.0]) if vrm == 0 else np.eye(4)
@@ -195,6 +198,10 @@ def write_glb(
         **({} if rigid else {"skins": [skin]}),
         "materials": [{"name": "plain", "pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.4, 0.3, 1.0]}}],
     }
+    if image:
+        document |= {"images": [{"bufferView": writer.blob(image), "mimeType": "image/png"}]}
+        document |= {"textures": [{"source": 0}]}
+        document["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {"index": 0}
     if vrm is not None:
         document |= _vrm(vrm, figure, expressions or {})
     writer.write(path, document)
@@ -304,9 +311,13 @@ class _Glb:
         self._accessors.append(
             {"bufferView": len(self._blobs), "componentType": component, "count": count, "type": kind}
         )
-        data = values.tobytes()
-        self._blobs.append(data + b"\0" * (-len(data) % 4))
+        self.blob(values.tobytes())
         return len(self._accessors) - 1
+
+    def blob(self, data: bytes) -> int:
+        """The number of a buffer view."""
+        self._blobs.append(data + b"\0" * (-len(data) % 4))
+        return len(self._blobs) - 1
 
     def write(self, path: Path, document: dict[str, Any]) -> None:
         starts = np.cumsum([0, *map(len, self._blobs)])

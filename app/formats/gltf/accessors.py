@@ -107,15 +107,25 @@ class Accessors:
         if uri is None:
             data = self._binary if index == 0 else None
         elif isinstance(uri, str) and uri.startswith("data:"):
-            try:
-                data = base64.b64decode(uri.partition(",")[2], validate=True)
-            except (binascii.Error, ValueError) as error:
-                raise self.damaged("data URI") from error
+            data = self.data(uri)
         else:
             raise FileError("gltf.external", file=self.file, uri=str(uri)[:200])
         if data is None or len(data) < self.number(buffer, "byteLength"):
             raise self.damaged("buffer")
         return bytes(data)
+
+    def data(self, uri: str) -> bytes:
+        """What a data URI holds."""
+        try:
+            return base64.b64decode(uri.partition(",")[2], validate=True)
+        except (binascii.Error, ValueError) as error:
+            raise self.damaged("data URI") from error
+
+    def blob(self, number: object) -> bytes:
+        """The bytes of a buffer view."""
+        views = self.items("bufferViews")
+        view = views[self.index(number, len(views), "bufferView")]
+        return self._view(number, 0, self.number(view, "byteLength"), np.dtype("<u1"), 1).tobytes()
 
     def _take(self, size: int) -> None:
         self._taken += size

@@ -101,6 +101,8 @@ class GltfMaterial:
     emissive_rgb: tuple[float, float, float]
     alpha_mode: str
     double_sided: bool
+    color_image: int | None = None
+    """The image of its base colour, if a texture gives it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -141,6 +143,8 @@ class GltfModel:
     nodes : tuple of GltfNode
         In the file's order, which need not have parents first.
     meshes, skins, materials : tuples
+    images : tuple of bytes
+        Files of images as they are, none of them looked at; empty where they are not in the file.
     extensions : mapping
         The document's, e.g. ``VRMC_vrm``, as parsed JSON.
     extras : mapping
@@ -153,6 +157,7 @@ class GltfModel:
     meshes: tuple[GltfMesh, ...]
     skins: tuple[GltfSkin, ...]
     materials: tuple[GltfMaterial, ...]
+    images: tuple[bytes, ...] = ()
     extensions: Mapping[str, Any] = field(default_factory=dict)
     extras: Mapping[str, Any] = field(default_factory=dict)
     scene_extras: Mapping[str, Any] = field(default_factory=dict)

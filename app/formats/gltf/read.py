@@ -64,6 +64,7 @@ def decode_gltf(data: bytes, file: str) -> GltfModel:
         meshes=tuple(reader.mesh(mesh, index) for index, mesh in enumerate(reader.items("meshes"))),
         skins=tuple(reader.skin(skin) for skin in reader.items("skins")),
         materials=tuple(reader.material(material) for material in reader.items("materials")),
+        images=tuple(reader.image(image) for image in reader.items("images")),
         extensions=reader.mapping(reader.document, "extensions"),
         extras=reader.mapping(reader.document, "extras"),
         scene_extras=reader.scene_extras(),
@@ -184,7 +185,23 @@ class _Reader(Accessors):
             emissive_rgb=(emissive[0], emissive[1], emissive[2]),
             alpha_mode=self.text(material, "alphaMode", "OPAQUE"),
             double_sided=field(material, "doubleSided") is True,
+            color_image=self._color_image(field(surface, "baseColorTexture")),
         )
+
+    def _color_image(self, use: object) -> int | None:
+        """The image of a texture that a material uses; None where an extension hides it."""
+        if use is None:
+            return None
+        textures = self.items("textures")
+        texture = textures[self.index(field(use, "index"), len(textures), "texture")]
+        return self.optional_index(texture, "source", len(self.items("images")))
+
+    def image(self, image: object) -> bytes:
+        """An image's file; empty where it lies beside this one, which is not needed."""
+        uri = field(image, "uri")
+        if isinstance(uri, str) and uri.startswith("data:"):
+            return self.data(uri)
+        return self.blob(field(image, "bufferView")) if field(image, "bufferView") is not None else b""
 
     def nodes(self) -> tuple[GltfNode, ...]:
         nodes = self.items("nodes")

@@ -1,6 +1,7 @@
 """Characters of other programs come back as what they were made from, whatever bones, rest pose, unit and format."""
 
 import contextlib
+import io
 import subprocess
 from dataclasses import replace
 from pathlib import Path
@@ -9,6 +10,7 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from PIL import Image
 from scipy.spatial.transform import Rotation
 
 from app.errors import FileError
@@ -276,6 +278,39 @@ def test_a_reader_that_dies_is_an_error_of_the_file(tmp_path: Path, monkeypatch:
     monkeypatch.setattr(foreign_fbx.subprocess, "run", lambda *args, **kwargs: died)
     with pytest.raises(FileError, match="foreign_damaged"):
         read_figure(path)
+
+
+def png(pixels: np.ndarray) -> bytes:
+    stream = io.BytesIO()
+    Image.fromarray(pixels).save(stream, "PNG")
+    return stream.getvalue()
+
+
+def test_a_textured_surface_has_its_textures_colour(ours: Character, tmp_path: Path) -> None:
+    made = foreign(ours, extra=False)
+    green = np.zeros((8, 8, 4), np.uint8)
+    green[..., 1] = green[..., 3] = 255
+    figure = read_figure(write_glb(tmp_path / "x.glb", made, image=png(green)))
+    # The material's own factors, 0.5, 0.4 and 0.3, are multiplied in.
+    for mesh in figure.meshes:
+        for surface in mesh.materials:
+            assert surface.base_color == pytest.approx((0.0, 0.4, 0.0, 1.0))
+    # sRGB 188 is linear 0.5; what is cut out has no colour.
+    green[:, :, 1] = 188
+    half = replace(made, meshes=[replace(mesh, uvs=np.full_like(mesh.uvs, 0.3)) for mesh in made.meshes])
+    green[4:] = 0
+    figure = read_figure(write_glb(tmp_path / "y.glb", half, image=png(green)))
+    assert figure.meshes[0].materials[0].base_color[1] == pytest.approx(0.4 * 0.5, abs=2e-3)
+
+
+@pytest.mark.parametrize(
+    "image", [b"no image", png(np.zeros((4, 4, 4), np.uint8))[:-20], png(np.zeros((4, 4, 4), np.uint8))]
+)
+def test_a_texture_that_cannot_be_read_leaves_the_surface_its_own_colour(
+    ours: Character, tmp_path: Path, image: bytes
+) -> None:
+    figure = read_figure(write_glb(tmp_path / "x.glb", foreign(ours, extra=False), image=image))
+    assert figure.meshes[0].materials[0].base_color == pytest.approx((0.5, 0.4, 0.3, 1.0))
 
 
 def test_every_required_joint_is_asked_for_by_name(ours: Character, tmp_path: Path) -> None:
