@@ -44,6 +44,7 @@ TEMPLATES: Final[dict[str, str]] = {
     "metadata.syntax": "{file}: {detail}",
     "metadata.invalid": "{file}: {key}: {detail}",
     "character.missing": "there is no character named {id!r}; there are: {known}",
+    "character.added": "{name} is there now: choose it for a player, under Character",
     "character.landmarks_missing": "the character {id!r} lacks what playing needs: {missing}",
     "model.invalid": "{file}: {detail}",
 }

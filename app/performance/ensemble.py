@@ -21,7 +21,7 @@ from app.plan.generate import BREATH_PARAMETERS, EnsemblePlan, Line, Piece, fram
 from app.plan.memo import Memo
 from app.plan.model import PlayerPlan, Problem, TimeFrame
 from app.project.model import Player, Project
-from app.rig.character_library import bundled_characters, characters
+from app.rig.character_library import bundled_characters, character_library, characters
 from app.rig.fit import missed
 from instrument_maps.library import library
 from instrument_maps.model import InstrumentMap
@@ -40,7 +40,7 @@ class Performance:
     A player whose instrument there is no map of, or who is a character that is not there, keeps a place: the plan has
     a problem and, without a map, no events; the others play on.
 
-    Its instruments are those there are when it is made.
+    Its instruments and characters are those there are when it is made.
 
     Parameters
     ----------
@@ -62,6 +62,7 @@ class Performance:
             raise AppError("piece.too_long", hours=round(hours, 1), most_hours=MOST_HOURS)
         self.project = project
         self.library = library()
+        self.characters = character_library()
         # One that was never played knows nothing, but may know of one that was.
         self._before: Performance | None = before if before is None or before.planned else before._before
         self._memo: Memo = Memo(None if self._before is None else self._before._memo)

@@ -154,12 +154,17 @@ class LiveMotion:
             same_chunks = min(grid.frames, before.grid.frames) // grid.length
             if grid.frames == before.grid.frames:
                 same_chunks = grid.chunks
+            revisions, known = performance.characters.revisions, before.performance.characters.revisions
+
+            def same_body(player: Player) -> bool:
+                return revisions.get(player.character_id) == known.get(player.character_id)
+
             tracks = {}
             for player in performance.project.players:
                 plan, old = performance.plan(player), before.tracks.get(player.id)
                 if old is None or not same_frames:
                     tracks[player.id] = _Track(player, plan)
-                elif plan is old.plan and same_faces and _looks_same(player, old.player):
+                elif plan is old.plan and same_faces and _looks_same(player, old.player) and same_body(player):
                     tracks[player.id] = old
                 else:
                     tracks[player.id] = old.after(player, plan, same_chunks)

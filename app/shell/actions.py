@@ -34,6 +34,7 @@ SUBJECTS: Final = (
     "takes",
     "generate",
     "problems",
+    "characters",
     "application",
 )
 """Modules of `app.shell.commands`, in the order in which their rows stand in a menu."""
@@ -85,6 +86,7 @@ FILE_ORDER: Final = (
     "file.reimport",
     "file.reimport_other",
     "file.add_audio",
+    "file.add_character",
     "file.export_midi",
     "file.close",
     "file.quit",

@@ -21,6 +21,7 @@ from app.performance.live import LiveMotion
 from app.plan.model import Problem
 from app.project.document import Change
 from app.project.model import Project
+from app.rig.character_library import character_library
 from app.shell.calls import window_calls
 from instrument_maps.library import library
 from widgets.common.session import Session, Severity
@@ -96,6 +97,7 @@ class Generator(QObject):
         session.changed.connect(self._project_changed)
         session.performance_changed.connect(self._show)
         session.instruments_changed.connect(self._plan_again)
+        session.characters_changed.connect(self._plan_again)
         session.playhead_changed.connect(self._want)
         session.players_changed.connect(self._want)
         session.playing_changed.connect(self._worker.set_playing)
@@ -106,7 +108,8 @@ class Generator(QObject):
     def up_to_date(self) -> bool:
         """Whether the session's plans are those of its project, on the instruments there are now."""
         performance = self._session.performance
-        return performance.project is self._session.project and performance.library is library()
+        now = performance.library is library() and performance.characters is character_library()
+        return performance.project is self._session.project and now
 
     @property
     def ready_share(self) -> float:

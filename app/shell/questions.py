@@ -32,6 +32,9 @@ class Questions(Protocol):
     def import_midi(self, contents: MidiContents, source: str, tokens: Tokens) -> Project | None:
         """Who plays what in a MIDI file."""
 
+    def remove_character(self, name: str, players: tuple[str, ...]) -> bool:
+        """Whether a character goes for good, which these players are."""
+
 
 class Dialogs:
     """`Questions` asked in dialogs."""
@@ -81,6 +84,26 @@ class Dialogs:
             return dialog.project() if dialog.exec() == QDialog.DialogCode.Accepted else None
         finally:
             dialog.deleteLater()
+
+    def remove_character(self, name: str, players: tuple[str, ...]) -> bool:
+        """See `Questions`."""
+        translate = QCoreApplication.translate
+        box = QMessageBox(_parent())
+        box.setObjectName("remove_character")
+        box.setIcon(QMessageBox.Icon.NoIcon)
+        box.setWindowTitle(translate("Questions", "Remove character"))
+        box.setText(translate("Questions", "Remove {name} and its file for good?").format(name=name))
+        if players:
+            told = translate("Questions", "These players are this character and will not be seen: {players}")
+            box.setInformativeText(told.format(players=", ".join(players)))
+        remove = box.addButton(translate("Questions", "Remove"), QMessageBox.ButtonRole.DestructiveRole)
+        cancel = box.addButton(translate("Questions", "Cancel"), QMessageBox.ButtonRole.RejectRole)
+        box.setDefaultButton(cancel)
+        box.setEscapeButton(cancel)
+        box.exec()
+        clicked = box.clickedButton()
+        box.deleteLater()
+        return clicked is remove
 
 
 def with_suffix(path: Path, suffixes: Sequence[str]) -> Path:

@@ -16,8 +16,10 @@ from app.errors import Message
 from app.project.edit.piece import set_audio
 from app.project.recovery import Recoverable
 from app.project.storage import SUFFIX
+from app.rig.read_figure import SUFFIXES as CHARACTER_SUFFIXES
 from app.shell.actions import CONTEXTS, ActionTable, Menus
 from app.shell.banner import Banner
+from app.shell.characters import ask_for_character, bring_character, show_characters
 from app.shell.docks import Dock
 from app.shell.editor import Editor
 from app.shell.files import AUDIO_SUFFIXES, MIDI_SUFFIXES
@@ -289,6 +291,14 @@ class Window(QMainWindow):
         dialog.raise_()
         dialog.activateWindow()
 
+    def show_characters(self) -> None:
+        """Show the person's own characters; once."""
+        show_characters(self.editor)
+
+    def add_character(self) -> None:
+        """Bring a character from a file."""
+        ask_for_character(self.editor)
+
     def show_devices(self) -> None:
         """Show the MIDI devices; once."""
         from app.shell.recording_dialogs import show_devices
@@ -442,7 +452,10 @@ class Window(QMainWindow):
         path = dropped_file(event)
         if path is not None:
             event.acceptProposedAction()
-            self._files.open(path)
+            if path.suffix.lower() in CHARACTER_SUFFIXES:
+                bring_character(self.editor, path)
+            else:
+                self._files.open(path)
 
     def closeEvent(self, event: QCloseEvent) -> None:
         """Unsaved changes are saved or given up first."""
@@ -464,6 +477,6 @@ def dropped_file(event: QDropEvent) -> Path | None:
     """The first file of a drop that can be opened."""
     for url in event.mimeData().urls():
         path = Path(url.toLocalFile())
-        if path.suffix.lower() in (SUFFIX, *MIDI_SUFFIXES, *AUDIO_SUFFIXES):
+        if path.suffix.lower() in (SUFFIX, *MIDI_SUFFIXES, *AUDIO_SUFFIXES, *CHARACTER_SUFFIXES):
             return path
     return None

@@ -223,6 +223,155 @@
     </message>
 </context>
 <context>
+    <name>Morph</name>
+    <message>
+        <source>L</source>
+        <comment>left side</comment>
+        <translation>左</translation>
+    </message>
+    <message>
+        <source>R</source>
+        <comment>right side</comment>
+        <translation>右</translation>
+    </message>
+    <message>
+        <source>Brow down</source>
+        <translation>眉を下げる</translation>
+    </message>
+    <message>
+        <source>Inner brows up</source>
+        <translation>眉頭を上げる</translation>
+    </message>
+    <message>
+        <source>Outer brow up</source>
+        <translation>眉尻を上げる</translation>
+    </message>
+    <message>
+        <source>Cheeks puffed</source>
+        <translation>頬をふくらます</translation>
+    </message>
+    <message>
+        <source>Cheek raised</source>
+        <translation>頬を上げる</translation>
+    </message>
+    <message>
+        <source>Eye closed</source>
+        <translation>目を閉じる</translation>
+    </message>
+    <message>
+        <source>Looks down</source>
+        <translation>下を見る</translation>
+    </message>
+    <message>
+        <source>Looks in</source>
+        <translation>内側を見る</translation>
+    </message>
+    <message>
+        <source>Looks out</source>
+        <translation>外側を見る</translation>
+    </message>
+    <message>
+        <source>Looks up</source>
+        <translation>上を見る</translation>
+    </message>
+    <message>
+        <source>Eye narrowed</source>
+        <translation>目を細める</translation>
+    </message>
+    <message>
+        <source>Eye wide</source>
+        <translation>目を見開く</translation>
+    </message>
+    <message>
+        <source>Jaw forward</source>
+        <translation>顎を前へ</translation>
+    </message>
+    <message>
+        <source>Jaw to the left</source>
+        <translation>顎を左へ</translation>
+    </message>
+    <message>
+        <source>Jaw open</source>
+        <translation>顎を開く</translation>
+    </message>
+    <message>
+        <source>Jaw to the right</source>
+        <translation>顎を右へ</translation>
+    </message>
+    <message>
+        <source>Lips closed</source>
+        <translation>唇を閉じる</translation>
+    </message>
+    <message>
+        <source>Dimple</source>
+        <translation>えくぼ</translation>
+    </message>
+    <message>
+        <source>Corner down</source>
+        <translation>口角を下げる</translation>
+    </message>
+    <message>
+        <source>Funnel</source>
+        <translation>口を丸める</translation>
+    </message>
+    <message>
+        <source>Mouth to the left</source>
+        <translation>口を左へ</translation>
+    </message>
+    <message>
+        <source>Lower lip down</source>
+        <translation>下唇を下げる</translation>
+    </message>
+    <message>
+        <source>Lips pressed</source>
+        <translation>唇を結ぶ</translation>
+    </message>
+    <message>
+        <source>Pucker</source>
+        <translation>口をすぼめる</translation>
+    </message>
+    <message>
+        <source>Mouth to the right</source>
+        <translation>口を右へ</translation>
+    </message>
+    <message>
+        <source>Lower lip rolled in</source>
+        <translation>下唇を巻き込む</translation>
+    </message>
+    <message>
+        <source>Upper lip rolled in</source>
+        <translation>上唇を巻き込む</translation>
+    </message>
+    <message>
+        <source>Lower lip pushed up</source>
+        <translation>下唇を押し上げる</translation>
+    </message>
+    <message>
+        <source>Upper lip pushed up</source>
+        <translation>上唇を押し上げる</translation>
+    </message>
+    <message>
+        <source>Smile</source>
+        <translation>口角を上げる</translation>
+    </message>
+    <message>
+        <source>Corner stretched</source>
+        <translation>口角を横に引く</translation>
+    </message>
+    <message>
+        <source>Upper lip up</source>
+        <translation>上唇を上げる</translation>
+    </message>
+    <message>
+        <source>Nose wrinkled</source>
+        <translation>鼻にしわ</translation>
+    </message>
+    <message>
+        <source>Tongue out</source>
+        <translation>舌を出す</translation>
+    </message>
+</context>
+<context>
     <name>NumberSlider</name>
     <message>
         <source>Type a value</source>

@@ -2,6 +2,175 @@
 <!DOCTYPE TS>
 <TS version="2.1" language="ja" sourcelanguage="en">
 <context>
+    <name>CharacterDialog</name>
+    <message>
+        <source>Everything will be played.</source>
+        <translation>すべて演奏に反映されます。</translation>
+    </message>
+    <message>
+        <source>found</source>
+        <translation>検出</translation>
+    </message>
+    <message>
+        <source>a guess</source>
+        <translation>推測</translation>
+    </message>
+    <message>
+        <source>none</source>
+        <translation>なし</translation>
+    </message>
+    <message>
+        <source>{joint}: {bone}</source>
+        <translation>{joint}: {bone}</translation>
+    </message>
+    <message>
+        <source>{joint}: {bone}, a guess; please look</source>
+        <translation>{joint}: {bone} (推測です。確認してください)</translation>
+    </message>
+    <message>
+        <source>{joint}: the file has no such bone</source>
+        <translation>{joint}: ファイルに該当するボーンがありません</translation>
+    </message>
+    <message>
+        <source>No picture yet</source>
+        <translation>まだ表示できません</translation>
+    </message>
+    <message>
+        <source>Character: {file}</source>
+        <translation>キャラクター: {file}</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>名前</translation>
+    </message>
+    <message>
+        <source>{file}: {bones} bones, {morphs} morphs</source>
+        <translation>{file}: ボーン {bones}、モーフ {morphs}</translation>
+    </message>
+    <message>
+        <source>Body</source>
+        <translation>ボディ</translation>
+    </message>
+    <message>
+        <source>Face</source>
+        <translation>表情</translation>
+    </message>
+    <message>
+        <source>Joint</source>
+        <translation>関節</translation>
+    </message>
+    <message>
+        <source>Bone</source>
+        <translation>ボーン</translation>
+    </message>
+    <message>
+        <source>Bone of the file</source>
+        <translation>ファイルのボーン</translation>
+    </message>
+    <message>
+        <source>Search bones</source>
+        <translation>ボーンを検索</translation>
+    </message>
+    <message>
+        <source>Joints of the body</source>
+        <translation>体の関節</translation>
+    </message>
+    <message>
+        <source>No Bone</source>
+        <translation>ボーンなし</translation>
+    </message>
+    <message>
+        <source>Automatic</source>
+        <translation>自動</translation>
+    </message>
+    <message>
+        <source>Undo</source>
+        <translation>元に戻す</translation>
+    </message>
+    <message>
+        <source>Redo</source>
+        <translation>やり直す</translation>
+    </message>
+    <message>
+        <source>Reset All</source>
+        <translation>すべてリセット</translation>
+    </message>
+    <message>
+        <source>Give it to {players}</source>
+        <translation>{players} に割り当てる</translation>
+    </message>
+    <message>
+        <source>Keep Character</source>
+        <translation>キャラクターを追加</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>キャンセル</translation>
+    </message>
+</context>
+<context>
+    <name>CharacterWords</name>
+    <message>
+        <source>It cannot play yet. Choose the bones of: {joints}</source>
+        <translation>このままでは演奏できません。次のボーンを選んでください: {joints}</translation>
+    </message>
+    <message>
+        <source>It has no finger bones: the hands hold the instrument, the fingers rest.</source>
+        <translation>指のボーンがありません。手は楽器を持ちますが、指は動きません。</translation>
+    </message>
+    <message>
+        <source>These fingers do not move: {fingers}</source>
+        <translation>動かない指: {fingers}</translation>
+    </message>
+    <message>
+        <source>The eyes do not look around: it has no bones or morphs for them.</source>
+        <translation>視線は動きません (目のボーンもモーフもありません)。</translation>
+    </message>
+    <message>
+        <source>The mouth does not open: it has no jaw and no such morph.</source>
+        <translation>口は開きません (あごのボーンもモーフもありません)。</translation>
+    </message>
+    <message>
+        <source>The lips do not form an embouchure: it has no such morphs.</source>
+        <translation>唇はアンブシュアの形になりません (該当するモーフがありません)。</translation>
+    </message>
+    <message>
+        <source>It does not blink: it has no such morph.</source>
+        <translation>まばたきはしません (該当するモーフがありません)。</translation>
+    </message>
+    <message>
+        <source>The cheeks do not fill: it has no such morph.</source>
+        <translation>頬はふくらみません (該当するモーフがありません)。</translation>
+    </message>
+</context>
+<context>
+    <name>CharactersDialog</name>
+    <message>
+        <source>Characters</source>
+        <translation>キャラクター</translation>
+    </message>
+    <message>
+        <source>Your own characters, from VRM, glTF or FBX files; drop a file here. Every player can become one of them.</source>
+        <translation>VRM、glTF、FBX ファイルから追加した自分のキャラクターです。ファイルをここにドロップしても追加できます。どのプレイヤーにも割り当てられます。</translation>
+    </message>
+    <message>
+        <source>Add...</source>
+        <translation>追加...</translation>
+    </message>
+    <message>
+        <source>Edit...</source>
+        <translation>編集...</translation>
+    </message>
+    <message>
+        <source>Remove...</source>
+        <translation>削除...</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>閉じる</translation>
+    </message>
+</context>
+<context>
     <name>ExportDialog</name>
     <message>
         <source>Files written to {folder}: {count}</source>
@@ -180,6 +349,41 @@ Unreal で「Suisou &gt; 演奏をインポート」を選んでください。�
     <message>
         <source>Close</source>
         <translation>閉じる</translation>
+    </message>
+</context>
+<context>
+    <name>FaceMapPage</name>
+    <message>
+        <source>{face} ({name}) is made of:</source>
+        <translation>{face} ({name}) を作るモーフ:</translation>
+    </message>
+    <message>
+        <source>Take this morph out</source>
+        <translation>このモーフを外す</translation>
+    </message>
+    <message>
+        <source>Face</source>
+        <translation>表情</translation>
+    </message>
+    <message>
+        <source>Made of</source>
+        <translation>使うモーフ</translation>
+    </message>
+    <message>
+        <source>Nothing: the character does not do this.</source>
+        <translation>なし (このキャラクターはこの表情をしません)。</translation>
+    </message>
+    <message>
+        <source>The file has no morphs: the face stays as it is.</source>
+        <translation>ファイルにモーフがありません。表情は変わりません。</translation>
+    </message>
+    <message>
+        <source>Add a morph of the file...</source>
+        <translation>ファイルのモーフを追加...</translation>
+    </message>
+    <message>
+        <source>Automatic</source>
+        <translation>自動</translation>
     </message>
 </context>
 <context>
@@ -483,6 +687,141 @@ Unreal で「Suisou &gt; 演奏をインポート」を選んでください。�
     <message>
         <source>Cancel</source>
         <translation>キャンセル</translation>
+    </message>
+</context>
+<context>
+    <name>Joint</name>
+    <message>
+        <source>{part} L</source>
+        <translation>{part} 左</translation>
+    </message>
+    <message>
+        <source>{part} R</source>
+        <translation>{part} 右</translation>
+    </message>
+    <message>
+        <source>Hips</source>
+        <translation>腰</translation>
+    </message>
+    <message>
+        <source>Spine</source>
+        <translation>背骨</translation>
+    </message>
+    <message>
+        <source>Chest</source>
+        <translation>胸</translation>
+    </message>
+    <message>
+        <source>Upper chest</source>
+        <translation>上胸</translation>
+    </message>
+    <message>
+        <source>Neck</source>
+        <translation>首</translation>
+    </message>
+    <message>
+        <source>Head</source>
+        <translation>頭</translation>
+    </message>
+    <message>
+        <source>Jaw</source>
+        <translation>あご</translation>
+    </message>
+    <message>
+        <source>Eye</source>
+        <translation>目</translation>
+    </message>
+    <message>
+        <source>Shoulder</source>
+        <translation>肩</translation>
+    </message>
+    <message>
+        <source>Upper arm</source>
+        <translation>上腕</translation>
+    </message>
+    <message>
+        <source>Lower arm</source>
+        <translation>前腕</translation>
+    </message>
+    <message>
+        <source>Hand</source>
+        <translation>手</translation>
+    </message>
+    <message>
+        <source>Upper leg</source>
+        <translation>太もも</translation>
+    </message>
+    <message>
+        <source>Lower leg</source>
+        <translation>すね</translation>
+    </message>
+    <message>
+        <source>Foot</source>
+        <translation>足</translation>
+    </message>
+    <message>
+        <source>Toes</source>
+        <translation>つま先</translation>
+    </message>
+    <message>
+        <source>Thumb, base</source>
+        <translation>親指・付け根</translation>
+    </message>
+    <message>
+        <source>Thumb, middle</source>
+        <translation>親指・中</translation>
+    </message>
+    <message>
+        <source>Thumb, tip</source>
+        <translation>親指・先</translation>
+    </message>
+    <message>
+        <source>Index finger, base</source>
+        <translation>人差し指・付け根</translation>
+    </message>
+    <message>
+        <source>Index finger, middle</source>
+        <translation>人差し指・中</translation>
+    </message>
+    <message>
+        <source>Index finger, tip</source>
+        <translation>人差し指・先</translation>
+    </message>
+    <message>
+        <source>Middle finger, base</source>
+        <translation>中指・付け根</translation>
+    </message>
+    <message>
+        <source>Middle finger, middle</source>
+        <translation>中指・中</translation>
+    </message>
+    <message>
+        <source>Middle finger, tip</source>
+        <translation>中指・先</translation>
+    </message>
+    <message>
+        <source>Ring finger, base</source>
+        <translation>薬指・付け根</translation>
+    </message>
+    <message>
+        <source>Ring finger, middle</source>
+        <translation>薬指・中</translation>
+    </message>
+    <message>
+        <source>Ring finger, tip</source>
+        <translation>薬指・先</translation>
+    </message>
+    <message>
+        <source>Little finger, base</source>
+        <translation>小指・付け根</translation>
+    </message>
+    <message>
+        <source>Little finger, middle</source>
+        <translation>小指・中</translation>
+    </message>
+    <message>
+        <source>Little finger, tip</source>
+        <translation>小指・先</translation>
     </message>
 </context>
 <context>

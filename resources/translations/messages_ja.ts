@@ -1456,6 +1456,10 @@
             <translation>{id!r} というキャラクターはありません。使えるもの: {known}</translation>
         </message>
         <message>
+            <source>{name} is there now: choose it for a player, under Character</source>
+            <translation>{name} を追加しました。プレイヤーの「キャラクター」で選べます</translation>
+        </message>
+        <message>
             <source>the character {id!r} lacks what playing needs: {missing}</source>
             <translation>キャラクター {id!r} には演奏に必要なものがありません: {missing}</translation>
         </message>
@@ -1640,6 +1644,22 @@
             <translation>{host} を検索中</translation>
         </message>
         <message>
+            <source>reading {file}</source>
+            <translation>{file} を読み込んでいます</translation>
+        </message>
+        <message>
+            <source>adding {name}</source>
+            <translation>{name} を追加中</translation>
+        </message>
+        <message>
+            <source>drawing the character</source>
+            <translation>キャラクターを描画中</translation>
+        </message>
+        <message>
+            <source>reading your characters</source>
+            <translation>自分のキャラクターを読み込み中</translation>
+        </message>
+        <message>
             <source>writing the files</source>
             <translation>ファイルを書き出しています</translation>
         </message>
@@ -1658,10 +1678,6 @@
         <message>
             <source>making the sound</source>
             <translation>音を作っています</translation>
-        </message>
-        <message>
-            <source>reading {file}</source>
-            <translation>{file} を読み込んでいます</translation>
         </message>
         <message>
             <source>finding the recording's offset</source>

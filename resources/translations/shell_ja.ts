@@ -698,6 +698,14 @@
         <source>Live Stream Settings...</source>
         <translation>ライブ配信の設定...</translation>
     </message>
+    <message>
+        <source>Add Character...</source>
+        <translation>キャラクターを追加...</translation>
+    </message>
+    <message>
+        <source>Characters...</source>
+        <translation>キャラクター...</translation>
+    </message>
 </context>
 <context>
     <name>ActionTable</name>
@@ -796,6 +804,10 @@
     <message>
         <source>Export MIDI</source>
         <translation>MIDI の書き出し</translation>
+    </message>
+    <message>
+        <source>Add Character</source>
+        <translation>キャラクターを追加</translation>
     </message>
 </context>
 <context>
@@ -957,6 +969,22 @@
     <message>
         <source>Cancel</source>
         <translation>キャンセル</translation>
+    </message>
+    <message>
+        <source>Remove character</source>
+        <translation>キャラクターの削除</translation>
+    </message>
+    <message>
+        <source>Remove {name} and its file for good?</source>
+        <translation>{name} とそのファイルを完全に削除しますか?</translation>
+    </message>
+    <message>
+        <source>These players are this character and will not be seen: {players}</source>
+        <translation>次のプレイヤーはこのキャラクターを使っており、表示されなくなります: {players}</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>削除</translation>
     </message>
     <message>
         <source>Replace {name}?</source>

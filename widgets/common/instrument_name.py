@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from PySide6.QtCore import QCoreApplication
 
+from app.rig.character_library import character_library
 from instrument_maps.model import InstrumentMap
 
 
@@ -24,4 +25,5 @@ def character_name(character_id: str) -> str:
         "woman_adult": QCoreApplication.translate("Character", "Woman"),
         "man_adult": QCoreApplication.translate("Character", "Man"),
     }
-    return names.get(character_id, character_id)
+    own = character_library().own.get(character_id)
+    return names.get(character_id, (own.title if own is not None else "") or character_id)

@@ -91,6 +91,10 @@ class Session(QObject):
         Some instrument is another one, or is there no more (`instrument_maps.library`).
     instruments_saved()
         A map was written into the person's own folder.
+    characters_changed()
+        Some character is another one, or is there no more (`app.rig.character_library`).
+    characters_saved()
+        A character was written into the person's own folder, or removed from it.
     """
 
     changed = Signal(object)
@@ -111,6 +115,8 @@ class Session(QObject):
     revealed = Signal(float)
     instruments_changed = Signal()
     instruments_saved = Signal()
+    characters_changed = Signal()
+    characters_saved = Signal()
 
     def __init__(self, project: Project, tasks: Tasks) -> None:
         super().__init__()

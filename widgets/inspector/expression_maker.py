@@ -20,10 +20,10 @@ from metadata.model import ARKIT_MORPHS, Expression
 from widgets.common.combo import Combo, Option
 from widgets.common.event_names import expression_name
 from widgets.common.icons import icon
+from widgets.common.morph_names import morph_name
 from widgets.common.number_slider import NumberSlider
 from widgets.common.section import Section
 from widgets.common.session import Session, Severity
-from widgets.inspector.morph_names import morph_name
 
 GROUPS: tuple[tuple[str, tuple[str, ...]], ...] = (
     ("brows", ("brow",)),

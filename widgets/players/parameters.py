@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 
 import shiboken6
@@ -10,10 +11,10 @@ from PySide6.QtCore import QEvent, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QIcon, QImage, QPixmap, QShowEvent
 from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QToolButton, QVBoxLayout, QWidget
 
-from app.errors import Message
+from app.errors import AppError, Message
 from app.project.edit import players as edit
 from app.project.model import Player, Project
-from app.rig.character_library import characters
+from app.rig.character_library import bundled_characters, characters
 from instrument_maps.library import all_maps
 from widgets.common.combo import Combo, Option
 from widgets.common.icons import icon
@@ -90,6 +91,7 @@ class ParameterSections(QWidget):
         self.retranslate()
         session.theme_changed.connect(self._dress)
         session.instruments_changed.connect(self._instruments_changed)
+        session.characters_changed.connect(self._characters_changed)
         self._dress()
 
     # Building
@@ -229,6 +231,13 @@ class ParameterSections(QWidget):
         options = [Option(id, character_name(id), self._portraits.get(id)) for id in characters()]
         self._character.set_options(options)
 
+    def _characters_changed(self) -> None:
+        self._portraits = {id: drawn for id, drawn in self._portraits.items() if id in bundled_characters()}
+        self._show_characters()
+        self.show_players()
+        if self._asked:
+            self._draw_portraits()
+
     def _draw_portraits(self) -> None:
         """Beside the window: every body is looked at closely once."""
         size_px = round(PORTRAIT_PX * self.devicePixelRatioF())
@@ -238,7 +247,9 @@ class ParameterSections(QWidget):
             for number, id in enumerate(characters()):
                 if stop_wanted():
                     break
-                drawn[id] = portrait_of(id, size_px)
+                # Who cannot be opened has no picture; why is told where the characters are.
+                with suppress(AppError):
+                    drawn[id] = portrait_of(id, size_px)
                 progress((number + 1) / len(characters()))
             return drawn
 

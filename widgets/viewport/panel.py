@@ -108,6 +108,7 @@ class ViewportPanel(QWidget):
         session.changed.connect(self._project_changed)
         session.performance_changed.connect(self._performance_changed)
         session.instruments_changed.connect(self._instruments_changed)
+        session.characters_changed.connect(self._instruments_changed)
         session.players_changed.connect(self._players_changed)
         session.selection_changed.connect(self._selection_changed)
         session.playhead_changed.connect(self.refresh)

@@ -38,6 +38,8 @@ class Answers:
         self.answer: Answer = "cancel"
         self.imports = True
         self.asked: list[str] = []
+        self.removes = True
+        self.told_players: tuple[str, ...] = ()
 
     def open_file(self, title: str, folder: str, filters: str) -> Path | None:
         """The test's path."""
@@ -53,6 +55,12 @@ class Answers:
         """The test's answer."""
         self.asked.append("unsaved")
         return self.answer
+
+    def remove_character(self, name: str, players: tuple[str, ...]) -> bool:
+        """The test's answer."""
+        self.asked.append("remove_character")
+        self.told_players = players
+        return self.removes
 
     def import_midi(self, contents: MidiContents, source: str, tokens: Tokens) -> Project | None:
         """As if nobody touched the dialog."""

@@ -741,6 +741,8 @@ CASES: dict[str, Case] = {
     "application.instruments": Case(lambda d: d.dialog("instruments")),
     "application.preferences": Case(lambda d: d.dialog("preferences")),
     "application.shortcuts": Case(lambda d: d.dialog("preferences")),
+    "file.add_character": Case(lambda d: d.answers.asked[-1:] == ["open"]),
+    "application.characters": Case(lambda d: d.dialog("characters")),
     "stream.toggle": Case(lambda d: d.session.streaming.on and len(d.session.streaming.lines) == 1),
     "stream.settings": Case(lambda d: d.dialog("stream")),
     "record.devices": Case(lambda d: d.dialog("midi_devices")),

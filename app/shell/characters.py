@@ -1,0 +1,220 @@
+"""A person's own characters: brought from a file, changed, removed, and read again as soon as their files change."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import msgspec
+from PySide6.QtCore import QCoreApplication, QFileSystemWatcher, QObject, QTimer
+
+from app.errors import AppError, Message
+from app.project.edit.players import change
+from app.rig.character_library import (
+    CharacterEntry,
+    CharacterLibrary,
+    add_character,
+    character_library,
+    own_folder,
+    reload_characters,
+    remove_character,
+    write_entry,
+)
+from app.rig.figure import Figure
+from app.rig.read_figure import SUFFIXES, read_figure
+from app.shell.editor import Editor
+from widgets.common.instrument_name import character_name
+from widgets.common.session import Session, Severity
+from widgets.common.tasks import Progress, StopWanted
+from widgets.dialogs.character import CharacterDialog
+from widgets.dialogs.character_draft import Draft
+from widgets.dialogs.characters import CharactersDialog
+
+QUIET_MS = 250
+"""A program that writes a file touches it several times: it is read when nothing was heard of it for so long."""
+
+
+class CharacterWatch(QObject):
+    """Watches the folder of a person's own characters for a session.
+
+    What is wrong is told, and its last good version stays in use; everybody whose character is another one hears
+    `Session.characters_changed`.
+    """
+
+    def __init__(self, session: Session) -> None:
+        super().__init__(session)
+        self._session = session
+        self._known = character_library()
+        self._watcher = QFileSystemWatcher(self)
+        self._watcher.directoryChanged.connect(self._touched)
+        self._watcher.fileChanged.connect(self._touched)
+        self._quiet = QTimer(self, interval=QUIET_MS, singleShot=True)
+        self._quiet.timeout.connect(self.read)
+        self._watch()
+        session.characters_saved.connect(self.take)
+        QTimer.singleShot(0, self, self._tell_first)
+
+    def read(self) -> None:
+        """Read the folder again now."""
+        self._watch()
+
+        def work(progress: Progress, stop_wanted: StopWanted) -> CharacterLibrary:
+            return reload_characters()
+
+        self._session.tasks.run(Message("work.characters"), work, lambda now: self.take(), key="characters")
+
+    def take(self) -> None:
+        """Tell everybody of what was read last."""
+        self._watch()
+        before, self._known = self._known, character_library()
+        if self._known is before:
+            return
+        self._session.characters_changed.emit()
+        wrong = [told for path, told in self._known.problems.items() if before.problems.get(path) != told]
+        if wrong:
+            self._session.notice(wrong[0], Severity.ERROR)
+
+    def _tell_first(self) -> None:
+        """What was wrong when the program began."""
+        for told in self._known.problems.values():
+            self._session.notice(told, Severity.ERROR)
+
+    def _touched(self) -> None:
+        self._quiet.start()
+
+    def _watch(self) -> None:
+        """Watch the folder and its files; a folder that is not there yet, by the one it would be in."""
+        folder = own_folder()
+        wanted = {str(next(place for place in (folder, *folder.parents) if place.is_dir()))}
+        if folder.is_dir():
+            wanted |= {str(path) for path in folder.iterdir() if path.suffix in (".toml", *SUFFIXES)}
+        watched = {*self._watcher.directories(), *self._watcher.files()}
+        if gone := watched - wanted:
+            self._watcher.removePaths(sorted(gone))
+        if new := wanted - watched:
+            self._watcher.addPaths(sorted(new))
+
+
+def show_characters(editor: Editor) -> None:
+    """Show a person's own characters; once."""
+    dialog = editor.window.findChild(CharactersDialog)
+    if dialog is None:
+        dialog = CharactersDialog(editor.session, editor.window)
+        dialog.add_asked.connect(lambda: ask_for_character(editor))
+        dialog.edit_asked.connect(lambda id: edit_character(editor, id))
+        dialog.remove_asked.connect(lambda id: remove(editor, id))
+        dialog.dropped.connect(lambda path: bring_character(editor, path))
+    dialog.show()
+    dialog.raise_()
+    dialog.activateWindow()
+
+
+def ask_for_character(editor: Editor) -> None:
+    """Ask for a character's file, and bring it."""
+    translate = QCoreApplication.translate
+    kinds = f"{translate('Files', 'Characters')} ({' '.join(f'*{suffix}' for suffix in SUFFIXES)})"
+    path = editor.questions.open_file(translate("Files", "Add Character"), editor.files.folder, kinds)
+    if path is not None:
+        editor.settings.folder = str(path.parent)
+        bring_character(editor, path)
+
+
+def bring_character(editor: Editor, path: Path) -> None:
+    """Read a character's file beside the window, then ask what is what in it."""
+    session = editor.session
+
+    def done(figure: Figure) -> None:
+        dialog = _dialog(editor, path, figure, Draft(_title(path)), give=True)
+        dialog.agreed.connect(lambda draft, give: _keep(editor, path, draft, give))
+
+    _read(session, path, done)
+
+
+def edit_character(editor: Editor, id: str) -> None:
+    """Change what is known of one of the person's own characters."""
+    source = character_library().sources.get(id)
+    if source is None or source.entry is None:
+        return
+    entry, path = source.entry, source.path
+
+    def done(figure: Figure) -> None:
+        draft = Draft(entry.title or id, entry.joints, entry.morphs)
+        dialog = _dialog(editor, path, figure, draft, give=False)
+        dialog.agreed.connect(lambda draft, give: _change(editor, id, entry, draft))
+
+    _read(editor.session, path, done)
+
+
+def remove(editor: Editor, id: str) -> None:
+    """Remove one of the person's own characters; asked first."""
+    session = editor.session
+    used = [player.name for player in session.project.players if player.character_id == id]
+    if not editor.questions.remove_character(character_name(id), tuple(used)):
+        return
+    try:
+        remove_character(id)
+    except AppError as error:
+        session.notice(error.message, Severity.ERROR)
+    session.characters_saved.emit()
+
+
+def _read(session: Session, path: Path, done: Callable[[Figure], None]) -> None:
+    def work(progress: Progress, stop_wanted: StopWanted) -> Figure:
+        return read_figure(path)
+
+    def failed(error: AppError) -> None:
+        session.notice(error.message, Severity.ERROR)
+
+    session.tasks.run(Message("work.character", {"file": path.name}), work, done, failed, key="character")
+
+
+def _dialog(editor: Editor, path: Path, figure: Figure, draft: Draft, give: bool) -> CharacterDialog:
+    session = editor.session
+    names = [player.name for player in session.project.players if player.id in session.players]
+    offered = ", ".join(names) if give and editor.files.is_open else ""
+    dialog = CharacterDialog(session, path, figure, draft, offered, editor.window)
+    dialog.open()
+    return dialog
+
+
+def _keep(editor: Editor, path: Path, draft: Draft, give: bool) -> None:
+    """Copy a character's file beside the others, and cast it."""
+    session = editor.session
+    chosen = session.players
+
+    def work(progress: Progress, stop_wanted: StopWanted) -> str:
+        return add_character(path, draft.title, draft.joints, draft.morphs)
+
+    def done(id: str) -> None:
+        session.characters_saved.emit()
+        known = {player.id for player in session.project.players}
+        players = [player for player in chosen if player in known]
+        if give and players:
+            session.attempt(
+                Message("edit.player_character", {"count": len(players)}),
+                lambda project: change(project, players, character_id=id),
+            )
+        else:
+            session.notice(Message("character.added", {"name": draft.title}))
+
+    def failed(error: AppError) -> None:
+        session.notice(error.message, Severity.ERROR)
+
+    session.tasks.run(Message("work.character_add", {"name": draft.title}), work, done, failed, key="character_add")
+
+
+def _change(editor: Editor, id: str, entry: CharacterEntry, draft: Draft) -> None:
+    """Describe a character anew."""
+    morphs = {face: dict(parts) for face, parts in draft.morphs.items()}
+    now = msgspec.structs.replace(entry, title=draft.title, joints=dict(draft.joints), morphs=morphs)
+    if now == entry:
+        return
+    try:
+        write_entry(id, now)
+    except AppError as error:
+        editor.session.notice(error.message, Severity.ERROR)
+    editor.session.characters_saved.emit()
+
+
+def _title(path: Path) -> str:
+    return path.stem.replace("_", " ").strip() or path.stem

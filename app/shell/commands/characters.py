@@ -1,0 +1,23 @@
+"""A person's own characters."""
+
+from __future__ import annotations
+
+from app.shell.action import QT_TRANSLATE_NOOP, Action
+from app.shell.editor import editor_of
+from widgets.common.session import Session
+
+
+def add(session: Session) -> None:
+    """Bring a character from a file."""
+    editor_of(session).window.add_character()
+
+
+def show(session: Session) -> None:
+    """See which there are, change and remove them."""
+    editor_of(session).window.show_characters()
+
+
+ACTIONS: tuple[Action, ...] = (
+    Action("file.add_character", QT_TRANSLATE_NOOP("Action", "Add Character..."), add, "File", icon="player"),
+    Action("application.characters", QT_TRANSLATE_NOOP("Action", "Characters..."), show, "Edit", icon="players"),
+)

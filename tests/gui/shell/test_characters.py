@@ -1,0 +1,300 @@
+"""Bring your own character, by mouse and keys: bones, faces, undo, what is kept, cast and removed."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt, QUrl
+from PySide6.QtGui import QDragEnterEvent, QDropEvent
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QComboBox, QDialogButtonBox, QLabel, QLineEdit, QListWidget, QPushButton, QWidget
+from pytestqt.qtbot import QtBot
+
+from app.errors import Message
+from app.project.edit.players import change
+from app.rig.character_library import FOLDER_VARIABLE, character_library, character_named, reload_characters
+from app.shell.app import Program
+from app.shell.characters import bring_character
+from tests.gui.shell.conftest import Answers, trigger
+from widgets.common.character_picture import picture, seen
+from widgets.common.number_slider import NumberSlider
+from widgets.dialogs.body_map import joints, places
+from widgets.dialogs.character import CharacterDialog
+from widgets.dialogs.character_draft import Draft, Steps
+from widgets.dialogs.characters import CharactersDialog
+
+DATA = Path(__file__).parents[2] / "data" / "characters"
+TODDLER, MITTENS = DATA / "toddler_vrm1.vrm", DATA / "man_cmu.fbx"
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+    """The person's own characters: none yet."""
+    own = tmp_path / "characters"
+    monkeypatch.setenv(FOLDER_VARIABLE, str(own))
+    reload_characters()
+    yield own
+    monkeypatch.undo()
+    reload_characters()
+
+
+def opened(program: Program, path: Path = TODDLER) -> CharacterDialog:
+    bring_character(program.editor, path)
+    (dialog,) = program.window.findChildren(CharacterDialog)
+    return dialog
+
+
+def button(dialog: QWidget, name: str) -> QPushButton:
+    found = dialog.findChild(QPushButton, name)
+    assert found is not None
+    return found
+
+
+def ok(dialog: CharacterDialog) -> QPushButton:
+    box = dialog.findChild(QDialogButtonBox)
+    assert box is not None
+    return box.button(QDialogButtonBox.StandardButton.Ok)
+
+
+def bone_of(dialog: CharacterDialog, joint: str) -> str:
+    return next(
+        dialog.rows.topLevelItem(row).text(1)
+        for row in range(dialog.rows.topLevelItemCount())
+        if dialog.rows.topLevelItem(row).data(0, Qt.ItemDataRole.UserRole) == joint
+    )
+
+
+def click_dot(dialog: CharacterDialog, joint: str) -> None:
+    QTest.mouseClick(dialog.body, Qt.MouseButton.LeftButton, pos=dialog.body.place(joint).toPoint())
+
+
+def test_every_joint_has_a_dot_of_its_own_and_left_is_at_the_right() -> None:
+    assert set(places()) == set(joints())
+    spots = list(places().values())
+    least = min(abs(complex(*one) - complex(*other)) for number, one in enumerate(spots) for other in spots[:number])
+    assert least > 0.02
+    assert places()["leftHand"][0] > 0 > places()["rightHand"][0]
+
+
+def test_a_dot_and_a_search_give_a_joint_another_bone(program: Program, qtbot: QtBot) -> None:
+    dialog = opened(program)
+    assert bone_of(dialog, "leftToes") == "—"
+    click_dot(dialog, "leftToes")
+    assert dialog.joint == "leftToes"
+    search = dialog.findChild(QLineEdit, "bone_search")
+    assert search is not None
+    QTest.mouseDClick(dialog.body, Qt.MouseButton.LeftButton, pos=dialog.body.place("leftToes").toPoint())
+    qtbot.waitUntil(search.hasFocus)
+    QTest.keyClicks(search, "toe2-1.L")
+    QTest.keyClick(search, Qt.Key.Key_Return)
+    assert bone_of(dialog, "leftToes") == "toe2-1.L"
+    assert dialog.draft.joints == {"leftToes": "toe2-1.L"}
+    assert search.text() == ""
+    # None at all, then as it was found.
+    QTest.mouseClick(button(dialog, "joint_none"), Qt.MouseButton.LeftButton)
+    assert bone_of(dialog, "leftToes") == "—"
+    assert dialog.draft.joints == {"leftToes": ""}
+    QTest.mouseClick(button(dialog, "joint_automatic"), Qt.MouseButton.LeftButton)
+    assert dialog.draft.joints == {}
+
+
+def test_it_goes_by_keys_alone(program: Program, qtbot: QtBot) -> None:
+    dialog = opened(program)
+    dialog.body.setFocus()
+    assert dialog.joint == "hips"
+    QTest.keyClick(dialog.body, Qt.Key.Key_Up)
+    assert dialog.joint == "spine"
+    seen_joints = {dialog.joint}
+    for key in (Qt.Key.Key_Right, Qt.Key.Key_Down, Qt.Key.Key_Down, Qt.Key.Key_Left, Qt.Key.Key_Up):
+        QTest.keyClick(dialog.body, key)
+        seen_joints.add(dialog.joint)
+    assert len(seen_joints) > 4
+    before = bone_of(dialog, dialog.joint)
+    QTest.keyClick(dialog.body, Qt.Key.Key_Return)
+    qtbot.waitUntil(dialog.bones.search.hasFocus)
+    QTest.keyClicks(dialog.bones.search, "jaw")
+    QTest.keyClick(dialog.bones.search, Qt.Key.Key_Return)
+    assert bone_of(dialog, dialog.joint) == "jaw" != before
+    assert bone_of(dialog, "jaw") == "—"
+    QTest.keyClick(dialog, Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier)
+    assert bone_of(dialog, "jaw") == "jaw"
+    QTest.keyClick(dialog, Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier)
+    assert bone_of(dialog, "jaw") == "—"
+
+
+def test_without_what_playing_needs_it_cannot_be_kept(program: Program) -> None:
+    dialog = opened(program)
+    assert ok(dialog).isEnabled()
+    dialog.choose("leftHand")
+    QTest.mouseClick(button(dialog, "joint_none"), Qt.MouseButton.LeftButton)
+    told = dialog.findChild(QLabel, "character_told")
+    assert told is not None
+    assert "Hand L" in told.text()
+    assert not ok(dialog).isEnabled()
+    QTest.mouseClick(button(dialog, "character_reset"), Qt.MouseButton.LeftButton)
+    assert ok(dialog).isEnabled()
+    QTest.mouseClick(button(dialog, "character_undo"), Qt.MouseButton.LeftButton)
+    assert not ok(dialog).isEnabled()
+
+
+def test_a_mitten_is_told(program: Program) -> None:
+    told = opened(program, MITTENS).findChild(QLabel, "character_told")
+    assert told is not None
+    assert "fingers" in told.text()
+    assert "blink" in told.text()
+
+
+def test_a_face_is_made_of_other_morphs_in_one_step_each(program: Program, qtbot: QtBot) -> None:
+    dialog = opened(program)
+    dialog.tabs.setCurrentIndex(1)
+    dialog.faces.choose("cheekPuff")
+    add = dialog.faces.findChild(QComboBox, "face_add")
+    assert add is not None
+    place = add.findData("Fcl_MTH_U")
+    add.setCurrentIndex(place)
+    add.activated.emit(place)
+    assert dialog.draft.morphs == {"cheekPuff": {"Fcl_MTH_U": 1.0}}
+    slider = dialog.faces.findChild(NumberSlider, "face_part_Fcl_MTH_U")
+    assert slider is not None
+    y, width = slider.height() // 2, slider.width()
+    QTest.mousePress(slider, Qt.MouseButton.LeftButton, pos=QPoint(width // 2, y))
+    for x in range(width // 2, width // 4, -15):
+        QTest.mouseMove(slider, QPoint(x, y))
+    QTest.mouseRelease(slider, Qt.MouseButton.LeftButton, pos=QPoint(width // 4, y))
+    factor = dialog.draft.morphs["cheekPuff"]["Fcl_MTH_U"]
+    assert factor < 0.9
+    dialog.undo()
+    assert dialog.draft.morphs == {"cheekPuff": {"Fcl_MTH_U": 1.0}}, "a drag is one step"
+    dialog.redo()
+    assert dialog.draft.morphs["cheekPuff"]["Fcl_MTH_U"] == factor
+    reset = button(dialog, "face_reset")
+    QTest.mouseClick(reset, Qt.MouseButton.LeftButton)
+    assert dialog.draft.morphs == {}
+    assert not reset.isEnabled()
+
+
+def test_the_picture_follows_the_face() -> None:
+    shown = seen(character_named("woman_adult"))
+    still, open_ = picture(shown, 96, 96, "head"), picture(shown, 96, 96, "head", {"jawOpen": 1.0})
+    differing = sum(still.pixel(x, y) != open_.pixel(x, y) for x in range(96) for y in range(96))
+    above = sum(still.pixel(x, y) != open_.pixel(x, y) for x in range(96) for y in range(30))
+    assert differing > 100
+    assert above < 10, "only the jaw"
+    body = picture(shown, 60, 120)
+    assert body.pixelColor(30, 60).alpha() > 200
+    assert body.pixelColor(2, 2).alpha() == 0
+
+
+def test_what_is_kept_can_be_cast_and_the_casting_undone(program: Program, folder: Path) -> None:
+    before = program.session.project
+    first, second = (player.id for player in before.players[:2])
+    program.session.set_players((first, second))
+    dialog = opened(program)
+    QTest.keyClicks(dialog.title, "")
+    dialog.title.selectAll()
+    QTest.keyClicks(dialog.title, "Little One")
+    dialog.choose("leftToes")
+    dialog.bones.chosen.emit("toe2-1.L")
+    QTest.mouseClick(dialog.give, Qt.MouseButton.LeftButton, pos=QPoint(8, dialog.give.height() // 2))
+    assert dialog.give.isChecked()
+    QTest.mouseClick(ok(dialog), Qt.MouseButton.LeftButton)
+    (entry,) = character_library().own.values()
+    (id,) = character_library().own
+    assert (entry.title, entry.joints) == ("Little One", {"leftToes": "toe2-1.L"})
+    assert (folder / entry.file).read_bytes() == TODDLER.read_bytes()
+    project = program.session.project
+    assert [project.player(one).character_id for one in (first, second)] == [id, id]
+    chooser = program.window.findChild(QComboBox, "player_character")
+    assert chooser is not None
+    assert "Little One" in [chooser.itemText(row) for row in range(chooser.count())]
+    program.session.document.undo()
+    assert program.session.project.players == before.players
+
+
+def test_a_character_is_changed_again_and_removed_if_nobody_objects(
+    program: Program, answers: Answers, qtbot: QtBot, folder: Path
+) -> None:
+    QTest.mouseClick(ok(opened(program)), Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: not program.window.findChildren(CharacterDialog))
+    (id,) = character_library().own
+    trigger(program, "application.characters")
+    (shelf,) = program.window.findChildren(CharactersDialog)
+    shown = shelf.findChild(QListWidget, "character_list")
+    assert shown is not None
+    assert shown.item(0).text() == "toddler vrm1"
+    QTest.mouseClick(button(shelf, "characters_edit"), Qt.MouseButton.LeftButton)
+    (dialog,) = program.window.findChildren(CharacterDialog)
+    dialog.choose("leftToes")
+    dialog.bones.chosen.emit("toe3-1.L")
+    QTest.mouseClick(ok(dialog), Qt.MouseButton.LeftButton)
+    assert character_library().own[id].joints == {"leftToes": "toe3-1.L"}
+    player = program.session.project.players[0]
+    program.session.apply(
+        Message("edit.player_character", {"count": 1}), change(program.session.project, [player.id], character_id=id)
+    )
+    answers.removes = False
+    QTest.mouseClick(button(shelf, "characters_remove"), Qt.MouseButton.LeftButton)
+    assert answers.told_players == (player.name,)
+    assert id in character_library().own
+    answers.removes = True
+    QTest.mouseClick(button(shelf, "characters_remove"), Qt.MouseButton.LeftButton)
+    assert not character_library().own
+    assert not list(folder.glob("*.vrm"))
+    assert shown.count() == 0
+    shelf.close()
+
+
+def test_a_file_is_dropped_on_the_window(program: Program, qtbot: QtBot) -> None:
+    mime = QMimeData()
+    mime.setUrls([QUrl.fromLocalFile(str(MITTENS))])
+    for target in (program.window, program.window.panels["players"]):
+        over = target.mapTo(program.window, QPoint(30, 30))
+        actions, buttons, keys = Qt.DropAction.CopyAction, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier
+        enter = QDragEnterEvent(over, actions, mime, buttons, keys)
+        program.window.dragEnterEvent(enter)
+        assert enter.isAccepted()
+        program.window.dropEvent(QDropEvent(QPointF(over), actions, mime, buttons, keys))
+        (dialog,) = program.window.findChildren(CharacterDialog)
+        assert "man_cmu.fbx" in dialog.windowTitle()
+        dialog.reject()
+        qtbot.waitUntil(lambda: not program.window.findChildren(CharacterDialog))
+
+
+def test_what_cannot_be_read_is_said(program: Program, tmp_path: Path) -> None:
+    told = list[str]()
+    program.session.noticed.connect(lambda message, severity: told.append(message.id))
+    wrong = tmp_path / "wrong.vrm"
+    wrong.write_bytes(b"glTF but not really")
+    bring_character(program.editor, wrong)
+    assert not program.window.findChildren(CharacterDialog)
+    assert len(told) == 1
+
+
+def test_a_file_put_into_the_folder_is_there_by_itself(program: Program, qtbot: QtBot, folder: Path) -> None:
+    folder.mkdir(parents=True)
+    shutil.copy(TODDLER, folder / "tot.vrm")
+    (folder / "tot.toml").write_text('file = "tot.vrm"\ntitle = "Tot"\n')
+    chooser = program.window.findChild(QComboBox, "player_character")
+    assert chooser is not None
+    qtbot.waitUntil(lambda: "Tot" in [chooser.itemText(row) for row in range(chooser.count())], timeout=10_000)
+
+
+def test_steps() -> None:
+    steps, gesture = Steps(Draft("a")), object()
+    assert not steps.apply(Draft("a"))
+    for title in ("b", "c", "d"):
+        assert steps.apply(Draft(title), gesture)
+    steps.undo()
+    assert steps.now == Draft("a")
+    assert steps.can_redo
+    steps.redo()
+    assert steps.now == Draft("d")
+    # A drag back to where it began is none.
+    other = object()
+    steps.apply(Draft("e"), other)
+    steps.apply(Draft("d"), other)
+    steps.undo()
+    assert steps.now == Draft("a")

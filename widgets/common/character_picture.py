@@ -1,0 +1,187 @@
+"""Small pictures of a character from the front, drawn without a graphics card, in any thread."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Final, Literal
+
+import numpy as np
+import numpy.typing as npt
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QImage
+
+from app.rig.model import Character, Mesh
+from app.rig.skeleton import rest_positions
+
+Floats = npt.NDArray[np.float64]
+Crop = Literal["body", "head"]
+
+_LIGHT: Final = np.array([0.35, 0.45, 0.82])
+_OVERSAMPLED: Final = 2
+_AMBIENT, _DIFFUSE = 0.30, 0.75
+_MARGIN: Final = 1.06
+_HEAD_BELOW: Final = 0.45
+"""Of the head's height from its joint to the crown, so much of the neck is seen too."""
+_LARGEST_PX: Final = 2048
+_CLOSE: Final = 1.3
+"""Points in a pixel's width."""
+
+
+@dataclass(frozen=True, eq=False)
+class Seen:
+    """A character in its T-pose, made ready to be drawn with any face.
+
+    Attributes
+    ----------
+    positions_m : (V, 3) float64
+        Of all meshes.
+    triangles : (T, 3) int
+    colours : (T, 3) float64
+        Linear.
+    morphs : mapping of str to ((n,) int, (n, 3) float64)
+        Which vertices a morph moves, and where to.
+    head_m : (float, float, float)
+        Height of the head's joint, of the crown; its middle from side to side is at 0.
+    """
+
+    positions_m: Floats
+    triangles: npt.NDArray[np.intp]
+    colours: Floats
+    morphs: Mapping[str, tuple[npt.NDArray[np.intp], Floats]]
+    head_m: tuple[float, float]
+
+
+def seen(character: Character) -> Seen:
+    """Make a character ready to be drawn."""
+    places = rest_positions(character.skeleton)
+    world_from_mesh = character.joint_from_mesh[:, :3, :].copy()
+    world_from_mesh[:, :, 3] += places
+    positions, triangles, colours = list[Floats](), list[npt.NDArray[np.intp]](), list[Floats]()
+    moved: dict[str, list[tuple[npt.NDArray[np.intp], Floats]]] = {}
+    first = 0
+    for mesh in character.meshes:
+        matrices = np.einsum("vk,vkij->vij", mesh.weights.astype(np.float64), world_from_mesh[mesh.joints])
+        positions.append(np.einsum("vij,vj->vi", matrices[:, :, :3], mesh.positions_m) + matrices[:, :, 3])
+        triangles.append(mesh.triangles.astype(np.intp) + first)
+        colours.append(_colours(mesh))
+        for morph in mesh.morphs:
+            deltas = np.einsum("vij,vj->vi", matrices[morph.vertices, :, :3], morph.deltas_m)
+            moved.setdefault(morph.name, []).append((morph.vertices.astype(np.intp) + first, deltas))
+        first += len(mesh.positions_m)
+    joined = np.concatenate(positions)
+    head = float(places[character.skeleton.index("head"), 1])
+    near = joined[np.abs(joined[:, 0]) < 0.3 * max(float(joined[:, 1].max()), 1e-6)]
+    return Seen(
+        positions_m=joined,
+        triangles=np.concatenate(triangles),
+        colours=np.concatenate(colours),
+        morphs={
+            name: (np.concatenate([at for at, _ in parts]), np.concatenate([deltas for _, deltas in parts]))
+            for name, parts in moved.items()
+        },
+        head_m=(head, float(near[:, 1].max())),
+    )
+
+
+def picture(
+    shown: Seen, width_px: int, height_px: int, crop: Crop = "body", weights: Mapping[str, float] | None = None
+) -> QImage:
+    """Draw a character from the front, on nothing.
+
+    Parameters
+    ----------
+    shown : Seen
+    width_px, height_px : int
+    crop : Crop
+        All of the body, or its head.
+    weights : mapping of str to float, optional
+        Of morphs.
+    """
+    positions = shown.positions_m.copy()
+    for name, weight in (weights or {}).items():
+        if name in shown.morphs and weight:
+            at, deltas = shown.morphs[name]
+            np.add.at(positions, at, weight * deltas)
+    low, high, half = _frame(shown, positions, crop)
+    width, height = min(width_px, _LARGEST_PX) * _OVERSAMPLED, min(height_px, _LARGEST_PX) * _OVERSAMPLED
+    scale = min(height / ((high - low) * _MARGIN), width / (2.0 * half * _MARGIN))
+    middle_x = 0.0 if crop == "body" else _head_middle(shown)
+    points = np.empty_like(positions)
+    points[:, 0] = (positions[:, 0] - middle_x) * scale + width / 2.0
+    points[:, 1] = ((low + high) / 2.0 - positions[:, 1]) * scale + height / 2.0
+    points[:, 2] = positions[:, 2]
+    canvas = _painted(points, shown, positions, width, height)
+    image = QImage(canvas.tobytes(), width, height, 4 * width, QImage.Format.Format_RGBA8888).copy()
+    smooth = Qt.TransformationMode.SmoothTransformation
+    return image.scaled(width // _OVERSAMPLED, height // _OVERSAMPLED, Qt.AspectRatioMode.IgnoreAspectRatio, smooth)
+
+
+def _colours(mesh: Mesh) -> Floats:
+    base = np.array([material.base_color[:3] for material in mesh.materials], np.float64)
+    result: Floats = base[mesh.triangle_materials]
+    return result
+
+
+def _frame(shown: Seen, positions: Floats, crop: Crop) -> tuple[float, float, float]:
+    """Lowest and highest point, and half the width, that are seen."""
+    if crop == "body":
+        return float(positions[:, 1].min()), float(positions[:, 1].max()), float(np.abs(positions[:, 0]).max())
+    joint, crown = shown.head_m
+    low = joint - _HEAD_BELOW * (crown - joint)
+    return low, crown, (crown - low) / 2.0
+
+
+def _head_middle(shown: Seen) -> float:
+    joint, _ = shown.head_m
+    above = shown.positions_m[shown.positions_m[:, 1] > joint]
+    return float((above[:, 0].min() + above[:, 0].max()) / 2.0) if len(above) else 0.0
+
+
+def _painted(points: Floats, shown: Seen, positions: Floats, width: int, height: int) -> npt.NDArray[np.uint8]:
+    """Each triangle as points close enough to one another, those in front over those behind."""
+    corners = positions[shown.triangles]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
+    # Whatever side a triangle was wound to is lit.
+    normals *= np.where(normals[:, 2:3] < 0.0, -1.0, 1.0)
+    lit = _AMBIENT + _DIFFUSE * np.clip(normals @ _LIGHT, 0.0, 1.0)
+    colours = 255.0 * np.clip(shown.colours * lit[:, None], 0.0, 1.0) ** (1.0 / 2.2)
+    placed = points[shown.triangles]
+    inside = (placed[:, :, 0].max(1) > 0.0) & (placed[:, :, 0].min(1) < width)
+    inside &= (placed[:, :, 1].max(1) > 0.0) & (placed[:, :, 1].min(1) < height)
+    pixels, depths, owners = list[npt.NDArray[np.intp]](), list[Floats](), list[npt.NDArray[np.intp]]()
+    placed, steps = _by_edges(placed)
+    for step in np.unique(steps[inside], axis=0):
+        chosen = np.flatnonzero(inside & (steps == step).all(axis=1))
+        one, two = np.meshgrid(*(np.linspace(0.0, 1.0, 2 ** int(count) + 1) for count in step))
+        kept = one + two <= 1.0
+        shares = np.stack([1.0 - one[kept] - two[kept], one[kept], two[kept]], axis=1)
+        for some in np.array_split(chosen, max(len(chosen) * len(shares) // 1_000_000, 1)):
+            found = np.einsum("sc,tcx->tsx", shares, placed[some])
+            x, y = found[..., 0].astype(np.intp), found[..., 1].astype(np.intp)
+            on = (found[..., 0] >= 0.0) & (x < width) & (found[..., 1] >= 0.0) & (y < height)
+            pixels.append((y * width + x)[on])
+            depths.append(found[..., 2][on])
+            owners.append(np.broadcast_to(some[:, None], on.shape)[on])
+    canvas = np.zeros((height * width, 4), np.uint8)
+    if pixels:
+        pixel, owner = np.concatenate(pixels), np.concatenate(owners)
+        order = np.argsort(np.concatenate(depths), kind="stable")
+        front = np.full(height * width, -1, np.intp)
+        front[pixel[order]] = owner[order]
+        hit = front >= 0
+        canvas[hit, :3] = colours[front[hit]].astype(np.uint8)
+        canvas[hit, 3] = 255
+    return canvas
+
+
+def _by_edges(placed: Floats) -> tuple[Floats, npt.NDArray[np.intp]]:
+    """Triangles (T, 3, 3) from the corner between their two shorter edges, and the powers of two (T, 2) that those are
+    divided into, so that no pixel is left out."""
+    edges = np.linalg.norm((placed - np.roll(placed, -1, axis=1))[:, :, :2], axis=2)
+    # Opposite the longest edge, from corner k to k + 1, lies k + 2.
+    first = (edges.argmax(axis=1) + 2) % 3
+    turned = placed[np.arange(len(placed))[:, None], (first[:, None] + np.arange(3)) % 3]
+    lengths = np.linalg.norm((turned[:, 1:] - turned[:, :1])[:, :, :2], axis=2)
+    return turned, np.clip(np.ceil(np.log2(np.maximum(_CLOSE * lengths, 1.0))), 0, 12).astype(np.intp)

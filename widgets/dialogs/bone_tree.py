@@ -1,0 +1,126 @@
+"""The bones of a file as they hang together, to choose one from, with a search."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from PySide6.QtCore import QEvent, Qt, Signal
+from PySide6.QtGui import QColor, QKeyEvent
+from PySide6.QtWidgets import QLineEdit, QTreeWidget, QTreeWidgetItem, QVBoxLayout, QWidget
+
+from app.rig.figure import Figure
+from widgets.common.session import Session
+
+
+class BoneTree(QWidget):
+    """Bones; Enter or a double click chooses one.
+
+    Parameters
+    ----------
+    session : Session
+    figure : Figure
+
+    Signals
+    -------
+    chosen(str)
+        The person wants this bone.
+    """
+
+    chosen = Signal(str)
+
+    def __init__(self, session: Session, figure: Figure, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._session = session
+        self.search = QLineEdit()
+        self.search.setObjectName("bone_search")
+        self.search.setClearButtonEnabled(True)
+        self.search.textChanged.connect(self._filter)
+        self.search.installEventFilter(self)
+        self.tree = _Tree()
+        self.tree.setObjectName("bone_tree")
+        self.tree.setColumnCount(2)
+        self.tree.setUniformRowHeights(True)
+        self.tree.setIndentation(10)
+        self.tree.itemActivated.connect(self._activated)
+        self._items = list[QTreeWidgetItem]()
+        for bone, name in enumerate(figure.bone_names):
+            item = QTreeWidgetItem([name, ""])
+            parent_bone = figure.parents[bone]
+            if parent_bone < 0:
+                self.tree.addTopLevelItem(item)
+            else:
+                self._items[parent_bone].addChild(item)
+            self._items.append(item)
+        self.tree.expandAll()
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(4)
+        column.addWidget(self.search)
+        column.addWidget(self.tree, 1)
+
+    def show_used(self, used: Mapping[int, str]) -> None:
+        """Write beside each bone which joint it is."""
+        dim = QColor(self._session.tokens.text_dim)
+        for bone, item in enumerate(self._items):
+            text = used.get(bone, "")
+            if item.text(1) != text:
+                item.setText(1, text)
+            item.setForeground(1, dim)
+
+    def reveal(self, bone: int | None) -> None:
+        """Mark a bone and bring it into view."""
+        if bone is None:
+            self.tree.clearSelection()
+            return
+        self.tree.setCurrentItem(self._items[bone])
+        self.tree.scrollToItem(self._items[bone])
+
+    def set_headers(self, headers: Sequence[str]) -> None:
+        """Name the columns."""
+        self.tree.setHeaderLabels(list(headers))
+        self.tree.setColumnWidth(0, 178)
+
+    def _filter(self, text: str) -> None:
+        """Show the bones whose name holds the text, and those above them."""
+        wanted = text.strip().casefold()
+        first: QTreeWidgetItem | None = None
+        # Children come after their parents.
+        for item in reversed(self._items):
+            hit = wanted in item.text(0).casefold()
+            children = [item.child(number) for number in range(item.childCount())]
+            below = any(child is not None and not child.isHidden() for child in children)
+            item.setHidden(bool(wanted) and not hit and not below)
+            if hit and wanted:
+                first = item
+        if first is not None:
+            self.tree.setCurrentItem(first)
+            self.tree.scrollToItem(first)
+
+    def _activated(self, item: QTreeWidgetItem, column: int = 0) -> None:
+        self.chosen.emit(item.text(0))
+
+    def eventFilter(self, watched: object, event: QEvent) -> bool:
+        """From the search the arrows go to the bones, and Enter takes the one that is marked."""
+        if watched is self.search and event.type() is QEvent.Type.KeyPress and isinstance(event, QKeyEvent):
+            key = Qt.Key(event.key())
+            if key in (Qt.Key.Key_Down, Qt.Key.Key_Up):
+                self.tree.setFocus(Qt.FocusReason.OtherFocusReason)
+                self.tree.keyPressEvent(event)
+                return True
+            if key in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
+                item = self.tree.currentItem()
+                if item is not None and not item.isHidden():
+                    self._activated(item)
+                return True
+        return False
+
+
+class _Tree(QTreeWidget):
+    """Enter activates, wherever the style would not."""
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        item = self.currentItem()
+        if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter) and item is not None:
+            self.itemActivated.emit(item, 0)
+            return
+        super().keyPressEvent(event)

@@ -1,0 +1,437 @@
+"""Bring your own character: which bone is which joint, which morphs make a face, and what will not be played.
+
+What is shown follows from `Steps.now` and the figure alone; every change goes through `CharacterDialog.change` and can
+be taken back. Pictures are drawn beside the window, the newest only.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Final
+
+from PySide6.QtCore import QEvent, QSize, Qt, QTimer, Signal
+from PySide6.QtGui import QColor, QImage, QKeyEvent, QKeySequence, QPixmap
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QDialog,
+    QDialogButtonBox,
+    QFormLayout,
+    QHBoxLayout,
+    QHeaderView,
+    QLabel,
+    QLineEdit,
+    QPushButton,
+    QTabWidget,
+    QTreeWidget,
+    QTreeWidgetItem,
+    QVBoxLayout,
+    QWidget,
+)
+
+from app.errors import AppError, Message
+from app.rig.figure import Figure
+from widgets.common.character_picture import Crop, Seen, picture, seen
+from widgets.common.icons import icon
+from widgets.common.session import Session
+from widgets.common.tasks import Progress, StopWanted
+from widgets.common.text import message_text
+from widgets.dialogs.body_map import BodyMap, joints
+from widgets.dialogs.bone_tree import BoneTree
+from widgets.dialogs.character_draft import (
+    Draft,
+    Steps,
+    character_of,
+    joint_name,
+    mapped,
+    not_played,
+)
+from widgets.dialogs.face_map_page import FaceMapPage
+
+PICTURE_PX: Final = QSize(250, 340)
+_SOON_MS: Final = 60
+"""A drag asks for many pictures: the next is drawn when it rests so long, or moves on slowly."""
+
+
+class CharacterDialog(QDialog):
+    """A character of a file that was read.
+
+    Parameters
+    ----------
+    session : Session
+    path : Path
+        Of the file, for its name.
+    figure : Figure
+    draft : Draft
+        What is known of it already.
+    offered : str
+        Name of the player it may be given to, or of several; empty: nobody.
+    parent : QWidget, optional
+
+    Signals
+    -------
+    agreed(object, bool)
+        The person wants the character of this `Draft`; and whether the selected players become it.
+    """
+
+    agreed = Signal(object, bool)
+
+    def __init__(
+        self,
+        session: Session,
+        path: Path,
+        figure: Figure,
+        draft: Draft,
+        offered: str = "",
+        parent: QWidget | None = None,
+    ) -> None:
+        super().__init__(parent)
+        self.setObjectName("character")
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        self._session, self._path, self._figure, self._offered = session, path, figure, offered
+        self._first, self._steps = draft, Steps(draft)
+        self._made = mapped(figure, draft)
+        self._joint = ""
+        self._seen: tuple[tuple[object, ...], Seen] | None = None
+        """A character ready to be drawn, and what it was made from."""
+        self._drawing = False
+        self._wants_picture = False
+        self.title = QLineEdit(draft.title)
+        self.title.setObjectName("character_title")
+        self._source, self._told, self._picture, self._legend = QLabel(), QLabel(), QLabel(), QLabel()
+        self._legend.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self._picture.setObjectName("character_picture")
+        self._told.setObjectName("character_told")
+        self.body = BodyMap(session, self._joint_text)
+        self.rows = QTreeWidget()
+        self.rows.setObjectName("joint_list")
+        self._items = {joint: QTreeWidgetItem() for joint in joints()}
+        self.bones = BoneTree(session, figure)
+        self.faces = FaceMapPage(session, figure.morph_names)
+        self.tabs = QTabWidget()
+        self.tabs.setObjectName("character_tabs")
+        self._none, self._automatic = QPushButton(), QPushButton()
+        self._undo, self._redo, self._reset = QPushButton(), QPushButton(), QPushButton()
+        self.give = QCheckBox()
+        self.give.setObjectName("character_give")
+        self._buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Ok | QDialogButtonBox.StandardButton.Cancel)
+        self._title_name = QLabel()
+        self._soon = QTimer(self, singleShot=True, interval=_SOON_MS)
+        self._soon.timeout.connect(self._draw)
+        self._name()
+        self._build()
+        self._connect()
+        self.retranslate()
+        self.resize(1180, 720)
+        self._choose_first()
+
+    # Building
+
+    def _name(self) -> None:
+        for button, name in (
+            (self._none, "joint_none"),
+            (self._automatic, "joint_automatic"),
+            (self._undo, "character_undo"),
+            (self._redo, "character_redo"),
+            (self._reset, "character_reset"),
+        ):
+            button.setObjectName(name)
+            button.setAutoDefault(False)
+
+    def _build(self) -> None:
+        self.rows.setColumnCount(2)
+        self.rows.setRootIsDecorated(False)
+        self.rows.setUniformRowHeights(True)
+        self.rows.header().setSectionResizeMode(0, QHeaderView.ResizeMode.ResizeToContents)
+        for joint, item in self._items.items():
+            item.setData(0, Qt.ItemDataRole.UserRole, joint)
+            self.rows.addTopLevelItem(item)
+        for label in (self._source, self._told):
+            label.setWordWrap(True)
+        self._told.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        self._picture.setFixedSize(PICTURE_PX)
+        self._picture.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        body_page = QWidget()
+        columns = QHBoxLayout(body_page)
+        columns.setContentsMargins(0, 8, 0, 0)
+        drawn = QVBoxLayout()
+        drawn.addWidget(self.body, 1)
+        drawn.addWidget(self._legend)
+        columns.addLayout(drawn, 5)
+        columns.addWidget(self.rows, 4)
+        choice = QVBoxLayout()
+        choice.addWidget(self.bones, 1)
+        line = QHBoxLayout()
+        line.addWidget(self._none)
+        line.addWidget(self._automatic)
+        choice.addLayout(line)
+        columns.addLayout(choice, 4)
+        self.tabs.addTab(body_page, "")
+        self.tabs.addTab(self.faces, "")
+        side = QVBoxLayout()
+        side.setSpacing(8)
+        form = QFormLayout()
+        self._title_name.setBuddy(self.title)
+        form.addRow(self._title_name, self.title)
+        side.addLayout(form)
+        side.addWidget(self._source)
+        side.addWidget(self._picture, 0, Qt.AlignmentFlag.AlignHCenter)
+        side.addWidget(self._told)
+        side.addStretch(1)
+        side_box = QWidget()
+        side_box.setLayout(side)
+        side_box.setFixedWidth(PICTURE_PX.width() + 24)
+        side.setContentsMargins(12, 0, 0, 0)
+        middle = QHBoxLayout()
+        middle.addWidget(self.tabs, 1)
+        middle.addWidget(side_box)
+        bottom = QHBoxLayout()
+        for button in (self._undo, self._redo, self._reset):
+            bottom.addWidget(button)
+        bottom.addStretch(1)
+        bottom.addWidget(self.give)
+        bottom.addWidget(self._buttons)
+        page = QVBoxLayout(self)
+        page.setContentsMargins(12, 12, 12, 12)
+        page.addLayout(middle, 1)
+        page.addLayout(bottom)
+
+    def _connect(self) -> None:
+        self.body.chosen.connect(self.choose)
+        self.body.opened.connect(self._open)
+        self.rows.currentItemChanged.connect(self._row_chosen)
+        self.rows.itemActivated.connect(lambda item, column: self._open(item.data(0, Qt.ItemDataRole.UserRole)))
+        self.bones.chosen.connect(lambda bone: self._give_bone(bone))
+        self._none.clicked.connect(lambda: self._give_bone(""))
+        self._automatic.clicked.connect(lambda: self._give_bone(None))
+        self.faces.chosen.connect(self._ask_picture)
+        self.faces.changed.connect(self._give_face)
+        self.tabs.currentChanged.connect(self._ask_picture)
+        self.title.textEdited.connect(self._rename)
+        self._undo.clicked.connect(self.undo)
+        self._redo.clicked.connect(self.redo)
+        self._reset.clicked.connect(lambda: self.change(Draft(self._steps.now.title)))
+        self._buttons.accepted.connect(self._agree)
+        self._buttons.rejected.connect(self.reject)
+        self._session.theme_changed.connect(self._show)
+
+    # What the person does
+
+    @property
+    def draft(self) -> Draft:
+        """What was said so far."""
+        return self._steps.now
+
+    @property
+    def joint(self) -> str:
+        """The chosen joint."""
+        return self._joint
+
+    def choose(self, joint: str) -> None:
+        """Look at a joint."""
+        if joint == self._joint:
+            return
+        self._joint = joint
+        self.body.choose(joint)
+        self.rows.setCurrentItem(self._items[joint])
+        self.rows.scrollToItem(self._items[joint])
+        self.bones.reveal(self._made.joints.bones.get(joint))
+        self._show_choice()
+
+    def _choose_first(self) -> None:
+        """Where there is something to be done, if there is."""
+        wrong = [*self._made.lacking, *self._made.joints.doubtful]
+        self.choose(wrong[0] if wrong else "hips")
+
+    def _row_chosen(self, item: QTreeWidgetItem | None, before: QTreeWidgetItem | None = None) -> None:
+        if item is not None:
+            self.choose(item.data(0, Qt.ItemDataRole.UserRole))
+
+    def _open(self, joint: str) -> None:
+        self.choose(joint)
+        self.bones.search.setFocus(Qt.FocusReason.OtherFocusReason)
+        self.bones.search.selectAll()
+
+    def _give_bone(self, bone: str | None) -> None:
+        self.change(self.draft.with_joint(self._joint, bone))
+        self.bones.search.clear()
+        self.bones.reveal(self._made.joints.bones.get(self._joint))
+
+    def _give_face(self, face: str, parts: dict[str, float] | None, gesture: object) -> None:
+        self.change(self.draft.with_face(face, parts), gesture)
+
+    def _rename(self, title: str) -> None:
+        # One word is one step.
+        self.change(Draft(title, self.draft.joints, self.draft.morphs), self.title)
+
+    def change(self, draft: Draft, gesture: object | None = None) -> None:
+        """Another draft; those of one gesture are one step."""
+        if self._steps.apply(draft, gesture):
+            self._changed()
+
+    def undo(self) -> None:
+        """Take the last change back."""
+        self._steps.undo()
+        self._changed()
+
+    def redo(self) -> None:
+        """Make it again."""
+        self._steps.redo()
+        self._changed()
+
+    def _changed(self) -> None:
+        self._made = mapped(self._figure, self.draft)
+        if self.title.text() != self.draft.title:
+            self.title.setText(self.draft.title)
+        self._show()
+
+    def _agree(self) -> None:
+        self.agreed.emit(self.draft, self.give.isEnabled() and self.give.isChecked())
+        self.accept()
+
+    # What is shown
+
+    def _show(self) -> None:
+        made, tokens = self._made, self._session.tokens
+        self.body.show_states({joint: made.state(joint) for joint in self._items})
+        colours = {"mapped": tokens.text, "doubtful": tokens.warning, "missing": tokens.text_dim}
+        marks = {"mapped": ("check", tokens.good), "doubtful": ("warning", tokens.warning)}
+        for joint, item in self._items.items():
+            state = made.state(joint)
+            bone = made.joints.bones.get(joint)
+            item.setText(0, joint_name(joint))
+            item.setText(1, "—" if bone is None else self._figure.bone_names[bone])
+            item.setForeground(0, QColor(colours[state]))
+            item.setForeground(1, QColor(tokens.by_hand if joint in self.draft.joints else colours[state]))
+            mark, colour = marks.get(state, ("close", tokens.text_dim))
+            needed = joint in made.lacking
+            item.setIcon(0, icon("error" if needed else mark, tokens, tokens.error if needed else colour))
+            item.setToolTip(0, self._joint_text(joint))
+        self.bones.show_used({bone: joint_name(joint) for joint, bone in made.joints.bones.items()})
+        self.faces.show_parts(made.faces.morphs, frozenset(self.draft.morphs))
+        told = not_played(made)
+        self._told.setText("\n".join(f"• {text}" for text in told) if told else self.tr("Everything will be played."))
+        self._told.setStyleSheet(f"color: {tokens.error if made.lacking else tokens.text};")
+        self._picture.setStyleSheet(
+            f"#character_picture {{ background: {tokens.sunken}; border: 1px solid {tokens.line}; border-radius: 6px; }}"
+        )
+        self._legend.setText(
+            "&nbsp;&nbsp; ".join(
+                f'<span style="color: {colour};">{sign}</span> {text}'
+                for sign, colour, text in (
+                    ("●", tokens.good, self.tr("found")),
+                    ("◉", tokens.warning, self.tr("a guess")),
+                    ("○", tokens.text_dim, self.tr("none")),
+                )
+            )
+        )
+        self._undo.setEnabled(self._steps.can_undo)
+        self._redo.setEnabled(self._steps.can_redo)
+        self._reset.setEnabled(bool(self.draft.joints or self.draft.morphs))
+        ok = self._buttons.button(QDialogButtonBox.StandardButton.Ok)
+        ok.setEnabled(not made.lacking and bool(self.draft.title.strip()))
+        self._show_choice()
+        self._ask_picture()
+
+    def _show_choice(self) -> None:
+        self._none.setEnabled(self._joint in self._made.joints.bones)
+        self._automatic.setEnabled(self._joint in self.draft.joints)
+
+    def _joint_text(self, joint: str) -> str:
+        """A joint, its bone and how sure that is, in words."""
+        state, bone = self._made.state(joint), self._made.joints.bones.get(joint)
+        bone_name = "" if bone is None else self._figure.bone_names[bone]
+        words = {
+            "mapped": self.tr("{joint}: {bone}"),
+            "doubtful": self.tr("{joint}: {bone}, a guess; please look"),
+            "missing": self.tr("{joint}: the file has no such bone"),
+        }[state]
+        return words.format(joint=joint_name(joint), bone=bone_name)
+
+    # Pictures
+
+    def _ask_picture(self, *_: object) -> None:
+        if not self._soon.isActive():
+            self._soon.start()
+
+    def _draw(self) -> None:
+        if self._drawing:
+            self._wants_picture = True
+            return
+        if self._made.lacking:
+            self._picture.setText(self.tr("No picture yet"))
+            return
+        figure, made, known = self._figure, self._made, self._seen
+        key = (made.joints.bones, made.faces.morphs)
+        crop: Crop = "head" if self.tabs.currentIndex() == 1 else "body"
+        face, ratio = self.faces.face if crop == "head" else "", self.devicePixelRatioF()
+        width, height = round(PICTURE_PX.width() * ratio), round(PICTURE_PX.height() * ratio)
+
+        def work(progress: Progress, stop_wanted: StopWanted) -> tuple[Seen, QImage]:
+            shown = known[1] if known is not None and known[0] == key else seen(character_of(figure, made))
+            return shown, picture(shown, width, height, crop, {face: 1.0} if face else None)
+
+        def done(drawn: tuple[Seen, QImage]) -> None:
+            self._seen = (key, drawn[0])
+            image = QPixmap.fromImage(drawn[1])
+            image.setDevicePixelRatio(ratio)
+            self._picture.setPixmap(image)
+
+        def failed(error: AppError) -> None:
+            self._picture.setText(message_text(error.message))
+
+        self._drawing = True
+        self._session.tasks.run(
+            Message("work.character_picture"), work, done, failed, key="character_picture", ended=self._drawn
+        )
+
+    def _drawn(self) -> None:
+        self._drawing = False
+        if self._wants_picture:
+            self._wants_picture = False
+            self._ask_picture()
+
+    # Words
+
+    def retranslate(self) -> None:
+        """Set all texts."""
+        self.setWindowTitle(self.tr("Character: {file}").format(file=self._path.name))
+        self._title_name.setText(self.tr("Name"))
+        self._source.setText(
+            self.tr("{file}: {bones} bones, {morphs} morphs").format(
+                file=self._path.name, bones=len(self._figure.bone_names), morphs=len(self._figure.morph_names)
+            )
+        )
+        self.tabs.setTabText(0, self.tr("Body"))
+        self.tabs.setTabText(1, self.tr("Face"))
+        self.rows.setHeaderLabels([self.tr("Joint"), self.tr("Bone")])
+        self.bones.set_headers([self.tr("Bone of the file"), self.tr("Joint")])
+        self.bones.search.setPlaceholderText(self.tr("Search bones"))
+        self.body.setAccessibleName(self.tr("Joints of the body"))
+        self._none.setText(self.tr("No Bone"))
+        self._automatic.setText(self.tr("Automatic"))
+        self._undo.setText(self.tr("Undo"))
+        self._redo.setText(self.tr("Redo"))
+        self._reset.setText(self.tr("Reset All"))
+        self.give.setText(self.tr("Give it to {players}").format(players=self._offered))
+        self.give.setVisible(bool(self._offered))
+        self._buttons.button(QDialogButtonBox.StandardButton.Ok).setText(self.tr("Keep Character"))
+        self._buttons.button(QDialogButtonBox.StandardButton.Cancel).setText(self.tr("Cancel"))
+        self.faces.retranslate()
+        self._show()
+
+    # Qt's own names
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Undo and redo, wherever the keyboard is."""
+        if event.matches(QKeySequence.StandardKey.Undo):
+            self.undo()
+        elif event.matches(QKeySequence.StandardKey.Redo):
+            self.redo()
+        else:
+            super().keyPressEvent(event)
+
+    def changeEvent(self, event: QEvent) -> None:
+        """Another language."""
+        if event.type() == QEvent.Type.LanguageChange:
+            self.retranslate()
+        super().changeEvent(event)

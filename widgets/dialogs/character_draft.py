@@ -1,0 +1,219 @@
+"""A foreign character while a person says what its bones and morphs are: values, and what follows from them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import Final, Literal
+
+from PySide6.QtCore import QCoreApplication
+
+from app.rig.face_map import FaceMapping, map_morphs
+from app.rig.figure import Figure
+from app.rig.figure_character import REQUIRED_JOINTS, figure_character
+from app.rig.humanoid import JointMapping, map_joints
+from app.rig.model import Character
+
+State = Literal["mapped", "doubtful", "missing"]
+
+_FINGERS: Final = ("Thumb", "Index", "Middle", "Ring", "Little")
+_LIPS: Final = ("mouthPucker", "mouthFunnel", "mouthClose", "mouthPressLeft", "mouthPressRight")
+_MOST_STEPS: Final = 200
+
+
+@dataclass(frozen=True)
+class Draft:
+    """What a person said of a character.
+
+    Attributes
+    ----------
+    title : str
+    joints : mapping of str to str
+        Bones by joint that are not found by themselves; empty: none.
+    morphs : mapping of str to mapping of str to float
+        Faces by ARKit name that are not found by themselves.
+    """
+
+    title: str
+    joints: Mapping[str, str] = field(default_factory=dict)
+    morphs: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+
+    def with_joint(self, joint: str, bone: str | None) -> Draft:
+        """Another bone for a joint; empty: none; None: as it is found by itself."""
+        joints = {name: own for name, own in self.joints.items() if name != joint}
+        return replace(self, joints=joints if bone is None else {**joints, joint: bone})
+
+    def with_face(self, face: str, parts: Mapping[str, float] | None) -> Draft:
+        """Other morphs for a face; empty: none; None: as it is found by itself."""
+        morphs = {name: own for name, own in self.morphs.items() if name != face}
+        return replace(self, morphs=morphs if parts is None else {**morphs, face: dict(parts)})
+
+
+@dataclass(frozen=True, eq=False)
+class Mapped:
+    """What a draft makes of a figure.
+
+    Attributes
+    ----------
+    joints : JointMapping
+    faces : FaceMapping
+    """
+
+    draft: Draft
+    joints: JointMapping
+    faces: FaceMapping
+
+    @property
+    def lacking(self) -> tuple[str, ...]:
+        """Joints without which nobody can play."""
+        return tuple(joint for joint in REQUIRED_JOINTS if joint not in self.joints.bones)
+
+    def state(self, joint: str) -> State:
+        """How sure a joint is."""
+        if joint not in self.joints.bones:
+            return "missing"
+        return "doubtful" if joint in self.joints.doubtful else "mapped"
+
+
+def mapped(figure: Figure, draft: Draft) -> Mapped:
+    """What a draft makes of a figure. Raises FileError where it names what the figure has not."""
+    return Mapped(draft, map_joints(figure, draft.joints), map_morphs(figure, draft.morphs))
+
+
+def character_of(figure: Figure, made: Mapped) -> Character:
+    """The character that a draft makes. Raises FileError where it cannot play."""
+    return figure_character(figure, made.draft.title, made.joints.bones, made.faces.morphs)
+
+
+class Steps:
+    """Drafts, one after another, that can be gone back to.
+
+    Parameters
+    ----------
+    first : Draft
+    """
+
+    def __init__(self, first: Draft) -> None:
+        self._done, self._undone = [first], list[Draft]()
+        self._gesture: object | None = None
+
+    @property
+    def now(self) -> Draft:
+        """The draft as it is."""
+        return self._done[-1]
+
+    @property
+    def can_undo(self) -> bool:
+        """Whether there is something to take back."""
+        return len(self._done) > 1
+
+    @property
+    def can_redo(self) -> bool:
+        """Whether something was taken back."""
+        return bool(self._undone)
+
+    def apply(self, draft: Draft, gesture: object | None = None) -> bool:
+        """Another draft; those of one gesture are one step. Whether it is another."""
+        if gesture is not None and gesture is self._gesture and self.can_undo:
+            self._done.pop()
+        changed = draft != self.now
+        if changed:
+            self._done = [*self._done[-_MOST_STEPS:], draft]
+            self._undone.clear()
+            self._gesture = gesture
+        else:
+            self._gesture = None
+        return changed
+
+    def undo(self) -> None:
+        """Take the last step back."""
+        if self.can_undo:
+            self._undone.append(self._done.pop())
+            self._gesture = None
+
+    def redo(self) -> None:
+        """Do it again."""
+        if self._undone:
+            self._done.append(self._undone.pop())
+            self._gesture = None
+
+
+def not_played(made: Mapped) -> tuple[str, ...]:
+    """What a character will not do, in words, the gravest first."""
+    translate, told = QCoreApplication.translate, list[str]()
+    bones, faces = made.joints.bones, made.faces.morphs
+    if made.lacking:
+        told.append(
+            translate("CharacterWords", "It cannot play yet. Choose the bones of: {joints}").format(
+                joints=", ".join(joint_name(joint) for joint in made.lacking)
+            )
+        )
+    without = [
+        (side, finger)
+        for side in ("left", "right")
+        for finger in _FINGERS
+        if not any(joint.startswith(side + finger) for joint in bones)
+    ]
+    if len(without) == 2 * len(_FINGERS):
+        told.append(
+            translate("CharacterWords", "It has no finger bones: the hands hold the instrument, the fingers rest.")
+        )
+    elif without:
+        told.append(
+            translate("CharacterWords", "These fingers do not move: {fingers}").format(
+                fingers=", ".join(joint_name(side + finger + "Proximal") for side, finger in without)
+            )
+        )
+    if "leftEye" not in bones and "rightEye" not in bones and not any(name.startswith("eyeLook") for name in faces):
+        told.append(translate("CharacterWords", "The eyes do not look around: it has no bones or morphs for them."))
+    if "jaw" not in bones and "jawOpen" not in faces:
+        told.append(translate("CharacterWords", "The mouth does not open: it has no jaw and no such morph."))
+    if not any(name in faces for name in _LIPS):
+        told.append(translate("CharacterWords", "The lips do not form an embouchure: it has no such morphs."))
+    if not any(name.startswith("eyeBlink") for name in faces):
+        told.append(translate("CharacterWords", "It does not blink: it has no such morph."))
+    if "cheekPuff" not in faces:
+        told.append(translate("CharacterWords", "The cheeks do not fill: it has no such morph."))
+    return tuple(told)
+
+
+def joint_name(joint: str) -> str:
+    """A joint in the person's language."""
+    translate = QCoreApplication.translate
+    for side, sign in (("left", translate("Joint", "{part} L")), ("right", translate("Joint", "{part} R"))):
+        if joint.startswith(side):
+            return sign.format(part=joint_name(joint.removeprefix(side)))
+    words = {
+        "hips": translate("Joint", "Hips"),
+        "spine": translate("Joint", "Spine"),
+        "chest": translate("Joint", "Chest"),
+        "upperChest": translate("Joint", "Upper chest"),
+        "neck": translate("Joint", "Neck"),
+        "head": translate("Joint", "Head"),
+        "jaw": translate("Joint", "Jaw"),
+        "Eye": translate("Joint", "Eye"),
+        "Shoulder": translate("Joint", "Shoulder"),
+        "UpperArm": translate("Joint", "Upper arm"),
+        "LowerArm": translate("Joint", "Lower arm"),
+        "Hand": translate("Joint", "Hand"),
+        "UpperLeg": translate("Joint", "Upper leg"),
+        "LowerLeg": translate("Joint", "Lower leg"),
+        "Foot": translate("Joint", "Foot"),
+        "Toes": translate("Joint", "Toes"),
+        "ThumbMetacarpal": translate("Joint", "Thumb, base"),
+        "ThumbProximal": translate("Joint", "Thumb, middle"),
+        "ThumbDistal": translate("Joint", "Thumb, tip"),
+        "IndexProximal": translate("Joint", "Index finger, base"),
+        "IndexIntermediate": translate("Joint", "Index finger, middle"),
+        "IndexDistal": translate("Joint", "Index finger, tip"),
+        "MiddleProximal": translate("Joint", "Middle finger, base"),
+        "MiddleIntermediate": translate("Joint", "Middle finger, middle"),
+        "MiddleDistal": translate("Joint", "Middle finger, tip"),
+        "RingProximal": translate("Joint", "Ring finger, base"),
+        "RingIntermediate": translate("Joint", "Ring finger, middle"),
+        "RingDistal": translate("Joint", "Ring finger, tip"),
+        "LittleProximal": translate("Joint", "Little finger, base"),
+        "LittleIntermediate": translate("Joint", "Little finger, middle"),
+        "LittleDistal": translate("Joint", "Little finger, tip"),
+    }
+    return words.get(joint, joint)

@@ -1,0 +1,191 @@
+"""A person's own characters: which there are, what is wrong with them; more of them, changed, removed."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from PySide6.QtCore import QEvent, QSize, Qt, Signal
+from PySide6.QtGui import QDragEnterEvent, QDropEvent, QIcon, QImage, QPixmap
+from PySide6.QtWidgets import (
+    QDialog,
+    QHBoxLayout,
+    QLabel,
+    QListWidget,
+    QListWidgetItem,
+    QPushButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from app.errors import Message
+from app.rig.character_library import character_library, character_named, character_problems
+from app.rig.read_figure import SUFFIXES
+from widgets.common.character_picture import picture, seen
+from widgets.common.instrument_name import character_name
+from widgets.common.session import Session
+from widgets.common.tasks import Progress, StopWanted
+from widgets.common.text import message_text
+
+_PICTURE_PX = QSize(72, 96)
+
+
+class CharactersDialog(QDialog):
+    """The person's own characters.
+
+    Signals
+    -------
+    add_asked()
+    edit_asked(str), remove_asked(str)
+        Of the character of this id.
+    dropped(object)
+        A character's file was dropped here: its `Path`.
+    """
+
+    add_asked = Signal()
+    edit_asked = Signal(str)
+    remove_asked = Signal(str)
+    dropped = Signal(object)
+
+    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setObjectName("characters")
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        self.setAcceptDrops(True)
+        self._session = session
+        self._pictures: dict[str, QIcon] = {}
+        self._explained, self._wrong = QLabel(), QLabel()
+        self.list = QListWidget()
+        self.list.setObjectName("character_list")
+        self.list.setIconSize(_PICTURE_PX)
+        self._add, self._edit, self._remove, self._close = (QPushButton() for _ in range(4))
+        named = {"add": self._add, "edit": self._edit, "remove": self._remove, "close": self._close}
+        for name, button in named.items():
+            button.setObjectName(f"characters_{name}")
+            button.setAutoDefault(False)
+        self._wrong.setObjectName("characters_wrong")
+        for label in (self._explained, self._wrong):
+            label.setWordWrap(True)
+        side = QVBoxLayout()
+        for button in (self._add, self._edit, self._remove):
+            side.addWidget(button)
+        side.addStretch(1)
+        side.addWidget(self._close)
+        middle = QHBoxLayout()
+        middle.addWidget(self.list, 1)
+        middle.addLayout(side)
+        page = QVBoxLayout(self)
+        page.setContentsMargins(14, 14, 14, 14)
+        page.setSpacing(10)
+        page.addWidget(self._explained)
+        page.addLayout(middle, 1)
+        page.addWidget(self._wrong)
+        self._add.clicked.connect(self.add_asked)
+        self._edit.clicked.connect(lambda: self.edit_asked.emit(self.chosen))
+        self._remove.clicked.connect(lambda: self.remove_asked.emit(self.chosen))
+        self._close.clicked.connect(self.close)
+        self.list.itemActivated.connect(lambda item: self.edit_asked.emit(self.chosen))
+        self.list.currentItemChanged.connect(self._enable)
+        session.characters_changed.connect(self.refresh)
+        session.theme_changed.connect(self.refresh)
+        self.retranslate()
+        self.resize(520, 460)
+
+    @property
+    def chosen(self) -> str:
+        """Id of the chosen character; empty: none."""
+        item = self.list.currentItem()
+        return "" if item is None else str(item.data(Qt.ItemDataRole.UserRole))
+
+    def refresh(self) -> None:
+        """Show those there are now."""
+        before = self.chosen
+        self.list.clear()
+        for id in character_library().own:
+            item = QListWidgetItem(self._pictures.get(id, QIcon()), character_name(id))
+            item.setData(Qt.ItemDataRole.UserRole, id)
+            item.setSizeHint(QSize(0, _PICTURE_PX.height() + 8))
+            self.list.addItem(item)
+            if id == before:
+                self.list.setCurrentItem(item)
+        if self.list.currentItem() is None and self.list.count():
+            self.list.setCurrentRow(0)
+        self._enable()
+        self._draw()
+
+    def _enable(self, *_: object) -> None:
+        for button in (self._edit, self._remove):
+            button.setEnabled(bool(self.chosen))
+
+    def _draw(self) -> None:
+        """Open every character beside the window, and draw it."""
+        ids, ratio = tuple(character_library().own), self.devicePixelRatioF()
+        if not ids and not character_library().problems:
+            self._wrong.hide()
+            return
+
+        def work(progress: Progress, stop_wanted: StopWanted) -> tuple[dict[str, QImage], dict[str, Message]]:
+            wrong, drawn = dict(character_problems()), {}
+            for number, id in enumerate(ids):
+                if stop_wanted():
+                    break
+                if id not in wrong:
+                    shown = seen(character_named(id))
+                    drawn[id] = picture(shown, round(_PICTURE_PX.width() * ratio), round(_PICTURE_PX.height() * ratio))
+                progress((number + 1) / len(ids))
+            return drawn, wrong
+
+        self._session.tasks.run(Message("work.portraits"), work, self._take, key="characters_pictures")
+
+    def _take(self, made: tuple[dict[str, QImage], dict[str, Message]]) -> None:
+        drawn, wrong = made
+        for id, image in drawn.items():
+            copy = QImage(image)
+            copy.setDevicePixelRatio(self.devicePixelRatioF())
+            self._pictures[id] = QIcon(QPixmap.fromImage(copy))
+        for row in range(self.list.count()):
+            item = self.list.item(row)
+            item.setIcon(self._pictures.get(item.data(Qt.ItemDataRole.UserRole), QIcon()))
+        self._wrong.setText("\n".join(message_text(told, self._session) for told in wrong.values()))
+        self._wrong.setStyleSheet(f"color: {self._session.tokens.error};")
+        self._wrong.setVisible(bool(wrong))
+
+    def retranslate(self) -> None:
+        """Set all texts."""
+        self.setWindowTitle(self.tr("Characters"))
+        self._explained.setText(
+            self.tr(
+                "Your own characters, from VRM, glTF or FBX files; drop a file here. Every player can become one of "
+                "them."
+            )
+        )
+        self._add.setText(self.tr("Add..."))
+        self._edit.setText(self.tr("Edit..."))
+        self._remove.setText(self.tr("Remove..."))
+        self._close.setText(self.tr("Close"))
+        self.refresh()
+
+    # Qt's own names
+
+    def dragEnterEvent(self, event: QDragEnterEvent) -> None:
+        if dropped_character(event) is not None:
+            event.acceptProposedAction()
+
+    def dropEvent(self, event: QDropEvent) -> None:
+        path = dropped_character(event)
+        if path is not None:
+            event.acceptProposedAction()
+            self.dropped.emit(path)
+
+    def changeEvent(self, event: QEvent) -> None:
+        if event.type() == QEvent.Type.LanguageChange:
+            self.retranslate()
+        super().changeEvent(event)
+
+
+def dropped_character(event: QDropEvent) -> Path | None:
+    """The first file of a drop that can hold a character."""
+    for url in event.mimeData().urls():
+        path = Path(url.toLocalFile())
+        if path.suffix.lower() in SUFFIXES:
+            return path
+    return None

@@ -1,0 +1,217 @@
+"""How a character's own morphs make the faces that players wear: a list of ARKit's shapes, and what each is made of."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import partial
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QColor
+from PySide6.QtWidgets import (
+    QHBoxLayout,
+    QHeaderView,
+    QLabel,
+    QPushButton,
+    QToolButton,
+    QTreeWidget,
+    QTreeWidgetItem,
+    QVBoxLayout,
+    QWidget,
+)
+
+from metadata.model import ARKIT_MORPHS
+from widgets.common.combo import Combo, Option
+from widgets.common.icons import icon
+from widgets.common.morph_names import morph_name
+from widgets.common.number_slider import NumberSlider
+from widgets.common.session import Session
+
+MOST_FACTOR = 2.0
+
+
+class FaceMapPage(QWidget):
+    """The faces.
+
+    Parameters
+    ----------
+    session : Session
+    morphs : sequence of str
+        The file's own.
+
+    Signals
+    -------
+    chosen(str)
+        The person looks at a face: an ARKit name.
+    changed(str, object, object)
+        A face is made of these morphs (a mapping of factors; None: as found by itself); the token of a gesture.
+    released()
+        A gesture is over.
+    """
+
+    chosen = Signal(str)
+    changed = Signal(str, object, object)
+    released = Signal()
+
+    def __init__(self, session: Session, morphs: Sequence[str], parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._session, self._morphs = session, tuple(morphs)
+        self._parts: dict[str, dict[str, float]] = {}
+        self._own: frozenset[str] = frozenset()
+        self._face = ARKIT_MORPHS[0]
+        self._listed: tuple[object, ...] = ()
+        self._rows = list[_Part]()
+        self.list = QTreeWidget()
+        self.list.setObjectName("face_list")
+        self.list.setColumnCount(2)
+        self.list.setRootIsDecorated(False)
+        self.list.setUniformRowHeights(True)
+        self.list.header().setSectionResizeMode(0, QHeaderView.ResizeMode.ResizeToContents)
+        self._items = {face: QTreeWidgetItem() for face in ARKIT_MORPHS}
+        for face, item in self._items.items():
+            item.setData(0, Qt.ItemDataRole.UserRole, face)
+            self.list.addTopLevelItem(item)
+        self.list.setCurrentItem(self._items[self._face])
+        self.list.currentItemChanged.connect(self._chosen)
+        self._title, self._none = QLabel(), QLabel()
+        self._none.setWordWrap(True)
+        self._add = Combo()
+        self._add.setObjectName("face_add")
+        self._add.chosen.connect(self._add_part)
+        self._reset = QPushButton()
+        self._reset.setObjectName("face_reset")
+        self._reset.setAutoDefault(False)
+        self._reset.clicked.connect(lambda: self.changed.emit(self._face, None, None))
+        self._column = QVBoxLayout()
+        self._column.setSpacing(4)
+        self._build()
+        session.theme_changed.connect(self._show)
+        self.retranslate()
+
+    def _build(self) -> None:
+        editor = QVBoxLayout()
+        editor.setSpacing(6)
+        editor.addWidget(self._title)
+        editor.addWidget(self._none)
+        editor.addLayout(self._column)
+        line = QHBoxLayout()
+        line.addWidget(self._add, 1)
+        line.addWidget(self._reset)
+        editor.addLayout(line)
+        page = QVBoxLayout(self)
+        page.setContentsMargins(0, 8, 0, 0)
+        page.addWidget(self.list, 1)
+        page.addLayout(editor)
+
+    @property
+    def face(self) -> str:
+        """The face that is looked at."""
+        return self._face
+
+    def choose(self, face: str) -> None:
+        """Look at a face."""
+        self.list.setCurrentItem(self._items[face])
+
+    def show_parts(self, parts: Mapping[str, Mapping[str, float]], own: frozenset[str]) -> None:
+        """Show what the faces are made of, and which of them a person said."""
+        self._parts, self._own = {face: dict(made) for face, made in parts.items()}, own
+        self._show()
+
+    # What the person does
+
+    def _chosen(self, item: QTreeWidgetItem | None, before: QTreeWidgetItem | None = None) -> None:
+        if item is not None:
+            self._face = item.data(0, Qt.ItemDataRole.UserRole)
+            self._show_editor()
+            self.chosen.emit(self._face)
+
+    def _add_part(self, morph: str) -> None:
+        self.changed.emit(self._face, {**self._parts.get(self._face, {}), morph: 1.0}, None)
+
+    def _set_part(self, morph: str, factor: float, token: object) -> None:
+        self.changed.emit(self._face, {**self._parts.get(self._face, {}), morph: factor}, token)
+
+    def _remove_part(self, morph: str) -> None:
+        left = {name: factor for name, factor in self._parts.get(self._face, {}).items() if name != morph}
+        self.changed.emit(self._face, left, None)
+
+    # What is shown
+
+    def _show(self) -> None:
+        tokens = self._session.tokens
+        for face, item in self._items.items():
+            parts = self._parts.get(face, {})
+            item.setText(0, morph_name(face))
+            item.setToolTip(0, face)
+            item.setText(1, made_of(parts))
+            item.setForeground(0, QColor(tokens.text if parts else tokens.text_dim))
+            item.setForeground(1, QColor(tokens.by_hand if face in self._own else tokens.text_dim))
+        self._show_editor()
+
+    def _show_editor(self) -> None:
+        parts = self._parts.get(self._face, {})
+        self._title.setText(self.tr("{face} ({name}) is made of:").format(face=morph_name(self._face), name=self._face))
+        self._none.setVisible(not parts)
+        self._none.setStyleSheet(f"color: {self._session.tokens.text_dim};")
+        names = tuple(parts)
+        if names != tuple(row.morph for row in self._rows):
+            self._make_rows(names)
+        for row in self._rows:
+            row.slider.show_value(parts[row.morph])
+        self._add.set_options([Option(morph, morph) for morph in self._morphs if morph not in parts])
+        self._add.show_option(None)
+        self._add.setEnabled(any(morph not in parts for morph in self._morphs))
+        self._reset.setEnabled(self._face in self._own)
+
+    def _make_rows(self, morphs: Sequence[str]) -> None:
+        for row in self._rows:
+            self._column.removeWidget(row)
+            row.hide()
+            row.deleteLater()
+        self._rows = [_Part(self._session, morph) for morph in morphs]
+        for row in self._rows:
+            row.slider.changed.connect(partial(self._set_part, row.morph))
+            row.slider.released.connect(self.released)
+            row.remove.clicked.connect(partial(self._remove_clicked, row.morph))
+            row.remove.setToolTip(self.tr("Take this morph out"))
+            self._column.addWidget(row)
+
+    def _remove_clicked(self, morph: str, *_: object) -> None:
+        self._remove_part(morph)
+
+    def retranslate(self) -> None:
+        """Set all texts."""
+        self.list.setHeaderLabels([self.tr("Face"), self.tr("Made of")])
+        self._none.setText(
+            self.tr("Nothing: the character does not do this.")
+            if self._morphs
+            else self.tr("The file has no morphs: the face stays as it is.")
+        )
+        self._add.setPlaceholderText(self.tr("Add a morph of the file..."))
+        self._add.setAccessibleName(self.tr("Add a morph of the file..."))
+        self._reset.setText(self.tr("Automatic"))
+        for row in self._rows:
+            row.remove.setToolTip(self.tr("Take this morph out"))
+        self._show()
+
+
+class _Part(QWidget):
+    """A morph and how much of it."""
+
+    def __init__(self, session: Session, morph: str) -> None:
+        super().__init__()
+        self.morph = morph
+        self.slider = NumberSlider(session, 0.0, MOST_FACTOR, default=1.0, step=0.05)
+        self.slider.setObjectName(f"face_part_{morph}")
+        self.slider.set_texts(morph)
+        self.remove = QToolButton()
+        self.remove.setObjectName(f"face_remove_{morph}")
+        self.remove.setIcon(icon("close", session.tokens))
+        line = QHBoxLayout(self)
+        line.setContentsMargins(0, 0, 0, 0)
+        line.addWidget(self.slider, 1)
+        line.addWidget(self.remove)
+
+
+def made_of(parts: Mapping[str, float]) -> str:
+    """What a face is made of, on one line."""
+    return " + ".join(morph if factor == 1.0 else f"{morph} × {factor:g}" for morph, factor in parts.items())
