@@ -10,6 +10,7 @@ from PySide6.QtCore import QCoreApplication, QFileSystemWatcher, QObject, QTimer
 
 from app.errors import AppError, Message
 from app.project.edit.players import change
+from app.rig.character import read_character
 from app.rig.character_library import (
     CharacterEntry,
     CharacterLibrary,
@@ -21,7 +22,7 @@ from app.rig.character_library import (
     write_entry,
 )
 from app.rig.figure import Figure
-from app.rig.read_figure import SUFFIXES, read_figure
+from app.rig.read_figure import SUFFIXES
 from app.shell.editor import Editor
 from widgets.common.instrument_name import character_name
 from widgets.common.session import Session, Severity
@@ -160,7 +161,8 @@ def remove(editor: Editor, id: str) -> None:
 
 def _read(session: Session, path: Path, done: Callable[[Figure], None]) -> None:
     def work(progress: Progress, stop_wanted: StopWanted) -> Figure:
-        return read_figure(path)
+        # Turned to face ahead, as it will play.
+        return read_character(path).figure
 
     def failed(error: AppError) -> None:
         session.notice(error.message, Severity.ERROR)

@@ -101,7 +101,7 @@
     </message>
     <message>
         <source>Keep Character</source>
-        <translation>キャラクターを追加</translation>
+        <translation>キャラクターを保存</translation>
     </message>
     <message>
         <source>Cancel</source>
@@ -762,6 +762,26 @@ Unreal で「Suisou &gt; 演奏をインポート」を選んでください。�
     <message>
         <source>Toes</source>
         <translation>つま先</translation>
+    </message>
+    <message>
+        <source>Thumb</source>
+        <translation>親指</translation>
+    </message>
+    <message>
+        <source>Index finger</source>
+        <translation>人差し指</translation>
+    </message>
+    <message>
+        <source>Middle finger</source>
+        <translation>中指</translation>
+    </message>
+    <message>
+        <source>Ring finger</source>
+        <translation>薬指</translation>
+    </message>
+    <message>
+        <source>Little finger</source>
+        <translation>小指</translation>
     </message>
     <message>
         <source>Thumb, base</source>

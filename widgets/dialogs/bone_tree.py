@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from PySide6.QtCore import QEvent, Qt, Signal
 from PySide6.QtGui import QColor, QKeyEvent
-from PySide6.QtWidgets import QLineEdit, QTreeWidget, QTreeWidgetItem, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHeaderView, QLineEdit, QTreeWidget, QTreeWidgetItem, QVBoxLayout, QWidget
 
 from app.rig.figure import Figure
 from widgets.common.session import Session
@@ -78,7 +78,7 @@ class BoneTree(QWidget):
     def set_headers(self, headers: Sequence[str]) -> None:
         """Name the columns."""
         self.tree.setHeaderLabels(list(headers))
-        self.tree.setColumnWidth(0, 178)
+        self.tree.header().setSectionResizeMode(0, QHeaderView.ResizeMode.ResizeToContents)
 
     def _filter(self, text: str) -> None:
         """Show the bones whose name holds the text, and those above them."""

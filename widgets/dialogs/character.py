@@ -121,7 +121,7 @@ class CharacterDialog(QDialog):
         self._build()
         self._connect()
         self.retranslate()
-        self.resize(1180, 720)
+        self.resize(1240, 740)
         self._choose_first()
 
     # Building
@@ -312,7 +312,8 @@ class CharacterDialog(QDialog):
         self._told.setText("\n".join(f"• {text}" for text in told) if told else self.tr("Everything will be played."))
         self._told.setStyleSheet(f"color: {tokens.error if made.lacking else tokens.text};")
         self._picture.setStyleSheet(
-            f"#character_picture {{ background: {tokens.sunken}; border: 1px solid {tokens.line}; border-radius: 6px; }}"
+            f"#character_picture {{ background: {tokens.sunken}; border: 1px solid {tokens.line};"
+            " border-radius: 6px; }"
         )
         self._legend.setText(
             "&nbsp;&nbsp; ".join(

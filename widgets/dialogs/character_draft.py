@@ -161,7 +161,7 @@ def not_played(made: Mapped) -> tuple[str, ...]:
     elif without:
         told.append(
             translate("CharacterWords", "These fingers do not move: {fingers}").format(
-                fingers=", ".join(joint_name(side + finger + "Proximal") for side, finger in without)
+                fingers=", ".join(joint_name(side + finger) for side, finger in without)
             )
         )
     if "leftEye" not in bones and "rightEye" not in bones and not any(name.startswith("eyeLook") for name in faces):
@@ -200,6 +200,11 @@ def joint_name(joint: str) -> str:
         "LowerLeg": translate("Joint", "Lower leg"),
         "Foot": translate("Joint", "Foot"),
         "Toes": translate("Joint", "Toes"),
+        "Thumb": translate("Joint", "Thumb"),
+        "Index": translate("Joint", "Index finger"),
+        "Middle": translate("Joint", "Middle finger"),
+        "Ring": translate("Joint", "Ring finger"),
+        "Little": translate("Joint", "Little finger"),
         "ThumbMetacarpal": translate("Joint", "Thumb, base"),
         "ThumbProximal": translate("Joint", "Thumb, middle"),
         "ThumbDistal": translate("Joint", "Thumb, tip"),

@@ -18,6 +18,7 @@ from app.project.edit.players import change
 from app.rig.character_library import FOLDER_VARIABLE, character_library, character_named, reload_characters
 from app.shell.app import Program
 from app.shell.characters import bring_character
+from app.shell.generator import Generator
 from tests.gui.shell.conftest import Answers, trigger
 from widgets.common.character_picture import picture, seen
 from widgets.common.number_slider import NumberSlider
@@ -39,6 +40,12 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     yield own
     monkeypatch.undo()
     reload_characters()
+
+
+@pytest.fixture(autouse=True)
+def _nothing_is_planned(monkeypatch: pytest.MonkeyPatch) -> None:
+    """How a new body holds its instrument takes long to find, and is judged elsewhere."""
+    monkeypatch.setattr(Generator, "_plan", lambda self, project: None)
 
 
 def opened(program: Program, path: Path = TODDLER) -> CharacterDialog:
