@@ -262,11 +262,13 @@ class Recorder(QObject):
             state.set(connection="waiting", refusal=None)
             return
         if reason.id in _NO_DEVICE:
+            # That it has gone, and that the take is kept, was said just now; why it is not back stands in the dialog.
+            is_told = state.connection == "lost"
             is_ours = reason.arguments.get("port", state.port) == state.port
             if is_ours:
                 state.set(connection="refused" if state.port else "none", refusal=reason)
-            if not state.port:
-                # Nobody wanted one yet: whoever looks for devices reads it there.
+            if not state.port or is_told:
+                # Or nobody wanted one yet: whoever looks for devices reads it there.
                 return
         self._session.notice(reason, Severity.ERROR)
 
@@ -438,11 +440,11 @@ class Recorder(QObject):
 
     def _adopt(
         self, path: Path, player_id: str, takes: tuple[Take, ...], punch: tuple[int, int] | None, brought: bool = True
-    ) -> None:
-        """Takes into the project, the last one into the part."""
+    ) -> bool:
+        """Takes into the project, the last one into the part; whether that could be done."""
         if player_id not in {player.id for player in self._session.project.players}:
             self._session.notice(Message("record.player_gone", {"file": str(path)}), Severity.ERROR)
-            return
+            return False
 
         def recorded(project: Project) -> Project:
             project, ids = add_takes(project, player_id, takes)
@@ -455,10 +457,12 @@ class Recorder(QObject):
                 start_tick, end_tick = max(start_tick, punch[0]), min(end_tick, punch[1])
             return comp(project, player_id, ids[chosen], start_tick, end_tick)
 
-        if self._session.attempt(Message("edit.record", {"count": len(takes)}), recorded):
-            self._adopted[path] = takes[0]
-            # What was played is in a file within a second, not in half a minute.
-            self._files.write_soon()
+        if not self._session.attempt(Message("edit.record", {"count": len(takes)}), recorded):
+            return False
+        self._adopted[path] = takes[0]
+        # What was played is in a file within a second, not in half a minute.
+        self._files.write_soon()
+        return True
 
     def _files_changed(self) -> None:
         """Journals whose takes are in a file are not needed any more."""
@@ -497,8 +501,8 @@ class Recorder(QObject):
         if not takes or journal.header.started in known:
             path.unlink(missing_ok=True)
             return
-        self._adopt(path, journal.header.player, takes, None, brought=False)
-        self._session.notice(Message("record.recovered", {"count": len(takes)}))
+        if self._adopt(path, journal.header.player, takes, None, brought=False):
+            self._session.notice(Message("record.recovered", {"count": len(takes)}))
 
     def close(self) -> None:
         """The editor ends: a running take is finished on the disk."""

@@ -9,7 +9,8 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication, QLabel
 
 from app.capture.journal import Header, JournalWriter
-from app.capture.protocol import Back, Lost, Written
+from app.capture.protocol import Back, Lost, Ports, Refused, Written
+from app.errors import Message
 from app.shell.live_player import REST_S
 from app.shell.recording import recorder_of
 from tests.support.recorder import EWI
@@ -153,6 +154,41 @@ def test_an_unplugged_device_leaves_what_was_played(studio: Studio) -> None:
     studio.wait(lambda: studio.session.recording.connection == "open")
     studio.press(Qt.Key.Key_R)
     studio.wait(lambda: bool(studio.session.project.takes))
+
+
+def test_a_midi_system_that_ends_is_told_as_the_device_s_loss(studio: Studio) -> None:
+    said: list[str] = []
+    studio.session.noticed.connect(lambda message, severity: said.append(message.id))
+    studio.press(Qt.Key.Key_R)
+    studio.blow(60, 0.2)
+    # Without an audio device that is said at first.
+    said.clear()
+    studio.link.say(Lost(EWI, studio.clock.ns), Ports((), (), ""), Refused(Message("capture.no_system")))
+    studio.wait(lambda: studio.session.recording.connection == "refused")
+    assert said == ["record.device_lost_running"]
+    assert studio.session.recording.running
+    assert studio.session.recording.refusal == Message("capture.no_system")
+    studio.link.say(Ports((EWI,), (), "test"), Back(EWI, studio.clock.ns))
+    studio.wait(lambda: studio.session.recording.connection == "open")
+    assert said[1:] == ["record.device_back"]
+    studio.press(Qt.Key.Key_R)
+    studio.wait(lambda: bool(studio.session.project.takes))
+
+
+def test_what_cannot_be_brought_in_is_not_said_to_be(studio: Studio) -> None:
+    path = studio.folder / "piece.suisou"
+    studio.program.editor.questions.path = path  # type: ignore[attr-defined]
+    studio.program.editor.files.save_as()
+    said: list[str] = []
+    studio.session.noticed.connect(lambda message, severity: said.append(message.id))
+    header = Header(str(path), "somebody else", EWI, "ewi_5000", 0.0, "2026-11-21T10:00:00.000+00:00")
+    writer = JournalWriter(str(path.with_name(f"{path.name}.1.take-journal")), header)
+    writer.sync(10**9, 0.0, 0)
+    writer.event(15 * 10**8, bytes((0x90, 64, 90)))
+    writer.close()
+    studio.program.editor.files.open(path)
+    assert said.count("record.player_gone") == 1
+    assert "record.recovered" not in said
 
 
 def test_a_take_that_a_crash_tore_off_is_brought_in_when_its_project_is_opened(studio: Studio) -> None:
