@@ -12,6 +12,7 @@ from app.export.target import (
     BoneMotion,
     TargetSkeleton,
     bone_motion,
+    local_placements,
     matrices,
     normalised_target,
     world_placements,
@@ -19,6 +20,7 @@ from app.export.target import (
 from app.formats.join import join_meshes
 from app.formats.scene import Bone, Clip, MorphTarget, Scene, SkinnedMesh
 from app.motion.model import Motion
+from app.rig import quaternion
 from app.rig.figure import Figure
 from app.rig.model import Character, Mesh
 
@@ -56,7 +58,7 @@ def character_scene(
         meshes, weights = (_joined_mesh(character, target),), motion.morphs
     there = {morph.name for mesh in meshes for morph in mesh.morphs}
     return Scene(
-        bones=skeleton_bones(target),
+        bones=_bound_bones(target, meshes[0]) if target.choice == "ue5" else skeleton_bones(target),
         meshes=meshes,
         clip=character_clip(
             character, motion, clip, target, {name: weight for name, weight in weights.items() if name in there}
@@ -72,6 +74,21 @@ def skeleton_bones(target: TargetSkeleton) -> tuple[Bone, ...]:
         for name, parent, offset, rotation in zip(
             target.names, target.parents, target.offsets_m, target.rest, strict=True
         )
+    )
+
+
+def _bound_bones(target: TargetSkeleton, mesh: SkinnedMesh) -> tuple[Bone, ...]:
+    """The bones where the mesh was bound: Unreal takes that pose for the rest pose, and three.js mixes the two."""
+    binds = np.asarray(mesh.world_from_bone_bind, np.float64)
+    turned = quaternion.from_matrix(binds[:, :3, :3])
+    places_cm, rotations = local_placements(target.parents, binds[:, :3, 3], turned)
+    # Only the hips and what is tied to another bone have another place in another pose.
+    placed = [target.hips, *target.tied]
+    offsets_cm = target.offsets_m * CENTIMETRES
+    offsets_cm[placed] = places_cm[placed]
+    return tuple(
+        Bone(name, parent, offset, rotation)
+        for name, parent, offset, rotation in zip(target.names, target.parents, offsets_cm, rotations, strict=True)
     )
 
 

@@ -1,6 +1,6 @@
 """The core bones of Unreal Engine 5's mannequin as a target, with the proportions of the character.
 
-Rest rotations are an asset's, where a file of it is given: then a rotation means the same on both, and an animation of
+Axes are an asset's, where a file of it is given: then a rotation means the same on both, and an animation of
 one can be played on the other. Without a file the axes are those the mannequin has by convention (see `_AXES`), which
 are near but not the same; Unreal's IK retargeter is the way to the asset then.
 

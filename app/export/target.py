@@ -67,7 +67,7 @@ class TargetSkeleton:
     offsets_m : (B, 3) float64
         At rest, in the parent's frame.
     rest : (B, 4) float64
-        ``parent_from_bone`` at rest: what the file says.
+        ``parent_from_bone`` at rest: of the asset, where one is known. What a file says can be where its mesh is bound.
     t_pose : (B, 4) float64
         ``parent_from_bone`` where all joints are unturned: what a bone that nothing moves keeps.
     joint_of_bone : tuple of int

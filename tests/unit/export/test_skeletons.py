@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
@@ -9,22 +10,26 @@ import msgspec
 import numpy as np
 import pytest
 
+from app.errors import FileError
 from app.export.character import character_scene
 from app.export.instrument import instrument_scene
 from app.export.mannequin import mannequin_target
 from app.export.measure import PlayerMeasures, measure_player
 from app.export.own_skeleton import own_target
 from app.export.playback import Playback
-from app.export.target import TargetSkeleton, normalised_target
+from app.export.run import Request, export
+from app.export.target import SkeletonChoice, TargetSkeleton, normalised_target
 from app.formats.fbx.read import read_scene
 from app.formats.fbx.write import write_scene
 from app.formats.scene import Scene
+from app.messages import text
 from app.performance.bodies import body_of, character_of, model_of
 from app.performance.ensemble import Performance
 from app.performance.motion import player_motion
 from app.performance.span import cut_span
 from app.project.model import map_choices, project_from_score
 from app.rig import quaternion
+from app.rig.character_library import character_named
 from app.rig.model import Character
 from app.score.read import read_midi
 from instrument_maps.load import bundled_maps
@@ -142,15 +147,13 @@ def test_a_spoilt_file_is_found_on_every_skeleton(piece: Piece, name: str) -> No
     assert any(not spread.kept for contact, spread in found.contacts.items() if contact.startswith("right."))
 
 
-@pytest.mark.parametrize("name", ["own", "ue5"])
-def test_other_programs_read_the_same(piece: Piece, name: str) -> None:
-    scene = piece.written(name)
+def what_it_holds(scene: Scene) -> readers.Expected:
     assert scene.clip is not None
     frames = [0, 40, scene.clip.frames - 1]
     playback = Playback(scene, scene.clip)
     world_cm = playback.world(0, scene.clip.frames)[frames][..., :3, 3] * 100.0
     names = playback.bone_names
-    expected = readers.Expected(
+    return readers.Expected(
         fps=FPS,
         frames=scene.clip.frames,
         sampled=frames,
@@ -160,6 +163,60 @@ def test_other_programs_read_the_same(piece: Piece, name: str) -> None:
         },
         weights={morph: np.asarray(curve)[frames] for morph, curve in scene.clip.morph_weights.items()},
     )
+
+
+@pytest.mark.parametrize("name", ["own", "ue5"])
+def test_other_programs_read_the_same(piece: Piece, name: str) -> None:
     asked = [reader for reader in readers.QUICK_FBX if readers.installed(reader)]
     assert asked
-    readers.judge(piece.folder / f"{name}.fbx", expected, asked)
+    readers.judge(piece.folder / f"{name}.fbx", what_it_holds(piece.written(name)), asked)
+
+
+@pytest.mark.readers
+@pytest.mark.parametrize("reader", readers.SLOW_FBX)
+@pytest.mark.parametrize("name", ["own", "ue5"])
+def test_slow_readers_read_the_same(piece: Piece, name: str, reader: str) -> None:
+    if not readers.installed(reader):
+        pytest.skip(f"{reader} is not installed")
+    readers.judge(piece.folder / f"{name}.fbx", what_it_holds(piece.written(name)), [reader])
+
+
+def request(piece: Piece, folder: Path, skeleton: SkeletonChoice, asset: Path | None) -> Request:
+    return Request(
+        performance=piece.performance,
+        players=(piece.player,),
+        folder=folder,
+        formats=frozenset(("bvh",)),
+        span=cut_span(piece.performance.time_frame, FPS, 0.0, 0.5),
+        bars=None,
+        source="quartet.mid",
+        creator="test",
+        skeleton=skeleton,
+        asset=asset,
+    )
+
+
+def test_an_asset_that_would_lose_the_animation_stops_the_export(piece: Piece, tmp_path: Path) -> None:
+    piece.written("ue5")
+    with pytest.raises(FileError) as caught:
+        export(request(piece, tmp_path / "out", "own", piece.folder / "ue5.fbx"), text)
+    said = text(caught.value.message)
+    assert "ue5.fbx" in said
+    assert piece.player.name in said
+    assert "53 bones that move are not in the asset" in said
+    assert not (tmp_path / "out").exists()
+
+
+def test_what_differs_is_in_the_report(piece: Piece, tmp_path: Path) -> None:
+    """A mannequin of another body: bones of other lengths, which the animation is played with all the same."""
+    other = mannequin_target(character_named("man_adult").skeleton)
+    assert piece.ours.id != "man_adult"
+    scene = character_scene(character_named("man_adult"), replace(piece.motion), "x", "test", other)
+    write_scene(tmp_path / "other.fbx", scene)
+    report = export(request(piece, tmp_path / "out", "ue5", tmp_path / "other.fbx"), text)
+    skeleton = report.players[0].skeleton
+    assert (skeleton.choice, skeleton.asset) == ("ue5", "other.fbx")
+    assert {difference.kind for difference in skeleton.differences} == {"position"}
+    assert any("rest elsewhere than in the asset" in warning for warning in report.warnings)
+    kept = msgspec.json.decode((tmp_path / "out" / "report.json").read_bytes())["players"][0]["skeleton"]
+    assert kept["differences"][0]["kind"] == "position"
