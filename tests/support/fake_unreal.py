@@ -102,6 +102,7 @@ class Studio:
     undeletable: set[str] = field(default_factory=set)
     refuse_import: set[str] = field(default_factory=set)
     cancel_after: int | None = None
+    lost_keys: int = 0
     ids: Iterator[int] = field(default_factory=lambda: itertools.count(1))
 
     def add(self, path: str, asset: Any) -> Any:
@@ -329,7 +330,8 @@ def _classes(studio: Studio, module: Any) -> dict[str, type]:
         pass
 
     class AssetImportTask(Editable):
-        pass
+        def get_editor_property(self, name: str) -> Any:
+            return {"imported_object_paths": self._properties.get("imported_object_paths", [])}[name]
 
     class FbxImportUI(Editable):
         pass
@@ -358,23 +360,29 @@ def _classes(studio: Studio, module: Any) -> dict[str, type]:
         return studio.add(path, kind())
 
     def import_one(task: Any) -> None:
+        path = f"{task._properties['destination_path']}/{task._properties['destination_name']}"
+        asset = import_file(task)
+        task._properties["imported_object_paths"] = [] if asset is None else [f"{path}.{asset.get_name()}"]
+
+    def import_file(task: Any) -> Any:
         asked = task._properties
         path = f"{asked['destination_path']}/{asked['destination_name']}"
         options = asked.get("options")
         studio.imports.append({**asked, **({} if options is None else options._properties)})
         assert asked["automated"], "a dialog for every file"
         if path in studio.refuse_import:
-            return
+            return None
         if asked["filename"].endswith(".wav"):
-            make(path, SoundWave)._duration_s = soundfile.info(asked["filename"]).duration
-            return
+            sound = make(path, SoundWave)
+            sound._duration_s = soundfile.info(asked["filename"]).duration
+            return sound
         assert isinstance(asked["factory"], FbxFactory), "newer engines take Interchange"
         ui = options._properties
         scene = read_scene(asked["filename"])
         bones = tuple(bone.name for bone in scene.bones)
         skeleton = ui.get("skeleton")
         if skeleton is not None and skeleton._bones != bones:
-            return
+            return None
         if ui["mesh_type_to_import"] is FBXImportType.FBXIT_SKELETAL_MESH:
             mesh = make(path, SkeletalMesh)
             mesh._morphs = frozenset(morph.name for one in scene.meshes for morph in one.morphs)
@@ -382,13 +390,14 @@ def _classes(studio: Studio, module: Any) -> dict[str, type]:
             mesh._skeleton._bones = bones
             for material in {material.name for one in scene.meshes for material in one.materials}:
                 make(f"{asked['destination_path']}/{material}", Material)
-        else:
-            assert ui["mesh_type_to_import"] is FBXImportType.FBXIT_ANIMATION
-            if skeleton is None or scene.clip is None:
-                return
-            animation = make(path, AnimSequence)
-            animation._skeleton, animation._frames = skeleton, scene.clip.frames
-            animation._curves = frozenset(scene.clip.morph_weights)
+            return mesh
+        assert ui["mesh_type_to_import"] is FBXImportType.FBXIT_ANIMATION
+        if skeleton is None or scene.clip is None:
+            return None
+        animation = make(path, AnimSequence)
+        animation._skeleton, animation._frames = skeleton, scene.clip.frames - studio.lost_keys
+        animation._curves = frozenset(scene.clip.morph_weights)
+        return animation
 
     class AssetTools:
         def import_asset_tasks(self, import_tasks: list[Any]) -> None:

@@ -55,11 +55,16 @@ class Changes:
     kept: tuple[Message, ...]
 
 
+def own_text(data: bytes) -> OwnFile:
+    """What a text holds."""
+    text = data.replace(b"\r\n", b"\n")
+    return OwnFile(len(text), hashlib.sha256(text).hexdigest())
+
+
 def own_file(path: Path) -> OwnFile:
     """What a file holds."""
     if path.suffix.lower() in _TEXTS:
-        data = path.read_bytes().replace(b"\r\n", b"\n")
-        return OwnFile(len(data), hashlib.sha256(data).hexdigest())
+        return own_text(path.read_bytes())
     with path.open("rb") as stream:
         return OwnFile(path.stat().st_size, hashlib.file_digest(stream, "sha256").hexdigest())
 

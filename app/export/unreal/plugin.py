@@ -1,4 +1,4 @@
-"""The plug-in that imports in Unreal, put into a project that has none or an older one of ours.
+"""The plug-in that imports in Unreal, put into a project that has none or another one of ours that is no newer.
 
 The project's own file is not touched: a plug-in in its folder is on by itself, and asks for those that it needs.
 
@@ -18,6 +18,7 @@ from typing import Final
 
 from app.errors import FileError
 from app.export.unreal.layout import MANIFEST, PLUGIN
+from app.export.unreal.manifest import own_text, read_manifest
 
 DESCRIPTOR: Final = "Suisou.uplugin"
 CREATED_BY: Final = "Suisou"
@@ -34,7 +35,7 @@ def wanted_plugin(folder: Path) -> dict[PurePosixPath, bytes]:
     Raises
     ------
     FileError
-        ``unreal.plugin_foreign``: there is one that is not ours.
+        ``unreal.plugin_foreign``: there is one that is not ours; ``unreal.manifest``.
     """
     own = plugin_files()
     place = folder / PLUGIN
@@ -43,8 +44,11 @@ def wanted_plugin(folder: Path) -> dict[PurePosixPath, bytes]:
     there = _version((place / DESCRIPTOR).read_bytes()) if (place / DESCRIPTOR).is_file() else None
     if there is None and any(path.name != MANIFEST for path in place.iterdir()):
         raise FileError("unreal.plugin_foreign", file=os.fspath(place))
-    known = _version(own[PurePosixPath(DESCRIPTOR)])
-    return own if there is None or (known is not None and there < known) else {}
+    newest = _version(own[PurePosixPath(DESCRIPTOR)])
+    if there is not None and newest is not None and there > newest:
+        return {}
+    same = read_manifest(place) == {path: own_text(data) for path, data in own.items()}
+    return {} if there is not None and same else own
 
 
 def _version(descriptor: bytes) -> int | None:

@@ -166,6 +166,7 @@ class AssetToolsHelpers:
     def get_asset_tools(cls) -> AssetTools: ...
 
 class AssetImportTask(Object):
+    def get_editor_property(self, name: Literal["imported_object_paths"]) -> Sequence[str]: ...
     @overload
     def set_editor_property(
         self, name: Literal["filename", "destination_path", "destination_name"], value: str

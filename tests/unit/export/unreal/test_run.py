@@ -20,6 +20,7 @@ from app.cli import main
 from app.errors import Cancelled, FileError
 from app.export.unreal import run
 from app.export.unreal.description import place_of
+from app.export.unreal.manifest import encode_manifest, own_file
 from app.export.unreal.project import UnrealProject, find_project
 from app.export.unreal.run import export_into, plan_export
 from app.formats.fbx.read import read_scene
@@ -337,15 +338,37 @@ def test_a_killed_export_leaves_the_old_tree(unreal: UnrealProject, export: Expo
 
 
 def test_the_plug_in_is_put_there_once(unreal: UnrealProject, export: Export) -> None:
+    assert export(request_of(quartet())).plan.plugin
+    assert not export(request_of(quartet())).plan.plugin
+
+
+def plugin_of_before(place: Path, version: int) -> None:
+    """As an export of another version left it."""
+    files = {"Suisou.uplugin": json.dumps({"CreatedBy": "Suisou", "Version": version}), "Content/Python/old.py": "1\n"}
+    for name, content in files.items():
+        (place / name).parent.mkdir(parents=True, exist_ok=True)
+        (place / name).write_text(content)
+    own = {name: own_file(place / name) for name in files}
+    (place / "manifest.json").write_bytes(encode_manifest(own, "Suisou of before"))
+
+
+@pytest.mark.parametrize("version", [0, 1])
+def test_an_older_plug_in_is_replaced(unreal: UnrealProject, export: Export, version: int) -> None:
     place = unreal.folder / "Plugins" / "Suisou"
-    request = request_of(quartet())
-    assert export(request).plan.plugin
-    newest = tree_of(place)
-    assert not export(request).plan.plugin
-    # One that is newer than ours stays, an older one is replaced.
-    descriptor = place / "Suisou.uplugin"
-    descriptor.write_bytes(newest["Suisou.uplugin"].replace(b'"Version": 1,', b'"Version": 1000,'))
-    assert not export(request).plan.plugin
+    plugin_of_before(place, version)
+    (place / "Content/Python/mine.py").write_text("mine")
+    assert export(request_of(quartet())).plan.plugin
+    assert not (place / "Content/Python/old.py").exists()
+    assert (place / "Content/Python/mine.py").read_text() == "mine"
+    assert (place / "Content/Python/init_unreal.py").exists()
+
+
+def test_a_newer_plug_in_stays(unreal: UnrealProject, export: Export) -> None:
+    place = unreal.folder / "Plugins" / "Suisou"
+    plugin_of_before(place, 1000)
+    before = tree_of(place)
+    assert not export(request_of(quartet())).plan.plugin
+    assert tree_of(place) == before
 
 
 def test_another_ones_plug_in_is_told(unreal: UnrealProject, export: Export) -> None:

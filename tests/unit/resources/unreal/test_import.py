@@ -277,6 +277,17 @@ def test_who_was_moved_in_unreal_stays_there(two: Editor) -> None:
     assert "Left where you put it: Trumpet 1" in told
 
 
+def test_channels_of_other_names_are_told(two: Editor) -> None:
+    for binding in bindings(two).values():
+        (track,) = [track for track in binding._tracks if type(track).__name__ == "MovieScene3DTransformTrack"]
+        for channel in track._sections[0]._channels:
+            channel._name = channel._name.replace("Location", "Translation")
+    assert "no channels that Suisou knows" not in two.update_performance()
+    exported(two.folder, moved(quartet(), StagePosition(2.0, 1.0, 0.5)))
+    told = two.update_performance()
+    assert told.count("no channels that Suisou knows") == 2
+
+
 def test_other_bones_make_a_figure_anew(two: Editor) -> None:
     """Another instrument model may have other moving parts under the same name."""
     skeleton = f"{ROOT}/Instruments/Trumpet_1_trumpet_Bb/SKEL_Trumpet_1_trumpet_Bb"

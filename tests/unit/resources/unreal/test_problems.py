@@ -100,6 +100,20 @@ def test_what_unreal_does_not_import_is_told(editor: Editor) -> None:
     assert "is imported" in editor.import_performance()
 
 
+def test_what_unreal_does_not_update_is_told(editor: Editor) -> None:
+    editor.import_performance()
+    refused = f"{ROOT}/Characters/Trombone_1/A_Trombone_1"
+    editor.studio.refuse_import.add(refused)
+    assert refused in editor.update_performance()
+
+
+def test_a_length_that_is_not_the_files_is_told(editor: Editor) -> None:
+    editor.studio.lost_keys = 1
+    told = editor.import_performance()
+    assert "is imported" in told
+    assert told.count("compare it with the sound") == 8
+
+
 def test_what_cannot_be_removed_is_told(editor: Editor) -> None:
     editor.import_performance()
     stuck = f"{ROOT}/Characters/Trumpet_1/A_Trumpet_1"

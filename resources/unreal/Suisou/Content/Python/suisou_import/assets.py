@@ -195,6 +195,8 @@ def _import(performance: Performance, file: str, asset: str, options: unreal.Fbx
         task.set_editor_property("factory", unreal.FbxFactory())
         task.set_editor_property("options", options)
     unreal.AssetToolsHelpers.get_asset_tools().import_asset_tasks([task])
+    if not list(task.get_editor_property("imported_object_paths")):
+        raise problem("not_imported", asset=asset, file=performance.path(file))
 
 
 def _made(performance: Performance, path: str, file: str, kind: type[_Asset]) -> _Asset:

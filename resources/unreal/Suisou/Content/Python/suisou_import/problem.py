@@ -115,6 +115,14 @@ TEXTS = {
         "ボーンが変わったため作り直しました: {asset}",
     ),
     "moved": ("Left where you put it: {name}", "移動された位置のまま残しました: {name}"),
+    "unplaced": (
+        "Not moved to its new place, because its transform section has no channels that Suisou knows: {name}",
+        "トランスフォームのセクションに Suisou の知っているチャンネルがないため、新しい位置に移せませんでした: {name}",
+    ),
+    "other_length": (
+        "{asset} has {keys} keys, not {frames} as the file: compare it with the sound",
+        "{asset} のキーの数は {keys} で、ファイルの {frames} と違います。音声と合っているか確かめてください",
+    ),
     "step_check": ("Checking the files", "ファイルを確認しています"),
     "step_mesh": ("Mesh of {name}", "{name} のメッシュ"),
     "step_animation": ("Animation of {name}", "{name} のアニメーション"),

@@ -47,7 +47,10 @@ def _assets(performance: Performance, step: Callable[..., None], told: list[str]
             anew.add(figure.mesh)
             told.append(text("new_skeleton", asset=figure.mesh))
         step("step_animation", name=figure.name)
-        assets.import_animation(performance, figure)
+        animation = assets.import_animation(performance, figure)
+        keys = int(animation.get_editor_property("number_of_sampled_keys"))
+        if assets.sample_rate(performance.rate) and keys != performance.frames:
+            told.append(text("other_length", asset=figure.animation, keys=keys, frames=performance.frames))
     step("step_sound")
     assets.import_sound(performance)
     step("step_sequence")

@@ -45,8 +45,7 @@ def build(performance: Performance, anew: set[str]) -> list[str]:
         if binding is None:
             _remove(sequence, known.get(figure.mesh))
             binding, before = _new_binding(sequence, figure), None
-        if not _put(binding, figure.place, None if before is None else Place(*before["place"])):
-            told.append(text("moved", name=figure.name))
+        told += _put(binding, figure, None if before is None else Place(*before["place"]))
         _play(binding, figure, performance)
         figures[figure.mesh] = {"id": binding.get_id().to_string(), "place": list(figure.place)}
     for mesh, before in known.items():
@@ -135,30 +134,36 @@ def _new_binding(sequence: unreal.LevelSequence, figure: Figure) -> unreal.Movie
     return binding
 
 
-def _put(binding: unreal.MovieSceneBindingProxy, place: Place, before: Place | None) -> bool:
-    """Put an actor at its place; whether that was done: where the artist has moved it, it stays."""
+def _put(binding: unreal.MovieSceneBindingProxy, figure: Figure, before: Place | None) -> list[str]:
+    """Put an actor at its place; where the artist has moved it, it stays. What a person is told."""
     tracks = binding.find_tracks_by_exact_type(unreal.MovieScene3DTransformTrack)
     track = tracks[0] if tracks else binding.add_track(unreal.MovieScene3DTransformTrack)
     sections = track.get_sections()
     section = sections[0] if sections else track.add_section()
     section.set_start_frame_bounded(False)
     section.set_end_frame_bounded(False)
-    wanted = _channel_values(place)
     channels = {
         str(channel.channel_name): channel
         for channel in section.get_all_channels()
         if isinstance(channel, unreal.MovieSceneScriptingDoubleChannel)
     }
-    if before is not None and sections:
-        left = _channel_values(before)
-        for name, value in left.items():
-            channel = channels.get(name)
-            if channel is not None and (channel.get_num_keys() or abs(channel.get_default() - value) > _NEAR):
-                return False
+    wanted = _channel_values(figure.place)
+    if not set(wanted) <= set(channels):
+        # It was made where it stands; only what it is moved by from then on is missing.
+        return [] if before in (None, figure.place) else [text("unplaced", name=figure.name)]
+    if before is not None and sections and _moved(channels, _channel_values(before)):
+        return [] if before == figure.place else [text("moved", name=figure.name)]
     for name, value in wanted.items():
-        if name in channels:
-            channels[name].set_default(value)
-    return True
+        channels[name].set_default(value)
+    return []
+
+
+def _moved(channels: dict[str, unreal.MovieSceneScriptingDoubleChannel], left: dict[str, float]) -> bool:
+    """Whether somebody has moved an actor since it was put somewhere."""
+    return any(
+        channels[name].get_num_keys() > 0 or abs(channels[name].get_default() - value) > _NEAR
+        for name, value in left.items()
+    )
 
 
 def _channel_values(place: Place) -> dict[str, float]:
