@@ -13,7 +13,7 @@ from threading import RLock
 import msgspec
 
 from app.errors import AppError, Cancelled, MapError, Message
-from app.performance.bodies import character_of, hold_now, hold_of, is_held, suited_to
+from app.performance.bodies import hold_now, hold_of, is_held, suited_to
 from app.performance.loudness import heard, note_loudness
 from app.performance.reach import reached
 from app.plan.corrections import RemoveEvent, SetBreath, SetCue, Vary
@@ -21,7 +21,7 @@ from app.plan.generate import BREATH_PARAMETERS, EnsemblePlan, Line, Piece, fram
 from app.plan.memo import Memo
 from app.plan.model import PlayerPlan, Problem, TimeFrame
 from app.project.model import Player, Project
-from app.rig.character_library import bundled_characters, character_library, characters
+from app.rig.character_library import bundled_characters, character_library, character_revision, characters
 from app.rig.fit import missed
 from instrument_maps.library import library
 from instrument_maps.model import InstrumentMap
@@ -49,6 +49,8 @@ class Performance:
     before : Performance, optional
         Of the same document before an edit: what has not changed is taken from there, to the object. The result is
         the same without it.
+    waiting : frozenset of str
+        Players who are not seen yet, because somebody else finds out first how they hold their instruments (`hold`).
 
     Raises
     ------
@@ -56,11 +58,14 @@ class Performance:
         ``piece.too_long``: a few wrong bytes can make a piece of months, whose bars alone would fill the memory.
     """
 
-    def __init__(self, project: Project, before: Performance | None = None) -> None:
+    def __init__(
+        self, project: Project, before: Performance | None = None, waiting: frozenset[str] = frozenset()
+    ) -> None:
         hours = project.score.tempo_map.seconds(float(project.score.end_tick)) / 3600.0
         if hours > MOST_HOURS:
             raise AppError("piece.too_long", hours=round(hours, 1), most_hours=MOST_HOURS)
         self.project = project
+        self.waiting = waiting
         self.library = library()
         self.characters = character_library()
         # One that was never played knows nothing, but may know of one that was.
@@ -187,8 +192,11 @@ class Performance:
         unreached: tuple[Problem, ...] = ()
         try:
             held, lacking = suited_to(player, self.instrument(player))
-            lacking += self._missed(player, held)
-            unreached = self._unreached(player, held, plan)
+            if player.id in self.waiting:
+                lacking += (Message("character.hold_waiting", {}),)
+            else:
+                lacking += self._missed(player, held)
+                unreached = self._unreached(player, held, plan)
         except AppError as error:
             # A model or character that cannot be read is this player's problem; the others play on.
             lacking = (error.message,)
@@ -220,7 +228,8 @@ class Performance:
             lambda: reached(player, held, plan, self._memo.before(name)),
             plan.fingerings,
             held,
-            character_of(player),
+            player.character_id,
+            character_revision(player.character_id),
             player.parameters.posture,
         ).problems
 

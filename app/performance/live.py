@@ -162,7 +162,8 @@ class LiveMotion:
             tracks = {}
             for player in performance.project.players:
                 plan, old = performance.plan(player), before.tracks.get(player.id)
-                if old is None or not same_frames:
+                waited = player.id in before.performance.waiting
+                if old is None or not same_frames or waited:
                     tracks[player.id] = _Track(player, plan)
                 elif plan is old.plan and same_faces and _looks_same(player, old.player) and same_body(player):
                     tracks[player.id] = old
@@ -395,7 +396,9 @@ class LiveMotion:
     def _playing(self, shown: _Shown, track: _Track) -> Playing | None:
         if track.playing is not None or track.error is not None:
             return track.playing
-        if track.prepared is None:
+        if track.player.id in shown.performance.waiting:
+            track.error = Message("character.hold_waiting", {})
+        elif track.prepared is None:
             try:
                 track.prepared = playing_of(shown.performance, track.player, track.basis)
             except AppError as error:

@@ -136,12 +136,15 @@ class Generator(QObject):
             return
         try:
             performance = Performance(project, self._session.performance)
+            unheld = performance.unheld
+            if unheld:
+                waiting = frozenset(player.id for player in unheld)
+                performance = Performance(project, self._session.performance, waiting)
         except AppError as error:
             self._session.notice(error.message, Severity.ERROR)
             return
-        if performance.unheld:
+        if unheld:
             self._hold_told(performance)
-            return
         self._asked += 1
         notes = performance.unplanned_notes
         if notes > TOLD_NOTES:
@@ -170,8 +173,8 @@ class Generator(QObject):
                 self.live.make_now(player_id, self._session.playhead_s)
 
     def _hold_told(self, performance: Performance) -> None:
-        """Find out first how instruments are held that nobody held before, then plan what the project is by then. Where
-        the person stops that, the plans before stay, and the next edit asks again."""
+        """Find out how instruments are held that nobody held before; the others play on meanwhile. Where the person
+        stops that, the next edit asks again."""
         wanted = frozenset((player.character_id, player.instrument_id) for player in performance.unheld)
         if wanted <= self._holding and not self._hold_stopped():
             return

@@ -76,7 +76,7 @@ class LivePlayer(QObject):
         """Whoever plays along; made anew where the player, the instrument or the body is another."""
         player_id, performance = self._chosen(), self._session.performance
         player = next((player for player in performance.project.players if player.id == player_id), None)
-        if player is None or player.id not in performance.plans:
+        if player is None or player.id not in performance.plans or player.id in performance.waiting:
             return None
         poses = performance.plans[player.id].poses
         of = (player.id, player.instrument_id, player.character_id, player.parameters)

@@ -700,6 +700,10 @@
             <translation>口を開くモーフがありません。息継ぎは口に表れず、唇は閉じたままです</translation>
         </message>
         <message>
+            <source>how the instrument is held is being found out; the player is seen as soon as that is known</source>
+            <translation>楽器の持ち方を計算しています。終わり次第、奏者が表示されます</translation>
+        </message>
+        <message>
             <source>{count} touches do not meet this instrument, the {touch} misses by {gap_mm} mm: hands and instrument are of too different sizes or shapes</source>
             <translation>{count} か所の接点がこの楽器に届きません（{touch}が最大 {gap_mm} mm 外れます）。手と楽器の大きさや形が合っていません</translation>
         </message>

@@ -285,23 +285,31 @@ def test_how_a_new_body_holds_an_instrument_is_found_beside_the_window(
         tasks = ThreadTasks()
         generator = Generator(session, tasks)
         try:
-            before = session.performance
-            first = session.project.players[0]
+            first, second = session.project.players[:2]
+
+            def told() -> list[str]:
+                player = session.project.players[0]
+                return [problem.message.id for problem in session.performance.plan(player).problems]
+
             session.apply(EDIT, players.change(session.project, [first.id], character_id="unmarked"))
             qtbot.waitUntil(lambda: bool(where), timeout=10_000)
             assert where[0] is not here
-            assert session.performance is before
-            # Another edit meanwhile begins nothing again, and is not lost.
+            # The others play on, and what is edited meanwhile is seen; it begins nothing again.
+            assert "character.hold_waiting" in told()
             _correct(session, 0.8)
-            # Stopped, the plans before stay; the next edit asks again.
+            qtbot.waitUntil(lambda: generator.live.pose(second.id, 1.0) is not None, timeout=20_000)
+            assert generator.live.pose(first.id, 1.0) is None
+            assert session.performance.plan(session.project.players[0]).embouchures[20].tension == 0.8
+            assert len(where) == 1
+            # Stopped, the next edit asks again.
             tasks.cancel(tasks.running[0])
             qtbot.waitUntil(lambda: not tasks.running, timeout=10_000)
             assert len(where) == 1
-            assert not generator.up_to_date
             _correct(session, 0.7)
             qtbot.waitUntil(lambda: len(where) == 2, timeout=10_000)
             go.set()
-            qtbot.waitUntil(lambda: generator.up_to_date, timeout=20_000)
+            qtbot.waitUntil(lambda: generator.live.pose(first.id, 1.0) is not None, timeout=20_000)
+            assert told() == []
             assert session.performance.plan(session.project.players[0]).embouchures[20].tension == 0.7
             assert all(thread is not here for thread in where)
         finally:

@@ -108,6 +108,9 @@ def test_unreadable_files_are_map_errors(tmp_path: Path) -> None:
         ("travel_m = 0.0165", 'travel_m = "far"', "controls[0].motion.travel_m", "Expected `float | null`, got `str`"),
         ("rank = 1, label", "rank = 1.5, label", "fingerings[0].rank", "Expected `int`, got `float`"),
         ('shape = "cylinder"', 'shape = "egg"', "proxy[", "Invalid value 'egg'"),
+        ("[hold]", "[hold]\nsize_range = [0.8, 0.9]", "hold.size_range", "smallest <= 1 <= largest"),
+        ("schema_version = 1", "schema_version = 1\nsize = 0.8", "size", "as large as its model"),
+        ('grip = "firm"', 'grip = "guide"', "contacts[0].grip", "'guide' is for"),
     ],
 )
 def test_refusals_name_the_key_path(old: str, new: str, path: str | None, detail: str) -> None:
