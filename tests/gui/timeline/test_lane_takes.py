@@ -337,6 +337,22 @@ def test_a_head_is_dragged_to_another_place(lane: TakesLane) -> None:
     assert (order(), steps(lane)) == ([BEFORE, "take:1", "take:2"], ["edit.move_take"] * 2)
 
 
+def test_a_head_is_dragged_to_a_row_out_of_sight(lane: TakesLane) -> None:
+    project, _ = add_takes(lane.session.project, PLAYER, [take_of(played(60))] * 28)
+    lane.session.apply(Message("edit.record", {"count": 28}), project)
+    QApplication.processEvents()
+    lane.show_row("take:30")
+    assert lane.row_rect(0).bottom() < 0.0
+    number = lane.number_of("take:30")
+    assert number == 30
+    at = QPoint(40, round(lane.row_rect(number).center().y() - 26))
+    QTest.mousePress(lane.heads, Qt.MouseButton.LeftButton, pos=at)
+    for step in range(60):
+        move_to(lane.heads, QPoint(40, -40 - step % 2), Qt.KeyboardModifier.NoModifier)
+    QTest.mouseRelease(lane.heads, Qt.MouseButton.LeftButton, pos=QPoint(40, -40))
+    assert lane.rows[1].take_id == "take:30"
+
+
 def test_the_menu_is_of_the_row_that_was_clicked(lane: TakesLane) -> None:
     QTest.mouseClick(lane.plot, Qt.MouseButton.RightButton, pos=place(lane, 3, 2).toPoint())
     popup = QApplication.activePopupWidget()

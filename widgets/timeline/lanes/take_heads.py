@@ -243,6 +243,8 @@ class TakeHeads(QWidget):
         if self.dropped_before is None and abs(y - self._pressed[1]) < DRAG_PX:
             return
         lane = self._lane
+        # Rows that are out of sight are scrolled to.
+        lane.pan_y(-(min(y, 0.0) + max(y - self.height(), 0.0)))
         nearest = round((y - self._row_box(0).top()) / lane.row_px)
         # What was there before the first take stays above.
         before = min(max(nearest, 1), len(lane.rows))
