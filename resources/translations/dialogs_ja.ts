@@ -128,7 +128,7 @@
     </message>
     <message>
         <source>The mouth does not open: it has no jaw and no such morph.</source>
-        <translation>口は開きません (あごのボーンもモーフもありません)。</translation>
+        <translation>口は開きません (顎のボーンもモーフもありません)。</translation>
     </message>
     <message>
         <source>The lips do not form an embouchure: it has no such morphs.</source>
@@ -725,7 +725,7 @@ Unreal で「Suisou &gt; 演奏をインポート」を選んでください。�
     </message>
     <message>
         <source>Jaw</source>
-        <translation>あご</translation>
+        <translation>顎</translation>
     </message>
     <message>
         <source>Eye</source>

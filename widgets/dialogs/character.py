@@ -121,7 +121,7 @@ class CharacterDialog(QDialog):
         self._build()
         self._connect()
         self.retranslate()
-        self.resize(1240, 740)
+        self.resize(1300, 760)
         self._choose_first()
 
     # Building
@@ -142,6 +142,7 @@ class CharacterDialog(QDialog):
         self.rows.setRootIsDecorated(False)
         self.rows.setUniformRowHeights(True)
         self.rows.header().setSectionResizeMode(0, QHeaderView.ResizeMode.ResizeToContents)
+        self.rows.header().setSectionResizeMode(1, QHeaderView.ResizeMode.Stretch)
         for joint, item in self._items.items():
             item.setData(0, Qt.ItemDataRole.UserRole, joint)
             self.rows.addTopLevelItem(item)
@@ -164,7 +165,7 @@ class CharacterDialog(QDialog):
         line.addWidget(self._none)
         line.addWidget(self._automatic)
         choice.addLayout(line)
-        columns.addLayout(choice, 4)
+        columns.addLayout(choice, 5)
         self.tabs.addTab(body_page, "")
         self.tabs.addTab(self.faces, "")
         side = QVBoxLayout()

@@ -23,7 +23,8 @@ from app.performance.ensemble import Performance
 from app.performance.live import LiveMotion
 from app.project.casting import StagePosition
 from app.project.model import map_choices, project_from_score
-from app.rig.character import bundled_character, characters
+from app.rig.character import load_character
+from app.rig.character_library import character_named, characters
 from app.rig.figure import Figure, OwnSkeleton
 from app.rig.model import Character
 from app.rig.skeleton import forward
@@ -248,6 +249,34 @@ def test_a_bone_the_file_lacks_is_not_sent_and_its_turn_is_not_lost() -> None:
         np.testing.assert_allclose(turn, expected[bone][1], atol=2e-6)
 
 
+@pytest.mark.parametrize("name", ["toddler_vrm1.vrm", "man_cmu.fbx", "elder_vrm0.vrm"])
+def test_characters_of_other_makers_in_any_pose(name: str) -> None:
+    character = load_character(Path(__file__).parents[2] / "data" / "characters" / name)
+    generator = np.random.default_rng(5)
+    count = len(character.skeleton.names)
+    rotations = generator.normal(0.0, 0.3, (count, 4))
+    rotations[:, 3] += 1.0
+    rotations /= np.linalg.norm(rotations, axis=1, keepdims=True)
+    rotations[0] = (0.0, 0.0, 0.0, 1.0)
+    hips_m = character.skeleton.offsets_m[character.skeleton.index("hips")] + (0.1, -0.05, 0.02)
+    pose = Pose(
+        rotations.astype(np.float32),
+        hips_m.astype(np.float32),
+        {},
+        {},
+        np.zeros(3, np.float32),
+        rotations[0].astype(np.float32),
+    )
+    (frame,) = frames([(0.0, packet) for packet in Sent(character, "horn").datagrams(pose, 0.0)])
+    found, expected = world(frame), ours(character, pose, StagePosition(0.0, 0.0, 0.0))
+    own = character.own
+    assert own is not None
+    assert len(found) == sum(bone >= 0 for bone in own.bone_of_joint[1:]) > 20
+    for bone, (place, turn) in found.items():
+        np.testing.assert_allclose(place, expected[bone][0], atol=3e-6)
+        np.testing.assert_allclose(turn, expected[bone][1], atol=3e-6)
+
+
 def test_over_the_wire() -> None:
     character, pose = pose_of(2, 7.0)
     packets = Sent(character, "horn").datagrams(pose, 7.0)
@@ -312,7 +341,7 @@ def test_numbers_are_what_the_library_would_write() -> None:
     """The floats that are filled in stand where python-osc itself reads them."""
     from pythonosc.osc_bundle import OscBundle
 
-    character = bundled_character(next(iter(characters())))
+    character = character_named(next(iter(characters())))
     _, pose = pose_of(0, 3.0)
     for packet in Sent(character, "horn").datagrams(pose, 2.5):
         messages = list(OscBundle(packet))
