@@ -24,6 +24,8 @@ JAW_MORPHS = ("jawOpen", "aa", "A")
 """Morphs that open the mouth, by the names that files use."""
 PAD_VERTICES, SIDE_VERTICES, PALM_VERTICES, WEB_VERTICES, LIP_VERTICES = 6, 4, 8, 5, 6
 MIDLINE_M, SOLE_M = 0.008, 0.008
+COINCIDE_M = 1e-6
+"""Joints nearer to one another lie on one another."""
 PATCH_M = 0.006
 """A place spreads so far over the skin, beside how far its nearest vertex is from it: skin of few vertices has them
 far apart."""
@@ -124,6 +126,12 @@ def _hand(skeleton: Skeleton, skins: list[_Skin], side: Side) -> dict[str, Landm
             following = skeleton.index(names[finger][order + 1]) if order < 2 else joint
             bone = rest[following] - rest[before]
             length = float(np.linalg.norm(bone))
+            if length < COINCIDE_M:
+                # A finger of two bones: the joint it lacks lies on the next one, and points as the finger does.
+                bone = rest[skeleton.index(names[finger][2])] - rest[skeleton.index(names[finger][0])]
+                length = float(np.linalg.norm(bone))
+            if length < COINCIDE_M:
+                continue
             bone /= length
             # Turning about the flexion axis takes the bone to the palm, about the sideways axis to the thumb's side.
             axes = profile.joint_axes(names[finger][order])

@@ -178,7 +178,8 @@ class Accessors:
 
     def _scaled(self, accessor: object, values: npt.NDArray[Any]) -> FloatArray:
         """Numbers that are meant: integers may stand for fractions."""
-        result = values.astype(np.float64)
+        with np.errstate(invalid="ignore"):  # What is no number at all is refused below.
+            result = values.astype(np.float64)
         if field(accessor, "normalized") is True and values.dtype.kind != "f":
             result = np.maximum(result / np.iinfo(values.dtype).max, -1.0)
         if not np.isfinite(result).all():

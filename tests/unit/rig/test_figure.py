@@ -21,6 +21,7 @@ from app.rig.character_library import character_named
 from app.rig.figure import Figure
 from app.rig.figure_build import unit_factor
 from app.rig.figure_character import REQUIRED_JOINTS, figure_character
+from app.rig.landmarks import found_landmarks
 from app.rig.model import Character
 from app.rig.read_figure import read_figure
 from app.rig.skeleton import forward, rest_positions
@@ -190,6 +191,7 @@ def test_rotations_of_the_bones_follow_from_those_of_the_joints(ours: Character,
         ("neck",),
         ("leftShoulder", "rightShoulder"),
         ("leftToes", "rightToes", "leftEye", "rightEye"),
+        ("leftIndexIntermediate", "leftThumbMetacarpal", "rightRingProximal"),
         tuple(
             f"{side}{finger}{phalanx}"
             for side in ("left", "right")
@@ -237,7 +239,12 @@ def test_what_is_missing_is_supplied_so_that_the_bones_can_follow_exactly(
             ("Proximal", "Intermediate", "Distal", "Metacarpal", "Eye", "Toes")
         ):
             off = supplied[skeleton.index(name)] - known[ours.skeleton.index(name)]
-            assert np.linalg.norm(off) < 0.02, name
+            # As far as the next joint where it lies on that.
+            assert np.linalg.norm(off) < (0.04 if len(missing) == 3 else 0.02), name
+    marks = found_landmarks(skeleton, again.joint_from_mesh, again.meshes)
+    assert {"left.index.pad", "left.index.pad_proximal", "left.palm", "left.foot.sole"} <= set(marks) or len(
+        missing
+    ) > 9
 
 
 @pytest.mark.parametrize("scale", [1.0, 0.01])
