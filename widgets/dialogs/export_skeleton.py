@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TypeAlias
 
 from PySide6.QtCore import QEvent, QSize, Signal
+from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import (
     QComboBox,
     QFileDialog,
@@ -19,6 +20,7 @@ from PySide6.QtWidgets import (
 )
 
 from app.errors import AppError, Message
+from app.export.check_skeleton import told
 from app.export.target import SkeletonChoice
 from app.export.targets import CheckedTarget, checked_targets
 from app.project.model import Player
@@ -144,14 +146,26 @@ class SkeletonChooser(QWidget):
             lines = [*lines[: MOST_LINES - 1], self.tr("and {count} more").format(count=len(lines) - MOST_LINES + 1)]
         self._told.setText("\n".join(lines))
         self._told.setVisible(bool(lines))
+        self._fit()
         self.changed.emit()
+
+    def _fit(self) -> None:
+        """Keep the layout from squeezing wrapped lines where the window is low."""
+        self._told.setMinimumHeight(max(self._told.heightForWidth(self.width()), 0))
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        self._fit()
 
     def _differences(self) -> list[str]:
         """One line per difference; players of the same character differ alike."""
         names = {player.id: player.name for player in self._players()}
         said: dict[str, list[str]] = {}
+        spoilt = any(difference.grave for checked in self._checked.values() for difference in checked.differences)
         for player, checked in self._checked.items():
-            for message in checked.messages:
+            # What has to be put right comes alone.
+            grave = told([difference for difference in checked.differences if difference.grave])
+            for message in grave if spoilt else checked.messages:
                 said.setdefault(sentence(message), []).append(names.get(player, ""))
         everybody = len(self._checked)
         return [f"⚠ {text}" if len(who) == everybody else f"⚠ {', '.join(who)}: {text}" for text, who in said.items()]
