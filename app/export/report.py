@@ -132,13 +132,16 @@ def failures(player: PlayerReport) -> tuple[str, ...]:
     failed = [
         name for name, spread in spreads.items() if not spread.kept and not _told(spread, player.missed.get(name, 0.0))
     ]
+    # What closes a hole is the finger itself: where the hold misses it, that is told already.
+    unmet = {part for touch in player.missed for part in touch.rpartition(" on ")[2].split("+")}
+    controls = {name: control for name, control in measures.controls.items() if name not in unmet}
     failed += [
         f"{name} at onsets"
-        for name, control in measures.controls.items()
+        for name, control in controls.items()
         if control.right + control.stopped_short < control.judged
     ]
-    failed += [f"{name} out of reach" for name, control in measures.controls.items() if control.held_stopped_short]
-    failed += [f"{name} held" for name, control in measures.controls.items() if control.held_wrong]
+    failed += [f"{name} out of reach" for name, control in controls.items() if control.held_stopped_short]
+    failed += [f"{name} held" for name, control in controls.items() if control.held_wrong]
     if measures.limits.beyond:
         failed.append(f"limits of {measures.limits.joint}")
     if measures.acceleration.beyond:

@@ -25,6 +25,7 @@ STRETCHED = 0.985
 NEAREST = 0.33
 """A hand is kept at least this share of the arm's length away (the elbow bent by 141 degrees)."""
 EASE_M = 0.008
+LEAST_M = 1e-6
 """The shoulder's help sets in over about this distance."""
 CLAVICLE_RAD = float(np.deg2rad(28.0))
 """Most the shoulder comes towards a far hand."""
@@ -125,7 +126,9 @@ class _Swing:
 
     def turn_for(self, distance_m: FloatArray) -> FloatArray:
         """The turn that brings the shoulder to this distance from the target, as near as it can."""
-        cosine = np.clip((self.square_m2 - distance_m * distance_m) / (2.0 * self.reach_m2), -1.0, 1.0)
+        cosine = np.clip(
+            (self.square_m2 - distance_m * distance_m) / np.maximum(2.0 * self.reach_m2, LEAST_M**2), -1.0, 1.0
+        )
         return np.maximum(self.phase_rad - np.arccos(cosine), 0.0)
 
 
@@ -167,5 +170,9 @@ def forwards_axis(skeleton: Skeleton, side: Side) -> FloatArray:
     """Axis in the chest's frame about which a clavicle comes straight forwards."""
     _, clavicle = clavicle_of(skeleton, side)
     axis = np.cross(clavicle, Z_AXIS)
-    unit: FloatArray = axis / np.linalg.norm(axis)
+    length = float(np.linalg.norm(axis))
+    if length < LEAST_M:
+        # A clavicle without a length turns like others, and takes the shoulder nowhere.
+        return np.array([0.0, -1.0 if side == "left" else 1.0, 0.0])
+    unit: FloatArray = axis / length
     return unit

@@ -38,7 +38,7 @@ def measures(**changes: object) -> PlayerMeasures:
 def player(found: PlayerMeasures | None, sway: float | None = 0.5) -> PlayerReport:
     place = StagePlace(0.0, 0.0, 0.0)
     files = {"character_fbx": "x.fbx"}
-    return PlayerReport("Ünal 🎺", "p", "i", "c", "standing", files, place, 10, 1.0, found, sway, 0.95)
+    return PlayerReport("Ünal 🎺", "p", "i", "c", "standing", files, place, 10, found, sway, 0.95)
 
 
 def report(*players: PlayerReport, first_frame_s: float = -2.0) -> Report:

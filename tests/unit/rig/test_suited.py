@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from app.motion.reach import forwards_axis
 from app.rig.character_library import character_named, characters
 from app.rig.instrument import bundled_instrument
 from app.rig.landmarks import found_landmarks
@@ -113,6 +114,20 @@ def test_a_still_face_has_its_mouth_where_it_would_open() -> None:
         mouth = ["lips.contact"]
         off = landmark_positions(found, mouth, rest) - landmark_positions(named, mouth, rest)
         assert np.linalg.norm(off) < 0.006, id
+
+
+def test_a_shoulder_without_a_clavicle_moves_nobody_anywhere() -> None:
+    body = odd_body("unmarked")
+    offsets_m = body.skeleton.offsets_m.copy()
+    for side in ("left", "right"):
+        shoulder, arm = (body.skeleton.index(f"{side}{part}") for part in ("Shoulder", "UpperArm"))
+        offsets_m[shoulder] += offsets_m[arm]
+        offsets_m[arm] = 0.0
+    skeleton = replace(body.skeleton, offsets_m=offsets_m)
+    for side, sign in (("left", -1.0), ("right", 1.0)):
+        np.testing.assert_array_equal(forwards_axis(skeleton, side), [0.0, sign, 0.0])  # type: ignore[arg-type]
+        usual = forwards_axis(body.skeleton, side)  # type: ignore[arg-type]
+        assert usual @ np.array([0.0, sign, 0.0]) > 0.9
 
 
 def test_a_body_sized_as_a_whole_keeps_its_shape() -> None:
