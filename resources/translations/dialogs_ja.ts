@@ -187,14 +187,6 @@ Unreal で「Suisou &gt; 演奏をインポート」を選んでください。�
         <translation>Unreal でこのプロジェクトを開いている場合は、再起動するとメニューが表示されます。</translation>
     </message>
     <message>
-        <source>Unreal project</source>
-        <translation>Unreal プロジェクト</translation>
-    </message>
-    <message>
-        <source>Folder for the files</source>
-        <translation>書き出し先フォルダー</translation>
-    </message>
-    <message>
         <source>Tick at least one player.</source>
         <translation>プレイヤーを 1 人以上選んでください。</translation>
     </message>
@@ -205,14 +197,6 @@ Unreal で「Suisou &gt; 演奏をインポート」を選んでください。�
     <message>
         <source>The last bar comes before the first one.</source>
         <translation>最後の小節が最初の小節より前にあります。</translation>
-    </message>
-    <message>
-        <source>Choose a folder.</source>
-        <translation>フォルダーを選んでください。</translation>
-    </message>
-    <message>
-        <source>Choose the .uproject file of your Unreal project.</source>
-        <translation>Unreal プロジェクトの .uproject ファイルを選んでください。</translation>
     </message>
     <message>
         <source>version not told</source>
@@ -271,24 +255,8 @@ Unreal で「Suisou &gt; 演奏をインポート」を選んでください。�
         <translation>フレームレート</translation>
     </message>
     <message>
-        <source>Folder</source>
-        <translation>フォルダー</translation>
-    </message>
-    <message>
-        <source>Project</source>
-        <translation>プロジェクト</translation>
-    </message>
-    <message>
         <source>All or none</source>
         <translation>すべて選択/解除</translation>
-    </message>
-    <message>
-        <source>A folder of files</source>
-        <translation>ファイルのフォルダー</translation>
-    </message>
-    <message>
-        <source>An Unreal project</source>
-        <translation>Unreal プロジェクト</translation>
     </message>
     <message>
         <source>FBX (characters and instruments)</source>
@@ -333,10 +301,6 @@ Unreal で「Suisou &gt; 演奏をインポート」を選んでください。�
     <message>
         <source>Bars of the selection</source>
         <translation>選択範囲の小節</translation>
-    </message>
-    <message>
-        <source>Choose...</source>
-        <translation>選択...</translation>
     </message>
     <message>
         <source>Show in folder</source>
@@ -1142,6 +1106,45 @@ Unreal で「Suisou &gt; 演奏をインポート」を選んでください。�
     <message>
         <source>Pitch bend</source>
         <translation>ピッチベンド</translation>
+    </message>
+</context>
+<context>
+    <name>PlaceChooser</name>
+    <message>
+        <source>Choose the .uproject file of your Unreal project.</source>
+        <translation>Unreal プロジェクトの .uproject ファイルを選んでください。</translation>
+    </message>
+    <message>
+        <source>Choose a folder.</source>
+        <translation>フォルダーを選んでください。</translation>
+    </message>
+    <message>
+        <source>Unreal project</source>
+        <translation>Unreal プロジェクト</translation>
+    </message>
+    <message>
+        <source>Folder for the files</source>
+        <translation>書き出し先フォルダー</translation>
+    </message>
+    <message>
+        <source>A folder of files</source>
+        <translation>フォルダー</translation>
+    </message>
+    <message>
+        <source>An Unreal project</source>
+        <translation>Unreal プロジェクト</translation>
+    </message>
+    <message>
+        <source>.uproject file</source>
+        <translation>.uproject ファイル</translation>
+    </message>
+    <message>
+        <source>Folder</source>
+        <translation>フォルダー</translation>
+    </message>
+    <message>
+        <source>Choose...</source>
+        <translation>選択...</translation>
     </message>
 </context>
 <context>

@@ -15,12 +15,10 @@ from PySide6.QtWidgets import (
     QDialog,
     QDialogButtonBox,
     QDoubleSpinBox,
-    QFileDialog,
     QFormLayout,
     QGridLayout,
     QHBoxLayout,
     QLabel,
-    QLineEdit,
     QListWidget,
     QListWidgetItem,
     QProgressBar,
@@ -42,6 +40,7 @@ from widgets.common.tasks import Progress, StopWanted
 from widgets.common.text import message_text
 from widgets.common.tokens import LEAST_TARGET_PX
 from widgets.dialogs.export_destination import Destination, Done, foresee, write
+from widgets.dialogs.export_place import PlaceChooser
 from widgets.dialogs.export_skeleton import SkeletonChooser
 
 RATES = tuple(map(Fraction, ("24", "25", "30000/1001", "30", "48", "50", "60000/1001", "60", "120")))
@@ -51,7 +50,6 @@ _FORMAT_COLUMNS = 2
 _NAMES = 6
 """Of the files that are replaced or removed, so many are named."""
 _WHOLE, _BARS, _SELECTION = "whole", "bars", "selection"
-_FOLDER, _UNREAL = "folder", "unreal"
 
 
 def _missing() -> dict[Format, Message]:
@@ -121,10 +119,7 @@ class ExportDialog(QDialog):
         self._everybody.setObjectName("export_everybody")
         self._everybody.setAutoDefault(False)
         self._everybody.clicked.connect(self._toggle_everybody)
-        self._destination = QComboBox()
-        self._destination.setObjectName("export_destination")
-        self._places = {_FOLDER: str(folder), _UNREAL: "" if unreal is None else str(unreal)}
-        """What is typed for each destination."""
+        self._place = PlaceChooser(folder, unreal, destination)
         self._shown_folder = folder
         self._missing = _missing()
         self._formats: dict[Format, QCheckBox] = {name: QCheckBox() for name in FILE_FORMATS}
@@ -166,11 +161,6 @@ class ExportDialog(QDialog):
         for rate in sorted({*RATES, self._project.fps}):
             self._rate.addItem(f"{float(rate):.6g}", str(rate))
         self._rate.setCurrentIndex(self._rate.findData(str(self._project.fps)))
-        self._folder = QLineEdit()
-        self._folder.setObjectName("export_folder")
-        self._choose = QPushButton()
-        self._choose.setAutoDefault(False)
-        self._choose.clicked.connect(self._choose_folder)
         self._skeleton = SkeletonChooser(session, self._chosen_players)
         self._files = QLabel()
         self._files.setObjectName("export_outcome")
@@ -200,29 +190,12 @@ class ExportDialog(QDialog):
 
         self._labels = {
             name: QLabel()
-            for name in (
-                "players",
-                "into",
-                "folder",
-                "files",
-                "bvh_names",
-                "skeleton",
-                "range",
-                "preroll",
-                "rate",
-                "outcome",
-            )
+            for name in ("players", "into", "files", "bvh_names", "skeleton", "range", "preroll", "rate", "outcome")
         }
         self._lay_out()
-        for kind in (_FOLDER, _UNREAL):
-            self._destination.addItem("", kind)
-        self._destination.setCurrentIndex(self._destination.findData(destination))
-        self._folder.setText(self._places[destination])
-        self._folder.textChanged.connect(self._remember_place)
-        self._destination.currentIndexChanged.connect(self._change_destination)
         for signal in (
             self._skeleton.changed,
-            self._folder.textChanged,
+            self._place.changed,
             self._range.currentIndexChanged,
             self._first_bar.valueChanged,
             self._last_bar.valueChanged,
@@ -250,13 +223,9 @@ class ExportDialog(QDialog):
         self._dash = QLabel("–")
         bars.addWidget(self._dash)
         bars.addWidget(self._last_bar)
-        folder = QHBoxLayout()
-        folder.addWidget(self._folder, 1)
-        folder.addWidget(self._choose)
         self._form = form = QFormLayout()
         form.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
-        form.addRow(self._labels["into"], self._destination)
-        form.addRow(self._labels["folder"], folder)
+        form.addRow(self._labels["into"], self._place)
         form.addRow(self._labels["files"], formats)
         form.addRow(self._labels["bvh_names"], self._bvh_names)
         form.addRow(self._labels["skeleton"], self._skeleton)
@@ -288,11 +257,6 @@ class ExportDialog(QDialog):
         """The ticked kinds of file."""
         return frozenset(name for name, box in self._formats.items() if box.isChecked())
 
-    @property
-    def destination(self) -> Destination:
-        """A folder of files, or an Unreal project."""
-        return "unreal" if self._destination.currentData() == _UNREAL else "folder"
-
     def _bars(self) -> tuple[int, int] | None:
         if self._range.currentData() == _WHOLE:
             return None
@@ -314,7 +278,7 @@ class ExportDialog(QDialog):
         return Request(
             performance=performance,
             players=self._chosen_players(),
-            folder=Path(self._folder.text()),
+            folder=self._place.path,
             formats=self.formats,
             span=span,
             bars=bars,
@@ -344,7 +308,7 @@ class ExportDialog(QDialog):
         self._show.hide()
         self._enable(False)
         self.retranslate()
-        request, destination = self._request(), self.destination
+        request, destination = self._request(), self._place.destination
 
         def work(progress: Progress, stop_wanted: StopWanted) -> Done:
             def told(share: float, label: str) -> None:
@@ -377,7 +341,7 @@ class ExportDialog(QDialog):
         self._shown_folder = done.folder
         self._show.show()
         self._session.notice(told)
-        self.exported.emit(self.destination, Path(self._folder.text()))
+        self.exported.emit(self._place.destination, self._place.path)
 
     def _failed(self, error: AppError) -> None:
         self._files.setText(message_text(error.message))
@@ -398,7 +362,7 @@ class ExportDialog(QDialog):
     def _enable(self, enabled: bool) -> None:
         for widget in (
             *(self._players, self._everybody, self._range, self._first_bar, self._last_bar, self._preroll),
-            *(self._skeleton, self._rate, self._destination, self._folder, self._choose, self._export, self._sound),
+            *(self._skeleton, self._rate, self._place, self._export, self._sound),
             *(self._bvh_names, *self._formats.values()),
         ):
             widget.setEnabled(enabled)
@@ -409,25 +373,6 @@ class ExportDialog(QDialog):
         state = Qt.CheckState.Unchecked if len(self.player_ids) == self._players.count() else Qt.CheckState.Checked
         for row in range(self._players.count()):
             self._players.item(row).setCheckState(state)
-
-    def _remember_place(self, text: str) -> None:
-        self._places[self.destination] = text
-
-    def _change_destination(self) -> None:
-        self._show.hide()
-        self._folder.setText(self._places[self.destination])
-        self.retranslate()
-
-    def _choose_folder(self) -> None:
-        if self.destination == "unreal":
-            title = self.tr("Unreal project")
-            file, _ = QFileDialog.getOpenFileName(self, title, self._folder.text(), f"{title} (*.uproject)")
-            if file:
-                self._folder.setText(file)
-            return
-        chosen = QFileDialog.getExistingDirectory(self, self.tr("Folder for the files"), self._folder.text())
-        if chosen:
-            self._folder.setText(chosen)
 
     def _show_folder(self) -> None:
         QDesktopServices.openUrl(QUrl.fromLocalFile(str(self._shown_folder)))
@@ -442,37 +387,33 @@ class ExportDialog(QDialog):
         ticked = self._range.currentData() == _BARS
         for widget in (self._first_bar, self._dash, self._last_bar):
             widget.setVisible(ticked)
-        self._form.setRowVisible(self._labels["files"], self.destination == "folder")
-        self._form.setRowVisible(self._labels["bvh_names"], self.destination == "folder" and "bvh" in self.formats)
-        place = self._folder.text().strip()
+        into_folder = self._place.destination == "folder"
+        self._form.setRowVisible(self._labels["files"], into_folder)
+        self._form.setRowVisible(self._labels["bvh_names"], into_folder and "bvh" in self.formats)
         problem = ""
         if not self.player_ids:
             problem = self.tr("Tick at least one player.")
-        elif not self.formats and self.destination == "folder":
+        elif not self.formats and into_folder:
             problem = self.tr("Tick at least one kind of file.")
         elif ticked and self._first_bar.value() > self._last_bar.value():
             problem = self.tr("The last bar comes before the first one.")
-        elif not place and self.destination == "folder":
-            problem = self.tr("Choose a folder.")
-        elif not place:
-            problem = self.tr("Choose the .uproject file of your Unreal project.")
         else:
-            problem = self._skeleton.problem
+            problem = self._place.problem or self._skeleton.problem
         text = problem
         if not problem:
             try:
-                text = self._foreseen(Path(place))
+                text = self._foreseen()
             except AppError as error:
                 problem = text = message_text(error.message)
         self._export.setEnabled(not problem and not self._running)
         self._files.setText(text)
 
-    def _foreseen(self, place: Path) -> str:
+    def _foreseen(self) -> str:
         """What will be written, replaced and removed."""
         performance = Performance(self._project)
         seen = foresee(
-            self.destination,
-            place,
+            self._place.destination,
+            self._place.path,
             performance,
             self.player_ids,
             self.formats,
@@ -505,14 +446,11 @@ class ExportDialog(QDialog):
             "range": self.tr("Range"),
             "preroll": self.tr("Pre-roll"),
             "rate": self.tr("Frames per second"),
-            "folder": self.tr("Project") if self.destination == "unreal" else self.tr("Folder"),
             "outcome": "",
         }
         for name, text in texts.items():
             self._labels[name].setText(text)
         self._everybody.setText(self.tr("All or none"))
-        self._destination.setItemText(0, self.tr("A folder of files"))
-        self._destination.setItemText(1, self.tr("An Unreal project"))
         self._formats["fbx"].setText(self.tr("FBX (characters and instruments)"))
         self._formats["bvh"].setText(self.tr("BVH (body motion)"))
         self._formats["glb"].setText(self.tr("GLB (characters and instruments)"))
@@ -535,7 +473,6 @@ class ExportDialog(QDialog):
             self._range.addItem(self.tr("Bars of the selection"), _SELECTION)
         self._range.setCurrentIndex(max(self._range.findData(choice), 0))
         self._range.blockSignals(False)
-        self._choose.setText(self.tr("Choose..."))
         self._export.setText(self.tr("Export"))
         self._show.setText(self.tr("Show in folder"))
         self._close.setText(self.tr("Cancel") if self._running else self.tr("Close"))

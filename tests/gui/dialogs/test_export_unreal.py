@@ -146,6 +146,6 @@ def test_what_is_wrong_is_told_before_anything_is_written(dialog: ExportDialog, 
 def test_the_project_is_remembered(session: Session, qtbot: QtBot, game: Path, tmp_path: Path) -> None:
     dialog = ExportDialog(session, tmp_path / "out", "quartet.mid", "Suisou", None, game / "Game.uproject", "unreal")
     dialog.show()
-    assert dialog.destination == "unreal"
+    assert dialog._place.destination == "unreal"
     assert "Game (Unreal Engine 5.6)" in outcome(dialog)
     assert start_button(dialog).isEnabled()

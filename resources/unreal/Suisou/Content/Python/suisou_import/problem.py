@@ -129,7 +129,7 @@ TEXTS = {
     "step_sound": ("Sound", "音声"),
     "step_sequence": ("Level sequence", "レベルシーケンス"),
     "step_save": ("Saving", "保存しています"),
-    "bar": ("Bar {number}", "{number} 小節"),
+    "bar": ("Bar {number}", "小節 {number}"),
     "sound_track": ("Sound", "音声"),
 }
 """English and Japanese, by name; filled with what is particular."""

@@ -1,0 +1,107 @@
+"""Where an export goes: a folder of files, or an Unreal project; each keeps the place that is typed for it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from PySide6.QtCore import QEvent, Signal
+from PySide6.QtWidgets import QComboBox, QFileDialog, QHBoxLayout, QLineEdit, QPushButton, QVBoxLayout, QWidget
+
+from widgets.dialogs.export_destination import Destination
+
+_DESTINATIONS: tuple[Destination, ...] = ("folder", "unreal")
+
+
+class PlaceChooser(QWidget):
+    """A choice of destination, and the path of the folder or of the project's file.
+
+    Parameters
+    ----------
+    folder : Path
+    unreal : Path or None
+        None: there was no project yet.
+    destination : str
+        ``"folder"`` or ``"unreal"``.
+    parent : QWidget, optional
+    """
+
+    changed = Signal()
+
+    def __init__(
+        self, folder: Path, unreal: Path | None, destination: Destination, parent: QWidget | None = None
+    ) -> None:
+        super().__init__(parent)
+        self._paths = {"folder": str(folder), "unreal": "" if unreal is None else str(unreal)}
+        self._box = QComboBox()
+        self._box.setObjectName("export_destination")
+        for choice in _DESTINATIONS:
+            self._box.addItem("", choice)
+        self._box.setCurrentIndex(_DESTINATIONS.index(destination))
+        self._path = QLineEdit(self._paths[destination])
+        self._path.setObjectName("export_folder")
+        self._choose = QPushButton()
+        self._choose.setAutoDefault(False)
+        self._choose.clicked.connect(self._choose_path)
+        path = QHBoxLayout()
+        path.addWidget(self._path, 1)
+        path.addWidget(self._choose)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.addWidget(self._box)
+        layout.addLayout(path)
+        self._path.textChanged.connect(self._remember)
+        self._box.currentIndexChanged.connect(self._change)
+        self.retranslate()
+
+    @property
+    def destination(self) -> Destination:
+        """A folder of files, or an Unreal project."""
+        return "unreal" if self._box.currentData() == "unreal" else "folder"
+
+    @property
+    def path(self) -> Path:
+        """The folder, or the project's file or folder."""
+        return Path(self._path.text().strip())
+
+    @property
+    def problem(self) -> str:
+        """What is missing; empty if nothing is."""
+        if self._path.text().strip():
+            return ""
+        if self.destination == "unreal":
+            return self.tr("Choose the .uproject file of your Unreal project.")
+        return self.tr("Choose a folder.")
+
+    def _remember(self, text: str) -> None:
+        self._paths[self.destination] = text
+        self.changed.emit()
+
+    def _change(self) -> None:
+        # Told once, and of the new destination's path.
+        self._path.blockSignals(True)
+        self._path.setText(self._paths[self.destination])
+        self._path.blockSignals(False)
+        self.retranslate()
+        self.changed.emit()
+
+    def _choose_path(self) -> None:
+        if self.destination == "unreal":
+            title = self.tr("Unreal project")
+            chosen, _ = QFileDialog.getOpenFileName(self, title, self._path.text(), f"{title} (*.uproject)")
+        else:
+            chosen = QFileDialog.getExistingDirectory(self, self.tr("Folder for the files"), self._path.text())
+        if chosen:
+            self._path.setText(chosen)
+
+    def retranslate(self) -> None:
+        """Set every text anew."""
+        self._box.setItemText(0, self.tr("A folder of files"))
+        self._box.setItemText(1, self.tr("An Unreal project"))
+        unreal = self.destination == "unreal"
+        self._path.setPlaceholderText(self.tr(".uproject file") if unreal else self.tr("Folder"))
+        self._choose.setText(self.tr("Choose..."))
+
+    def changeEvent(self, event: QEvent) -> None:
+        if event.type() == QEvent.Type.LanguageChange:
+            self.retranslate()
+        super().changeEvent(event)
