@@ -166,6 +166,9 @@ def _unit(target: TargetSkeleton, asset: Figure) -> list[Difference]:
     ]
     ratios = [ours / other for ours, other in lengths if min(ours, other) > 1e-5]
     factor = float(np.median(ratios)) if ratios else 1.0
+    for note in asset.notes:
+        if note.id == "figure.scaled":  # the reader has corrected a unit that Unreal takes as it is
+            factor *= float(note.arguments["factor"])
     if UNIT[0] < factor < UNIT[1]:
         return []
     return [Difference("unit", "", grave=True, amount=float(f"{factor:.4g}"))]

@@ -9,6 +9,7 @@ from functools import cache
 import numpy as np
 import pytest
 
+from app.errors import Message
 from app.export.check_skeleton import Difference, check_skeleton, told
 from app.export.own_skeleton import own_target
 from app.export.target import TargetSkeleton
@@ -81,6 +82,12 @@ def test_what_differs_is_found(change: Callable[[Figure], Figure], expected: Dif
     found = check_skeleton(target, change(figure))
     assert expected in found
     assert [difference.grave for difference in found] == sorted((d.grave for d in found), reverse=True)
+
+
+def test_a_unit_that_the_reader_corrected_is_still_the_assets() -> None:
+    target, figure = exported()
+    corrected = replace(figure, notes=(Message("figure.scaled", {"file": "x", "height_m": 0.017, "factor": 100.0}),))
+    assert check_skeleton(target, corrected)[0] == Difference("unit", "", grave=True, amount=100.0)
 
 
 def test_a_little_is_nothing() -> None:

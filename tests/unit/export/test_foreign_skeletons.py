@@ -1,0 +1,106 @@
+"""Characters that others made: the motion goes back to the very bones of their files."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from app.export.character import character_scene
+from app.export.check_skeleton import check_skeleton
+from app.export.mannequin import mannequin_target
+from app.export.own_skeleton import own_target
+from app.export.playback import Playback, Surface
+from app.export.target import TargetSkeleton
+from app.formats.fbx.read import read_scene
+from app.formats.fbx.write import write_scene
+from app.formats.scene import Scene
+from app.motion.model import Motion
+from app.rig.character import load_character
+from app.rig.model import Character
+from app.rig.read_figure import read_figure
+from app.rig.skeleton import forward
+
+FOLDER = Path(__file__).parents[2] / "data" / "characters"
+FILES = sorted(path for path in FOLDER.iterdir() if path.suffix in (".fbx", ".vrm", ".glb"))
+FRAMES = 4
+MM = 1e-3
+STILL = ("root", "jaw")
+
+
+@pytest.fixture(scope="module", params=FILES, ids=lambda path: path.stem)
+def character(request: pytest.FixtureRequest) -> Character:
+    return load_character(request.param)
+
+
+def random_motion(character: Character, seed: int = 1) -> Motion:
+    random = np.random.default_rng(seed)
+    names = character.skeleton.names
+    vectors = random.uniform(-0.6, 0.6, (FRAMES, len(names), 3))
+    vectors[:, [joint for joint, name in enumerate(names) if name in STILL]] = 0.0
+    rotations = Rotation.from_rotvec(vectors.reshape(-1, 3)).as_quat().reshape(FRAMES, len(names), 4)
+    zeros = np.zeros((FRAMES, 3), np.float32)
+    own = character.own
+    return Motion(
+        fps=Fraction(30),
+        first_frame_s=0.0,
+        rotations=rotations.astype(np.float32),
+        hips_m=random.uniform(-0.2, 1.0, (FRAMES, 3)).astype(np.float32),
+        morphs={name: np.linspace(0.0, 1.0, FRAMES, dtype=np.float32) for name in list(own.morphs if own else ())[:1]},
+        controls={},
+        instrument_position_m=zeros,
+        instrument_rotation=np.tile(np.float32([0, 0, 0, 1]), (FRAMES, 1)),
+    )
+
+
+def written(character: Character, motion: Motion, target: TargetSkeleton | None, folder: Path) -> Playback:
+    write_scene(folder / "x.fbx", character_scene(character, motion, "x", "test", target))
+    scene = read_scene(folder / "x.fbx")
+    assert scene.clip is not None
+    return Playback(scene, scene.clip)
+
+
+def all_m(playback: Playback) -> np.ndarray:
+    world = playback.world(0, FRAMES)
+    scene: Scene = playback.scene
+    return np.concatenate(
+        [
+            Surface(playback, mesh, np.arange(len(mesh.vertices_cm))).positions_m(world, 0, FRAMES)
+            for mesh in scene.meshes
+        ],
+        axis=1,
+    )
+
+
+def test_names_hierarchy_and_rest_pose_are_the_files(character: Character) -> None:
+    """A file compared with what would be exported for it: nothing differs, so it drops on what was made from it."""
+    (path,) = [path for path in FILES if path.stem == character.id]
+    assert check_skeleton(own_target(character), read_figure(path)) == ()
+
+
+def test_joints_are_where_they_should_be(character: Character, tmp_path: Path) -> None:
+    motion = random_motion(character)
+    joints = forward(character.skeleton, motion.rotations.astype(np.float64), motion.hips_m.astype(np.float64))
+    for target in (own_target(character), mannequin_target(character.skeleton)):
+        playback = written(character, motion, target, tmp_path)
+        world = playback.world(0, FRAMES)
+        for joint, bone in target.bone_of_joint.items():
+            place = playback.bone_names.index(target.names[bone])
+            off_m = np.linalg.norm(world[:, place, :3, 3] - joints.positions_m[:, joint], axis=1).max()
+            assert off_m < 0.01 * MM, (target.choice, target.names[bone])
+            expected = Rotation.from_quat(joints.rotations[:, joint]) * Rotation.from_quat(target.joint_from_bone[bone])
+            turn = Rotation.from_matrix(world[:, place, :3, :3]) * expected.inv()
+            assert np.degrees(turn.magnitude()).max() < 0.01, (target.choice, target.names[bone])
+
+
+def test_skin_and_morphs_are_where_they_are_on_the_character(character: Character, tmp_path: Path) -> None:
+    motion = random_motion(character, 2)
+    target = replace(own_target(character), twists={})  # the character's own skin has no twist
+    own = all_m(written(character, motion, target, tmp_path))
+    ours = all_m(written(character, motion, None, tmp_path))
+    assert own.shape == ours.shape
+    assert np.linalg.norm(own - ours, axis=-1).max() < 0.1 * MM
