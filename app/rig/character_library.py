@@ -41,7 +41,6 @@ from app.rig.read_figure import SUFFIXES
 FOLDER_VARIABLE: Final = "SUISOU_CHARACTERS"
 """Environment variable that names another folder for a person's own characters."""
 MOST_TOML_BYTES: Final = 2**20
-MOST_FILE_BYTES: Final = 2**30
 MOST_ID: Final = 60
 RESERVED: Final = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)", re.IGNORECASE)
 """Names that are devices on Windows."""

@@ -2,6 +2,7 @@
 
 Messages
 --------
+figure.too_large : file
 figure.unknown_format : file
     "{file} is neither VRM, glTF nor FBX"
 file.cannot_read : file, reason
@@ -9,6 +10,7 @@ file.cannot_read : file, reason
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from typing import Final
 
@@ -20,6 +22,8 @@ from app.rig.source import invalid
 
 SUFFIXES: Final = (".vrm", ".glb", ".gltf", ".fbx")
 """Of the files that can be opened."""
+MOST_BYTES: Final = 2**30
+"""Of a file; characters have a hundredth of it."""
 
 
 def read_figure(path: Path) -> Figure:
@@ -33,8 +37,11 @@ def read_figure(path: Path) -> Figure:
     try:
         with path.open("rb") as opened:
             start = opened.read(64)
+            size = opened.seek(0, os.SEEK_END)
     except OSError as error:
         raise FileError("file.cannot_read", file=str(path), reason=error.strerror or str(error)) from error
+    if size > MOST_BYTES:
+        raise FileError("figure.too_large", file=str(path))
     try:
         if start.startswith(b"glTF") or start.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"{"):
             return gltf_figure(path)
