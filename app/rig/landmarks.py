@@ -31,8 +31,8 @@ PATCH_M = 0.006
 far apart."""
 LEAST_WEIGHTS = (0.5, 0.25)
 """Where no skin clearly belongs to a joint, skin that does by this much is taken."""
-EYES_M, TOP_M = 0.06, 0.118
-"""Of the heads whose lips the lengths here were chosen for: between the eyes, and from the joint up to the crown."""
+EYES_M, HEAD_M = 0.06, 0.217
+"""Of the heads whose lips the lengths here were chosen for: between the eyes, and the height of their skin."""
 STEPS = 40
 MOUTH_SHARE, MOUTH_SPREAD = 0.63, 0.09
 """From the eyes down to the chin, in so many steps, the lips meet after this share, give or take the other one."""
@@ -192,31 +192,36 @@ class _Head:
     def of(cls, skeleton: Skeleton, skins: list[_Skin]) -> _Head:
         head, rest = skeleton.index("head"), rest_positions(skeleton)
         joints = [joint for joint in range(len(skeleton.names)) if head in ancestors(skeleton, joint)]
-        eyes = _eyes(skeleton)
+        eyes = _eyes(skeleton, tuple(skin.mesh for skin in skins))
         if eyes is not None:
             return cls(joints, rest[head], float(eyes[0][1]), float(np.linalg.norm(eyes[0] - eyes[1])) / EYES_M)
         heights = [skin.positions[rows, 1] for skin in skins if len(rows := _own(skin, joints, 0.5))]
-        top_m = float(np.percentile(np.concatenate(heights), 99.0)) - float(rest[head][1]) if heights else TOP_M
-        return cls(joints, rest[head], None, top_m / TOP_M)
+        if not heights:
+            return cls(joints, rest[head], None, 1.0)
+        # Where in a head its joint is differs from rig to rig.
+        low_m, high_m = np.percentile(np.concatenate(heights), [0.5, 99.5])
+        return cls(joints, rest[head], None, float(high_m - low_m) / HEAD_M)
 
 
 def eye_distance(character: Character) -> float:
     """How far the eyes are apart, metres; where there are none, as far as in another head of this height."""
-    eyes = _eyes(character.skeleton)
+    eyes = _eyes(character.skeleton, character.meshes)
     if eyes is not None:
         return float(np.linalg.norm(eyes[0] - eyes[1]))
     skins = [_rest_skin(character.skeleton, character.joint_from_mesh, mesh) for mesh in character.meshes]
     return EYES_M * _Head.of(character.skeleton, skins).size
 
 
-def _eyes(skeleton: Skeleton) -> tuple[FloatArray, FloatArray] | None:
+def _eyes(skeleton: Skeleton, meshes: tuple[Mesh, ...]) -> tuple[FloatArray, FloatArray] | None:
+    """Where the eyes are; None where there are none, or only joints that were supplied and carry nothing."""
     names = ("leftEye", "rightEye")
     if not set(names) <= set(skeleton.names):
         return None
     rest = rest_positions(skeleton)
-    left, right = (rest[skeleton.index(name)] for name in names)
-    # Joints that lie on one another are no eyes.
-    return (left, right) if float(np.linalg.norm(left - right)) > 0.0 else None
+    left, right = (skeleton.index(name) for name in names)
+    carry = [any(np.any(mesh.weights[mesh.joints == joint] > 0.5) for mesh in meshes) for joint in (left, right)]
+    apart = float(np.linalg.norm(rest[left] - rest[right])) > 0.0
+    return (rest[left], rest[right]) if all(carry) and apart else None
 
 
 def _lips_by_jaw(skin: _Skin, head: _Head) -> dict[str, Landmark]:
@@ -262,7 +267,8 @@ def _lips_by_shape(skins: list[_Skin], head: _Head) -> dict[str, Landmark]:
     if not forward.any():  # Nothing lies before the middle: it is no face.
         return {}
     chin_m = float(at[forward, 1].min())
-    top_m = float(at[:, 1].max())
+    # Eyes are half way up a head, wherever it has none.
+    top_m = float(skin.positions[_own(skin, head.joints, 0.5), 1].max())
     eyes_m = head.eyes_m if head.eyes_m is not None else (chin_m + top_m) / 2.0
     wanted_m = _notch_m(at[forward], eyes_m, chin_m)
     nearest = front[np.argsort(np.abs(at[:, 1] - wanted_m), kind="stable")[:LIP_VERTICES]]
@@ -291,7 +297,7 @@ def _notch_m(profile: FloatArray, eyes_m: float, chin_m: float) -> float:
 def _covered(skin: _Skin, front: IntArray, head: _Head) -> int:
     """How many steps of height some vertices cover that lie before the head's joint and not above its eyes."""
     at = skin.positions[front]
-    eyes_m = head.place[1] + 0.5 * TOP_M * head.size if head.eyes_m is None else head.eyes_m
+    eyes_m = head.place[1] + 0.3 * HEAD_M * head.size if head.eyes_m is None else head.eyes_m
     before = (at[:, 2] > head.place[2]) & (at[:, 1] < eyes_m)
     return len(np.unique(np.floor(at[before, 1] / (PATCH_M * head.size))))
 

@@ -47,7 +47,7 @@ What the instruments ask of our own grown-ups, about."""
 LOWERED, WORTH = (0.0, 0.5, 1.0, -0.5), 0.02
 """Shares of the way to its lowest carriage that an instrument is tried at: another than usual has to be worth it."""
 SAME = (0.95, 1.06)
-"""Hands of so many times a grown-up's play a grown-up's instrument."""
+"""Hands and arms of so many times a grown-up's play a grown-up's instrument."""
 STEP = 0.01
 """Sizes are looked at so far apart."""
 BENDS = 0.5
@@ -148,7 +148,7 @@ def _carried(
     low, high = instrument.hold.size_range
     hands = _hands(character)
     wanted = 1.0 if SAME[0] < hands < SAME[1] else round(min(max(hands, low), high), 2)
-    if min((arm_size(character.skeleton, seed.hand) for seed in instrument.hands), default=1.0) == 1.0:
+    if min((arm_size(character.skeleton, seed.hand) for seed in instrument.hands), default=1.0) > SAME[0]:
         return scaled(instrument, wanted)
     sizes = np.append(np.arange(wanted, low, -STEP), low)
     mouth = fit_lips(character, instrument, body)
