@@ -10,12 +10,14 @@ import msgspec
 import numpy as np
 import pytest
 
+from app.performance.bodies import character_of
 from app.performance.ensemble import Performance
 from app.performance.live import LiveMotion
 from app.performance.motion import player_motion
 from app.performance.span import whole_span
 from app.plan.corrections import AddExpression
 from app.project.edit.corrections import put
+from app.rig.character_library import character_named
 from tests.property.performance.edits import piece
 
 
@@ -284,3 +286,30 @@ def test_it_is_asked_while_it_works(performance: Performance) -> None:
         assert other is not None
         assert np.array_equal(one.rotations, other.rotations)
         assert one.morphs == other.morphs
+
+
+def test_who_is_another_character_under_the_same_name_is_made_anew(
+    performance: Performance, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    live = LiveMotion(performance)
+    all_made(live)
+    again = Performance(performance.project, performance)
+    again.prepare()
+    live.show(again)
+    assert live.ready_share == 1.0, "nothing is another one"
+    first = performance.project.players[0]
+    others = sum(player.character_id != first.character_id for player in performance.project.players)
+    changed = replace(character_of(first))
+    monkeypatch.setattr(
+        "app.performance.bodies.character_named",
+        lambda id: changed if id == first.character_id else character_named(id),
+    )
+    later = Performance(performance.project, performance)
+    revisions = {**later.characters.revisions, first.character_id: 1}
+    later.characters = replace(later.characters, revisions=revisions)
+    later.prepare()
+    live.show(later)
+    assert live.pose(first.id, 2.0) is not None, "the old one is shown until the new one is there"
+    assert live.ready_share == pytest.approx(others / len(performance.project.players))
+    assert all_made(live) > 0
+    assert live.ready_share == 1.0
