@@ -26,7 +26,7 @@ from app.rig.model import Character
 from app.shell.calls import window_calls
 from app.shell.settings import Settings
 from app.stream.faces import FACE_NAMES, FaceNames
-from app.stream.sender import Address, Outcome, Sender, find_address
+from app.stream.sender import MOST_PORT, Address, Outcome, Sender, find_address
 from app.stream.vmc import IN_THE_MIDDLE, Sent
 from widgets.common.session import Session, Severity
 from widgets.common.streaming import RATES_HZ, StreamState
@@ -69,6 +69,8 @@ class Streamer(QObject):
         self._asked: tuple[str, int] | None = None
         """What the address was, or is, looked up from."""
         self._thread: _Thread | None = None
+        self._ending: weakref.finalize[[], Streamer] | None = None
+        """Closes the thread, also where nobody says good-bye."""
         self._restore()
         self._settled = self._wished()
         self._state.changed.connect(self._changed)
@@ -138,15 +140,15 @@ class Streamer(QObject):
         self._address = address
         self._state.set(state="sending", trouble=None)
         self._thread = _Thread(self._poses, _Teller(self))
-        weakref.finalize(self, self._thread.close)
+        self._ending = weakref.finalize(self, self._thread.close)
         self._wish()
 
     def close(self) -> None:
         """Send no more."""
         self._asked = self._address = None
-        if self._thread is not None:
-            self._thread.close()
-            self._thread = None
+        if self._ending is not None:
+            self._ending()
+        self._thread = self._ending = None
         self._state.set(state="off", lines=(), sent_hz=0, trouble=None)
 
     def _wish(self, *_: object) -> None:
@@ -160,7 +162,7 @@ class Streamer(QObject):
             if state.everyone and len(lines) < len(project.players):
                 told = Message(
                     "stream.no_room",
-                    {"count": len(project.players), "port": state.port, "most": lines[-1].port if lines else 0},
+                    {"count": len(project.players), "port": state.port, "most": MOST_PORT},
                 )
                 self._session.notice(told, Severity.WARNING)
         players = [project.player(line.player_id) for line in lines]

@@ -280,7 +280,7 @@ class CharacterDialog(QDialog):
         self._changed()
 
     def _changed(self) -> None:
-        self._made = mapped(self._figure, self.draft)
+        self._made = mapped(self._figure, self.draft, self._made)
         if self.title.text() != self.draft.title:
             self.title.setText(self.draft.title)
         self._show()

@@ -75,9 +75,18 @@ class Mapped:
         return "doubtful" if joint in self.joints.doubtful else "mapped"
 
 
-def mapped(figure: Figure, draft: Draft) -> Mapped:
-    """What a draft makes of a figure. Raises FileError where it names what the figure has not."""
-    return Mapped(draft, map_joints(figure, draft.joints), map_morphs(figure, draft.morphs))
+def mapped(figure: Figure, draft: Draft, before: Mapped | None = None) -> Mapped:
+    """What a draft makes of a figure; what is the same as before is taken from there.
+
+    Raises FileError where it names what the figure has not.
+    """
+    same_joints = before is not None and before.draft.joints == draft.joints
+    same_faces = before is not None and before.draft.morphs == draft.morphs
+    return Mapped(
+        draft,
+        before.joints if before is not None and same_joints else map_joints(figure, draft.joints),
+        before.faces if before is not None and same_faces else map_morphs(figure, draft.morphs),
+    )
 
 
 def character_of(figure: Figure, made: Mapped) -> Character:
@@ -96,6 +105,8 @@ class Steps:
     def __init__(self, first: Draft) -> None:
         self._done, self._undone = [first], list[Draft]()
         self._gesture: object | None = None
+        self._of_gesture = False
+        """Whether the last step is of that gesture."""
 
     @property
     def now(self) -> Draft:
@@ -114,28 +125,26 @@ class Steps:
 
     def apply(self, draft: Draft, gesture: object | None = None) -> bool:
         """Another draft; those of one gesture are one step. Whether it is another."""
-        if gesture is not None and gesture is self._gesture and self.can_undo:
+        before = self.now
+        if gesture is not None and gesture is self._gesture and self._of_gesture:
             self._done.pop()
-        changed = draft != self.now
-        if changed:
+        self._gesture, self._of_gesture = gesture, draft != self.now
+        if self._of_gesture:
             self._done = [*self._done[-_MOST_STEPS:], draft]
             self._undone.clear()
-            self._gesture = gesture
-        else:
-            self._gesture = None
-        return changed
+        return self.now != before
 
     def undo(self) -> None:
         """Take the last step back."""
         if self.can_undo:
             self._undone.append(self._done.pop())
-            self._gesture = None
+            self._gesture, self._of_gesture = None, False
 
     def redo(self) -> None:
         """Do it again."""
         if self._undone:
             self._done.append(self._undone.pop())
-            self._gesture = None
+            self._gesture, self._of_gesture = None, False
 
 
 def not_played(made: Mapped) -> tuple[str, ...]:

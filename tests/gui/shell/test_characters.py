@@ -301,7 +301,9 @@ def test_steps() -> None:
     assert steps.now == Draft("d")
     # A drag back to where it began is none.
     other = object()
-    steps.apply(Draft("e"), other)
-    steps.apply(Draft("d"), other)
+    assert steps.apply(Draft("e"), other)
+    assert steps.apply(Draft("d"), other), "what is shown has to follow"
+    assert steps.apply(Draft("f"), other)
+    assert steps.apply(Draft("d"), other)
     steps.undo()
     assert steps.now == Draft("a")
