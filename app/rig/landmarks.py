@@ -27,8 +27,8 @@ MIDLINE_M, SOLE_M = 0.008, 0.008
 COINCIDE_M = 1e-6
 """Joints nearer to one another lie on one another."""
 PATCH_M = 0.006
-"""A place spreads so far over the skin, beside how far its nearest vertex is from it: skin of few vertices has them
-far apart."""
+"""A place spreads so far over the skin, or little farther than its nearest vertex is from it: the mean of vertices all
+around a finger lies deep in its flesh."""
 LEAST_WEIGHTS = (0.5, 0.25)
 """Where no skin clearly belongs to a joint, skin that does by this much is taken."""
 EYES_M, HEAD_M = 0.06, 0.217
@@ -99,7 +99,7 @@ def _patch(skin: _Skin, own: IntArray, origin: FloatArray, direction: FloatArray
 def _nearest(skin: _Skin, own: IntArray, place: FloatArray, count: int) -> IntArray:
     far = np.linalg.norm(skin.positions[own] - place, axis=1)
     order = np.argsort(far, kind="stable")[:count]
-    return np.sort(own[order[far[order] <= 1.5 * far[order[0]] + PATCH_M]])
+    return np.sort(own[order[far[order] <= max(PATCH_M, 1.25 * far[order[0]])]])
 
 
 def _hand(skeleton: Skeleton, skins: list[_Skin], side: Side) -> dict[str, Landmark]:
