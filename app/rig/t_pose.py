@@ -14,7 +14,6 @@ from typing import Final
 
 import numpy as np
 import numpy.typing as npt
-from scipy.spatial.transform import Rotation
 
 from app.rig import quaternion
 from app.rig.figure import Figure
@@ -94,6 +93,8 @@ def upright(figure: Figure, bones: Mapping[str, int]) -> Figure:
     if min(np.linalg.norm(up), np.linalg.norm(left)) < 1e-6:
         return figure
     frame = np.column_stack([_unit(left), _unit(up), np.cross(_unit(left), _unit(up))])
+    from scipy.spatial.transform import Rotation  # heavy; figures are read seldom
+
     turns = Rotation.create_group("O").as_matrix()
     turn = turns[int(np.argmax(np.einsum("gij,ij->g", turns, frame.T)))]
     heading = turn @ frame[:, 2]
