@@ -113,7 +113,8 @@ def show_characters(editor: Editor) -> None:
 def ask_for_character(editor: Editor) -> None:
     """Ask for a character's file, and bring it."""
     translate = QCoreApplication.translate
-    kinds = f"{translate('Files', 'Characters')} ({' '.join(f'*{suffix}' for suffix in SUFFIXES)})"
+    name = translate("Files", "Characters")
+    kinds = f"{name} ({' '.join(f'*{suffix}' for suffix in SUFFIXES)})"
     path = editor.questions.open_file(translate("Files", "Add Character"), editor.files.folder, kinds)
     if path is not None:
         editor.settings.folder = str(path.parent)

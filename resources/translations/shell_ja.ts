@@ -806,6 +806,10 @@
         <translation>MIDI の書き出し</translation>
     </message>
     <message>
+        <source>Characters</source>
+        <translation>キャラクター</translation>
+    </message>
+    <message>
         <source>Add Character</source>
         <translation>キャラクターを追加</translation>
     </message>

@@ -21,6 +21,7 @@ from PySide6.QtWidgets import (
     QLabel,
     QLineEdit,
     QPushButton,
+    QScrollArea,
     QTabWidget,
     QTreeWidget,
     QTreeWidgetItem,
@@ -48,6 +49,8 @@ from widgets.dialogs.character_draft import (
 from widgets.dialogs.face_map_page import FaceMapPage
 
 PICTURE_PX: Final = QSize(250, 340)
+_LEAST_WORDS_PX: Final = 72
+_LEAST_LIST_PX: Final = 230
 _SOON_MS: Final = 60
 """A drag asks for many pictures: the next is drawn when it rests so long, or moves on slowly."""
 
@@ -139,6 +142,8 @@ class CharacterDialog(QDialog):
 
     def _build(self) -> None:
         self.rows.setColumnCount(2)
+        self.rows.setMinimumWidth(_LEAST_LIST_PX)
+        self.bones.setMinimumWidth(_LEAST_LIST_PX)
         self.rows.setRootIsDecorated(False)
         self.rows.setUniformRowHeights(True)
         self.rows.header().setSectionResizeMode(0, QHeaderView.ResizeMode.ResizeToContents)
@@ -148,6 +153,7 @@ class CharacterDialog(QDialog):
             self.rows.addTopLevelItem(item)
         for label in (self._source, self._told):
             label.setWordWrap(True)
+        self._told.setAlignment(Qt.AlignmentFlag.AlignTop)
         self._told.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self._picture.setFixedSize(PICTURE_PX)
         self._picture.setAlignment(Qt.AlignmentFlag.AlignCenter)
@@ -176,8 +182,12 @@ class CharacterDialog(QDialog):
         side.addLayout(form)
         side.addWidget(self._source)
         side.addWidget(self._picture, 0, Qt.AlignmentFlag.AlignHCenter)
-        side.addWidget(self._told)
-        side.addStretch(1)
+        words = QScrollArea()
+        words.setWidget(self._told)
+        words.setWidgetResizable(True)
+        words.setFrameShape(QScrollArea.Shape.NoFrame)
+        words.setMinimumHeight(_LEAST_WORDS_PX)
+        side.addWidget(words, 1)
         side_box = QWidget()
         side_box.setLayout(side)
         side_box.setFixedWidth(PICTURE_PX.width() + 24)
