@@ -20,7 +20,7 @@ from app.project.autosave import Autosave
 from app.project.edit.piece import new_piece
 from app.project.presence import Presence, recovery_folder
 from app.shell.actions import ActionTable, KeyboardButtons, rows
-from app.shell.characters import CharacterWatch
+from app.shell.character_watch import CharacterWatch
 from app.shell.editor import Editor
 from app.shell.faults import Faults, log_path
 from app.shell.files import Files

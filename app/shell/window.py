@@ -19,7 +19,6 @@ from app.project.storage import SUFFIX
 from app.rig.read_figure import SUFFIXES as CHARACTER_SUFFIXES
 from app.shell.actions import CONTEXTS, ActionTable, Menus
 from app.shell.banner import Banner
-from app.shell.characters import ask_for_character, bring_character, show_characters
 from app.shell.docks import Dock
 from app.shell.editor import Editor
 from app.shell.files import AUDIO_SUFFIXES, MIDI_SUFFIXES
@@ -293,10 +292,14 @@ class Window(QMainWindow):
 
     def show_characters(self) -> None:
         """Show the person's own characters; once."""
+        from app.shell.characters import show_characters
+
         show_characters(self.editor)
 
     def add_character(self) -> None:
         """Bring a character from a file."""
+        from app.shell.characters import ask_for_character
+
         ask_for_character(self.editor)
 
     def show_devices(self) -> None:
@@ -453,6 +456,8 @@ class Window(QMainWindow):
         if path is not None:
             event.acceptProposedAction()
             if path.suffix.lower() in CHARACTER_SUFFIXES:
+                from app.shell.characters import bring_character
+
                 bring_character(self.editor, path)
             else:
                 self._files.open(path)
