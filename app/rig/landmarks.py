@@ -29,6 +29,8 @@ COINCIDE_M = 1e-6
 PATCH_M = 0.006
 """A place spreads so far over the skin, or little farther than its nearest vertex is from it: the mean of vertices all
 around a finger lies deep in its flesh."""
+FACING = (0.7, 0.5)
+"""A place's skin looks its way by this (the cosine), or by that where none does."""
 LEAST_WEIGHTS = (0.5, 0.25)
 """Where no skin clearly belongs to a joint, skin that does by this much is taken."""
 EYES_M, HEAD_M = 0.06, 0.217
@@ -89,8 +91,9 @@ def _patch(skin: _Skin, own: IntArray, origin: FloatArray, direction: FloatArray
     off = skin.positions[own] - origin
     along = off @ direction
     across = np.linalg.norm(off - along[:, None] * direction, axis=1)
-    facing = (skin.normals[own] @ direction > 0.5) & (along > 0.0)
-    if not facing.any():
+    ahead = skin.normals[own] @ direction
+    facing = next((found for least in FACING if (found := (ahead > least) & (along > 0.0)).any()), None)
+    if facing is None:
         return _nearest(skin, own, origin, count)
     place = origin + direction * along[facing][np.argmin(across[facing])]
     return _nearest(skin, own[facing], place, count)
