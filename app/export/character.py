@@ -22,7 +22,8 @@ from app.formats.scene import Bone, Clip, MorphTarget, Scene, SkinnedMesh
 from app.motion.model import Motion
 from app.rig import quaternion
 from app.rig.figure import Figure
-from app.rig.model import Character, Mesh
+from app.rig.mesh import Mesh
+from app.rig.model import Character
 
 CENTIMETRES = 100.0
 

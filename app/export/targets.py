@@ -16,7 +16,8 @@ from app.performance.bodies import character_of
 from app.project.model import Player
 from app.rig import quaternion
 from app.rig.figure import Figure
-from app.rig.model import Character, Mesh
+from app.rig.mesh import Mesh
+from app.rig.model import Character
 
 MOST_TOLD = 5
 """Grave differences that are told one by one."""

@@ -24,7 +24,8 @@ from app.rig.figure import Figure
 from app.rig.figure_character import REQUIRED_JOINTS, figure_character
 from app.rig.humanoid import JointMapping, map_joints
 from app.rig.landmarks import found_landmarks
-from app.rig.model import Character, Landmark, Mesh, Skeleton
+from app.rig.mesh import Mesh
+from app.rig.model import Character, Landmark, Skeleton
 from app.rig.read_figure import read_figure
 from app.rig.source import Source, build_mesh, invalid, moved_mesh, read_source
 from app.rig.t_pose import facing_ahead, upright

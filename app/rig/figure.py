@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from app.errors import Message
-from app.rig.model import Mesh
+from app.rig.mesh import Mesh
 
 FloatArray = npt.NDArray[np.float64]
 Origin: TypeAlias = Literal["vrm0", "vrm1", "gltf", "fbx"]

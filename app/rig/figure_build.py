@@ -26,7 +26,7 @@ import numpy.typing as npt
 from app.errors import FileError, Message
 from app.rig import quaternion
 from app.rig.figure import Figure, Origin
-from app.rig.model import Mesh, Morph
+from app.rig.mesh import Mesh, Morph
 
 FloatArray = npt.NDArray[np.float64]
 

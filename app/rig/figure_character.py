@@ -27,7 +27,8 @@ from app.errors import FileError
 from app.rig import quaternion
 from app.rig.figure import Figure, OwnSkeleton
 from app.rig.landmarks import found_landmarks
-from app.rig.model import Character, Mesh, Morph, Skeleton
+from app.rig.mesh import Mesh, Morph
+from app.rig.model import Character, Skeleton
 from app.rig.supplied_joints import SIDES, Fit, inverse_binds, on_the_floor, supplied_ends
 from app.rig.t_pose import Rest, rest_of, turns_to_t_pose, upright
 from metadata.load import load_skeleton

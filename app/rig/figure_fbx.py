@@ -17,7 +17,7 @@ from app.formats.fbx.foreign import FbxCluster, FbxContent, FbxMesh, FbxNode, re
 from app.formats.scene import Material
 from app.rig.figure import Figure
 from app.rig.figure_build import SINGULAR, Nodes, Part, apart, build_figure, rest_pose
-from app.rig.model import Mesh, Morph
+from app.rig.mesh import Mesh, Morph
 
 FloatArray = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.int64]

@@ -15,7 +15,8 @@ import numpy as np
 import numpy.typing as npt
 
 from app.rig import quaternion
-from app.rig.model import InstrumentModel, Mesh
+from app.rig.mesh import Mesh
+from app.rig.model import InstrumentModel
 from app.rig.source import build_mesh, invalid, moved_mesh, read_source
 from instrument_maps.load import model_path
 from instrument_maps.model import ROOT, InstrumentMap, MovingPart

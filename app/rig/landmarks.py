@@ -12,7 +12,8 @@ import numpy as np
 import numpy.typing as npt
 
 from app.rig.hold import Side
-from app.rig.model import Character, Landmark, Mesh, Skeleton
+from app.rig.mesh import Mesh
+from app.rig.model import Character, Landmark, Skeleton
 from app.rig.skeleton import ancestors, rest_positions
 from metadata.load import load_skeleton
 

@@ -10,7 +10,8 @@ import numpy as np
 import numpy.typing as npt
 
 from app.rig import quaternion
-from app.rig.model import Character, Mesh
+from app.rig.mesh import Mesh
+from app.rig.model import Character
 from app.rig.skeleton import JointTransforms
 
 FloatArray = npt.NDArray[np.float64]

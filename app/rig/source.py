@@ -18,7 +18,7 @@ from app.errors import FileError
 from app.formats.gltf import GltfMaterial, GltfModel, GltfNode, GltfPrimitive, read_glb
 from app.formats.scene import Material
 from app.rig import quaternion
-from app.rig.model import Mesh, Morph
+from app.rig.mesh import Mesh, Morph
 
 FloatArray = npt.NDArray[np.float64]
 

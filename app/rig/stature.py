@@ -15,7 +15,8 @@ import numpy.typing as npt
 
 from app.rig.hold import Side
 from app.rig.landmarks import eye_distance
-from app.rig.model import Character, InstrumentModel, Mesh, Morph, Skeleton
+from app.rig.mesh import Mesh, Morph
+from app.rig.model import Character, InstrumentModel, Skeleton
 from app.rig.skeleton import rest_positions
 from metadata.model import Body
 

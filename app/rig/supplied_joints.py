@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from app.rig import quaternion
-from app.rig.model import Mesh
+from app.rig.mesh import Mesh
 
 FloatArray = npt.NDArray[np.float64]
 

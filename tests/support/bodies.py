@@ -18,7 +18,8 @@ import numpy.typing as npt
 
 from app.rig.character_library import character_named
 from app.rig.landmarks import found_landmarks
-from app.rig.model import Character, Mesh, Morph, Skeleton
+from app.rig.mesh import Mesh, Morph
+from app.rig.model import Character, Skeleton
 from app.rig.skeleton import rest_positions
 
 FloatArray = npt.NDArray[np.float64]

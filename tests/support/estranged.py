@@ -18,7 +18,8 @@ from scipy.spatial.transform import Rotation
 from app.formats.fbx import write_scene
 from app.formats.scene import Bone, Material, MorphTarget, Scene, SkinnedMesh
 from app.rig import quaternion
-from app.rig.model import Character, Mesh
+from app.rig.mesh import Mesh
+from app.rig.model import Character
 from app.rig.skeleton import forward
 from app.rig.skinning import deform, patch
 

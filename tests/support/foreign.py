@@ -11,7 +11,8 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from app.rig.figure import Figure, OwnSkeleton
-from app.rig.model import Character, Mesh
+from app.rig.mesh import Mesh
+from app.rig.model import Character
 from app.rig.skeleton import rest_positions
 
 PREFIX = "Bip01_"

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from app.rig.figure import Figure
-from app.rig.model import Mesh, Morph
+from app.rig.mesh import Mesh, Morph
 
 FOLDER = Path(__file__).parents[1] / "data" / "skeletons"
 

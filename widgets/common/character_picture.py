@@ -11,7 +11,8 @@ import numpy.typing as npt
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QImage
 
-from app.rig.model import Character, Mesh
+from app.rig.mesh import Mesh
+from app.rig.model import Character
 from app.rig.skeleton import rest_positions
 
 Floats = npt.NDArray[np.float64]

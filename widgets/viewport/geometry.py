@@ -13,7 +13,8 @@ from itertools import pairwise
 import numpy as np
 import numpy.typing as npt
 
-from app.rig.model import Character, InstrumentModel, Mesh
+from app.rig.mesh import Mesh
+from app.rig.model import Character, InstrumentModel
 
 Floats = npt.NDArray[np.float32]
 Ints = npt.NDArray[np.int64]

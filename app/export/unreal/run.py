@@ -45,7 +45,7 @@ from app.export.unreal.project import UnrealProject, require_writable
 from app.performance.bodies import character_of, model_of
 from app.performance.ensemble import Performance
 from app.performance.span import FrameSpan
-from app.rig.model import Mesh
+from app.rig.mesh import Mesh
 
 _SHARES = {"files": 0.8, "sound": 0.15, "checks": 0.05}
 

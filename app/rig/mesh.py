@@ -1,0 +1,49 @@
+"""Meshes and their morph targets as values, of characters, figures and instruments alike."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from app.formats.scene import Material
+
+
+@dataclass(frozen=True, eq=False)
+class Morph:
+    """A morph target, sparse: displacement of some vertices in the mesh's bind space, metres."""
+
+    name: str
+    vertices: npt.NDArray[np.int32]
+    deltas_m: npt.NDArray[np.float32]
+    normal_deltas: npt.NDArray[np.float32] | None
+
+
+@dataclass(frozen=True, eq=False)
+class Mesh:
+    """A triangle mesh, of one or several materials.
+
+    Attributes
+    ----------
+    positions_m, normals : (V, 3) float32
+    uvs : (V, 2) float32
+    triangles : (T, 3) int32
+    triangle_materials : (T,) int32
+        Index into ``materials``.
+    joints, weights : (V, K) int32 and float32
+        Skinning of a character's mesh; weights of a vertex sum to 1. An instrument's mesh is rigid: K = 1 and the
+        index is a node of the `InstrumentModel`.
+    morphs : tuple of Morph
+    """
+
+    name: str
+    positions_m: npt.NDArray[np.float32]
+    normals: npt.NDArray[np.float32]
+    uvs: npt.NDArray[np.float32]
+    triangles: npt.NDArray[np.int32]
+    triangle_materials: npt.NDArray[np.int32]
+    materials: tuple[Material, ...]
+    joints: npt.NDArray[np.int32]
+    weights: npt.NDArray[np.float32]
+    morphs: tuple[Morph, ...] = ()
