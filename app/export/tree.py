@@ -22,7 +22,7 @@ import secrets
 import shutil
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from pathlib import Path
+from pathlib import Path, PureWindowsPath
 from typing import Final
 
 from app.errors import FileError
@@ -121,6 +121,12 @@ def files_below(folder: Path) -> list[Path]:
     return sorted(path.relative_to(folder) for path in folder.rglob("*") if path.is_file())
 
 
+def stays_inside(name: str) -> bool:
+    """Whether a path that a file says stays in its folder on every system: anybody may have written that file."""
+    path = PureWindowsPath(name)
+    return bool(path.parts) and not (path.anchor or ".." in path.parts or "\\" in name)
+
+
 def _commit(root: Path, partial: Path, change: TreeChange) -> None:
     coming = [path for path in files_below(change.new) if path not in change.last] + change.last
     at = root
@@ -165,7 +171,9 @@ def _give_back(root: Path, partial: Path) -> None:
     """Make the tree what it was before its change began."""
     if not (partial / _LIST).is_file():
         return
-    coming = [Path(line) for line in (partial / _LIST).read_text(encoding="utf-8").splitlines()]
+    lines = (partial / _LIST).read_text(encoding="utf-8", errors="replace").splitlines()
+    # A project comes from anywhere, with whatever list in it.
+    coming = [Path(line) for line in lines if stays_inside(line)]
     old = files_below(partial / _OLD) if (partial / _OLD).is_dir() else []
     at = root
     try:

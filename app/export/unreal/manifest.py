@@ -11,12 +11,13 @@ import hashlib
 import os
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
-from pathlib import Path, PurePosixPath, PureWindowsPath
+from pathlib import Path, PurePosixPath
 from typing import Final
 
 import msgspec
 
 from app.errors import FileError, Message
+from app.export.tree import stays_inside
 from app.export.unreal.layout import MANIFEST
 
 SCHEMA: Final = 1
@@ -127,7 +128,7 @@ def read_manifest(folder: Path) -> dict[PurePosixPath, OwnFile]:
     except (msgspec.DecodeError, UnicodeDecodeError) as error:
         raise FileError("unreal.manifest", file=os.fspath(path), detail=str(error)) from error
     for name in manifest.files:
-        if not _inside(name):
+        if not stays_inside(name):
             raise FileError("unreal.manifest", file=os.fspath(path), detail=repr(name))
     return {PurePosixPath(name): own for name, own in manifest.files.items()}
 
@@ -136,9 +137,3 @@ def encode_manifest(files: Mapping[str, OwnFile], creator: str) -> bytes:
     """The manifest of some files, as indented JSON."""
     manifest = Manifest(SCHEMA, creator, dict(sorted(files.items())))
     return msgspec.json.format(msgspec.json.encode(manifest), indent=1) + b"\n"
-
-
-def _inside(name: str) -> bool:
-    """Whether a path stays in its folder on every system: somebody may have written the manifest by hand."""
-    path = PureWindowsPath(name)
-    return bool(path.parts) and not (path.anchor or ".." in path.parts or "\\" in name)

@@ -136,3 +136,15 @@ def test_two_at_once_are_told(root: Path) -> None:
             change(root)
     assert caught.value.message.id == "tree.busy"
     assert partial.is_dir()
+
+
+@pytest.mark.parametrize("line", ["../precious", "{outside}", "src/../../precious", "..\\precious"])
+def test_a_list_that_came_with_a_project_leads_nowhere_else(tmp_path: Path, root: Path, line: str) -> None:
+    outside = tmp_path / "precious"
+    outside.write_text("kept")
+    partial = root / "src" / ".0123456789abcdef.partial"
+    partial.mkdir()
+    (partial / "coming.txt").write_text(line.format(outside=outside.as_posix()))
+    recover(root, root / "src")
+    assert outside.read_text() == "kept"
+    assert contents(root) == BEFORE
