@@ -20,6 +20,7 @@ import numpy as np
 
 from app.audio.rendering import rendered
 from app.audio.track import Samples
+from app.own_process import own_process
 
 _LENGTH: Final = struct.Struct("<I")
 _NICENESS: Final = 5
@@ -60,10 +61,9 @@ class RenderProcess:
 
 
 def _started() -> subprocess.Popen[bytes]:
-    # The child finds the same packages, wherever it is started.
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+    command, environment = own_process(__name__)
     return subprocess.Popen(
-        [sys.executable, "-m", __name__],
+        command,
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         env=environment,

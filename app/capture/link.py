@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import os
 import subprocess
-import sys
 import threading
 import time
 from collections import deque
@@ -39,6 +38,7 @@ from app.capture.protocol import (
 )
 from app.capture.recorder import SYSTEM_VARIABLE
 from app.errors import Message
+from app.own_process import own_process
 
 _MOST_DEATHS: Final = 3
 _DEATHS_WITHIN_S: Final = 10.0
@@ -263,12 +263,11 @@ class RecorderLink:
 
 
 def _started(system: str) -> subprocess.Popen[bytes]:
-    # The child finds the same packages, wherever it is started.
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+    command, environment = own_process("app.capture.recorder")
     if system:
         environment[SYSTEM_VARIABLE] = system
     return subprocess.Popen(
-        [sys.executable, "-m", "app.capture.recorder"],
+        command,
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         env=environment,

@@ -18,7 +18,6 @@ import io
 import json
 import os
 import subprocess
-import sys
 import zipfile
 from dataclasses import dataclass
 from pathlib import Path
@@ -28,6 +27,7 @@ import numpy as np
 import numpy.typing as npt
 
 from app.errors import FileError
+from app.own_process import own_process
 
 FloatArray = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.int64]
@@ -170,10 +170,10 @@ def read_foreign_fbx(path: str | os.PathLike[str]) -> FbxContent:
 
 def _child(path: str, file: str) -> bytes:
     """What the child printed. Raises FileError."""
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+    command, environment = own_process("app.formats.fbx.foreign_child", path)
     try:
         ended = subprocess.run(
-            [sys.executable, "-m", "app.formats.fbx.foreign_child", path],
+            command,
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,

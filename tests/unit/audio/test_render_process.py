@@ -62,7 +62,7 @@ def test_a_killed_child_is_not_missed() -> None:
 
 
 def test_where_no_process_can_be_started(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("app.audio.render_process.sys.executable", "/nowhere/python")
+    monkeypatch.setattr("sys.executable", "/nowhere/python")
     assert np.array_equal(RenderProcess()(LONG[0].midi), rendered(LONG[0].midi))
 
 

@@ -353,7 +353,7 @@ def test_a_recorder_in_which_something_fails_is_started_again(capfd: pytest.Capt
 
 
 def test_where_no_process_can_be_started(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    monkeypatch.setattr("app.capture.link.sys.executable", "/nowhere/python")
+    monkeypatch.setattr("sys.executable", "/nowhere/python")
     with RecorderLink() as link:
         ear = Ear(link)
         assert ear.wait(Refused).reason.id == "capture.recorder_fails"
