@@ -24,6 +24,15 @@ AmplitudeScale: TypeAlias = tuple[NotNegative, NotNegative, NotNegative]
 """The value at amplitude 0 (the residual of a player told to keep still), 0.5 (natural) and 1 (exaggerated);
 linear between. Use `at_amplitude`."""
 
+REQUIRED_JOINTS: tuple[str, ...] = (
+    *("hips", "spine", "head"),
+    *(
+        side + part
+        for side in ("left", "right")
+        for part in ("UpperArm", "LowerArm", "Hand", "UpperLeg", "LowerLeg", "Foot")
+    ),
+)
+"""Joints a body cannot play without: those that VRM 1.0 requires."""
 ARKIT_MORPHS: tuple[str, ...] = (
     "browDownLeft", "browDownRight", "browInnerUp", "browOuterUpLeft", "browOuterUpRight", "cheekPuff",
     "cheekSquintLeft", "cheekSquintRight", "eyeBlinkLeft", "eyeBlinkRight", "eyeLookDownLeft", "eyeLookDownRight",

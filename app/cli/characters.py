@@ -147,7 +147,8 @@ def morphs_of(texts: list[str]) -> dict[str, dict[str, float]]:
 def checked(path: Path, joints: Mapping[str, str], morphs: Mapping[str, Mapping[str, float]]) -> dict[str, Any]:
     """What of a file's figure is what, as JSON has it. Raises FileError where there is no figure in it."""
     from app.rig.character import read_character
-    from app.rig.figure_character import REQUIRED_JOINTS, figure_character
+    from app.rig.figure_character import figure_character
+    from metadata.model import REQUIRED_JOINTS
 
     reading = read_character(path, joints, morphs)
     names = reading.figure.bone_names

@@ -8,15 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from app.export.own_skeleton import own_weights
-from app.export.target import (
-    BoneMotion,
-    TargetSkeleton,
-    bone_motion,
-    local_placements,
-    matrices,
-    normalised_target,
-    world_placements,
-)
+from app.export.target import BoneMotion, TargetSkeleton, bone_motion, matrices, normalised_target
 from app.formats.join import join_meshes
 from app.formats.scene import Bone, Clip, MorphTarget, Scene, SkinnedMesh
 from app.motion.model import Motion
@@ -24,6 +16,7 @@ from app.rig import quaternion
 from app.rig.figure import Figure
 from app.rig.mesh import Mesh
 from app.rig.model import Character
+from app.rig.placements import local_placements, world_placements
 
 CENTIMETRES = 100.0
 

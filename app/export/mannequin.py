@@ -17,13 +17,14 @@ import numpy as np
 import numpy.typing as npt
 
 from app.export.own_skeleton import limb_twist
-from app.export.target import HIPS, TargetSkeleton, Twist, local_placements
+from app.export.target import HIPS, TargetSkeleton, Twist
 from app.rig import quaternion
 from app.rig.figure import Figure
-from app.rig.figure_character import REQUIRED_JOINTS
 from app.rig.model import Skeleton
+from app.rig.placements import local_placements
 from app.rig.skeleton import rest_positions
 from app.rig.t_pose import rest_of, turns_to_t_pose, upright
+from metadata.model import REQUIRED_JOINTS
 
 FloatArray = npt.NDArray[np.float64]
 

@@ -7,7 +7,7 @@ limb's twist, a bone that is tied to another is where that one is, the rest keep
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Literal, TypeAlias
@@ -106,31 +106,6 @@ class TargetSkeleton:
     def moved(self) -> frozenset[int]:
         """Bones that a motion turns or moves."""
         return frozenset({*self.bone_of_joint.values(), *self.twists, *self.tied})
-
-
-def world_placements(
-    parents: Sequence[int], offsets_m: FloatArray, rotations: FloatArray
-) -> tuple[FloatArray, FloatArray]:
-    """World positions (B, 3) and rotations (B, 4) of bones whose place on their parents is known."""
-    positions, turned = np.array(offsets_m, np.float64), np.array(rotations, np.float64)
-    for bone, parent in enumerate(parents):
-        if parent >= 0:
-            positions[bone] = positions[parent] + quaternion.rotate(turned[parent], positions[bone])
-            turned[bone] = quaternion.multiply(turned[parent], turned[bone])
-    return positions, turned
-
-
-def local_placements(
-    parents: Sequence[int], positions: FloatArray, turned: FloatArray
-) -> tuple[FloatArray, FloatArray]:
-    """Offsets (B, 3) and rotations (B, 4) on the parents of bones whose place in the world is known."""
-    offsets, rotations = np.array(positions, np.float64), np.array(turned, np.float64)
-    for bone, parent in enumerate(parents):
-        if parent >= 0:
-            back = quaternion.conjugate(turned[parent])
-            offsets[bone] = quaternion.rotate(back, positions[bone] - positions[parent])
-            rotations[bone] = quaternion.multiply(back, turned[bone])
-    return offsets, rotations
 
 
 def matrices(positions: FloatArray, turned: FloatArray) -> FloatArray:

@@ -11,13 +11,14 @@ from app.errors import FileError, Message
 from app.export.check_skeleton import Difference, check_skeleton, told
 from app.export.mannequin import mannequin_axes, mannequin_target
 from app.export.own_skeleton import own_target
-from app.export.target import SkeletonChoice, TargetSkeleton, local_placements, normalised_target
+from app.export.target import SkeletonChoice, TargetSkeleton, normalised_target
 from app.performance.bodies import character_of
 from app.project.model import Player
 from app.rig import quaternion
 from app.rig.figure import Figure
 from app.rig.mesh import Mesh
 from app.rig.model import Character
+from app.rig.placements import local_placements
 
 MOST_TOLD = 5
 """Grave differences that are told one by one."""

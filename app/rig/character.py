@@ -21,7 +21,7 @@ import numpy.typing as npt
 
 from app.rig.face_map import FaceMapping, map_morphs
 from app.rig.figure import Figure
-from app.rig.figure_character import REQUIRED_JOINTS, figure_character
+from app.rig.figure_character import figure_character
 from app.rig.humanoid import JointMapping, map_joints
 from app.rig.landmarks import found_landmarks
 from app.rig.mesh import Mesh
@@ -29,6 +29,7 @@ from app.rig.model import Character, Landmark, Skeleton
 from app.rig.read_figure import read_figure
 from app.rig.source import Source, build_mesh, invalid, moved_mesh, read_source
 from app.rig.t_pose import facing_ahead, upright
+from metadata.model import REQUIRED_JOINTS
 
 FloatArray = npt.NDArray[np.float64]
 

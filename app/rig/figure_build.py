@@ -27,6 +27,7 @@ from app.errors import FileError, Message
 from app.rig import quaternion
 from app.rig.figure import Figure, Origin
 from app.rig.mesh import Mesh, Morph
+from app.rig.placements import local_placements
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -127,12 +128,7 @@ def build_figure(
     parents = tuple(-1 if nodes.parents[node] < 0 else above[nodes.parents[node]] for node in listed)
     world = nodes.world_from_node[listed]
     rotations, positions = _rotations(world), world[:, :3, 3]
-    translations, turns = positions.copy(), rotations.copy()
-    for bone, parent in enumerate(parents):
-        if parent >= 0:
-            back = quaternion.conjugate(rotations[parent])
-            translations[bone] = quaternion.rotate(back, positions[bone] - positions[parent])
-            turns[bone] = quaternion.multiply(back, rotations[bone])
+    translations, turns = local_placements(parents, positions, rotations)
     figure = Figure(
         file=file,
         origin=origin,

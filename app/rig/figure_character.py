@@ -29,17 +29,13 @@ from app.rig.figure import Figure, OwnSkeleton
 from app.rig.landmarks import found_landmarks
 from app.rig.mesh import Mesh, Morph
 from app.rig.model import Character, Skeleton
-from app.rig.supplied_joints import SIDES, Fit, inverse_binds, on_the_floor, supplied_ends
+from app.rig.supplied_joints import Fit, inverse_binds, on_the_floor, supplied_ends
 from app.rig.t_pose import Rest, rest_of, turns_to_t_pose, upright
 from metadata.load import load_skeleton
+from metadata.model import REQUIRED_JOINTS
 
 FloatArray = npt.NDArray[np.float64]
 
-REQUIRED_JOINTS: Final = (
-    *("hips", "spine", "head"),
-    *(side + part for side in SIDES for part in ("UpperArm", "LowerArm", "Hand", "UpperLeg", "LowerLeg", "Foot")),
-)
-"""Joints a body cannot play without: those that VRM 1.0 requires."""
 OPTIONAL: Final = frozenset({"jaw"})
 """Joints that are not supplied: nothing is the worse for their lack."""
 TRUNK: Final = ("hips", "spine", "chest", "upperChest")

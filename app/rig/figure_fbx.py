@@ -7,6 +7,7 @@ whose skins do not is at rest as its nodes are posed.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Final
 
@@ -88,9 +89,9 @@ def _parts(mesh: FbxMesh, nodes: tuple[FbxNode, ...], world: FloatArray, hidden:
         joints, weights = _influences(clusters, len(mesh.points))
         table = np.array([world[cluster.node] @ cluster.bone_from_mesh for cluster in clusters])
         own = tuple(cluster.node for cluster in clusters)
-        return [Part(_with_skin(built, joints[points], weights[points]), own, table)]
+        return [Part(replace(built, joints=joints[points], weights=weights[points]), own, table)]
     count = len(built.positions_m)
-    rigid = _with_skin(built, np.zeros((count, 1), np.int32), np.ones((count, 1), np.float32))
+    rigid = replace(built, joints=np.zeros((count, 1), np.int32), weights=np.ones((count, 1), np.float32))
     parts = []
     for node in shown:
         posed = nodes[node]
@@ -98,11 +99,6 @@ def _parts(mesh: FbxMesh, nodes: tuple[FbxNode, ...], world: FloatArray, hidden:
             place = world[node] @ np.linalg.inv(posed.world_from_node) @ posed.world_from_geometry
             parts.append(Part(rigid, (node,), place[None]))
     return parts
-
-
-def _with_skin(mesh: Mesh, joints: npt.NDArray[np.int32], weights: npt.NDArray[np.float32]) -> Mesh:
-    values = {field: getattr(mesh, field) for field in Mesh.__dataclass_fields__}
-    return Mesh(**{**values, "joints": joints, "weights": weights})
 
 
 def _influences(clusters: list[FbxCluster], count: int) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.float32]]:

@@ -7,7 +7,7 @@ perturbations in one call.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
@@ -269,8 +269,8 @@ def _with_skin(hand: HandModel) -> HandModel:
     palm = [radius for joint, (_, _, _, radius) in found if joint == 0]
     wrist_m = (float(np.median(palm)) if palm else _PALM_M) + _SLEEVE_M
     forearm = [[behind, wrist_m + _FOREARM_TAPER * behind] for behind in _FOREARM_M]
-    values = {field: getattr(hand, field) for field in HandModel.__dataclass_fields__}
-    values.update(
+    return replace(
+        hand,
         skin_points=np.ascontiguousarray(hand.all_points[:, :, chosen]),
         balls=ball,
         ball_joints=carriers,
@@ -279,7 +279,6 @@ def _with_skin(hand: HandModel) -> HandModel:
         ball_pairs=pairs,
         ball_gaps_m=np.minimum(gaps, at_rest),
     )
-    return HandModel(**values)
 
 
 def _finger_balls(

@@ -21,18 +21,12 @@ from typing import Final
 import numpy as np
 
 from app.errors import FileError
-from app.rig import quaternion
 from app.rig.bone_shape import Tree, joints_by_shape, spread_spine, tree_of
 from app.rig.figure import Figure
+from app.rig.placements import world_placements
 from metadata.load import load_bone_names, load_skeleton
-from metadata.model import bone_key
+from metadata.model import REQUIRED_JOINTS, bone_key
 
-REQUIRED: Final = (
-    "hips", "spine", "head",
-    "leftUpperArm", "leftLowerArm", "leftHand", "rightUpperArm", "rightLowerArm", "rightHand",
-    "leftUpperLeg", "leftLowerLeg", "leftFoot", "rightUpperLeg", "rightLowerLeg", "rightFoot",
-)  # fmt: skip
-"""The joints that a VRM 1.0 humanoid must have."""
 SPINE: Final = ("spine", "chest", "upperChest")
 ENDS: Final = re.compile(r"(Toes|Eye|Metacarpal|Proximal|Intermediate|Distal)$")
 """Joints that names may add to what a file says of itself."""
@@ -84,7 +78,7 @@ class _Found:
 
     @property
     def required(self) -> int:
-        return sum(joint in self.bones for joint in REQUIRED)
+        return sum(joint in self.bones for joint in REQUIRED_JOINTS)
 
     @property
     def score(self) -> float:
@@ -145,12 +139,12 @@ def _automatic(figure: Figure, tree: Tree) -> tuple[_Found, set[str]]:
     else:
         shape = joints_by_shape(tree)
         return _Found("", shape, frozenset(), 0), set(shape)
-    if found.required == len(REQUIRED):
+    if found.required == len(REQUIRED_JOINTS):
         return found, set()
     shape = joints_by_shape(tree)
     bones = dict(found.bones)
     guessed = set()
-    for joint in REQUIRED:
+    for joint in REQUIRED_JOINTS:
         if joint not in bones and joint in shape and shape[joint] not in bones.values():
             bones[joint] = shape[joint]
             if joint in _astray(tree, bones):
@@ -175,12 +169,7 @@ def _joint_above(joint: str, bones: Mapping[str, int]) -> str | None:
 
 
 def _tree(figure: Figure) -> Tree:
-    positions = figure.translations_m.copy()
-    rotations = figure.rotations.copy()
-    for bone, parent in enumerate(figure.parents):
-        if parent >= 0:
-            positions[bone] = positions[parent] + quaternion.rotate(rotations[parent], positions[bone])
-            rotations[bone] = quaternion.multiply(rotations[parent], rotations[bone])
+    positions, _ = world_placements(figure.parents, figure.translations_m, figure.rotations)
     skinned = {int(bone) for mesh in figure.meshes for bone in np.unique(mesh.joints[mesh.weights > 0.0])}
     return tree_of(figure.parents, positions, frozenset(skinned))
 

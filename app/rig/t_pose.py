@@ -17,6 +17,7 @@ import numpy.typing as npt
 
 from app.rig import quaternion
 from app.rig.figure import Figure
+from app.rig.placements import world_placements
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -58,12 +59,7 @@ class Rest:
 
 def rest_of(figure: Figure) -> Rest:
     """Where a figure's bones are at rest."""
-    positions, rotations = figure.translations_m.copy(), figure.rotations.copy()
-    for bone, parent in enumerate(figure.parents):
-        if parent >= 0:
-            positions[bone] = positions[parent] + quaternion.rotate(rotations[parent], figure.translations_m[bone])
-            rotations[bone] = quaternion.multiply(rotations[parent], figure.rotations[bone])
-    return Rest(positions, rotations)
+    return Rest(*world_placements(figure.parents, figure.translations_m, figure.rotations))
 
 
 def heaviest(figure: Figure) -> tuple[FloatArray, npt.NDArray[np.int64]]:

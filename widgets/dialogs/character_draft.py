@@ -10,9 +10,10 @@ from PySide6.QtCore import QCoreApplication
 
 from app.rig.face_map import FaceMapping, map_morphs
 from app.rig.figure import Figure
-from app.rig.figure_character import REQUIRED_JOINTS, figure_character
+from app.rig.figure_character import figure_character
 from app.rig.humanoid import JointMapping, map_joints
 from app.rig.model import Character
+from metadata.model import REQUIRED_JOINTS
 
 State = Literal["mapped", "doubtful", "missing"]
 

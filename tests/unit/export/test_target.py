@@ -18,12 +18,13 @@ from app.export.joint_playback import JointPlayback
 from app.export.mannequin import MANNEQUIN, MannequinAxes, mannequin_target
 from app.export.own_skeleton import own_target, own_weights
 from app.export.playback import Playback, Surface
-from app.export.target import TargetSkeleton, bone_motion, world_placements
+from app.export.target import TargetSkeleton, bone_motion
 from app.formats.scene import check_scene
 from app.motion.model import Motion
 from app.rig import quaternion
 from app.rig.character_library import character_named
 from app.rig.model import Character
+from app.rig.placements import world_placements
 from app.rig.skeleton import forward
 from tests.support.foreign import PREFIX, foreign
 

@@ -9,11 +9,12 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from app.errors import FileError, UsageError
-from app.rig.character import REQUIRED_JOINTS, load_character
+from app.rig.character import load_character
 from app.rig.character_library import bundled_characters, character_named
 from app.rig.skeleton import forward, rest_positions
 from app.rig.skinning import deform, patch
 from metadata.load import load_skeleton
+from metadata.model import REQUIRED_JOINTS
 
 STILL = np.array([0.0, 0.0, 0.0, 1.0])
 

@@ -20,7 +20,7 @@ from app.rig.character import load_character, read_character
 from app.rig.character_library import character_named
 from app.rig.figure import Figure
 from app.rig.figure_build import unit_factor
-from app.rig.figure_character import REQUIRED_JOINTS, figure_character
+from app.rig.figure_character import figure_character
 from app.rig.landmarks import found_landmarks
 from app.rig.model import Character
 from app.rig.read_figure import read_figure
@@ -28,6 +28,7 @@ from app.rig.skeleton import forward, rest_positions
 from app.rig.skinning import deform, patch
 from app.rig.t_pose import turned_figure
 from metadata.load import load_skeleton
+from metadata.model import REQUIRED_JOINTS
 from tests.support.estranged import Foreign, foreign, still, write_fbx, write_glb
 
 CLOSE_M = 1e-4

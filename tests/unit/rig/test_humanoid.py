@@ -11,8 +11,9 @@ from hypothesis import strategies as st
 
 from app.errors import FileError
 from app.messages import TEMPLATES
-from app.rig.humanoid import REQUIRED, JointMapping, map_joints
+from app.rig.humanoid import JointMapping, map_joints
 from metadata.load import load_bone_names, load_skeleton
+from metadata.model import REQUIRED_JOINTS
 from tests.support.skeletons import FOLDER, ListedBone, figure_of, listed
 
 LISTS = sorted(path.stem for path in FOLDER.glob("*.tsv"))
@@ -82,7 +83,7 @@ def test_every_table_maps_all_its_joints_on_both_sides(table) -> None:
     mapping = map_joints(figure_of(bones))
     assert by_name(bones, mapping) == known(bones)
     assert mapping.profile == table.name or mapping.doubtful == ()
-    assert set(REQUIRED) <= set(mapping.bones)
+    assert set(REQUIRED_JOINTS) <= set(mapping.bones)
 
 
 @settings(max_examples=25, deadline=None)
@@ -307,7 +308,7 @@ def test_a_thumb_of_two_bones_is_told_by_where_it_begins() -> None:
 def test_what_the_file_says_wins_over_names() -> None:
     bones = listed("makehuman")
     at = {bone.name: index for index, bone in enumerate(bones)}
-    own = {joint: at[bone] for joint, bone in known(bones).items() if joint in REQUIRED}
+    own = {joint: at[bone] for joint, bone in known(bones).items() if joint in REQUIRED_JOINTS}
     own["spine"] = at["spine04"]
     mapping = map_joints(figure_of(bones, humanoid=own))
     names = by_name(bones, mapping)

@@ -1,0 +1,37 @@
+"""Where bones are in the world, and where they are on their parents: either from the other."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from app.rig import quaternion
+
+FloatArray = npt.NDArray[np.float64]
+
+
+def world_placements(
+    parents: Sequence[int], offsets_m: FloatArray, rotations: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """World positions (B, 3) and rotations (B, 4) of bones whose place on their parents is known."""
+    positions, turned = np.array(offsets_m, np.float64), np.array(rotations, np.float64)
+    for bone, parent in enumerate(parents):
+        if parent >= 0:
+            positions[bone] = positions[parent] + quaternion.rotate(turned[parent], positions[bone])
+            turned[bone] = quaternion.multiply(turned[parent], turned[bone])
+    return positions, turned
+
+
+def local_placements(
+    parents: Sequence[int], positions: FloatArray, turned: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Offsets (B, 3) and rotations (B, 4) on the parents of bones whose place in the world is known."""
+    offsets, rotations = np.array(positions, np.float64), np.array(turned, np.float64)
+    for bone, parent in enumerate(parents):
+        if parent >= 0:
+            back = quaternion.conjugate(turned[parent])
+            offsets[bone] = quaternion.rotate(back, positions[bone] - positions[parent])
+            rotations[bone] = quaternion.multiply(back, turned[bone])
+    return offsets, rotations
