@@ -19,6 +19,7 @@ TEMPLATES: Final[dict[str, str]] = {
     "character.incomplete": "{file} cannot play: no bone was found for {joints}; name those bones by hand",
     "character.unreadable": "{file} does not describe a character: {detail}",
     "character.file_missing": "{file} names {name}, which is not beside it",
+    "character.taken": "{file} describes {id!r}, which is one of our own characters; give it another name",
     "character.cannot_play": "{file} cannot play; what it lacks is said above",
     "characters.joint": "{text!r} names no joint and its bone; write e.g. leftHand=Wrist_L",
     "characters.morph": "{text!r} names no shape and what makes it; write e.g. jawOpen=Mouth_A:0.8+Teeth_A:0.8",

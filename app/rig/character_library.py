@@ -12,6 +12,8 @@ character.unreadable : file, detail
     "{file} does not describe a character: {detail}"
 character.file_missing : file, name
     "{file} names {name}, which is not beside it"
+character.taken : file, id
+    "{file} describes '{id}', which is a character of ours"
 """
 
 from __future__ import annotations
@@ -165,6 +167,9 @@ def read_characters(folder: Path, before: CharacterLibrary | None = None) -> Cha
 
 def _own_source(path: Path) -> Source:
     """The source of an entry. Raises FileError."""
+    if path.stem in bundled_characters():
+        # What is known of ours beforehand, their size and their holds, would not be true of another.
+        raise FileError("character.taken", file=str(path), id=path.stem)
     entry = read_entry(path)
     file = path.parent / entry.file
     if not file.is_file():

@@ -1372,6 +1372,10 @@
             <translation>{file} に書かれた {name} が同じフォルダーにありません</translation>
         </message>
         <message>
+            <source>{file} describes {id!r}, which is one of our own characters; give it another name</source>
+            <translation>{file} は付属のキャラクター {id!r} と同じ名前です。ファイルの名前を変えてください</translation>
+        </message>
+        <message>
             <source>{file} cannot play; what it lacks is said above</source>
             <translation>{file} は演奏できません。足りないものは上に示したとおりです</translation>
         </message>

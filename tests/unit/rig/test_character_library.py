@@ -107,6 +107,15 @@ def test_another_file_under_the_same_id_is_another_character(folder: Path) -> No
     assert character_revision(id) == revision + 2
 
 
+def test_nobody_takes_the_place_of_one_of_ours(folder: Path) -> None:
+    folder.mkdir()
+    shutil.copy(OURS, folder / "other.glb")
+    (folder / "man_adult.toml").write_text('file = "other.glb"\n')
+    reload_characters()
+    assert characters() == dict(bundled_characters())
+    assert [problem.id for problem in character_problems().values()] == ["character.taken"]
+
+
 @pytest.mark.parametrize(
     "name",
     ["../x.vrm", "a/b.glb", "a\\b.glb", "C:x.glb", "/etc/x.fbx", ".x.glb", "x.exe", "", "..", "x\0.glb", "con:.vrm"],
