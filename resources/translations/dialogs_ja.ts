@@ -195,10 +195,6 @@ Unreal で「Suisou &gt; 演奏をインポート」を選んでください。�
         <translation>ファイル形式を 1 つ以上選んでください。</translation>
     </message>
     <message>
-        <source>The last bar comes before the first one.</source>
-        <translation>最後の小節が最初の小節より前にあります。</translation>
-    </message>
-    <message>
         <source>version not told</source>
         <translation>バージョン不明</translation>
     </message>
@@ -259,48 +255,12 @@ Unreal で「Suisou &gt; 演奏をインポート」を選んでください。�
         <translation>すべて選択/解除</translation>
     </message>
     <message>
-        <source>FBX (characters and instruments)</source>
-        <translation>FBX（キャラクターと楽器）</translation>
-    </message>
-    <message>
-        <source>BVH (body motion)</source>
-        <translation>BVH（体の動き）</translation>
-    </message>
-    <message>
-        <source>GLB (characters and instruments)</source>
-        <translation>GLB（キャラクターと楽器）</translation>
-    </message>
-    <message>
-        <source>USD (the package usd-core is missing)</source>
-        <translation>USD（パッケージ usd-core がありません）</translation>
-    </message>
-    <message>
-        <source>USD (characters and instruments)</source>
-        <translation>USD（キャラクターと楽器）</translation>
-    </message>
-    <message>
-        <source>Sound (WAV)</source>
-        <translation>音声（WAV）</translation>
-    </message>
-    <message>
         <source>Those of the skeleton</source>
         <translation>スケルトンのまま</translation>
     </message>
     <message>
         <source> beats</source>
         <translation> 拍</translation>
-    </message>
-    <message>
-        <source>Whole piece</source>
-        <translation>曲全体</translation>
-    </message>
-    <message>
-        <source>Bars</source>
-        <translation>小節</translation>
-    </message>
-    <message>
-        <source>Bars of the selection</source>
-        <translation>選択範囲の小節</translation>
     </message>
     <message>
         <source>Show in folder</source>
@@ -348,6 +308,33 @@ Unreal で「Suisou &gt; 演奏をインポート」を選んでください。�
     <message>
         <source>Automatic</source>
         <translation>自動</translation>
+    </message>
+</context>
+<context>
+    <name>FormatChooser</name>
+    <message>
+        <source>FBX (characters and instruments)</source>
+        <translation>FBX（キャラクターと楽器）</translation>
+    </message>
+    <message>
+        <source>BVH (body motion)</source>
+        <translation>BVH（体の動き）</translation>
+    </message>
+    <message>
+        <source>GLB (characters and instruments)</source>
+        <translation>GLB（キャラクターと楽器）</translation>
+    </message>
+    <message>
+        <source>USD (the package usd-core is missing)</source>
+        <translation>USD（パッケージ usd-core がありません）</translation>
+    </message>
+    <message>
+        <source>USD (characters and instruments)</source>
+        <translation>USD（キャラクターと楽器）</translation>
+    </message>
+    <message>
+        <source>Sound (WAV)</source>
+        <translation>音声（WAV）</translation>
     </message>
 </context>
 <context>
@@ -1351,6 +1338,25 @@ Unreal で「Suisou &gt; 演奏をインポート」を選んでください。�
     <message>
         <source>The system&apos;s</source>
         <translation>システムに合わせる</translation>
+    </message>
+</context>
+<context>
+    <name>RangeChooser</name>
+    <message>
+        <source>The last bar comes before the first one.</source>
+        <translation>最後の小節が最初の小節より前にあります。</translation>
+    </message>
+    <message>
+        <source>Whole piece</source>
+        <translation>曲全体</translation>
+    </message>
+    <message>
+        <source>Bars</source>
+        <translation>小節</translation>
+    </message>
+    <message>
+        <source>Bars of the selection</source>
+        <translation>選択範囲の小節</translation>
     </message>
 </context>
 <context>

@@ -10,26 +10,22 @@ from pathlib import Path
 from PySide6.QtCore import QEvent, QSize, Qt, QTimer, QUrl, Signal
 from PySide6.QtGui import QCloseEvent, QDesktopServices
 from PySide6.QtWidgets import (
-    QCheckBox,
     QComboBox,
     QDialog,
     QDialogButtonBox,
     QDoubleSpinBox,
     QFormLayout,
-    QGridLayout,
     QHBoxLayout,
     QLabel,
     QListWidget,
     QListWidgetItem,
     QProgressBar,
     QPushButton,
-    QSpinBox,
     QVBoxLayout,
     QWidget,
 )
 
 from app.errors import AppError, Message
-from app.export.formats import FILE_FORMATS, USUAL_FORMATS, Format
 from app.export.run import Request
 from app.performance.ensemble import Performance
 from app.performance.span import bars_span, whole_span
@@ -40,27 +36,16 @@ from widgets.common.tasks import Progress, StopWanted
 from widgets.common.text import message_text
 from widgets.common.tokens import LEAST_TARGET_PX
 from widgets.dialogs.export_destination import Destination, Done, foresee, write
+from widgets.dialogs.export_formats import FormatChooser
 from widgets.dialogs.export_place import PlaceChooser
+from widgets.dialogs.export_range import TEXT_MARGIN_PX, RangeChooser
 from widgets.dialogs.export_skeleton import SkeletonChooser
 
 RATES = tuple(map(Fraction, ("24", "25", "30000/1001", "30", "48", "50", "60000/1001", "60", "120")))
 SHOW_MS = 50
 """Progress is shown this often."""
-_FORMAT_COLUMNS = 2
 _NAMES = 6
 """Of the files that are replaced or removed, so many are named."""
-_WHOLE, _BARS, _SELECTION = "whole", "bars", "selection"
-
-
-def _missing() -> dict[Format, Message]:
-    """What keeps files of a kind from being written."""
-    missing: dict[Format, Message] = {}
-    for name, kind in FILE_FORMATS.items():
-        try:
-            kind.refuse()
-        except AppError as error:
-            missing[name] = error.message
-    return missing
 
 
 def _some(names: tuple[str, ...]) -> str:
@@ -121,14 +106,7 @@ class ExportDialog(QDialog):
         self._everybody.clicked.connect(self._toggle_everybody)
         self._place = PlaceChooser(folder, unreal, destination)
         self._shown_folder = folder
-        self._missing = _missing()
-        self._formats: dict[Format, QCheckBox] = {name: QCheckBox() for name in FILE_FORMATS}
-        for name, box in self._formats.items():
-            box.setObjectName(f"export_{name}")
-            box.setChecked(name in USUAL_FORMATS)
-            box.setEnabled(name not in self._missing)
-        self._sound = QCheckBox()
-        self._sound.setObjectName("export_sound")
+        self._formats = FormatChooser()
         self._bvh_names = QComboBox()
         self._bvh_names.setObjectName("export_bvh_names")
         # As wide as there is room, not as the longest title.
@@ -136,22 +114,10 @@ class ExportDialog(QDialog):
         self._bvh_names.addItem("", "")
         for profile, table in load_bone_names().items():
             self._bvh_names.addItem(table.title, profile)
-        self._range = QComboBox()
-        self._range.setObjectName("export_range")
-        self._first_bar, self._last_bar = QSpinBox(), QSpinBox()
-        self._first_bar.setObjectName("export_first_bar")
-        self._last_bar.setObjectName("export_last_bar")
-        score = self._project.score
-        lowest = 0 if score.pickup_ticks else 1
-        highest = max(score.bar_of_tick(max(score.end_tick - 1, 0)), lowest)
-        for bar, value in ((self._first_bar, lowest), (self._last_bar, highest)):
-            bar.setRange(lowest, highest)
-            bar.setValue(value)
+        self._range = RangeChooser(session, self._project.score)
         self._preroll = QDoubleSpinBox()
         self._preroll.setObjectName("export_preroll")
-        for spin in (self._first_bar, self._last_bar, self._preroll):
-            # As far from the edge as in other fields; the style sheet does not reach the text of a spin box.
-            spin.lineEdit().setTextMargins(6, 0, 0, 0)
+        self._preroll.lineEdit().setTextMargins(TEXT_MARGIN_PX, 0, 0, 0)
         self._preroll.setRange(0.0, 64.0)
         self._preroll.setSingleStep(1.0)
         self._preroll.setDecimals(2)
@@ -193,15 +159,8 @@ class ExportDialog(QDialog):
             for name in ("players", "into", "files", "bvh_names", "skeleton", "range", "preroll", "rate", "outcome")
         }
         self._lay_out()
-        for signal in (
-            self._skeleton.changed,
-            self._place.changed,
-            self._range.currentIndexChanged,
-            self._first_bar.valueChanged,
-            self._last_bar.valueChanged,
-            *(box.toggled for box in (*self._formats.values(), self._sound)),
-        ):
-            signal.connect(self._show_outcome)
+        for chooser in (self._skeleton, self._place, self._range, self._formats):
+            chooser.changed.connect(self._show_outcome)
         self._players.itemChanged.connect(self._show_players)
         self.retranslate()
 
@@ -212,24 +171,13 @@ class ExportDialog(QDialog):
         top.addWidget(self._everybody)
         left.addLayout(top)
         left.addWidget(self._players, 1)
-        formats = QGridLayout()
-        formats.setHorizontalSpacing(18)
-        for index, box in enumerate((*self._formats.values(), self._sound)):
-            formats.addWidget(box, *divmod(index, _FORMAT_COLUMNS), Qt.AlignmentFlag.AlignLeft)
-        formats.setColumnStretch(_FORMAT_COLUMNS, 1)
-        bars = QHBoxLayout()
-        bars.addWidget(self._range, 1)
-        bars.addWidget(self._first_bar)
-        self._dash = QLabel("–")
-        bars.addWidget(self._dash)
-        bars.addWidget(self._last_bar)
         self._form = form = QFormLayout()
         form.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
         form.addRow(self._labels["into"], self._place)
-        form.addRow(self._labels["files"], formats)
+        form.addRow(self._labels["files"], self._formats)
         form.addRow(self._labels["bvh_names"], self._bvh_names)
         form.addRow(self._labels["skeleton"], self._skeleton)
-        form.addRow(self._labels["range"], bars)
+        form.addRow(self._labels["range"], self._range)
         form.addRow(self._labels["preroll"], self._preroll)
         form.addRow(self._labels["rate"], self._rate)
         form.addRow(self._labels["outcome"], self._files)
@@ -252,24 +200,10 @@ class ExportDialog(QDialog):
             str(item.data(Qt.ItemDataRole.UserRole)) for item in items if item.checkState() == Qt.CheckState.Checked
         )
 
-    @property
-    def formats(self) -> frozenset[Format]:
-        """The ticked kinds of file."""
-        return frozenset(name for name, box in self._formats.items() if box.isChecked())
-
-    def _bars(self) -> tuple[int, int] | None:
-        if self._range.currentData() == _WHOLE:
-            return None
-        span = self._session.selection.span
-        if self._range.currentData() == _SELECTION and span is not None:
-            score = self._project.score
-            return score.bar_of_tick(span[0]), score.bar_of_tick(max(span[1] - 1, span[0]))
-        return self._first_bar.value(), self._last_bar.value()
-
     def _request(self) -> Request:
         project = replace(self._project, preroll_beats=self._preroll.value())
         performance = Performance(project)
-        fps, bars = Fraction(self._rate.currentData()), self._bars()
+        fps, bars = Fraction(self._rate.currentData()), self._range.bars
         span = (
             whole_span(performance.time_frame, fps)
             if bars is None
@@ -279,12 +213,12 @@ class ExportDialog(QDialog):
             performance=performance,
             players=self._chosen_players(),
             folder=self._place.path,
-            formats=self.formats,
+            formats=self._formats.formats,
             span=span,
             bars=bars,
             source=self._source,
             creator=self._creator,
-            sound=self._sound.isChecked(),
+            sound=self._formats.sound,
             bvh_names=self._bvh_names.currentData(),
             skeleton=self._skeleton.choice,
             asset=self._skeleton.asset,
@@ -361,13 +295,10 @@ class ExportDialog(QDialog):
 
     def _enable(self, enabled: bool) -> None:
         for widget in (
-            *(self._players, self._everybody, self._range, self._first_bar, self._last_bar, self._preroll),
-            *(self._skeleton, self._rate, self._place, self._export, self._sound),
-            *(self._bvh_names, *self._formats.values()),
+            *(self._players, self._everybody, self._place, self._formats, self._bvh_names, self._skeleton),
+            *(self._range, self._preroll, self._rate, self._export),
         ):
             widget.setEnabled(enabled)
-        for name in self._missing:
-            self._formats[name].setEnabled(False)
 
     def _toggle_everybody(self) -> None:
         state = Qt.CheckState.Unchecked if len(self.player_ids) == self._players.count() else Qt.CheckState.Checked
@@ -384,21 +315,16 @@ class ExportDialog(QDialog):
         self._show_outcome()
 
     def _show_outcome(self) -> None:
-        ticked = self._range.currentData() == _BARS
-        for widget in (self._first_bar, self._dash, self._last_bar):
-            widget.setVisible(ticked)
         into_folder = self._place.destination == "folder"
         self._form.setRowVisible(self._labels["files"], into_folder)
-        self._form.setRowVisible(self._labels["bvh_names"], into_folder and "bvh" in self.formats)
+        self._form.setRowVisible(self._labels["bvh_names"], into_folder and "bvh" in self._formats.formats)
         problem = ""
         if not self.player_ids:
             problem = self.tr("Tick at least one player.")
-        elif not self.formats and into_folder:
+        elif not self._formats.formats and into_folder:
             problem = self.tr("Tick at least one kind of file.")
-        elif ticked and self._first_bar.value() > self._last_bar.value():
-            problem = self.tr("The last bar comes before the first one.")
         else:
-            problem = self._place.problem or self._skeleton.problem
+            problem = self._range.problem or self._place.problem or self._skeleton.problem
         text = problem
         if not problem:
             try:
@@ -416,9 +342,9 @@ class ExportDialog(QDialog):
             self._place.path,
             performance,
             self.player_ids,
-            self.formats,
+            self._formats.formats,
             self._source,
-            self._sound.isChecked(),
+            self._formats.sound,
         )
         lines = []
         if seen.project is not None:
@@ -451,28 +377,9 @@ class ExportDialog(QDialog):
         for name, text in texts.items():
             self._labels[name].setText(text)
         self._everybody.setText(self.tr("All or none"))
-        self._formats["fbx"].setText(self.tr("FBX (characters and instruments)"))
-        self._formats["bvh"].setText(self.tr("BVH (body motion)"))
-        self._formats["glb"].setText(self.tr("GLB (characters and instruments)"))
-        self._formats["usd"].setText(
-            self.tr("USD (the package usd-core is missing)")
-            if "usd" in self._missing
-            else self.tr("USD (characters and instruments)")
-        )
-        self._sound.setText(self.tr("Sound (WAV)"))
         self._bvh_names.setItemText(0, self.tr("Those of the skeleton"))
-        for name, message in self._missing.items():
-            self._formats[name].setToolTip(message_text(message))
         self._preroll.setSuffix(self.tr(" beats"))
-        choice = self._range.currentData() or _WHOLE
-        self._range.blockSignals(True)
-        self._range.clear()
-        self._range.addItem(self.tr("Whole piece"), _WHOLE)
-        self._range.addItem(self.tr("Bars"), _BARS)
-        if self._session.selection.span is not None:
-            self._range.addItem(self.tr("Bars of the selection"), _SELECTION)
-        self._range.setCurrentIndex(max(self._range.findData(choice), 0))
-        self._range.blockSignals(False)
+        self._range.retranslate()
         self._export.setText(self.tr("Export"))
         self._show.setText(self.tr("Show in folder"))
         self._close.setText(self.tr("Cancel") if self._running else self.tr("Close"))

@@ -141,7 +141,7 @@ def test_usd_is_greyed_where_it_cannot_be_written(
     assert "usd-core" in box.text()
     assert "pip install" in box.toolTip()
     QTest.mouseClick(box, Qt.MouseButton.LeftButton)
-    assert "usd" not in dialog.formats
+    assert "usd" not in dialog._formats.formats
     one_player_two_bars(dialog)
     start(dialog)
     assert (tmp_path / "out" / "report.json").exists()
@@ -154,7 +154,7 @@ def test_all_kinds_of_file_at_once(dialog: ExportDialog, session: Session, tmp_p
         box = dialog.findChild(QCheckBox, name)
         assert box is not None
         QTest.mouseClick(box, Qt.MouseButton.LeftButton)
-    assert dialog.formats >= {"bvh", "glb"}
+    assert dialog._formats.formats >= {"bvh", "glb"}
     outcome = dialog.findChild(QLabel, "export_outcome")
     assert outcome is not None
     promised = outcome.text()

@@ -110,9 +110,9 @@ def test_formats_are_for_folders(dialog: ExportDialog, game: Path) -> None:
     assert box.isVisible()
     into_unreal(dialog)
     assert not box.isVisible()
-    for name, format_box in dialog._formats.items():
+    for name, format_box in dialog._formats._boxes.items():
         format_box.setChecked(False)
-        assert name not in dialog.formats
+        assert name not in dialog._formats.formats
     place(dialog, str(game))
     assert start_button(dialog).isEnabled()
 

@@ -1,0 +1,77 @@
+"""Which kinds of file an export writes into a folder, and whether what is heard is among them."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QEvent, Qt, Signal
+from PySide6.QtWidgets import QCheckBox, QGridLayout, QWidget
+
+from app.errors import AppError, Message
+from app.export.formats import FILE_FORMATS, USUAL_FORMATS, Format
+from widgets.common.text import message_text
+
+_COLUMNS = 2
+
+
+def _missing() -> dict[Format, Message]:
+    """What keeps files of a kind from being written."""
+    missing: dict[Format, Message] = {}
+    for name, kind in FILE_FORMATS.items():
+        try:
+            kind.refuse()
+        except AppError as error:
+            missing[name] = error.message
+    return missing
+
+
+class FormatChooser(QWidget):
+    """A box for every kind of file; those that cannot be written say why."""
+
+    changed = Signal()
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._missing = _missing()
+        self._boxes: dict[Format, QCheckBox] = {name: QCheckBox() for name in FILE_FORMATS}
+        for name, box in self._boxes.items():
+            box.setObjectName(f"export_{name}")
+            box.setChecked(name in USUAL_FORMATS)
+            box.setEnabled(name not in self._missing)
+        self._sound = QCheckBox()
+        self._sound.setObjectName("export_sound")
+        layout = QGridLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setHorizontalSpacing(18)
+        for index, box in enumerate((*self._boxes.values(), self._sound)):
+            layout.addWidget(box, *divmod(index, _COLUMNS), Qt.AlignmentFlag.AlignLeft)
+            box.toggled.connect(self.changed)
+        layout.setColumnStretch(_COLUMNS, 1)
+        self.retranslate()
+
+    @property
+    def formats(self) -> frozenset[Format]:
+        """The ticked kinds of file."""
+        return frozenset(name for name, box in self._boxes.items() if box.isChecked())
+
+    @property
+    def sound(self) -> bool:
+        """Whether what is heard is written too."""
+        return self._sound.isChecked()
+
+    def retranslate(self) -> None:
+        """Set every text anew."""
+        self._boxes["fbx"].setText(self.tr("FBX (characters and instruments)"))
+        self._boxes["bvh"].setText(self.tr("BVH (body motion)"))
+        self._boxes["glb"].setText(self.tr("GLB (characters and instruments)"))
+        self._boxes["usd"].setText(
+            self.tr("USD (the package usd-core is missing)")
+            if "usd" in self._missing
+            else self.tr("USD (characters and instruments)")
+        )
+        self._sound.setText(self.tr("Sound (WAV)"))
+        for name, message in self._missing.items():
+            self._boxes[name].setToolTip(message_text(message))
+
+    def changeEvent(self, event: QEvent) -> None:
+        if event.type() == QEvent.Type.LanguageChange:
+            self.retranslate()
+        super().changeEvent(event)

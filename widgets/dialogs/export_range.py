@@ -1,0 +1,94 @@
+"""Which bars an export shows: all of them, some, or those of the selection."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QEvent, Signal
+from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QSpinBox, QWidget
+
+from app.score.model import Score
+from widgets.common.session import Session
+
+_WHOLE, _BARS, _SELECTION = "whole", "bars", "selection"
+TEXT_MARGIN_PX = 6
+"""As far from the edge as in other fields; the style sheet does not reach the text of a spin box."""
+
+
+class RangeChooser(QWidget):
+    """A choice, and the first and the last bar.
+
+    Parameters
+    ----------
+    session : Session
+        Whose selection may be chosen.
+    score : Score
+        Whose bars they are.
+    parent : QWidget, optional
+    """
+
+    changed = Signal()
+
+    def __init__(self, session: Session, score: Score, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._session, self._score = session, score
+        self._choice = QComboBox()
+        self._choice.setObjectName("export_range")
+        self._first_bar, self._last_bar = QSpinBox(), QSpinBox()
+        self._first_bar.setObjectName("export_first_bar")
+        self._last_bar.setObjectName("export_last_bar")
+        lowest = 0 if score.pickup_ticks else 1
+        highest = max(score.bar_of_tick(max(score.end_tick - 1, 0)), lowest)
+        for spin, value in ((self._first_bar, lowest), (self._last_bar, highest)):
+            spin.setRange(lowest, highest)
+            spin.setValue(value)
+            spin.lineEdit().setTextMargins(TEXT_MARGIN_PX, 0, 0, 0)
+        self._dash = QLabel("–")
+        layout = QHBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.addWidget(self._choice, 1)
+        for widget in (self._first_bar, self._dash, self._last_bar):
+            layout.addWidget(widget)
+        for signal in (self._choice.currentIndexChanged, self._first_bar.valueChanged, self._last_bar.valueChanged):
+            signal.connect(self._change)
+        self.retranslate()
+
+    @property
+    def bars(self) -> tuple[int, int] | None:
+        """The first and the last bar; None: the whole piece."""
+        if self._choice.currentData() == _WHOLE:
+            return None
+        span = self._session.selection.span
+        if self._choice.currentData() == _SELECTION and span is not None:
+            return self._score.bar_of_tick(span[0]), self._score.bar_of_tick(max(span[1] - 1, span[0]))
+        return self._first_bar.value(), self._last_bar.value()
+
+    @property
+    def problem(self) -> str:
+        """Why these bars cannot be exported; empty: they can."""
+        first, last = self.bars or (0, 0)
+        return self.tr("The last bar comes before the first one.") if first > last else ""
+
+    def _change(self) -> None:
+        self._show_bars()
+        self.changed.emit()
+
+    def _show_bars(self) -> None:
+        for widget in (self._first_bar, self._dash, self._last_bar):
+            widget.setVisible(self._choice.currentData() == _BARS)
+
+    def retranslate(self) -> None:
+        """Set every text anew, and offer the selection where there is one."""
+        choice = self._choice.currentData() or _WHOLE
+        self._choice.blockSignals(True)
+        self._choice.clear()
+        self._choice.addItem(self.tr("Whole piece"), _WHOLE)
+        self._choice.addItem(self.tr("Bars"), _BARS)
+        if self._session.selection.span is not None:
+            self._choice.addItem(self.tr("Bars of the selection"), _SELECTION)
+        self._choice.setCurrentIndex(max(self._choice.findData(choice), 0))
+        self._choice.blockSignals(False)
+        self._show_bars()
+
+    def changeEvent(self, event: QEvent) -> None:
+        if event.type() == QEvent.Type.LanguageChange:
+            self.retranslate()
+        super().changeEvent(event)
