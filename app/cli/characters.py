@@ -10,7 +10,7 @@ from typing import Any
 
 from app.cli.options import Commands
 from app.errors import AppError, Message, UsageError
-from app.messages import text
+from app.messages import filled, text
 
 PLAYED = "clarinet_Bb"
 """What a figure is checked with: it asks for nine fingers, two thumbs and lips."""
@@ -191,7 +191,10 @@ def as_text(found: Mapping[str, Any]) -> str:
     doubtful = set(found["doubtful_joints"])
     by_what = {"": "by shape", "vrm0": "by the file (VRM 0.x)", "vrm1": "by the file (VRM 1.0)"}
     lines = [
-        f"{found['file']}: {found['kind']}, {found['bones']} bones, {len(found['meshes'])} meshes",
+        filled(
+            "{file}: {kind}, {bones} {bones:bone|bones}, {meshes} {meshes:mesh|meshes}",
+            {**found, "meshes": len(found["meshes"])},
+        ),
         "",
         f"joints, {by_what.get(found['names'], found['names'])} (?: in doubt):",
         *(f"  {joint.ljust(26)}{'?' if joint in doubtful else ' '} {bone}" for joint, bone in found["joints"].items()),

@@ -12,7 +12,7 @@ import numpy as np
 from app.cli.instruments import note_name
 from app.cli.options import Commands, add_source_options, open_project
 from app.cli.summary import columns
-from app.messages import text
+from app.messages import filled, text
 from app.performance.ensemble import Performance
 from app.plan.model import BreathEvent, Clock, CueEvent, FingeringEvent, GestureEvent, Note, PoseEvent
 from app.project.model import Player
@@ -136,10 +136,14 @@ def _spans(events: Sequence[BreathEvent | CueEvent | GestureEvent | PoseEvent], 
     ]
 
 
+def _counted(count: int, what: str) -> str:
+    return filled(f"{{count}} {{count:{what}|{what}s}}", {"count": count})
+
+
 def tables(file: str, found: Table) -> str:
     """The same for people: one line per player, then what is not played and what to look at."""
     lines = [
-        f"{file}: {found['duration_s']:.2f} s, {len(found['players'])} players, "
+        f"{file}: {found['duration_s']:.2f} s, {_counted(len(found['players']), 'player')}, "
         f"{found['ticks_per_beat']} ticks per quarter, tempo {_tempo(found['tempo'])}",
     ]
     if found["players"]:
@@ -147,7 +151,9 @@ def tables(file: str, found: Table) -> str:
         lines += ["", *columns([head, *(_row(player) for player in found["players"])])]
     if found["unplayed"]:
         lines += ["", "not played:"]
-        lines += [f"  {part['name']} ({part['note_count']} notes): {part['reason']}" for part in found["unplayed"]]
+        lines += [
+            f"  {part['name']} ({_counted(part['note_count'], 'note')}): {part['reason']}" for part in found["unplayed"]
+        ]
     if found["warnings"]:
         lines += ["", "to look at:"]
         lines += [f"  {warning}" for warning in found["warnings"]]
@@ -158,7 +164,7 @@ def _tempo(tempos: list[Table]) -> str:
     values = [tempo["bpm"] for tempo in tempos]
     if len(values) <= 1:
         return f"{values[0]:.4g}" if values else "120"
-    return f"{min(values):.4g} to {max(values):.4g} ({len(values)} changes)"
+    return f"{min(values):.4g} to {max(values):.4g} ({_counted(len(values), 'change')})"
 
 
 FIRST, FIRST_WORDS = 10, 3

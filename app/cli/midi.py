@@ -8,7 +8,7 @@ from pathlib import Path
 
 from app.cli.options import Commands, add_file_options, open_project
 from app.errors import FileError
-from app.messages import text
+from app.messages import filled, text
 
 
 def add_command(commands: Commands) -> None:
@@ -35,7 +35,12 @@ def write(arguments: argparse.Namespace) -> None:
     for warning in export_midi(project, arguments.to, library().maps):
         print(f"suisou: {text(warning)}", file=sys.stderr)
     notes = sum(len(part.notes) for part in project.score.parts)
-    print(f"{arguments.to}: {len(project.score.parts)} tracks, {notes} notes")
+    print(
+        filled(
+            "{file}: {tracks} {tracks:track|tracks}, {notes} {notes:note|notes}",
+            {"file": arguments.to, "tracks": len(project.score.parts), "notes": notes},
+        )
+    )
 
 
 def _same(one: Path, other: Path) -> bool:

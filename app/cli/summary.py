@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from app.export.measure import PlayerMeasures, Spread
 from app.export.report import PlayerReport, Report, failures
-from app.messages import text
+from app.messages import filled, text
 from app.performance.contacts import GRIP_MM, TOUCH_MM
 
 if TYPE_CHECKING:
@@ -21,7 +21,8 @@ _HEAD = ("player", "notes", "controls", "fingers mm", "grips mm", "lips mm", "fe
 def summary(report: Report, folder: Path) -> str:
     """The table of measures, what was written, what is not played and what to look at."""
     lines = [
-        f"{report.file_count} files in {folder}: {report.frames} frames at {report.fps_exact} frames/s; "
+        filled("{count} {count:file|files} in {folder}: ", {"count": report.file_count, "folder": folder})
+        + f"{report.frames} frames at {report.fps_exact} frames/s; "
         f"the sound starts at {-report.first_frame_s:.3f} s"
     ]
     return "\n".join([*lines, *_judgement(report)])
@@ -71,7 +72,10 @@ def _judgement(report: Report) -> list[str]:
                 lines.append(f"! {player.name}: {', '.join(wrong)}")
     if report.unplayed:
         lines += ["", "not played:"]
-        lines += [f"  {part.name} ({part.note_count} notes): {part.reason}" for part in report.unplayed]
+        lines += [
+            f"  {part.name} ({filled('{count} {count:note|notes}', {'count': part.note_count})}): {part.reason}"
+            for part in report.unplayed
+        ]
     if report.warnings:
         lines += ["", "to look at:"]
         lines += [f"  {warning}" for warning in report.warnings]

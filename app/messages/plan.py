@@ -40,8 +40,8 @@ TEMPLATES: Final[dict[str, str]] = {
         "how the instrument is held is being found out; the player is seen as soon as that is known"
     ),
     "character.touches_missed": (
-        "{count} touches do not meet this instrument, the {touch} misses by {gap_mm} mm: hands and instrument are of "
-        "too different sizes or shapes"
+        "{count} {count:touch does|touches do} not meet this instrument, the {touch} misses by {gap_mm} mm: hands "
+        "and instrument are of too different sizes or shapes"
     ),
     # The motion: contacts
     "contact.hand_off": (

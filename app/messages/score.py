@@ -24,16 +24,22 @@ TEMPLATES: Final[dict[str, str]] = {
     "midi.track_length": "the length of track {track} (byte {byte}) is wrong; the track was read up to its real end",
     "midi.tracks_missing": "the header promises {expected} tracks, the file has {found}",
     "midi.bytes_left_out": (
-        "{count} bytes after the last track, from byte {byte}, are no part of a MIDI file and were left out"
+        "{count} {count:byte|bytes} after the last track, from byte {byte}, {count:is|are} no part of a MIDI file "
+        "and {count:was|were} left out"
     ),
     "midi.track_truncated": "track {track} breaks off within an event at byte {byte}; what came before was read",
     "midi.bytes_not_understood": (
-        "{count} bytes of track {track} are no MIDI events and were left out, the first at byte {byte}"
+        "{count} {count:byte|bytes} of track {track} {count:is no MIDI event and was|are no MIDI events and were} "
+        "left out, the first at byte {byte}"
     ),
     "midi.smpte_rate": ("the file counts time in frames of 1/{rate} s, which is no SMPTE rate; it was taken literally"),
     "midi.patterns": "the file has {patterns} independent patterns (format 2); they follow one another",
-    "midi.hanging_notes": "{count} notes of track {track} never end; they end with the track",
-    "midi.zero_length_notes": "{count} notes of track {track} have no length; they last one tick",
+    "midi.hanging_notes": (
+        "{count} {count:note|notes} of track {track} never {count:ends; it ends|end; they end} with the track"
+    ),
+    "midi.zero_length_notes": (
+        "{count} {count:note|notes} of track {track} {count:has no length; it lasts|have no length; they last} one tick"
+    ),
     "midi.impossible_metre": "track {track} has an impossible time signature at tick {tick}; it was left out",
     "midi.impossible_tempo": "track {track} has an impossible tempo at tick {tick}; it was left out",
     # MIDI files that were written, and what they cannot hold

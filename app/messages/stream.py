@@ -12,7 +12,8 @@ TEMPLATES: Final[dict[str, str]] = {
     "stream.from": "--from {time_s:g}: the piece goes from {first_s:g} to {end_s:g} seconds",
     "stream.port": "{port} is no port that can be sent to; possible: {least} to {most}",
     "stream.no_room": (
-        "{count} players need {count} ports from {port} on, and the last one is {most}: choose a lower port"
+        "{count} {count:player needs|players need} {count} {count:port|ports} from {port} on, "
+        "and the last one is {most}: choose a lower port"
     ),
     "stream.not_sent": (
         "nothing can be sent to {host}, port {port} ({reason}): check the address and the network; it is tried again"

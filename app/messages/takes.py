@@ -15,7 +15,7 @@ TEMPLATES: Final[dict[str, str]] = {
     "edit.clean_take": "clean {take}",
     "edit.follow_beats": "tempo of {take}",
     "work.find_beats": "Finding the beats of {take}",
-    "take.beats_found": "The piece follows {take}: {count} beats, {bpm:.0f} a minute.",
+    "take.beats_found": "The piece follows {take}: {count} {count:beat|beats}, {bpm:.0f} a minute.",
     "take.changed": "{take} was changed while its beats were looked for; nothing was done.",
     "take.none": "There is no take {take} any more.",
     "take.too_many": "A project has room for {most} takes: delete some first.",

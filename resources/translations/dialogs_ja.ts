@@ -44,8 +44,10 @@
         <translation>名前</translation>
     </message>
     <message>
-        <source>{file}: {bones} bones, {morphs} morphs</source>
-        <translation>{file}: ボーン {bones}、モーフ {morphs}</translation>
+        <source>{file}
+Bones: {bones}, morphs: {morphs}</source>
+        <translation>{file}
+ボーン {bones}、モーフ {morphs}</translation>
     </message>
     <message>
         <source>Body</source>
@@ -415,7 +417,7 @@ Unreal で「Suisou &gt; 演奏をインポート」を選んでください。�
         <translation>キャンセル</translation>
     </message>
     <message>
-        <source>{count} notes
+        <source>Notes: {count}
 {low} to {high}</source>
         <translation>{count} 音
 {low} ～ {high}</translation>
@@ -624,7 +626,7 @@ Unreal で「Suisou &gt; 演奏をインポート」を選んでください。�
         <translation>キーをクリックするか、表に入力して運指を変更します。</translation>
     </message>
     <message>
-        <source>Fingerings of {count} instruments are not saved.</source>
+        <source>Instruments with fingerings that are not saved: {count}.</source>
         <translation>{count} 個の楽器の運指が保存されていません。</translation>
     </message>
     <message>

@@ -704,7 +704,7 @@
             <translation>楽器の持ち方を計算しています。終わり次第、奏者が表示されます</translation>
         </message>
         <message>
-            <source>{count} touches do not meet this instrument, the {touch} misses by {gap_mm} mm: hands and instrument are of too different sizes or shapes</source>
+            <source>{count} {count:touch does|touches do} not meet this instrument, the {touch} misses by {gap_mm} mm: hands and instrument are of too different sizes or shapes</source>
             <translation>{count} か所の接点がこの楽器に届きません（{touch}が最大 {gap_mm} mm 外れます）。手と楽器の大きさや形が合っていません</translation>
         </message>
         <message>
@@ -1140,7 +1140,7 @@
             <translation>ヘッダーには {expected} トラックとありますが、実際は {found} です</translation>
         </message>
         <message>
-            <source>{count} bytes after the last track, from byte {byte}, are no part of a MIDI file and were left out</source>
+            <source>{count} {count:byte|bytes} after the last track, from byte {byte}, {count:is|are} no part of a MIDI file and {count:was|were} left out</source>
             <translation>最後のトラックの後、バイト {byte} からの {count} バイトは MIDI の内容ではないため省きました</translation>
         </message>
         <message>
@@ -1148,7 +1148,7 @@
             <translation>トラック {track} はバイト {byte} のイベントの途中で切れています。その前までを読みました</translation>
         </message>
         <message>
-            <source>{count} bytes of track {track} are no MIDI events and were left out, the first at byte {byte}</source>
+            <source>{count} {count:byte|bytes} of track {track} {count:is no MIDI event and was|are no MIDI events and were} left out, the first at byte {byte}</source>
             <translation>トラック {track} の {count} バイトは MIDI イベントではないため省きました（最初はバイト {byte}）</translation>
         </message>
         <message>
@@ -1160,11 +1160,11 @@
             <translation>独立した {patterns} 個のパターン（フォーマット 2）です。続けて並べました</translation>
         </message>
         <message>
-            <source>{count} notes of track {track} never end; they end with the track</source>
+            <source>{count} {count:note|notes} of track {track} never {count:ends; it ends|end; they end} with the track</source>
             <translation>トラック {track} の {count} 音には終わりがないため、トラックの終わりまでとしました</translation>
         </message>
         <message>
-            <source>{count} notes of track {track} have no length; they last one tick</source>
+            <source>{count} {count:note|notes} of track {track} {count:has no length; it lasts|have no length; they last} one tick</source>
             <translation>トラック {track} の {count} 音には長さがないため、1 ティックとしました</translation>
         </message>
         <message>
@@ -1312,7 +1312,7 @@
             <translation>{port} は送信できるポートではありません。{least} から {most} までを指定してください</translation>
         </message>
         <message>
-            <source>{count} players need {count} ports from {port} on, and the last one is {most}: choose a lower port</source>
+            <source>{count} {count:player needs|players need} {count} {count:port|ports} from {port} on, and the last one is {most}: choose a lower port</source>
             <translation>プレイヤー {count} 人には {port} から {count} 個のポートが必要ですが、最後のポートは {most} です。小さいポート番号を選んでください</translation>
         </message>
         <message>
@@ -1512,7 +1512,7 @@
             <translation>{take}の拍を検出中</translation>
         </message>
         <message>
-            <source>The piece follows {take}: {count} beats, {bpm:.0f} a minute.</source>
+            <source>The piece follows {take}: {count} {count:beat|beats}, {bpm:.0f} a minute.</source>
             <translation>曲のテンポを{take}に合わせました。{count} 拍、毎分 {bpm:.0f} 拍。</translation>
         </message>
         <message>

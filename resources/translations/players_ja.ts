@@ -176,7 +176,7 @@
         <translation>{count} 人中 {chosen} 人を選択</translation>
     </message>
     <message>
-        <source>{count} players</source>
+        <source>Players: {count}</source>
         <translation>プレイヤー {count} 人</translation>
     </message>
     <message>

@@ -37,7 +37,7 @@ class Seen:
 
     Attributes
     ----------
-    positions_m : (V, 3) float64
+    positions_m, normals : (V, 3) float64
         Of all meshes.
     triangles : (T, 3) int
     colours : (T, 3) float64
@@ -49,6 +49,7 @@ class Seen:
     """
 
     positions_m: Floats
+    normals: Floats
     triangles: npt.NDArray[np.intp]
     colours: Floats
     morphs: Mapping[str, tuple[npt.NDArray[np.intp], Floats]]
@@ -60,12 +61,14 @@ def seen(character: Character) -> Seen:
     places = rest_positions(character.skeleton)
     world_from_mesh = character.joint_from_mesh[:, :3, :].copy()
     world_from_mesh[:, :, 3] += places
-    positions, triangles, colours = list[Floats](), list[npt.NDArray[np.intp]](), list[Floats]()
+    positions, normals = list[Floats](), list[Floats]()
+    triangles, colours = list[npt.NDArray[np.intp]](), list[Floats]()
     moved: dict[str, list[tuple[npt.NDArray[np.intp], Floats]]] = {}
     first = 0
     for mesh in character.meshes:
         matrices = np.einsum("vk,vkij->vij", mesh.weights.astype(np.float64), world_from_mesh[mesh.joints])
         positions.append(np.einsum("vij,vj->vi", matrices[:, :, :3], mesh.positions_m) + matrices[:, :, 3])
+        normals.append(np.einsum("vij,vj->vi", matrices[:, :, :3], mesh.normals))
         triangles.append(mesh.triangles.astype(np.intp) + first)
         colours.append(_colours(mesh))
         for morph in mesh.morphs:
@@ -77,6 +80,7 @@ def seen(character: Character) -> Seen:
     near = joined[np.abs(joined[:, 0]) < 0.3 * max(float(joined[:, 1].max()), 1e-6)]
     return Seen(
         positions_m=joined,
+        normals=_unit(np.concatenate(normals)),
         triangles=np.concatenate(triangles),
         colours=np.concatenate(colours),
         morphs={
@@ -101,10 +105,11 @@ def picture(
     weights : mapping of str to float, optional
         Of morphs.
     """
-    positions = shown.positions_m.copy()
+    positions = shown.positions_m
     for name, weight in (weights or {}).items():
         if name in shown.morphs and weight:
             at, deltas = shown.morphs[name]
+            positions = positions.copy() if positions is shown.positions_m else positions
             np.add.at(positions, at, weight * deltas)
     low, high, half = _frame(shown, positions, crop)
     width, height = min(width_px, _LARGEST_PX) * _OVERSAMPLED, min(height_px, _LARGEST_PX) * _OVERSAMPLED
@@ -114,7 +119,13 @@ def picture(
     points[:, 0] = (positions[:, 0] - middle_x) * scale + width / 2.0
     points[:, 1] = ((low + high) / 2.0 - positions[:, 1]) * scale + height / 2.0
     points[:, 2] = positions[:, 2]
-    canvas = _painted(points, shown, positions, width, height)
+    normals = shown.normals
+    if positions is not shown.positions_m:
+        # A morph turns the surface; what the file's normals smooth or sharpen stays.
+        before, after = (_facing(shown.triangles, places) for places in (shown.positions_m, positions))
+        normals = _unit(normals + after - before)
+    front = _in_front(points, shown.triangles, width, height)
+    canvas = _painted(front, points, positions, normals, shown, (width, height))
     image = QImage(canvas.tobytes(), width, height, 4 * width, QImage.Format.Format_RGBA8888).copy()
     smooth = Qt.TransformationMode.SmoothTransformation
     return image.scaled(width // _OVERSAMPLED, height // _OVERSAMPLED, Qt.AspectRatioMode.IgnoreAspectRatio, smooth)
@@ -141,16 +152,37 @@ def _head_middle(shown: Seen) -> float:
     return float((above[:, 0].min() + above[:, 0].max()) / 2.0) if len(above) else 0.0
 
 
-def _painted(points: Floats, shown: Seen, positions: Floats, width: int, height: int) -> npt.NDArray[np.uint8]:
-    """Each triangle as points close enough to one another, those in front over those behind."""
-    corners = positions[shown.triangles]
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
-    # Whatever side a triangle was wound to is lit.
-    normals *= np.where(normals[:, 2:3] < 0.0, -1.0, 1.0)
-    lit = _AMBIENT + _DIFFUSE * np.clip(normals @ _LIGHT, 0.0, 1.0)
-    colours = 255.0 * np.clip(shown.colours * lit[:, None], 0.0, 1.0) ** (1.0 / 2.2)
-    placed = points[shown.triangles]
+def _unit(vectors: Floats) -> Floats:
+    result: Floats = vectors / np.maximum(np.linalg.norm(vectors, axis=-1, keepdims=True), 1e-12)
+    return result
+
+
+def _across(triangles: npt.NDArray[np.intp], positions: Floats) -> Floats:
+    """Normals (T, 3) of triangles, as long as twice their areas."""
+    corners = positions[triangles]
+    return np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+
+
+def _facing(triangles: npt.NDArray[np.intp], positions: Floats) -> Floats:
+    """Unit normals (V, 3) of the vertices, from the triangles around them."""
+    across = _across(triangles, positions)
+    return _unit(
+        np.stack(
+            [
+                np.bincount(triangles.ravel(), np.repeat(across[:, axis], 3), minlength=len(positions))
+                for axis in range(3)
+            ],
+            axis=1,
+        )
+    )
+
+
+def _in_front(points: Floats, triangles: npt.NDArray[np.intp], width: int, height: int) -> npt.NDArray[np.int64]:
+    """The triangle that is seen in each pixel, -1 for none.
+
+    Each triangle is drawn as points close enough to one another, those in front over those behind.
+    """
+    placed = points[triangles]
     inside = (placed[:, :, 0].max(1) > 0.0) & (placed[:, :, 0].min(1) < width)
     inside &= (placed[:, :, 1].max(1) > 0.0) & (placed[:, :, 1].min(1) < height)
     placed, steps = _by_edges(placed)
@@ -171,11 +203,46 @@ def _painted(points: Floats, shown: Seen, positions: Floats, width: int, height:
             pixels = y[on].astype(np.int64) * width + x[on].astype(np.int64)
             owners = np.broadcast_to(some[:, None], on.shape)[on]
             np.maximum.at(front, pixels, (found[..., 2][on].astype(np.int64) << 32) | owners)
+    return np.where(front >= 0, front & 0xFFFFFFFF, -1)
+
+
+def _painted(
+    front: npt.NDArray[np.int64],
+    points: Floats,
+    positions: Floats,
+    normals: Floats,
+    shown: Seen,
+    size: tuple[int, int],
+) -> npt.NDArray[np.uint8]:
+    """Colours (pixels, 4), shaded smoothly where the vertices' normals are."""
+    width, height = size
+    hit = np.flatnonzero(front >= 0)
+    owners = front[hit]
+    corners = shown.triangles[owners]
+    shading = np.einsum("pk,pki->pi", _shares(points[corners][:, :, :2], hit, width), normals[corners])
+    # A surface that is seen from behind is lit as from in front, whichever way its triangles are wound.
+    across = _across(shown.triangles, positions)
+    outward = np.einsum("ti,tki->t", across, normals[shown.triangles]) * across[:, 2]
+    shading = _unit(shading) * np.where(outward[owners] < 0.0, -1.0, 1.0)[:, None]
+    lit = _AMBIENT + _DIFFUSE * np.clip(shading @ _LIGHT, 0.0, 1.0)
     canvas = np.zeros((height * width, 4), np.uint8)
-    hit = front >= 0
-    canvas[hit, :3] = colours[front[hit] & 0xFFFFFFFF].astype(np.uint8)
+    canvas[hit, :3] = (255.0 * np.clip(shown.colours[owners] * lit[:, None], 0.0, 1.0) ** (1.0 / 2.2)).astype(np.uint8)
     canvas[hit, 3] = 255
     return canvas
+
+
+def _shares(corners: Floats, pixels: npt.NDArray[np.intp], width: int) -> Floats:
+    """How much of each corner (P, 3) of its triangle (P, 3, 2) is in the middle of a pixel."""
+    middle = np.stack([pixels % width, pixels // width], axis=1) + 0.5
+    one, two, at = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0], middle - corners[:, 0]
+    area = one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0]
+    area = np.where(np.abs(area) < 1e-9, 1e-9, area)
+    second = (at[:, 0] * two[:, 1] - at[:, 1] * two[:, 0]) / area
+    third = (one[:, 0] * at[:, 1] - one[:, 1] * at[:, 0]) / area
+    # A pixel at the edge has its middle outside.
+    shares = np.clip(np.stack([1.0 - second - third, second, third], axis=1), 0.0, 1.0)
+    result: Floats = shares / shares.sum(axis=1, keepdims=True)
+    return result
 
 
 def _by_edges(placed: Floats) -> tuple[Floats, npt.NDArray[np.intp]]:

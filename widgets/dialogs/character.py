@@ -409,7 +409,7 @@ class CharacterDialog(QDialog):
         self.setWindowTitle(self.tr("Character: {file}").format(file=self._path.name))
         self._title_name.setText(self.tr("Name"))
         self._source.setText(
-            self.tr("{file}: {bones} bones, {morphs} morphs").format(
+            self.tr("{file}\nBones: {bones}, morphs: {morphs}").format(
                 file=self._path.name, bones=len(self._figure.bone_names), morphs=len(self._figure.morph_names)
             )
         )

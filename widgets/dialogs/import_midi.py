@@ -211,7 +211,7 @@ class ImportDialog(QDialog):
         self._table.setCellWidget(place, _PREVIEW, NotesPreview(notes, self._end_tick, self._tokens))
         low, high = min(note.pitch for note in notes), max(note.pitch for note in notes)
         count = QLabel(
-            self.tr("{count} notes\n{low} to {high}").format(
+            self.tr("Notes: {count}\n{low} to {high}").format(
                 count=len(notes), low=pitch_name(low), high=pitch_name(high)
             )
         )

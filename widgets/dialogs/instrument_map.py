@@ -557,7 +557,7 @@ class InstrumentsDialog(QDialog):
         """``"save"``, ``"discard"`` or ``"cancel"``."""
         box = QMessageBox(self)
         box.setWindowTitle(self.tr("Instruments"))
-        box.setText(self.tr("Fingerings of {count} instruments are not saved.").format(count=count))
+        box.setText(self.tr("Instruments with fingerings that are not saved: {count}.").format(count=count))
         save = box.addButton(self.tr("Save"), QMessageBox.ButtonRole.AcceptRole)
         discard = box.addButton(self.tr("Discard"), QMessageBox.ButtonRole.DestructiveRole)
         box.setEscapeButton(box.addButton(self.tr("Cancel"), QMessageBox.ButtonRole.RejectRole))

@@ -218,7 +218,7 @@ class PlayersPanel(QWidget):
         self._count.setText(
             self.tr("{chosen} of {count} selected").format(chosen=len(chosen), count=len(everyone))
             if len(chosen) > 1
-            else self.tr("{count} players").format(count=len(everyone))
+            else self.tr("Players: {count}").format(count=len(everyone))
         )
         for name in ("duplicate", "remove"):
             self._tools[name].setEnabled(bool(chosen))

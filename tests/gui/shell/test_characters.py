@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shutil
 from collections.abc import Iterator
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -15,6 +16,7 @@ from pytestqt.qtbot import QtBot
 
 from app.errors import Message
 from app.project.edit.players import change
+from app.rig.character import load_character
 from app.rig.character_library import FOLDER_VARIABLE, character_library, character_named, reload_characters
 from app.shell.app import Program
 from app.shell.characters import bring_character
@@ -193,6 +195,15 @@ def test_the_picture_follows_the_face() -> None:
     body = picture(shown, 60, 120)
     assert body.pixelColor(30, 60).alpha() > 200
     assert body.pixelColor(2, 2).alpha() == 0
+
+
+def test_the_picture_is_as_smooth_as_the_files_normals() -> None:
+    shown = seen(load_character(TODDLER))
+    image = picture(shown, 200, 200, "head")
+    forehead = [[image.pixelColor(x, y).lightness() for x in range(75, 125)] for y in range(25, 70)]
+    steps = [abs(a - b) for row in forehead for a, b in pairwise(row)]
+    assert max(steps) <= 3, "no edges between triangles"
+    assert max(map(max, forehead)) - min(map(min, forehead)) > 10, "but light and shade"
 
 
 def test_what_is_kept_can_be_cast_and_the_casting_undone(program: Program, folder: Path) -> None:
