@@ -151,6 +151,8 @@ class GltfModel:
         The document's.
     scene_extras : mapping
         Those of the scene that is shown.
+    generator : str
+        The program that wrote the file.
     """
 
     nodes: tuple[GltfNode, ...]
@@ -161,3 +163,4 @@ class GltfModel:
     extensions: Mapping[str, Any] = field(default_factory=dict)
     extras: Mapping[str, Any] = field(default_factory=dict)
     scene_extras: Mapping[str, Any] = field(default_factory=dict)
+    generator: str = ""

@@ -68,6 +68,7 @@ def decode_gltf(data: bytes, file: str) -> GltfModel:
         extensions=reader.mapping(reader.document, "extensions"),
         extras=reader.mapping(reader.document, "extras"),
         scene_extras=reader.scene_extras(),
+        generator=str(field(reader.mapping(reader.document, "asset"), "generator") or ""),
     )
 
 

@@ -43,6 +43,15 @@ def test_an_unknown_character_is_refused() -> None:
         character_named("nobody")
 
 
+def test_one_of_ours_that_another_program_has_written_is_read_as_anybodys(tmp_path: Path) -> None:
+    """Its landmarks came along, but vertices may be others."""
+    data = bundled_characters()["man_adult"].read_bytes()
+    changed = tmp_path / "changed.glb"
+    changed.write_bytes(data.replace(b"Suisou build_characters", b"Khronos glTF Blender IO"))
+    assert character_named("man_adult").own is None
+    assert load_character(changed).own is not None
+
+
 def _humanoid(tmp_path: Path, turned: bool, drop: str = "") -> Path:
     """A stick figure as tall as ours with one skinned point per joint, its nodes turned at rest or not."""
     profile = load_skeleton()
