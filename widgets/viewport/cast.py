@@ -182,7 +182,12 @@ class Stage:
         fresh = False
         for row, member in enumerate(self.members):
             pose = poses.get(member.player_id)
-            if pose is not None and pose is not self.poses[row]:
+            # Who has just got another character is posed as that one, or drawn as that one, only a moment later.
+            if (
+                pose is not None
+                and pose is not self.poses[row]
+                and len(pose.rotations) == len(member.kit.character.skeleton.names)
+            ):
                 self._take(row, pose)
                 fresh = True
         if not fresh:

@@ -79,6 +79,17 @@ def test_nobody_is_shown_before_there_is_a_pose() -> None:
     assert stage.shown.tolist() == [False, False, True, False]
 
 
+@pytest.mark.parametrize("more", [1, -1])
+def test_a_pose_of_another_character_leaves_who_is_drawn_as_they_were(more: int) -> None:
+    stage = posed_stage()
+    before = stage.bones.copy()
+    players, own = quartet().players, pose(0, 9.0)
+    rotations = np.concatenate([own.rotations, own.rotations[:1]]) if more > 0 else own.rotations[:more]
+    assert not stage.pose({players[0].id: replace(own, rotations=rotations)})
+    assert (stage.bones == before).all()
+    assert stage.pose({players[0].id: own})
+
+
 def test_only_who_is_seated_has_a_seat_under_the_hips() -> None:
     player = quartet().players[0]
     seated = msgspec.structs.replace(player, parameters=msgspec.structs.replace(player.parameters, posture="seated"))
