@@ -64,7 +64,7 @@ class MidiMonitor(QWidget):
         recording.changed.connect(self._changed)
         session.pitch_display.changed.connect(self._show)
         session.theme_changed.connect(self._show)
-        self._port = recording.port
+        self._port, self._bite_source = recording.port, recording.wiring.bite
         self.retranslate()
 
     def _hear(self, events: Events) -> None:
@@ -86,6 +86,9 @@ class MidiMonitor(QWidget):
             self._port = recording.port
             self._log.clear()
             self._channel, self._bite_now = 0, 0.0
+        if recording.wiring.bite != self._bite_source:
+            # How far it was bitten was said with another message.
+            self._bite_source, self._bite_now = recording.wiring.bite, 0.0
         self._show()
 
     def _show_soon(self) -> None:

@@ -243,6 +243,17 @@ def test_breath_and_bite_are_never_the_same(studio: Studio) -> None:
     assert studio.session.recording.wiring == Wiring(1, "channel_pressure", "none")
 
 
+def test_a_bite_that_is_sent_otherwise_now_is_not_shown_as_it_was(studio: Studio) -> None:
+    dialog = devices(studio)
+    bite, meter = part(dialog, QComboBox, "midi_bite_source"), part(dialog, QProgressBar, "midi_bite")
+    studio.link.play(bytes((0xE0, 0, 100)))
+    studio.wait(lambda: meter.value() > 0)
+    bite.setFocus()
+    QTest.keyClick(bite, Qt.Key.Key_Home)
+    assert studio.session.recording.wiring.bite == "none"
+    assert meter.value() == 0
+
+
 def test_a_beep_without_an_audio_device_says_so(studio: Studio) -> None:
     dialog = devices(studio)
     click(part(dialog, QPushButton, "midi_beep"))
