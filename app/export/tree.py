@@ -11,6 +11,8 @@ tree.busy (file)
     Somebody else writes into the same tree just now.
 tree.refused (file, reason)
     The system did not let a file be replaced or removed; everything is as it was.
+tree.not_restored (file, reason)
+    Nor did it let what was there before be given back; the next one tries again.
 """
 
 from __future__ import annotations
@@ -29,7 +31,7 @@ from app.errors import FileError
 from app.formats.locks import is_locked, lock
 
 _SCRATCH: Final = re.compile(r"\.[0-9a-f]{16}\.partial")
-_NEW, _OLD, _LOCK = "new", "old", "lock"
+_NEW, _OLD, _LOCK, _LIST = "new", "old", "lock", "coming.txt"
 
 
 @dataclass
@@ -70,7 +72,7 @@ def tree_into(root: Path, scratch: Path) -> Iterator[TreeChange]:
     Raises
     ------
     FileError
-        ``file.cannot_write``, ``tree.busy``, ``tree.refused``.
+        ``file.cannot_write``, ``tree.busy``, ``tree.refused``, ``tree.not_restored``.
     """
     had_scratch = scratch.is_dir()
     try:
@@ -92,7 +94,9 @@ def tree_into(root: Path, scratch: Path) -> Iterator[TreeChange]:
             yield change
             _commit(root, partial, change)
     finally:
-        shutil.rmtree(partial, ignore_errors=True)
+        # What could not be given back stays, for the next one to try.
+        if not (partial / _LIST).exists():
+            shutil.rmtree(partial, ignore_errors=True)
         if not had_scratch:
             with contextlib.suppress(OSError):  # it is in use now
                 scratch.rmdir()
@@ -104,7 +108,7 @@ def recover(root: Path, scratch: Path) -> None:
     Raises
     ------
     FileError
-        ``tree.busy``: it is alive; ``tree.refused``: the system refuses.
+        ``tree.busy``: it is alive; ``tree.not_restored``: the system refuses.
     """
     if not scratch.is_dir():
         return
@@ -157,9 +161,6 @@ def _commit(root: Path, partial: Path, change: TreeChange) -> None:
     (partial / _LIST).unlink(missing_ok=True)
 
 
-_LIST = "coming.txt"
-
-
 def _write_list(partial: Path, coming: list[Path]) -> None:
     """Note what will take its name: with this file there, the tree may be half old and half new."""
     draft = partial / f"{_LIST}.draft"
@@ -188,7 +189,7 @@ def _give_back(root: Path, partial: Path) -> None:
             at.parent.mkdir(parents=True, exist_ok=True)
             (partial / _OLD / path).replace(at)
     except OSError as error:
-        raise FileError("tree.refused", file=os.fspath(at), reason=_reason(error)) from error
+        raise FileError("tree.not_restored", file=os.fspath(at), reason=_reason(error)) from error
     (partial / _LIST).unlink(missing_ok=True)
 
 

@@ -1604,6 +1604,10 @@
             <translation>{file} には別の書き出しが進行中です。終わってから、もう一度書き出してください</translation>
         </message>
         <message>
+            <source>{file} was to be given back as it was before the export and cannot be: {reason}; close the program that has it open, then export again</source>
+            <translation>{file} を書き出し前の状態に戻せません: {reason}。このファイルを開いているプログラムを閉じてから、もう一度書き出してください</translation>
+        </message>
+        <message>
             <source>{file} cannot be replaced: {reason}; everything is as it was; close the program that has it open, then export again</source>
             <translation>{file} を置き換えられません: {reason}。すべて元のままです。このファイルを開いているプログラムを閉じてから、もう一度書き出してください</translation>
         </message>

@@ -86,6 +86,28 @@ def test_what_is_refused_halfway_is_given_back(root: Path, monkeypatch: pytest.M
     assert folders(root) == {"src", "src/a", "src/gone"}
 
 
+def test_what_cannot_be_given_back_is_kept_for_the_next(root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    replace, in_use = Path.replace, []
+
+    def refusing(source: Path, target: Path) -> Path:
+        if target.name == "two" and "new" in source.parts:
+            in_use.append(root / "src/a")
+        if target.parent in in_use:
+            raise PermissionError(13, "in use", str(target))
+        return replace(source, target)
+
+    monkeypatch.setattr(Path, "replace", refusing)
+    with pytest.raises(FileError) as caught, tree_into(root, root / "src") as tree:
+        for name in ("src/a/one", "src/a/two"):
+            (tree.new / name).parent.mkdir(parents=True, exist_ok=True)
+            (tree.new / name).write_text("new")
+    assert caught.value.message.id == "tree.not_restored"
+    in_use.clear()
+    monkeypatch.undo()
+    recover(root, root / "src")
+    assert contents(root) == BEFORE
+
+
 def test_a_folder_in_the_way_is_found_before_anything_moves(root: Path) -> None:
     (root / "src/b/four").mkdir(parents=True)
     with pytest.raises(FileError) as caught:
