@@ -59,17 +59,21 @@ def test_a_folder_in_the_way_is_found_before_anything_moves(tmp_path: Path) -> N
     assert [path.name for path in tmp_path.iterdir()] == ["two"]
 
 
-def test_a_late_interrupt_does_not_leave_half_of_the_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    replace, calls = Path.replace, []
+@pytest.mark.parametrize("error", [KeyboardInterrupt, PermissionError])
+def test_a_late_failure_does_not_leave_half_of_the_files(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, error: type[BaseException]
+) -> None:
+    """As on Windows, where a file that a program has open cannot be replaced."""
+    for name in ("one", "two"):
+        (tmp_path / name).write_text("old")
+    replace = Path.replace
 
-    def interrupted(source: Path, target: Path) -> None:
-        calls.append(target)
-        if len(calls) == 1:
-            raise KeyboardInterrupt
-        replace(source, target)
-        if len(calls) == 2:
-            raise KeyboardInterrupt
+    def failing(source: Path, target: Path) -> Path:
+        if target == tmp_path / "two" and source.parent.name == "new":
+            raise error(13, "in use")
+        return replace(source, target)
 
-    monkeypatch.setattr(Path, "replace", interrupted)
-    fill(tmp_path, "one", "two", "three")
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["one", "three", "two"]
+    monkeypatch.setattr(Path, "replace", failing)
+    with pytest.raises((KeyboardInterrupt, FileError)):
+        fill(tmp_path, "one", "two")
+    assert {path.name: path.read_text() for path in tmp_path.iterdir()} == {"one": "old", "two": "old"}
