@@ -26,7 +26,7 @@ import numpy.typing as npt
 from app.errors import FileError, Message
 from app.rig import quaternion
 from app.rig.figure import Figure, Origin
-from app.rig.mesh import Mesh, Morph
+from app.rig.mesh import Mesh, Morph, scaled_mesh
 from app.rig.placements import local_placements
 
 FloatArray = npt.NDArray[np.float64]
@@ -316,7 +316,7 @@ def _in_metres(figure: Figure) -> Figure:
     return replace(
         figure,
         translations_m=figure.translations_m * factor,
-        meshes=tuple(_scaled(mesh, factor) for mesh in figure.meshes),
+        meshes=tuple(scaled_mesh(mesh, factor) for mesh in figure.meshes),
         notes=(*figure.notes, note),
     )
 
@@ -329,11 +329,3 @@ def unit_factor(height_m: float) -> float | None:
     if GROWN_M[0] <= height_m * INCH_M <= GROWN_M[1]:
         found.append(INCH_M)
     return found[0] if len(found) == 1 else None
-
-
-def _scaled(mesh: Mesh, factor: float) -> Mesh:
-    return replace(
-        mesh,
-        positions_m=(mesh.positions_m * factor).astype(np.float32),
-        morphs=tuple(replace(morph, deltas_m=(morph.deltas_m * factor).astype(np.float32)) for morph in mesh.morphs),
-    )

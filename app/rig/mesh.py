@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
@@ -47,3 +47,9 @@ class Mesh:
     joints: npt.NDArray[np.int32]
     weights: npt.NDArray[np.float32]
     morphs: tuple[Morph, ...] = ()
+
+
+def scaled_mesh(mesh: Mesh, size: float) -> Mesh:
+    """A mesh made larger or smaller as a whole."""
+    morphs = tuple(replace(morph, deltas_m=(size * morph.deltas_m).astype(np.float32)) for morph in mesh.morphs)
+    return replace(mesh, positions_m=(size * mesh.positions_m).astype(np.float32), morphs=morphs)

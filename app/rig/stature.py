@@ -15,7 +15,7 @@ import numpy.typing as npt
 
 from app.rig.hold import Side
 from app.rig.landmarks import eye_distance
-from app.rig.mesh import Mesh, Morph
+from app.rig.mesh import scaled_mesh
 from app.rig.model import Character, InstrumentModel, Skeleton
 from app.rig.skeleton import rest_positions
 from metadata.model import Body
@@ -106,7 +106,7 @@ def sized_character(character: Character, size: float) -> Character:
         character,
         skeleton=Skeleton(skeleton.names, skeleton.parents, size * skeleton.offsets_m),
         joint_from_mesh=joint_from_mesh,
-        meshes=tuple(_sized_mesh(mesh, size) for mesh in character.meshes),
+        meshes=tuple(scaled_mesh(mesh, size) for mesh in character.meshes),
     )
 
 
@@ -114,16 +114,8 @@ def sized_model(model: InstrumentModel, size: float) -> InstrumentModel:
     """A model made larger or smaller as a whole."""
     if size == 1.0:
         return model
-    meshes = tuple(_sized_mesh(mesh, size) for mesh in model.meshes)
+    meshes = tuple(scaled_mesh(mesh, size) for mesh in model.meshes)
     return replace(model, node_positions_m=size * model.node_positions_m, meshes=meshes)
-
-
-def _sized_mesh(mesh: Mesh, size: float) -> Mesh:
-    morphs = tuple(
-        Morph(morph.name, morph.vertices, (size * morph.deltas_m).astype(np.float32), morph.normal_deltas)
-        for morph in mesh.morphs
-    )
-    return replace(mesh, positions_m=(size * mesh.positions_m).astype(np.float32), morphs=morphs)
 
 
 def sized(value: _Value, size: float) -> _Value:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Final
 
 import msgspec
@@ -17,8 +18,10 @@ from app.export.unreal.layout import FigurePlace, Layout
 from app.export.unreal.manifest import OwnFile
 from app.performance.ensemble import Performance
 from app.performance.span import FrameSpan
+from app.plan.model import Clock
 from app.project.casting import StagePosition
 from app.project.model import Player
+from app.score.model import Score
 
 SCHEMA: Final = 1
 """Rises when a script that knows the schema before would misread the file."""
@@ -158,14 +161,8 @@ def describe(
         By the file that has them.
     """
     project = performance.project
-    score, clock = project.score, performance.piece.clock
-    rate = span.fps
-
-    def after_s(tick: float) -> float:
-        return round(clock.seconds(float(tick)) - span.first_frame_s, 6)
-
-    def frame(s: float) -> int:
-        return math.floor(s * rate.numerator / rate.denominator + 0.5)
+    score, rate = project.score, span.fps
+    time = _Time(performance.piece.clock, span)
 
     def figure(place: FigurePlace) -> Figure:
         file = place.file.as_posix()
@@ -184,20 +181,6 @@ def describe(
             instrument=figure(layout.instruments[player.id]),
         )
 
-    first, last = bars or (0 if score.pickup_ticks else 1, score.bar_of_tick(max(score.end_tick - 1, 0)))
-    numbers = range(first, last + 1)
-    starts = [(number, score.tick_of_bar(number)) for number in numbers]
-    told = [Bar(number, tick, after_s(tick), frame(after_s(tick))) for number, tick in starts]
-    cues = [
-        Cue(
-            player.name,
-            round(cue.start_s - span.first_frame_s, 6),
-            round(cue.end_s - span.first_frame_s, 6),
-            frame(cue.end_s - span.first_frame_s),
-        )
-        for player in players
-        for cue in performance.plan(player).cues
-    ]
     return Description(
         schema=SCHEMA,
         made_by=creator,
@@ -214,16 +197,56 @@ def describe(
         ticks_per_quarter=score.ticks_per_quarter,
         pickup_ticks=score.pickup_ticks,
         tempo=tuple(
-            Tempo(change.tick, after_s(change.tick), round(60e6 / change.microseconds_per_quarter, 6))
+            Tempo(change.tick, time.after_s(change.tick), round(60e6 / change.microseconds_per_quarter, 6))
             for change in score.tempo_map.changes
         ),
         metres=tuple(
-            Metre(metre.tick, after_s(metre.tick), metre.numerator, metre.denominator) for metre in score.metres
+            Metre(metre.tick, time.after_s(metre.tick), metre.numerator, metre.denominator) for metre in score.metres
         ),
-        bars=tuple(bar for bar in told if 0 <= bar.frame < span.count),
-        cues=tuple(sorted((cue for cue in cues if 0 <= cue.frame < span.count), key=lambda cue: cue.entry_s)),
+        bars=_bars(score, bars, time),
+        cues=_cues(performance, players, time),
         files=dict(files),
     )
+
+
+@dataclass(frozen=True)
+class _Time:
+    """The animation's time, and which frames it has."""
+
+    clock: Clock
+    span: FrameSpan
+
+    def after_s(self, tick: float) -> float:
+        """When a tick is."""
+        return self.since_s(self.clock.seconds(float(tick)))
+
+    def since_s(self, s: float) -> float:
+        """A moment of the performance as one of the animation."""
+        return round(s - self.span.first_frame_s, 6)
+
+    def frame(self, s: float) -> int:
+        """The nearest frame."""
+        return math.floor(s * self.span.fps.numerator / self.span.fps.denominator + 0.5)
+
+    def shows(self, frame: int) -> bool:
+        """Whether there is such a frame."""
+        return 0 <= frame < self.span.count
+
+
+def _bars(score: Score, bars: tuple[int, int] | None, time: _Time) -> tuple[Bar, ...]:
+    first, last = bars or (0 if score.pickup_ticks else 1, score.bar_of_tick(max(score.end_tick - 1, 0)))
+    starts = [(number, score.tick_of_bar(number)) for number in range(first, last + 1)]
+    told = (Bar(number, tick, time.after_s(tick), time.frame(time.after_s(tick))) for number, tick in starts)
+    return tuple(bar for bar in told if time.shows(bar.frame))
+
+
+def _cues(performance: Performance, players: tuple[Player, ...], time: _Time) -> tuple[Cue, ...]:
+    told = []
+    for player in players:
+        for cue in performance.plan(player).cues:
+            entry = time.frame(cue.end_s - time.span.first_frame_s)
+            told.append(Cue(player.name, time.since_s(cue.start_s), time.since_s(cue.end_s), entry))
+    return tuple(sorted((cue for cue in told if time.shows(cue.frame)), key=lambda cue: cue.entry_s))
 
 
 def place_of(stage: StagePosition) -> Place:
