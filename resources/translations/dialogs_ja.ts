@@ -1593,7 +1593,7 @@ Unreal で「Suisou &gt; 演奏をインポート」を選んでください。�
         <translation>選択中のプレイヤー (舞台の中央に)</translation>
     </message>
     <message>
-        <source>Every player, each on a port of their own, where they are on the stage</source>
+        <source>Every player on the stage, each on a port of their own</source>
         <translation>すべてのプレイヤー (1 人ずつ別のポート、舞台上の位置のまま)</translation>
     </message>
     <message>

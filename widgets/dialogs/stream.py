@@ -189,7 +189,7 @@ class StreamDialog(QDialog):
         self._who.set_options(
             [
                 Option("front", self.tr("The selected player, in the middle")),
-                Option("everyone", self.tr("Every player, each on a port of their own, where they are on the stage")),
+                Option("everyone", self.tr("Every player on the stage, each on a port of their own")),
             ]
         )
         self._faces.set_options(
