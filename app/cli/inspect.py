@@ -50,6 +50,10 @@ def inspection(performance: Performance) -> Table:
         "duration_s": score.tempo_map.seconds(float(score.sounding_end_tick)),
         "ticks_per_beat": score.ticks_per_quarter,
         "tempo": [{"tick": tick, "bpm": bpm} for tick, bpm in score.tempo_map.bpm],
+        "markers": [
+            {"tick": marker.tick, "s": score.tempo_map.seconds(float(marker.tick)), "text": marker.text}
+            for marker in score.markers
+        ],
         "first_frame_s": performance.time_frame.first_frame_s,
         "warnings": [
             *(text(message) for message in score.warnings),

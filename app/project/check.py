@@ -14,7 +14,7 @@ from app.plan.corrections import Correction
 from app.project import limits
 from app.project.model import AudioTrack, Player, PlayerTakes, Project
 from app.project.parameters import is_possible, range_text
-from app.score.model import ControllerCurve, Metre, Note, Part, Score
+from app.score.model import ControllerCurve, Marker, Metre, Note, Part, Score
 from app.score.take import Take, is_message
 from app.score.tempo import TempoChange
 from metadata.model import ARKIT_MORPHS, Expression
@@ -52,6 +52,7 @@ def _score_faults(score: Score) -> Iterator[Fault]:
         yield "tempo_map.ticks_per_quarter", "differs from the score's"
     yield from _tempo_faults(score.tempo_map.changes)
     yield from _metre_faults(score.metres)
+    yield from _marker_faults(score.markers)
     if not score.metres or score.metres[0].tick != 0:
         return
     yield from _between("pickup_ticks", score.pickup_ticks, (0, limits.LAST_TICK))
@@ -92,6 +93,14 @@ def _metre_faults(metres: Sequence[Metre]) -> Iterator[Fault]:
         yield from _between(f"{place}.numerator", metre.numerator, limits.METRE_NUMERATOR)
         if metre.denominator not in limits.METRE_DENOMINATORS:
             yield f"{place}.denominator", f"must be one of {', '.join(map(str, limits.METRE_DENOMINATORS))}"
+
+
+def _marker_faults(markers: Sequence[Marker]) -> Iterator[Fault]:
+    for index, marker in enumerate(markers):
+        yield from _between(f"markers[{index}].tick", marker.tick, (0, limits.LAST_TICK))
+        yield from _text(f"markers[{index}].text", marker.text)
+        if index and marker.tick < markers[index - 1].tick:
+            yield f"markers[{index}].tick", "markers must be ordered by tick"
 
 
 def _part_faults(part: Part, place: str) -> Iterator[Fault]:

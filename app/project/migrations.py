@@ -32,7 +32,12 @@ def _with_takes(raw: Raw) -> Raw:
     return {**raw, "takes": {}}
 
 
-MIGRATIONS: Final[tuple[Migration, ...]] = (_with_read_notes, _with_transpositions, _with_takes)
+def _with_markers(raw: Raw) -> Raw:
+    """4 to 5: the markers of the MIDI file are kept; a piece that was read before has them when it is read again."""
+    return {**raw, "score": {**raw["score"], "markers": []}}
+
+
+MIGRATIONS: Final[tuple[Migration, ...]] = (_with_read_notes, _with_transpositions, _with_takes, _with_markers)
 """In order."""
 
 CURRENT: Final = len(MIGRATIONS) + 1

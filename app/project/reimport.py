@@ -145,7 +145,7 @@ class Reimport:
 def reimport(project: Project, score: Score, maps: Mapping[str, InstrumentMap], source: str | None = None) -> Reimport:
     """Let the score that a file holds now take the place of the project's.
 
-    The title stays; tempo, metres and everything else are the file's.
+    The title stays; tempo, metres, markers and everything else are the file's.
 
     Parameters
     ----------

@@ -70,6 +70,13 @@ class Metre(msgspec.Struct, frozen=True):
     denominator: int
 
 
+class Marker(msgspec.Struct, frozen=True):
+    """What a place of the piece is called: a rehearsal letter, a section, a cue. Its text is one line, not empty."""
+
+    tick: int
+    text: str
+
+
 class Part(msgspec.Struct, frozen=True, dict=True):
     """What one player plays: one voice of one track.
 
@@ -147,6 +154,8 @@ class Score(msgspec.Struct, frozen=True, dict=True):
     parts : tuple of Part
     unplayed : tuple of UnplayedPart
     warnings : tuple of Message
+    markers : tuple of Marker
+        By tick; at one tick in the order of the file. Some may lie behind the last note.
     """
 
     title: str
@@ -157,6 +166,7 @@ class Score(msgspec.Struct, frozen=True, dict=True):
     parts: tuple[Part, ...] = ()
     unplayed: tuple[UnplayedPart, ...] = ()
     warnings: tuple[Message, ...] = ()
+    markers: tuple[Marker, ...] = ()
 
     @cached_property
     def end_tick(self) -> int:

@@ -9,6 +9,9 @@ that still sounds (first in, first out), so notes of one pitch may overlap. A no
 notes in a row. "All notes off" and "all sound off" end what sounds on the channel, the end of the track ends the rest.
 A note of no length lasts one tick.
 
+Markers and cue points are markers of the piece, whichever track holds them; one that several tracks repeat is one, and
+one without a text is none.
+
 The errors are those of `app.score.chunks`, and:
 
 midi.unknown_encoding : file, encoding
@@ -47,7 +50,7 @@ import msgspec
 from app.errors import FileError, Message
 from app.score.choose import PERCUSSION_CHANNEL, MapChoice, Stream, told_by_file
 from app.score.chunks import Container, Track, read_container
-from app.score.model import Metre, Part, Score, UnplayedPart
+from app.score.model import Marker, Metre, Part, Score, UnplayedPart
 from app.score.parts import PartWish, parts_of, wished_parts
 from app.score.repair import Repaired, last_system_message, repaired
 from app.score.tempo import TempoChange, TempoMap
@@ -63,6 +66,8 @@ _LILYPOND_NAME = re.compile(r"^([^:]*):([^:]*)$")
 
 _SMPTE_RATES = {24: Fraction(24), 25: Fraction(25), 29: Fraction(30000, 1001), 30: Fraction(30)}
 _LARGEST_DENOMINATOR = 64
+_LONGEST_MARKER = 1000
+"""Characters; whatever is longer is no name of a place, and is cut."""
 
 
 class MidiContents(msgspec.Struct, frozen=True):
@@ -78,6 +83,7 @@ class MidiContents(msgspec.Struct, frozen=True):
         The notes of each track, by channel.
     warnings : tuple of Message
         What was repaired or left out.
+    markers : tuple of Marker
     """
 
     title: str
@@ -86,6 +92,7 @@ class MidiContents(msgspec.Struct, frozen=True):
     pickup_ticks: int
     streams: tuple[Stream, ...]
     warnings: tuple[Message, ...]
+    markers: tuple[Marker, ...] = ()
 
 
 def read_midi(path: Path, *, encoding: str | None = None, maps: Sequence[MapChoice]) -> Score:
@@ -130,11 +137,12 @@ def _score(
         parts=parts,
         unplayed=unplayed,
         warnings=warnings,
+        markers=contents.markers,
     )
 
 
 def read_contents(path: Path, *, encoding: str | None = None) -> MidiContents:
-    """Read a MIDI file's notes, tempo and metres. Raises as `read_midi`."""
+    """Read a MIDI file's notes, tempo, metres and markers. Raises as `read_midi`."""
     if encoding is not None:
         try:
             codecs.lookup(encoding)
@@ -162,6 +170,7 @@ def read_contents(path: Path, *, encoding: str | None = None) -> MidiContents:
         pickup_ticks=pickup_ticks,
         streams=tuple(told_by_file(_streams(tracks, encoding), path.stem)),
         warnings=(*warnings, *tempo_warnings, *metre_warnings),
+        markers=_markers(tracks, encoding),
     )
 
 
@@ -258,6 +267,16 @@ def _metres(tracks: Sequence[TrackEvents], ticks_per_quarter: int) -> tuple[tupl
         if first_length < full and first_length <= one_bar:
             pickup_ticks = first_length
     return tuple(kept), pickup_ticks, warnings
+
+
+def _markers(tracks: Sequence[TrackEvents], encoding: str | None) -> tuple[Marker, ...]:
+    found = (
+        Marker(tick, " ".join(decoded(text, encoding).split())[:_LONGEST_MARKER].rstrip())
+        for events in tracks
+        for tick, text in events.markers
+    )
+    named = dict.fromkeys(marker for marker in found if marker.text)
+    return tuple(sorted(named, key=lambda marker: marker.tick))
 
 
 def _title(tracks: Sequence[TrackEvents], encoding: str | None) -> str:

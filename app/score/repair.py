@@ -23,7 +23,7 @@ _SYSTEM_DATA = {0xF1: 1, 0xF2: 2, 0xF3: 1}
 # Meta events the score reads, and the lengths they may have.
 _END_OF_TRACK, _SET_TEMPO, _TIME_SIGNATURE = 0x2F, 0x51, 0x58
 _LENGTHS = {_SET_TEMPO: 3, _TIME_SIGNATURE: 4}
-_TEXTS = frozenset(range(1, 5))
+_TEXTS = frozenset((1, 2, 3, 4, 6, 7))
 
 _SUSPICIOUS = tuple(bytes([status]) for status in range(0xF0, 0xFF))
 

@@ -41,6 +41,8 @@ class TrackEvents(msgspec.Struct):
     texts : list of bytes
     tempos : list of (tick, microseconds per quarter)
     metres : list of (tick, numerator, denominator)
+    markers : list of (tick, text)
+        Markers and cue points.
     programs : dict of channel to list of (tick, program)
     channels : dict of channel to ChannelNotes
         Channels with notes.
@@ -57,6 +59,7 @@ class TrackEvents(msgspec.Struct):
     texts: list[bytes] = []
     tempos: list[tuple[int, int]] = []
     metres: list[tuple[int, int, int]] = []
+    markers: list[tuple[int, bytes]] = []
     programs: dict[int, list[tuple[int, int]]] = {}
     channels: dict[int, ChannelNotes] = {}
     controls: dict[tuple[int, CurveKind], dict[int, float]] = {}
@@ -169,6 +172,8 @@ def _note_other(events: TrackEvents, message: Any, kind: str, tick: int) -> None
         events.instrument_name = events.instrument_name or message.name.encode("latin-1")
     elif kind == "text":
         events.texts.append(message.text.encode("latin-1"))
+    elif kind in ("marker", "cue_marker"):
+        events.markers.append((tick, message.text.encode("latin-1")))
 
 
 def _end_notes(channels: dict[int, ChannelNotes], sounding: dict[int, list[int]], channel: int, tick: int) -> None:

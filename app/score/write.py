@@ -1,8 +1,8 @@
 """Writes a score as a MIDI file of format 1: a conductor's track, then one track for every part.
 
-What the file holds comes back as it was when `app.score.read` reads it: title, division, tempo, metres and pickup; of
-every part its name, what plays it, every note's onset, length, pitch and velocity, and every step of its controller
-curves. What a MIDI file has no place for does not:
+What the file holds comes back as it was when `app.score.read` reads it: title, division, tempo, metres, pickup and
+markers; of every part its name, what plays it, every note's onset, length, pitch and velocity, and every step of its
+controller curves. What a MIDI file has no place for does not:
 
 - The notes of parts nobody plays, which a score does not keep either; ids of notes and parts, which count tracks and
   note-ons. Voices that shared a track get one each. A part without notes is written and not read as one.
@@ -197,7 +197,8 @@ def _conductor(score: Score) -> list[_Event]:
         if not LEAST_TEMPO <= tempo <= MOST_TEMPO:
             raise _unwritable(score, change)
         events.append((change.tick, 2, mido.MetaMessage("set_tempo", tempo=tempo)))
-    return events + [(metre.tick, 1, _time_signature(metre)) for metre in score.metres]
+    events += [(metre.tick, 1, _time_signature(metre)) for metre in score.metres]
+    return events + [(marker.tick, 3, mido.MetaMessage("marker", text=marker.text)) for marker in score.markers]
 
 
 def _unwritable(score: Score, change: TempoChange) -> AppError:

@@ -145,6 +145,13 @@
     </message>
 </context>
 <context>
+    <name>Flags</name>
+    <message>
+        <source>Bar {bar}</source>
+        <translation>小節 {bar}</translation>
+    </message>
+</context>
+<context>
     <name>Lane</name>
     <message>
         <source>Unfold</source>

@@ -21,6 +21,7 @@ from widgets.common.session import Session
 from widgets.common.timeline_view import Ghosts, Tool
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.extent import scroll_limits, selected_span
+from widgets.timeline.flags import Flags
 from widgets.timeline.lane import GUTTER_PX, Lane
 from widgets.timeline.lanes import LANES
 from widgets.timeline.lanes.takes import TakesLane
@@ -90,6 +91,7 @@ class TimelinePanel(QWidget):
         self.takes = next(lane for lane in made if isinstance(lane, TakesLane))
 
         self.tool_bar = ToolBar(session, self.roll, self)
+        self.flags = Flags(session, self.axis, self)
         self.ruler = Ruler(session, self.axis, self)
         self.stack = LaneStack(session, tuple(self.lanes.values()), self.roll, self)
         for lane in self.lanes.values():
@@ -102,6 +104,7 @@ class TimelinePanel(QWidget):
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(0)
         column.addWidget(self.tool_bar)
+        column.addWidget(self.flags)
         column.addWidget(self.ruler)
         column.addWidget(self.stack, 1)
         column.addLayout(self._make_foot())
@@ -110,6 +113,7 @@ class TimelinePanel(QWidget):
             lane.set_folded(lane.folded_at_first)
         self.quantise = QuantisePopover(session, self)
 
+        self.flags.sought.connect(self.sought)
         self.ruler.sought.connect(self.sought)
         # Whoever sounds hears of it there: a playhead that is set is sought.
         self.sought.connect(session.set_playhead)

@@ -107,6 +107,16 @@ class Bar(msgspec.Struct, frozen=True):
     frame: int
 
 
+class Marker(msgspec.Struct, frozen=True):
+    """A rehearsal marker that the animation shows, in its bar. ``frame`` is the nearest."""
+
+    text: str
+    bar: int
+    tick: int
+    s: float
+    frame: int
+
+
 class Cue(msgspec.Struct, frozen=True):
     """A lead-in that a player gives: the nod begins at ``start_s``, everybody enters at ``entry_s``."""
 
@@ -137,6 +147,7 @@ class Description(msgspec.Struct, frozen=True):
     tempo: tuple[Tempo, ...]
     metres: tuple[Metre, ...]
     bars: tuple[Bar, ...]
+    markers: tuple[Marker, ...]
     cues: tuple[Cue, ...]
     files: dict[str, OwnFile]
 
@@ -204,6 +215,7 @@ def describe(
             Metre(metre.tick, time.after_s(metre.tick), metre.numerator, metre.denominator) for metre in score.metres
         ),
         bars=_bars(score, bars, time),
+        markers=_markers(score, bars, time),
         cues=_cues(performance, players, time),
         files=dict(files),
     )
@@ -238,6 +250,15 @@ def _bars(score: Score, bars: tuple[int, int] | None, time: _Time) -> tuple[Bar,
     starts = [(number, score.tick_of_bar(number)) for number in range(first, last + 1)]
     told = (Bar(number, tick, time.after_s(tick), time.frame(time.after_s(tick))) for number, tick in starts)
     return tuple(bar for bar in told if time.shows(bar.frame))
+
+
+def _markers(score: Score, bars: tuple[int, int] | None, time: _Time) -> tuple[Marker, ...]:
+    told = []
+    for marker in score.markers:
+        bar, s = score.bar_of_tick(marker.tick), time.after_s(marker.tick)
+        if bars is None or bars[0] <= bar <= bars[1]:
+            told.append(Marker(marker.text, bar, marker.tick, s, time.frame(s)))
+    return tuple(marker for marker in told if time.shows(marker.frame))
 
 
 def _cues(performance: Performance, players: tuple[Player, ...], time: _Time) -> tuple[Cue, ...]:

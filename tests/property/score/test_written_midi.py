@@ -13,7 +13,7 @@ import msgspec
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.score.model import ControllerCurve, CurveKind, Metre, Note, Part, Score
+from app.score.model import ControllerCurve, CurveKind, Marker, Metre, Note, Part, Score
 from app.score.read import read_midi
 from app.score.tempo import TempoChange, TempoMap
 from app.score.write import midi_file
@@ -88,6 +88,7 @@ def scores(draw: st.DrawFn) -> Score:
         meter.append(Metre(max(int(bar) // 3, 1), numerator, denominator))
     elif metres == 2:
         meter.append(Metre(int(4 * bar), numerator + 1, denominator))
+    called = draw(st.lists(st.builds(Marker, st.integers(0, 2 * LAST_TICK), WORDS), max_size=5, unique=True))
     return Score(
         title=draw(st.one_of(st.just("piece"), WORDS)),
         ticks_per_quarter=division,
@@ -95,6 +96,7 @@ def scores(draw: st.DrawFn) -> Score:
         metres=tuple(meter),
         pickup_ticks=meter[1].tick if pickup else 0,
         parts=tuple(parts),
+        markers=tuple(sorted(called, key=lambda marker: marker.tick)),
     )
 
 
@@ -117,7 +119,7 @@ def test_a_written_score_is_read_as_it_was(score: Score) -> None:
     again = read_again(score)
     assert (again.warnings, again.unplayed) == ((), ())
     assert [plain(part) for part in again.parts] == [plain(part) for part in score.parts]
-    for field in ("title", "ticks_per_quarter", "tempo_map", "metres", "pickup_ticks"):
+    for field in ("title", "ticks_per_quarter", "tempo_map", "metres", "pickup_ticks", "markers"):
         assert getattr(again, field) == getattr(score, field), field
     channels = [part.channel for part in again.parts]
     if len(channels) <= 15:

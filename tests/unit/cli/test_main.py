@@ -134,12 +134,21 @@ def test_an_unknown_player_is_told_who_there_is(run: Run) -> None:
     assert all(name in err for name in names)
 
 
+def test_inspect_tells_the_markers(run: Run, tmp_path: Path) -> None:
+    file = mido.MidiFile(QUARTET)
+    file.tracks.append(mido.MidiTrack([mido.MetaMessage("marker", text="A", time=file.ticks_per_beat)]))
+    file.save(tmp_path / "marked.mid")
+    found = json.loads(run("inspect", str(tmp_path / "marked.mid"), "--json")[1])
+    beat_s = 60.0 / found["tempo"][0]["bpm"]
+    assert found["markers"] == [{"tick": file.ticks_per_beat, "s": pytest.approx(beat_s), "text": "A"}]
+
+
 def test_inspect_has_exactly_these_keys(run: Run) -> None:
     status, out, _ = run("inspect", QUARTET, "--json")
     assert status == 0
     found = json.loads(out)
     assert set(found) == {
-        "duration_s", "ticks_per_beat", "tempo", "first_frame_s", "warnings", "unplayed", "players",
+        "duration_s", "ticks_per_beat", "tempo", "markers", "first_frame_s", "warnings", "unplayed", "players",
     }  # fmt: skip
     assert set(found["tempo"][0]) == {"tick", "bpm"}
     for player in found["players"]:

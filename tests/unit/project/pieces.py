@@ -21,7 +21,7 @@ from app.plan.corrections import (
 from app.plan.model import PlayerParameters
 from app.project.casting import stage_arc
 from app.project.model import AudioTrack, CompSpan, Player, PlayerTakes, Project
-from app.score.model import ControllerCurve, Metre, Note, Part, Score, UnplayedPart
+from app.score.model import ControllerCurve, Marker, Metre, Note, Part, Score, UnplayedPart
 from app.score.take import Cleaning, Take, Wiring
 from app.score.tempo import TempoChange, TempoMap
 from metadata.model import Expression
@@ -76,6 +76,7 @@ def full_project(folder: str = "/music") -> Project:
         parts=(first, score.parts[1]),
         unplayed=(UnplayedPart("../../etc/passwd", Message("score.percussion", {"instrument": "drums"}), 3, 960),),
         warnings=(Message("midi.zero_length_notes", {"track": 1, "count": 2}),),
+        markers=(Marker(0, "はじめ"), Marker(960, "A"), Marker(960, "Più mosso"), Marker(9600, "Coda")),
     )
     trumpet, trombone = small.players
     parameters = PlayerParameters(0.1, 0.6, 1.1, 2.1, 8.5, 0.9, 0.8, 0.7, 0.6, "seated", False, 7)

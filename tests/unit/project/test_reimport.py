@@ -24,10 +24,12 @@ from app.plan.corrections import (
 from app.project.edit.corrections import put
 from app.project.edit.notes import add_note
 from app.project.edit.players import add_player, remove_players, set_parameters
+from app.project.edit.tempo import scale_tempo, set_metre, set_tempo
+from app.project.midi_out import export_midi
 from app.project.model import Project, map_choices, project_from_score
 from app.project.reimport import orphaned, reattached, reimport
 from app.project.storage import load, save
-from app.score.model import Note, Part, Score
+from app.score.model import Marker, Note, Part, Score
 from app.score.parts import usual_wishes
 from app.score.read import read_contents, read_midi, wished_score
 from app.score.tempo import TempoMap
@@ -453,3 +455,17 @@ def test_a_new_note_never_takes_the_id_of_one_that_was_erased() -> None:
     (newer,) = result.added
     assert newer != added
     assert added not in notes_of(result.project)
+
+
+def test_markers_are_those_of_the_file_and_edits_of_tempo_and_metre_leave_them(tmp_path: Path) -> None:
+    project = small_project()
+    came = reimport(project, from_file(project.score, markers=(Marker(0, "A"), Marker(BAR, "B"))), MAPS).project
+    assert came.score.markers == (Marker(0, "A"), Marker(BAR, "B"))
+    edited = set_metre(scale_tempo(set_tempo(came, 480, 90.0), 1.1), BAR, 3, 4)
+    assert edited.score.markers == came.score.markers
+    save(edited, tmp_path / "piece.suisou")
+    assert load(tmp_path / "piece.suisou").score.markers == came.score.markers
+    export_midi(edited, tmp_path / "piece.mid", MAPS)
+    assert read(tmp_path / "piece.mid").score.markers == came.score.markers
+    changed = reimport(edited, from_file(came.score, markers=(Marker(BAR, "C"),)), MAPS).project
+    assert changed.score.markers == (Marker(BAR, "C"),)

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from app.errors import FileError
-from app.score.model import Metre
+from app.score.model import Marker, Metre
 from app.score.read import read_midi
 from tests.unit.score.midi_bytes import END, MAPS, chunk, header, heard, ids, meta, note, one_track, score_of
 
@@ -296,3 +296,33 @@ def test_lilypond_contexts_are_cut_from_names_in_lilypond_files_only() -> None:
 
     assert names(b"LilyPond 2.24.1") == ["Sopran", "trumpet", "trumpet"]
     assert names(b"") == ["Sopran:1", ":one", "\\new:"]
+
+
+def test_markers_and_cue_points_are_markers_of_the_piece() -> None:
+    conductor = (
+        meta(0x06, b"Intro")
+        + meta(0x06, "練習番号Ａ".encode("cp932"), delta=96)
+        + meta(0x07, b"lights\r\nup ")
+        + meta(0x06, b" ", delta=1)
+        + meta(0x06, b"after the end", delta=120)
+        + END
+    )
+    # Some programs repeat the markers in every track.
+    player = meta(0x03, b"Trumpet") + meta(0x06, b"Intro") + meta(0x07, b"mute", delta=48) + note(60) + END
+    score = score_of(header(1, 2) + chunk(b"MTrk", conductor) + chunk(b"MTrk", player))
+    assert score.markers == (
+        Marker(0, "Intro"),
+        Marker(48, "mute"),
+        Marker(96, "練習番号Ａ"),
+        Marker(96, "lights up"),
+        Marker(217, "after the end"),
+    )
+    assert score.end_tick == 96
+    assert (score.warnings, score.unplayed) == ((), ())
+
+
+def test_the_encoding_that_is_given_holds_for_markers_and_a_text_without_end_is_cut() -> None:
+    data = header() + chunk(b"MTrk", meta(0x06, "Б".encode("koi8-r")) + SCALE_BYTES + END)
+    assert score_of(data, encoding="koi8-r").markers == (Marker(0, "Б"),)
+    long = bytes([0, 0xFF, 0x06, 0x81, 0xDD, 0x00]) + b"x" * 28288
+    assert score_of(header() + chunk(b"MTrk", long + SCALE_BYTES + END)).markers == (Marker(0, 1000 * "x"),)

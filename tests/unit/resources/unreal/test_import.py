@@ -13,6 +13,7 @@ import pytest
 
 from app.project.casting import StagePosition
 from app.project.model import Project
+from app.score.model import Marker
 from tests.unit.export.unreal.conftest import quartet, renamed
 from tests.unit.resources.unreal.conftest import Editor, exported
 
@@ -25,6 +26,11 @@ def description(editor: Editor, piece: str = "quartet") -> dict[str, Any]:
     path = editor.folder / "SuisouSource" / piece / "performance.json"
     content: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
     return content
+
+
+def marked(markers: tuple[Marker, ...]) -> Project:
+    project = quartet()
+    return replace(project, score=msgspec.structs.replace(project.score, markers=markers))
 
 
 def own_assets(editor: Editor) -> set[str]:
@@ -182,6 +188,46 @@ def test_the_sound_is_at_its_offset_and_the_bars_are_marked(editor: Editor) -> N
     assert marks(editor) == {f"Bar {bar['number']}": bar["frame"] for bar in told["bars"]}
     assert list(marks(editor)) == ["Bar 1", "Bar 2"]
     assert marks(editor)["Bar 1"] > 0
+
+
+def test_rehearsal_markers_are_marked_with_their_bars_and_an_artists_letters_stay(two: Editor) -> None:
+    unreal, sequence = two.unreal, two.sequence()
+    sequence.add_marked_frame_to_sequence(unreal.MovieSceneMarkedFrame(unreal.FrameNumber(3), "A"))
+    one, two_at, three = (quartet().score.tick_of_bar(bar) for bar in (1, 2, 3))
+    within = (one + two_at) // 2
+    named = (
+        Marker(one, "A"),
+        Marker(within, "{rit.}"),
+        Marker(two_at, "B"),
+        Marker(two_at, "速く"),
+        Marker(three, "C"),
+    )
+    exported(two.folder, marked(named), last_bar=2)
+    two.update_performance()
+    told = description(two)
+    # What lies behind the bars that were exported is not of this performance.
+    assert [(marker["text"], marker["bar"]) for marker in told["markers"]] == [
+        ("A", 1), ("{rit.}", 1), ("B", 2), ("速く", 2),
+    ]  # fmt: skip
+    first, second = (row["frame"] for row in told["bars"])
+    rit = told["markers"][1]["frame"]
+    assert first < rit < second
+    assert marks(two) == {"A": 3, "Bar 1: A": first, "Bar 1: {rit.}": rit, "Bar 2: B, 速く": second}
+    before = marks(two)
+    assert "up to date" in two.update_performance()
+    assert marks(two) == before
+    exported(two.folder, marked(()), last_bar=2)
+    two.update_performance()
+    assert marks(two) == {"A": 3, "Bar 1": first, "Bar 2": second}
+
+
+def test_a_description_without_markers_is_of_an_earlier_suisou(editor: Editor) -> None:
+    path = editor.folder / "SuisouSource/quartet/performance.json"
+    told = description(editor)
+    del told["markers"]
+    path.write_text(json.dumps(told), encoding="utf-8")
+    editor.import_performance()
+    assert list(marks(editor)) == ["Bar 1", "Bar 2"]
 
 
 def test_an_update_of_the_same_changes_nothing(editor: Editor) -> None:

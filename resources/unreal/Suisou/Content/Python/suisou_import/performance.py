@@ -48,7 +48,8 @@ class Sound(NamedTuple):
 
 
 class Performance(NamedTuple):
-    """A piece, played. ``bars`` are numbers and frames, ``files`` lengths and hashes."""
+    """A piece, played. ``bars`` are numbers and frames, ``markers`` texts, bars and frames, ``files`` lengths and
+    hashes."""
 
     folder: Path
     piece: str
@@ -60,6 +61,7 @@ class Performance(NamedTuple):
     sound: Sound
     figures: tuple[Figure, ...]
     bars: tuple[tuple[int, int], ...]
+    markers: tuple[tuple[str, int, int], ...]
     files: dict[str, tuple[int, str]]
 
     @property
@@ -135,6 +137,10 @@ def _performance(folder: Path, content: dict[str, Any]) -> Performance:
         ),
         figures=tuple(figures),
         bars=tuple((int(bar["number"]), int(bar["frame"])) for bar in content["bars"]),
+        # Of an export of an earlier Suisou there are none.
+        markers=tuple(
+            (str(marker["text"]), int(marker["bar"]), int(marker["frame"])) for marker in content.get("markers", ())
+        ),
         files={_matching(_FILE, name): (int(of["bytes"]), str(of["sha256"])) for name, of in content["files"].items()},
     )
     if read_performance.content != ROOT + piece:

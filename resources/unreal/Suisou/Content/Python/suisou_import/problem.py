@@ -130,6 +130,7 @@ TEXTS = {
     "step_sequence": ("Level sequence", "レベルシーケンス"),
     "step_save": ("Saving", "保存しています"),
     "bar": ("Bar {number}", "小節 {number}"),
+    "marker": ("Bar {number}: {names}", "小節 {number}: {names}"),
     "sound_track": ("Sound", "音声"),
 }
 """English and Japanese, by name; filled with what is particular."""

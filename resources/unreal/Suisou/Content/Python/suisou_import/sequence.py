@@ -1,4 +1,4 @@
-"""The level sequence: who stands where and plays what, the sound, the bars.
+"""The level sequence: who stands where and plays what, the sound, the bars and rehearsal markers.
 
 What was put there is remembered in the sequence's metadata, so that an update changes that and nothing else: tracks,
 actors and marks of the artist's stay, and so does a place where the artist has moved somebody.
@@ -52,7 +52,7 @@ def build(performance: Performance, anew: set[str]) -> list[str]:
         if mesh not in figures:
             _remove(sequence, before)
     _sound(sequence, performance)
-    marks = _mark_bars(sequence, performance, set(state["marks"]))
+    marks = _mark(sequence, performance, set(state["marks"]))
     _remember(sequence, {"figures": figures, "marks": marks})
     assets.tag(sequence, performance)
     return told
@@ -239,24 +239,33 @@ def _sound_section(sequence: unreal.LevelSequence, path: str) -> unreal.MovieSce
     return None
 
 
-def _mark_bars(sequence: unreal.LevelSequence, performance: Performance, before: set[str]) -> list[str]:
-    """Mark the bars; the labels that are ours now."""
+def _mark(sequence: unreal.LevelSequence, performance: Performance, before: set[str]) -> list[str]:
+    """Mark the bars and the rehearsal markers; the labels that are ours now."""
     in_frames = hasattr(sequence, "add_marked_frame_to_sequence")
     there = list(sequence.get_marked_frames_from_sequence() if in_frames else sequence.get_marked_frames())
     for index in reversed(range(len(there))):
         if str(there[index].label) in before:
             sequence.delete_marked_frame(index)
-    labels = []
-    for number, frame in performance.bars:
-        label = text("bar", number=number)
-        labels.append(label)
+    labels = _labels(performance)
+    for frame, label in labels.items():
         if in_frames:
             sequence.add_marked_frame_to_sequence(unreal.MovieSceneMarkedFrame(unreal.FrameNumber(frame), label))
         else:
             ticks, (numerator, denominator) = sequence.get_tick_resolution(), performance.rate
             tick = frame * denominator * ticks.numerator // (numerator * ticks.denominator)
             sequence.add_marked_frame(unreal.MovieSceneMarkedFrame(unreal.FrameNumber(tick), label))
-    return labels
+    return list(labels.values())
+
+
+def _labels(performance: Performance) -> dict[int, str]:
+    """What is written at which frame. A frame has one mark: a marker is told with its bar, which also keeps a letter of
+    the piece apart from the letters that the editor gives an artist's own marks."""
+    labels = {frame: text("bar", number=number) for number, frame in performance.bars}
+    named: dict[int, list[str]] = {}
+    for name, bar, frame in performance.markers:
+        named.setdefault(frame, []).append(name)
+        labels[frame] = text("marker", number=bar, names=", ".join(named[frame]))
+    return dict(sorted(labels.items()))
 
 
 # What is ours in it
