@@ -143,7 +143,8 @@ def read_characters(folder: Path, before: CharacterLibrary | None = None) -> Cha
     before : CharacterLibrary, optional
         What was read before: the good versions of entries that are wrong now stay in use.
     """
-    stamp = _stamp(sorted((*folder.glob("*.toml"), *(path for s in SUFFIXES for path in folder.glob(f"*{s}")))))
+    # Also the one that a program has called X.VRM.
+    stamp = _stamp(sorted(path for path in folder.glob("*") if path.suffix.lower() in (".toml", *SUFFIXES)))
     if before is not None and before.folder == folder and before.stamp == stamp:
         return before
     bundled = {id: Source(path) for id, path in bundled_characters().items()}

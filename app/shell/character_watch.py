@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QFileSystemWatcher, QObject, QTimer
+from PySide6.QtCore import QObject, QTimer
 
 from app.errors import Message
 from app.rig.character_library import CharacterLibrary, character_library, own_folder, reload_characters
 from app.rig.read_figure import SUFFIXES
+from app.shell.folder_watch import FolderWatch
 from widgets.common.session import Session, Severity
 from widgets.common.tasks import Progress, StopWanted
-
-QUIET_MS = 250
-"""A program that writes a file touches it several times: it is read when nothing was heard of it for so long."""
 
 
 class CharacterWatch(QObject):
@@ -25,18 +23,14 @@ class CharacterWatch(QObject):
         super().__init__(session)
         self._session = session
         self._known = character_library()
-        self._watcher = QFileSystemWatcher(self)
-        self._watcher.directoryChanged.connect(self._touched)
-        self._watcher.fileChanged.connect(self._touched)
-        self._quiet = QTimer(self, interval=QUIET_MS, singleShot=True)
-        self._quiet.timeout.connect(self.read)
-        self._watch()
+        self._watch = FolderWatch(self, own_folder, (".toml", *SUFFIXES))
+        self._watch.changed.connect(self.read)
         session.characters_saved.connect(self.take)
         QTimer.singleShot(0, self, self._tell_first)
 
     def read(self) -> None:
         """Read the folder again now."""
-        self._watch()
+        self._watch.look()
 
         def work(progress: Progress, stop_wanted: StopWanted) -> CharacterLibrary:
             return reload_characters()
@@ -45,7 +39,7 @@ class CharacterWatch(QObject):
 
     def take(self) -> None:
         """Tell everybody of what was read last."""
-        self._watch()
+        self._watch.look()
         before, self._known = self._known, character_library()
         if self._known is before:
             return
@@ -58,18 +52,3 @@ class CharacterWatch(QObject):
         """What was wrong when the program began."""
         for told in self._known.problems.values():
             self._session.notice(told, Severity.ERROR)
-
-    def _touched(self) -> None:
-        self._quiet.start()
-
-    def _watch(self) -> None:
-        """Watch the folder and its files; a folder that is not there yet, by the one it would be in."""
-        folder = own_folder()
-        wanted = {str(next(place for place in (folder, *folder.parents) if place.is_dir()))}
-        if folder.is_dir():
-            wanted |= {str(path) for path in folder.iterdir() if path.suffix in (".toml", *SUFFIXES)}
-        watched = {*self._watcher.directories(), *self._watcher.files()}
-        if gone := watched - wanted:
-            self._watcher.removePaths(sorted(gone))
-        if new := wanted - watched:
-            self._watcher.addPaths(sorted(new))

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QFileSystemWatcher, QObject, QTimer
+from PySide6.QtCore import QObject, QTimer
 
 from app.errors import Message
+from app.shell.folder_watch import FolderWatch
 from instrument_maps.library import Library, library, own_folder, reload
 from widgets.common.session import Session, Severity
 from widgets.common.tasks import Progress, StopWanted
-
-QUIET_MS = 250
-"""An editor that saves touches a file several times: it is read when nothing was heard of it for so long."""
 
 
 class InstrumentWatch(QObject):
@@ -24,18 +22,14 @@ class InstrumentWatch(QObject):
         super().__init__(session)
         self._session = session
         self._known = library()
-        self._watcher = QFileSystemWatcher(self)
-        self._watcher.directoryChanged.connect(self._touched)
-        self._watcher.fileChanged.connect(self._touched)
-        self._quiet = QTimer(self, interval=QUIET_MS, singleShot=True)
-        self._quiet.timeout.connect(self.read)
-        self._watch()
+        self._watch = FolderWatch(self, own_folder, (".toml", ".glb"))
+        self._watch.changed.connect(self.read)
         session.instruments_saved.connect(self.read)
         QTimer.singleShot(0, self, self._tell_first)
 
     def read(self) -> None:
         """Read the folder again now."""
-        self._watch()
+        self._watch.look()
 
         def work(progress: Progress, stop_wanted: StopWanted) -> Library:
             return reload()
@@ -58,18 +52,3 @@ class InstrumentWatch(QObject):
             self._session.notice(wrong[0], Severity.ERROR)
         elif changed:
             self._session.notice(Message("instruments.read_again", {"maps": ", ".join(sorted(changed))}))
-
-    def _touched(self) -> None:
-        self._quiet.start()
-
-    def _watch(self) -> None:
-        """Watch the folder and its files; a folder that is not there yet, by the one it would be in."""
-        folder = own_folder()
-        wanted = {str(next(place for place in (folder, *folder.parents) if place.is_dir()))}
-        if folder.is_dir():
-            wanted |= {str(path) for path in folder.iterdir() if path.suffix in (".toml", ".glb")}
-        watched = {*self._watcher.directories(), *self._watcher.files()}
-        if gone := watched - wanted:
-            self._watcher.removePaths(sorted(gone))
-        if new := wanted - watched:
-            self._watcher.addPaths(sorted(new))

@@ -107,6 +107,16 @@ def test_another_file_under_the_same_id_is_another_character(folder: Path) -> No
     assert character_revision(id) == revision + 2
 
 
+def test_a_file_with_a_name_in_capitals_is_read_again_too(folder: Path) -> None:
+    folder.mkdir()
+    shutil.copy(OURS, folder / "ONE.GLB")
+    (folder / "one.toml").write_text('file = "ONE.GLB"\n')
+    reload_characters()
+    shutil.copy(bundled_characters()["man_adult"], folder / "ONE.GLB")
+    reload_characters()
+    assert character_revision("one") == 1
+
+
 def test_nobody_takes_the_place_of_one_of_ours(folder: Path) -> None:
     folder.mkdir()
     shutil.copy(OURS, folder / "other.glb")

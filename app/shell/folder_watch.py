@@ -1,0 +1,51 @@
+"""A folder of a person's own files, watched for changes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection
+from pathlib import Path
+
+from PySide6.QtCore import QFileSystemWatcher, QObject, QTimer, Signal
+
+QUIET_MS = 250
+"""A program that writes a file touches it several times: it is told when nothing was heard of it for so long."""
+
+
+class FolderWatch(QObject):
+    """Tells when something in a folder changes.
+
+    Parameters
+    ----------
+    parent : QObject
+    folder : callable
+        Where it is; need not be there yet.
+    suffixes : collection of str
+        Of the files that count.
+    """
+
+    changed = Signal()
+
+    def __init__(self, parent: QObject, folder: Callable[[], Path], suffixes: Collection[str]) -> None:
+        super().__init__(parent)
+        self._folder, self._suffixes = folder, frozenset(suffixes)
+        self._quiet = QTimer(self, interval=QUIET_MS, singleShot=True)
+        self._quiet.timeout.connect(self.changed)
+        self._watcher = QFileSystemWatcher(self)
+        self._watcher.directoryChanged.connect(self._touched)
+        self._watcher.fileChanged.connect(self._touched)
+        self.look()
+
+    def look(self) -> None:
+        """Watch the folder and its files as they are now; a folder that is not there yet, by the one it would be in."""
+        folder = self._folder()
+        wanted = {str(next(place for place in (folder, *folder.parents) if place.is_dir()))}
+        if folder.is_dir():
+            wanted |= {str(path) for path in folder.iterdir() if path.suffix.lower() in self._suffixes}
+        watched = {*self._watcher.directories(), *self._watcher.files()}
+        if gone := watched - wanted:
+            self._watcher.removePaths(sorted(gone))
+        if new := wanted - watched:
+            self._watcher.addPaths(sorted(new))
+
+    def _touched(self) -> None:
+        self._quiet.start()
