@@ -121,7 +121,7 @@ def draw(target: Path, language: str, theme: str) -> None:
         studio.settle()
         save(dialog, target / f"character-body{suffix}.png")
         dialog.tabs.setCurrentIndex(1)
-        dialog.faces.choose("jawOpen")
+        dialog.faces.choose("eyeBlinkLeft")
         studio.settle()
         save(dialog, target / f"character-face{suffix}.png")
         dialog.reject()
