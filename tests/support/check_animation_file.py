@@ -452,19 +452,22 @@ def r_ufbx(a):
             loc[nm] = (l.translation.x, l.translation.y, l.translation.z, l.rotation.x, l.rotation.y, l.rotation.z, l.rotation.w)
         return o, loc, [(c, e.blend_channels[i].weight) for i, c in enumerate(chans)]
     for t in a['times']:        # a child per moment: ufbx 0.0.5 crashes when a second scene is evaluated in one process
-        r, w = os.pipe()
-        pid = os.fork()
-        if pid == 0:
-            try:
-                with os.fdopen(w, 'w') as h:
-                    json.dump(one(t), h)
-            finally:
-                os._exit(0)
-        os.close(w)
-        with os.fdopen(r) as h:
-            txt = h.read()
-        os.waitpid(pid, 0)
-        if not txt:
+        for _ in range(5):      # and now and then when the first is
+            r, w = os.pipe()
+            pid = os.fork()
+            if pid == 0:
+                try:
+                    with os.fdopen(w, 'w') as h:
+                        json.dump(one(t), h)
+                finally:
+                    os._exit(0)
+            os.close(w)
+            with os.fdopen(r) as h:
+                txt = h.read()
+            os.waitpid(pid, 0)
+            if txt:
+                break
+        else:
             raise RuntimeError('ufbx crashed evaluating t=%g s' % t)
         o, loc, ws = json.loads(txt)
         pos.append(o)

@@ -94,12 +94,12 @@ def test_the_palette_does_not_run_what_makes_no_sense(program: Program, qtbot: Q
 
 def test_a_shortcut_of_ones_own_works_and_is_remembered(program: Program, settings: Settings, qtbot: QtBot) -> None:
     table = program.editor.table
-    table.set_keys("theme.light", "Ctrl+Alt+L")
-    qtbot.keyClick(program.window, Qt.Key.Key_L, Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.AltModifier)
+    table.set_keys("theme.light", "Ctrl+Alt+J")
+    qtbot.keyClick(program.window, Qt.Key.Key_J, Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.AltModifier)
     assert program.session.tokens.name == "light"
-    assert "Ctrl+Alt+L" in program.session.actions["theme.light"].toolTip()
+    assert "Ctrl+Alt+J" in program.session.actions["theme.light"].toolTip()
     again = ActionTable(program.session, Settings(settings.path), rows())
-    assert again.keys("theme.light") == "Ctrl+Alt+L"
+    assert again.keys("theme.light") == "Ctrl+Alt+J"
     table.set_keys("theme.light", None)
     assert settings.shortcut("theme.light") is None
 

@@ -5,7 +5,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
-from app.errors import UsageError
 from app.rig import proxy, quaternion, skinning
 from app.rig.character_library import bundled_characters, character_named
 from app.rig.finger_poses import finger_rotations
@@ -231,11 +230,3 @@ def test_a_second_fit_is_the_same_to_the_bit() -> None:
         for x, y in zip(a.fingers, b.fingers, strict=True):
             for one, other in zip(x.stations, y.stations, strict=True):
                 assert one.rotations.tobytes() == other.rotations.tobytes()
-
-
-def test_a_body_without_a_mouth_is_refused_by_name() -> None:
-    whole, instrument = character_named(PAIRS[0][0]), bundled_maps()[PAIRS[0][1]]
-    marks = {name: mark for name, mark in whole.landmarks.items() if not name.startswith("lips.")}
-    mute = Character("mute", whole.skeleton, whole.joint_from_mesh, whole.meshes, marks)
-    with pytest.raises(UsageError, match=r"lips\.contact"):
-        fit_hold(mute, bundled_instrument(instrument), instrument, load_body())
