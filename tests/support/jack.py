@@ -60,19 +60,21 @@ class Server:
     def __init__(self, name: str, period_frames: int, *, is_in_step: bool, is_realtime: bool = False) -> None:
         self.name, self.period_frames, self.is_in_step = name, period_frames, is_in_step
         self.is_realtime = is_realtime
+        self._names = [f"{name}-{number}" for number in range(3)]
         self._process: subprocess.Popen[bytes] | None = None
 
     def start(self) -> str:
-        """Start it and wait until it answers; its name.
+        """Start it and wait until it answers; its name, the one it had before if that can be.
 
         JACK knows eight names at most, a killed server's until one of the same name comes: few names, taken again.
         """
         end_s = time.monotonic() + 60.0
-        for name in cycle(f"{self.name}-{number}" for number in range(3)):
+        for name in cycle(self._names):
             self._process = self._started(name)
             while self._process.poll() is None and time.monotonic() < end_s:
                 # Another's may answer by this name, and ours end.
                 if _answers(name) and self._process.poll() is None:
+                    self._names.sort(key=lambda other: other != name)
                     return name
                 time.sleep(0.1)
             if time.monotonic() > end_s:
