@@ -444,15 +444,20 @@ def r_ufbx(a):
 
     def one(t):
         e = s.evaluate(st.anim, t0 + t) if st else s
+        KEPT.append(e)
         o, loc = {}, {}
         for i, nm in enumerate(names):      # by index and without .name: both crash ufbx 0.0.5 on an evaluated scene
             n = e.nodes[i]
-            c3, l = n.node_to_world.c3, n.local_transform
+            m, l = n.node_to_world, n.local_transform
+            c3 = m.c3
+            KEPT.append((n, m, c3, l))
             o[nm] = f((c3.x, c3.y, c3.z))
             loc[nm] = (l.translation.x, l.translation.y, l.translation.z, l.rotation.x, l.rotation.y, l.rotation.z, l.rotation.w)
-        return o, loc, [(c, e.blend_channels[i].weight) for i, c in enumerate(chans)]
+        blends = [e.blend_channels[i] for i in range(len(chans))]
+        KEPT.append(blends)
+        return o, loc, [(c, b.weight) for c, b in zip(chans, blends)]
     for t in a['times']:        # a child per moment: ufbx 0.0.5 crashes when a second scene is evaluated in one process
-        for _ in range(5):      # and now and then when the first is
+        for _ in range(5):      # and now and then even so
             r, w = os.pipe()
             pid = os.fork()
             if pid == 0:
