@@ -352,11 +352,13 @@ def write_entry(id: str, entry: CharacterEntry) -> None:
 
 
 def remove_character(id: str) -> None:
-    """Remove one of a person's own characters, its file too. Raises UsageError, FileError."""
-    source = character_library().sources.get(id)
+    """Remove one of a person's own characters, and its file if no other is made of it. Raises UsageError, FileError."""
+    sources = reload_characters().sources
+    source = sources.get(id)
     if source is None or source.entry is None:
         raise UsageError("character.missing", id=id, known=", ".join(character_library().own))
-    for path in (own_folder() / f"{id}.toml", source.path):
+    shared = any(other.path == source.path for name, other in sources.items() if name != id)
+    for path in (own_folder() / f"{id}.toml", *(() if shared else (source.path,))):
         try:
             path.unlink(missing_ok=True)
         except OSError as error:

@@ -173,3 +173,14 @@ def test_what_is_written_is_what_is_read(folder: Path, entry: CharacterEntry) ->
     folder.mkdir(exist_ok=True)
     write_entry("one", entry)
     assert read_entry(folder / "one.toml") == entry
+
+
+def test_a_file_that_another_character_is_made_of_stays(folder: Path) -> None:
+    first = add_character(OURS)
+    path = library().sources[first].path
+    (folder / "twin.toml").write_text(f'file = "{path.name}"\n', encoding="utf-8")
+    reload_characters()
+    remove_character(first)
+    assert path.is_file()
+    remove_character("twin")
+    assert not path.exists()
