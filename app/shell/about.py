@@ -6,10 +6,11 @@ import platform
 
 import PySide6
 from PySide6.QtCore import QEvent, Qt, qVersion
-from PySide6.QtWidgets import QDialog, QDialogButtonBox, QLabel, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QDialog, QDialogButtonBox, QVBoxLayout, QWidget
 
 from app.shell.faults import log_path
 from app.version import program_version
+from widgets.common.plain import Label
 from widgets.common.session import Session
 
 
@@ -21,7 +22,7 @@ class AboutDialog(QDialog):
         self.setObjectName("about")
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self._session = session
-        self._name, self._text = QLabel("Suisou"), QLabel()
+        self._name, self._text = Label("Suisou"), Label()
         font = self._name.font()
         font.setPointSizeF(20.0)
         self._name.setFont(font)

@@ -15,6 +15,7 @@ from shiboken6 import isValid
 from app.shell.action import QT_TRANSLATE_NOOP, Action
 from app.shell.settings import Settings
 from widgets.common.icons import icon
+from widgets.common.plain import verbatim
 from widgets.common.session import Session
 from widgets.common.text import message_text
 
@@ -293,7 +294,7 @@ class ActionTable(QObject):
         for action_id, steps in (("edit.undo", document.done), ("edit.redo", document.undone)):
             text = self.text(action_id)
             if steps:
-                step = message_text(steps[-1].name)
+                step = verbatim(message_text(steps[-1].name))
                 text = QCoreApplication.translate("ActionTable", "{action}: {step}").format(action=text, step=step)
             self.actions[action_id].setText(text)
 

@@ -8,9 +8,10 @@ from functools import partial
 
 from PySide6.QtCore import QSize
 from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import QBoxLayout, QFrame, QHBoxLayout, QLabel, QPushButton, QToolButton, QWidget
+from PySide6.QtWidgets import QBoxLayout, QFrame, QHBoxLayout, QPushButton, QToolButton, QWidget
 
 from widgets.common.icons import icon, pixmap
+from widgets.common.plain import Label
 from widgets.common.session import Session
 from widgets.common.tokens import LEAST_TARGET_PX
 
@@ -39,7 +40,7 @@ class Banner(QFrame):
         self._buttons: list[QPushButton] = []
         self._line = QBoxLayout(QBoxLayout.Direction.LeftToRight, self)
         self._line.setContentsMargins(12, 5, 6, 5)
-        self._mark, self._text = QLabel(), QLabel()
+        self._mark, self._text = Label(), Label()
         self._text.setObjectName("banner_text")
         self._text.setWordWrap(True)
         self._close = QToolButton()

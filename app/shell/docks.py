@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QEvent, Qt
-from PySide6.QtWidgets import QDockWidget, QHBoxLayout, QLabel, QToolButton, QWidget
+from PySide6.QtWidgets import QDockWidget, QHBoxLayout, QToolButton, QWidget
 
 from widgets.common.icons import icon
+from widgets.common.plain import Label
 from widgets.common.session import Session
 from widgets.common.tokens import LEAST_TARGET_PX
 
@@ -32,7 +33,7 @@ class Dock(QDockWidget):
         line = QHBoxLayout(self._bar)
         line.setContentsMargins(10, 1, 3, 1)
         line.setSpacing(1)
-        self._title = QLabel()
+        self._title = Label()
         self._float, self._close = QToolButton(), QToolButton()
         self._float.setObjectName("float_panel")
         self._close.setObjectName("close_panel")

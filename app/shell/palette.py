@@ -9,7 +9,6 @@ from PySide6.QtGui import QColor, QKeyEvent, QKeySequence, QPainter, QPalette, Q
 from PySide6.QtWidgets import (
     QApplication,
     QFrame,
-    QLabel,
     QLineEdit,
     QListView,
     QStyle,
@@ -21,6 +20,7 @@ from PySide6.QtWidgets import (
 
 from app.shell.actions import ActionTable, plain, sequences
 from app.shell.fuzzy import fitness
+from widgets.common.plain import Label
 from widgets.common.session import Session
 
 WIDTH_PX, ROW_PX, MOST_ROWS = 560, 30, 14
@@ -59,7 +59,7 @@ class Palette(QFrame):
         self.list.setFrameShape(QFrame.Shape.NoFrame)
         self.list.setMouseTracking(True)
         self.list.clicked.connect(self._run)
-        self.nothing = QLabel()
+        self.nothing = Label()
         self.nothing.setObjectName("palette_nothing")
         self.nothing.setFixedHeight(ROW_PX)
         self.nothing.setIndent(8)

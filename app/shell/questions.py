@@ -7,11 +7,12 @@ from pathlib import Path
 from typing import Literal, Protocol
 
 from PySide6.QtCore import QCoreApplication
-from PySide6.QtWidgets import QApplication, QDialog, QFileDialog, QMessageBox, QWidget
+from PySide6.QtWidgets import QApplication, QDialog, QFileDialog, QWidget
 
 from app.project.model import Project
 from app.score.read import MidiContents
 from instrument_maps.library import all_maps
+from widgets.common.plain import MessageBox
 from widgets.common.tokens import Tokens
 
 Answer = Literal["save", "discard", "cancel"]
@@ -59,15 +60,15 @@ class Dialogs:
     def unsaved(self, name: str) -> Answer:
         """See `Questions`."""
         translate = QCoreApplication.translate
-        box = QMessageBox(_parent())
+        box = MessageBox(_parent())
         box.setObjectName("unsaved")
-        box.setIcon(QMessageBox.Icon.NoIcon)
+        box.setIcon(MessageBox.Icon.NoIcon)
         box.setWindowTitle(translate("Questions", "Unsaved changes"))
         box.setText(translate("Questions", "Save the changes to {name}?").format(name=name))
         box.setInformativeText(translate("Questions", "They are lost if you do not save them."))
-        save = box.addButton(translate("Questions", "Save"), QMessageBox.ButtonRole.AcceptRole)
-        discard = box.addButton(translate("Questions", "Don't Save"), QMessageBox.ButtonRole.DestructiveRole)
-        cancel = box.addButton(translate("Questions", "Cancel"), QMessageBox.ButtonRole.RejectRole)
+        save = box.addButton(translate("Questions", "Save"), MessageBox.ButtonRole.AcceptRole)
+        discard = box.addButton(translate("Questions", "Don't Save"), MessageBox.ButtonRole.DestructiveRole)
+        cancel = box.addButton(translate("Questions", "Cancel"), MessageBox.ButtonRole.RejectRole)
         box.setDefaultButton(save)
         box.setEscapeButton(cancel)
         box.exec()
@@ -88,16 +89,16 @@ class Dialogs:
     def remove_character(self, name: str, players: tuple[str, ...]) -> bool:
         """See `Questions`."""
         translate = QCoreApplication.translate
-        box = QMessageBox(_parent())
+        box = MessageBox(_parent())
         box.setObjectName("remove_character")
-        box.setIcon(QMessageBox.Icon.NoIcon)
+        box.setIcon(MessageBox.Icon.NoIcon)
         box.setWindowTitle(translate("Questions", "Remove character"))
         box.setText(translate("Questions", "Remove {name} and its file for good?").format(name=name))
         if players:
             told = translate("Questions", "These players are this character and will not be seen: {players}")
             box.setInformativeText(told.format(players=", ".join(players)))
-        remove = box.addButton(translate("Questions", "Remove"), QMessageBox.ButtonRole.DestructiveRole)
-        cancel = box.addButton(translate("Questions", "Cancel"), QMessageBox.ButtonRole.RejectRole)
+        remove = box.addButton(translate("Questions", "Remove"), MessageBox.ButtonRole.DestructiveRole)
+        cancel = box.addButton(translate("Questions", "Cancel"), MessageBox.ButtonRole.RejectRole)
         box.setDefaultButton(cancel)
         box.setEscapeButton(cancel)
         box.exec()
@@ -113,14 +114,14 @@ def with_suffix(path: Path, suffixes: Sequence[str]) -> Path:
 
 def _may_replace(title: str, path: Path) -> bool:
     translate = QCoreApplication.translate
-    box = QMessageBox(_parent())
+    box = MessageBox(_parent())
     box.setObjectName("replace")
-    box.setIcon(QMessageBox.Icon.NoIcon)
+    box.setIcon(MessageBox.Icon.NoIcon)
     box.setWindowTitle(title)
     box.setText(translate("Questions", "Replace {name}?").format(name=path.name))
     box.setInformativeText(translate("Questions", "The folder has a file of this name. What it holds is lost."))
-    replace = box.addButton(translate("Questions", "Replace"), QMessageBox.ButtonRole.DestructiveRole)
-    cancel = box.addButton(translate("Questions", "Cancel"), QMessageBox.ButtonRole.RejectRole)
+    replace = box.addButton(translate("Questions", "Replace"), MessageBox.ButtonRole.DestructiveRole)
+    cancel = box.addButton(translate("Questions", "Cancel"), MessageBox.ButtonRole.RejectRole)
     box.setDefaultButton(cancel)
     box.setEscapeButton(cancel)
     box.exec()

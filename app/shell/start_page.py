@@ -7,12 +7,13 @@ from pathlib import Path
 
 from PySide6.QtCore import QDateTime, QEvent, QLocale, QSize, Qt
 from PySide6.QtGui import QFontMetrics
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QScrollArea, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QPushButton, QScrollArea, QToolButton, QVBoxLayout, QWidget
 
 from app.project.recovery import Recoverable
 from app.shell.files import Files
 from app.shell.settings import Settings
 from widgets.common.icons import icon
+from widgets.common.plain import Label, verbatim
 from widgets.common.session import Session
 
 WIDTH_PX = 860
@@ -145,7 +146,7 @@ class StartPage(QScrollArea):
             changed = QDateTime.fromSecsSinceEpoch(round(item.changed_s))
             when = QLocale().toString(changed, QLocale.FormatType.ShortFormat)
             name = item.name or self.tr("a piece that was never saved")
-            text = QLabel(self.tr("Unsaved work was found: {name}, {when}").format(name=name, when=when))
+            text = Label(self.tr("Unsaved work was found: {name}, {when}").format(name=name, when=when))
             text.setWordWrap(True)
             go_on, throw = QPushButton(self.tr("Recover")), QPushButton(self.tr("Discard"))
             go_on.setObjectName("recover")
@@ -165,7 +166,7 @@ class StartPage(QScrollArea):
         tokens = self._session.tokens
         paths = self._settings.recent
         if not paths:
-            nothing = QLabel(self.tr("Files you open appear here."))
+            nothing = Label(self.tr("Files you open appear here."))
             nothing.setStyleSheet(f"color: {tokens.text_dim};")
             self._recent.addWidget(nothing)
         for path in paths:
@@ -182,7 +183,7 @@ class StartPage(QScrollArea):
         name = metrics.elidedText(path.name, Qt.TextElideMode.ElideMiddle, RECENT_PX - LEAST_FOLDER_PX)
         room = RECENT_PX - metrics.horizontalAdvance(name)
         where = metrics.elidedText(str(path.parent), Qt.TextElideMode.ElideMiddle, room)
-        button.setText(f"  {name}    {where if there else self.tr('not found')}".replace("&", "&&"))
+        button.setText(verbatim(f"  {name}    {where if there else self.tr('not found')}"))
         button.setIcon(icon("piece", tokens))
         button.setToolTip(str(path))
         button.setEnabled(there)
@@ -215,8 +216,8 @@ class StartPage(QScrollArea):
         super().changeEvent(event)
 
 
-def _label(name: str, size_pt: float) -> QLabel:
-    label = QLabel()
+def _label(name: str, size_pt: float) -> Label:
+    label = Label()
     label.setObjectName(name)
     font = label.font()
     font.setPointSizeF(size_pt)

@@ -13,7 +13,6 @@ from PySide6.QtWidgets import (
     QApplication,
     QFrame,
     QHBoxLayout,
-    QLabel,
     QProgressBar,
     QPushButton,
     QStatusBar,
@@ -27,6 +26,7 @@ from app.shell.files import Files
 from app.shell.tasks import Task, ThreadTasks
 from instrument_maps.library import library
 from widgets.common.icons import icon, pixmap
+from widgets.common.plain import Label, verbatim
 from widgets.common.session import Session, Severity
 from widgets.common.text import message_text, sentence
 from widgets.common.tokens import LEAST_TARGET_PX, Tokens
@@ -113,7 +113,7 @@ class StatusLine(QStatusBar):
         self.addPermanentWidget(self._stream)
         self._problems = _flat("problems")
         self._problems.clicked.connect(self.problems_asked)
-        self._saved, self._rate, self._motion = QLabel(), QLabel(), QLabel()
+        self._saved, self._rate, self._motion = Label(), Label(), Label()
         self._saved.setObjectName("saved")
         self._rate.setObjectName("frame_rate")
         self._motion.setObjectName("motion")
@@ -202,9 +202,8 @@ class StatusLine(QStatusBar):
         text = sentence(message, self._session)
         room_px = max(self.width() // 2, 240)
         first = text.splitlines()[0] if text else ""
-        self._notice.setText(
-            " " + QFontMetrics(self._notice.font()).elidedText(first, Qt.TextElideMode.ElideRight, room_px)
-        )
+        shown = QFontMetrics(self._notice.font()).elidedText(first, Qt.TextElideMode.ElideRight, room_px)
+        self._notice.setText(verbatim(f" {shown}"))
         self._notice.setIcon(
             icon(severity.value, self._session.tokens, severity_colour(severity, self._session.tokens))
         )
@@ -271,7 +270,7 @@ class StatusLine(QStatusBar):
         self._device.setIcon(icon(name, tokens, colour))
         room_px = max(self.width() // 6, 120)
         device = QFontMetrics(self._device.font()).elidedText(recording.port, Qt.TextElideMode.ElideMiddle, room_px)
-        self._device.setText(" " + text.format(device=device))
+        self._device.setText(verbatim(" " + text.format(device=device)))
         self._device.setToolTip(self.tr("MIDI devices: choose, watch what comes in"))
 
     def _tell_stream(self) -> None:
@@ -290,7 +289,7 @@ class StatusLine(QStatusBar):
         room_px = max(self.width() // 8, 100)
         host = QFontMetrics(self._stream.font()).elidedText(streaming.host, Qt.TextElideMode.ElideMiddle, room_px)
         self._stream.setIcon(icon("stream", tokens, colour))
-        self._stream.setText(" " + text.format(host=host, ports=ports, rate=streaming.sent_hz))
+        self._stream.setText(verbatim(" " + text.format(host=host, ports=ports, rate=streaming.sent_hz)))
         names = {player.id: player.name for player in self._session.project.players}
         who = [f"{names[line.player_id]}: {line.port}" for line in lines if line.player_id in names]
         self._stream.setToolTip("\n".join([*who, "", self.tr("Live stream: what is sent, and where")]).strip())
@@ -403,7 +402,7 @@ class _TaskRow(QWidget):
         line = QHBoxLayout(self)
         line.setContentsMargins(0, 0, 0, 0)
         line.setSpacing(6)
-        self._name = QLabel()
+        self._name = Label()
         # What stands at the right has room before the names of work.
         self._name.setMinimumWidth(NAME_PX)
         self._bar = QProgressBar()
@@ -471,7 +470,7 @@ class _Details(QFrame):
             row = QWidget()
             line = QHBoxLayout(row)
             line.setContentsMargins(0, 0, 0, 0)
-            mark, text = QLabel(), QLabel(sentence(message, self._session))
+            mark, text = Label(), Label(sentence(message, self._session))
             mark.setPixmap(pixmap(severity.value, 16, severity_colour(severity, tokens), self.devicePixelRatioF()))
             text.setWordWrap(True)
             text.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)

@@ -151,6 +151,8 @@ def style_sheet(t: Tokens, marks: Marks) -> str:
     """Rules for what Fusion draws too loudly: flat, quiet, one accent."""
     hover, off = t.line, faint(t)
     return f"""
+/* What Qt makes itself (tips, file dialogs) shows text as it is written, as `widgets.common.plain` does. */
+QLabel, QToolTip {{ qproperty-textFormat: PlainText; }}
 * {{ outline: none; }}
 QToolTip {{ background: {t.raised}; color: {t.text}; border: 1px solid {t.line_strong}; padding: 3px 5px; }}
 QMainWindow, QDialog {{ background: {t.surface}; }}

@@ -28,6 +28,7 @@ from app.shell.start_page import StartPage
 from app.shell.status import StatusLine
 from app.shell.tasks import ThreadTasks
 from widgets.common.icons import icon
+from widgets.common.plain import verbatim, verbatim_title
 from widgets.common.session import Session
 from widgets.inspector.panel import InspectorPanel
 from widgets.players.panel import PlayersPanel
@@ -340,7 +341,7 @@ class Window(QMainWindow):
         menu.clear()
         for text in self.editor.settings.recent:
             path = Path(text)
-            row = menu.addAction(f"{path.name.replace('&', '&&')}    {path.parent}")
+            row = menu.addAction(verbatim(f"{path.name}    {path.parent}"))
             row.setEnabled(path.is_file())
             row.triggered.connect(partial(self._open_recent, path))
         if menu.isEmpty():
@@ -403,7 +404,7 @@ class Window(QMainWindow):
 
     def _tell_title(self) -> None:
         if self._files.is_open:
-            self.setWindowTitle(f"{self._files.name}[*] — Suisou")
+            self.setWindowTitle(f"{verbatim_title(self._files.name)}[*] — Suisou")
         else:
             self.setWindowTitle("Suisou")
         self.setWindowModified(not self._files.is_saved)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QRectF, QSize, Qt
-from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPaintEvent, QPen
+from PySide6.QtGui import QColor, QFont, QFontMetricsF, QKeySequence, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QAbstractButton, QSizePolicy, QWidget
 
 from widgets.common.session import Session
@@ -40,6 +40,8 @@ class Chip(QAbstractButton):
         self._session = session
         self._note, self._by_hand, self._outlined = note, by_hand, outlined
         self.setText(text)
+        # It is drawn as it is written: an `&` names no key.
+        self.setShortcut(QKeySequence())
         self.setCheckable(True)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setCursor(Qt.CursorShape.PointingHandCursor)

@@ -18,7 +18,6 @@ from PySide6.QtWidgets import (
     QFormLayout,
     QHBoxLayout,
     QHeaderView,
-    QLabel,
     QLineEdit,
     QPushButton,
     QScrollArea,
@@ -33,6 +32,7 @@ from app.errors import AppError, Message
 from app.rig.figure import Figure
 from widgets.common.character_picture import Crop, Seen, picture, seen
 from widgets.common.icons import icon
+from widgets.common.plain import Label, verbatim, verbatim_title
 from widgets.common.session import Session
 from widgets.common.tasks import Progress, StopWanted
 from widgets.common.text import message_text
@@ -100,8 +100,8 @@ class CharacterDialog(QDialog):
         self._wants_picture = False
         self.title = QLineEdit(draft.title)
         self.title.setObjectName("character_title")
-        self._source, self._told, self._picture, self._legend = QLabel(), QLabel(), QLabel(), QLabel()
-        self._legend.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self._source, self._told, self._picture = Label(), Label(), Label()
+        self._legend = [(Label(sign), Label()) for sign in ("●", "◉", "○")]
         self._picture.setObjectName("character_picture")
         self._told.setObjectName("character_told")
         self.body = BodyMap(session, self._joint_text)
@@ -117,7 +117,7 @@ class CharacterDialog(QDialog):
         self.give = QCheckBox()
         self.give.setObjectName("character_give")
         self._buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Ok | QDialogButtonBox.StandardButton.Cancel)
-        self._title_name = QLabel()
+        self._title_name = Label()
         self._soon = QTimer(self, singleShot=True, interval=_SOON_MS)
         self._soon.timeout.connect(self._draw)
         self._name()
@@ -162,7 +162,14 @@ class CharacterDialog(QDialog):
         columns.setContentsMargins(0, 8, 0, 0)
         drawn = QVBoxLayout()
         drawn.addWidget(self.body, 1)
-        drawn.addWidget(self._legend)
+        legend = QHBoxLayout()
+        legend.addStretch(1)
+        for sign, text in self._legend:
+            legend.addWidget(sign)
+            legend.addWidget(text)
+            legend.addSpacing(8)
+        legend.addStretch(1)
+        drawn.addLayout(legend)
         columns.addLayout(drawn, 5)
         columns.addWidget(self.rows, 4)
         choice = QVBoxLayout()
@@ -326,16 +333,14 @@ class CharacterDialog(QDialog):
             f"#character_picture {{ background: {tokens.sunken}; border: 1px solid {tokens.line};"
             " border-radius: 6px; }"
         )
-        self._legend.setText(
-            "&nbsp;&nbsp; ".join(
-                f'<span style="color: {colour};">{sign}</span> {text}'
-                for sign, colour, text in (
-                    ("●", tokens.good, self.tr("found")),
-                    ("◉", tokens.warning, self.tr("a guess")),
-                    ("○", tokens.text_dim, self.tr("none")),
-                )
-            )
+        states = (
+            (tokens.good, self.tr("found")),
+            (tokens.warning, self.tr("a guess")),
+            (tokens.text_dim, self.tr("none")),
         )
+        for (sign, text), (colour, word) in zip(self._legend, states, strict=True):
+            sign.setStyleSheet(f"color: {colour};")
+            text.setText(word)
         self._undo.setEnabled(self._steps.can_undo)
         self._redo.setEnabled(self._steps.can_redo)
         self._reset.setEnabled(bool(self.draft.joints or self.draft.morphs))
@@ -406,7 +411,7 @@ class CharacterDialog(QDialog):
 
     def retranslate(self) -> None:
         """Set all texts."""
-        self.setWindowTitle(self.tr("Character: {file}").format(file=self._path.name))
+        self.setWindowTitle(verbatim_title(self.tr("Character: {file}").format(file=self._path.name)))
         self._title_name.setText(self.tr("Name"))
         self._source.setText(
             self.tr("{file}\nBones: {bones}, morphs: {morphs}").format(
@@ -424,7 +429,7 @@ class CharacterDialog(QDialog):
         self._undo.setText(self.tr("Undo"))
         self._redo.setText(self.tr("Redo"))
         self._reset.setText(self.tr("Reset All"))
-        self.give.setText(self.tr("Give it to {players}").format(players=self._offered))
+        self.give.setText(verbatim(self.tr("Give it to {players}").format(players=self._offered)))
         self.give.setVisible(bool(self._offered))
         self._buttons.button(QDialogButtonBox.StandardButton.Ok).setText(self.tr("Keep Character"))
         self._buttons.button(QDialogButtonBox.StandardButton.Cancel).setText(self.tr("Cancel"))

@@ -9,7 +9,6 @@ from PySide6.QtGui import QDragEnterEvent, QDropEvent, QIcon, QImage, QPixmap
 from PySide6.QtWidgets import (
     QDialog,
     QHBoxLayout,
-    QLabel,
     QListWidget,
     QListWidgetItem,
     QPushButton,
@@ -22,6 +21,7 @@ from app.rig.character_library import character_library, character_named, charac
 from app.rig.read_figure import SUFFIXES
 from widgets.common.character_picture import picture, seen
 from widgets.common.instrument_name import character_name
+from widgets.common.plain import Label
 from widgets.common.session import Session
 from widgets.common.tasks import Progress, StopWanted
 from widgets.common.text import message_text
@@ -53,7 +53,7 @@ class CharactersDialog(QDialog):
         self.setAcceptDrops(True)
         self._session = session
         self._pictures: dict[str, QIcon] = {}
-        self._explained, self._wrong = QLabel(), QLabel()
+        self._explained, self._wrong = Label(), Label()
         self.list = QListWidget()
         self.list.setObjectName("character_list")
         self.list.setIconSize(_PICTURE_PX)

@@ -16,7 +16,6 @@ from PySide6.QtWidgets import (
     QDoubleSpinBox,
     QFormLayout,
     QHBoxLayout,
-    QLabel,
     QListWidget,
     QListWidgetItem,
     QProgressBar,
@@ -31,6 +30,7 @@ from app.performance.ensemble import Performance
 from app.performance.span import bars_span, whole_span
 from app.project.model import Player
 from metadata.load import load_bone_names
+from widgets.common.plain import Label
 from widgets.common.session import Session
 from widgets.common.tasks import Progress, StopWanted
 from widgets.common.text import message_text
@@ -128,7 +128,7 @@ class ExportDialog(QDialog):
             self._rate.addItem(f"{float(rate):.6g}", str(rate))
         self._rate.setCurrentIndex(self._rate.findData(str(self._project.fps)))
         self._skeleton = SkeletonChooser(session, self._chosen_players)
-        self._files = QLabel()
+        self._files = Label()
         self._files.setObjectName("export_outcome")
         self._files.setWordWrap(True)
         self._files.setMinimumHeight(60)
@@ -155,7 +155,7 @@ class ExportDialog(QDialog):
         self._timer.timeout.connect(self._show_share)
 
         self._labels = {
-            name: QLabel()
+            name: Label()
             for name in ("players", "into", "files", "bvh_names", "skeleton", "range", "preroll", "rate", "outcome")
         }
         self._lay_out()

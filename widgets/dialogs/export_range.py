@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QEvent, Signal
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QSpinBox, QWidget
+from PySide6.QtWidgets import QComboBox, QHBoxLayout, QSpinBox, QWidget
 
 from app.score.model import Score
+from widgets.common.plain import Label
 from widgets.common.session import Session
 
 _WHOLE, _BARS, _SELECTION = "whole", "bars", "selection"
@@ -41,7 +42,7 @@ class RangeChooser(QWidget):
             spin.setRange(lowest, highest)
             spin.setValue(value)
             spin.lineEdit().setTextMargins(TEXT_MARGIN_PX, 0, 0, 0)
-        self._dash = QLabel("–")
+        self._dash = Label("–")
         layout = QHBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addWidget(self._choice, 1)

@@ -12,7 +12,6 @@ from PySide6.QtWidgets import (
     QComboBox,
     QFileDialog,
     QHBoxLayout,
-    QLabel,
     QLineEdit,
     QPushButton,
     QVBoxLayout,
@@ -25,6 +24,7 @@ from app.export.target import SkeletonChoice
 from app.export.targets import CheckedTarget, checked_targets
 from app.project.model import Player
 from app.rig.read_figure import SUFFIXES, read_figure
+from widgets.common.plain import Label
 from widgets.common.session import Session
 from widgets.common.tasks import Progress, StopWanted
 from widgets.common.text import sentence
@@ -70,7 +70,7 @@ class SkeletonChooser(QWidget):
         self._choose = QPushButton()
         self._choose.setAutoDefault(False)
         self._choose.clicked.connect(self._choose_asset)
-        self._told = QLabel()
+        self._told = Label()
         self._told.setObjectName("export_differences")
         self._told.setWordWrap(True)
         asset = QHBoxLayout()

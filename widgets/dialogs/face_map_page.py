@@ -10,7 +10,6 @@ from PySide6.QtGui import QColor
 from PySide6.QtWidgets import (
     QHBoxLayout,
     QHeaderView,
-    QLabel,
     QPushButton,
     QToolButton,
     QTreeWidget,
@@ -24,6 +23,7 @@ from widgets.common.combo import Combo, Option
 from widgets.common.icons import icon
 from widgets.common.morph_names import morph_name
 from widgets.common.number_slider import NumberSlider
+from widgets.common.plain import Label
 from widgets.common.session import Session
 
 MOST_FACTOR = 2.0
@@ -72,7 +72,7 @@ class FaceMapPage(QWidget):
             self.list.addTopLevelItem(item)
         self.list.setCurrentItem(self._items[self._face])
         self.list.currentItemChanged.connect(self._chosen)
-        self._title, self._none = QLabel(), QLabel()
+        self._title, self._none = Label(), Label()
         self._none.setWordWrap(True)
         self._add = Combo()
         self._add.setObjectName("face_add")

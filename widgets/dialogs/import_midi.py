@@ -15,7 +15,6 @@ from PySide6.QtWidgets import (
     QDialogButtonBox,
     QHBoxLayout,
     QHeaderView,
-    QLabel,
     QLineEdit,
     QListWidget,
     QPushButton,
@@ -33,6 +32,7 @@ from app.score.read import MidiContents
 from instrument_maps.model import InstrumentMap
 from widgets.common.instrument_name import character_name, instrument_name
 from widgets.common.pitch import pitch_name
+from widgets.common.plain import Label
 from widgets.common.text import message_text
 from widgets.common.tokens import LEAST_TARGET_PX, Tokens
 
@@ -72,7 +72,7 @@ class ImportDialog(QDialog):
         self._notes = [sorted(stream.notes(), key=lambda note: note.onset_tick) for stream in contents.streams]
         self._end_tick = max((max(stream.end_ticks) for stream in contents.streams), default=1)
 
-        self._heading = QLabel()
+        self._heading = Label()
         self._heading.setObjectName("heading")
         self._table = QTableWidget(0, 8)
         self._table.setObjectName("import_tracks")
@@ -93,9 +93,9 @@ class ImportDialog(QDialog):
         self._separate.setObjectName("separate")
         self._separate.setAutoDefault(False)
         self._separate.clicked.connect(self.separate_selected)
-        self._summary = QLabel()
+        self._summary = Label()
         self._summary.setObjectName("import_summary")
-        self._warning_title = QLabel()
+        self._warning_title = Label()
         self._warnings = QListWidget()
         self._warnings.setObjectName("import_warnings")
         self._warnings.setWordWrap(True)
@@ -210,7 +210,7 @@ class ImportDialog(QDialog):
         notes = [note for stream in row.wish.streams for note in self._notes[stream]]
         self._table.setCellWidget(place, _PREVIEW, NotesPreview(notes, self._end_tick, self._tokens))
         low, high = min(note.pitch for note in notes), max(note.pitch for note in notes)
-        count = QLabel(
+        count = Label(
             self.tr("Notes: {count}\n{low} to {high}").format(
                 count=len(notes), low=pitch_name(low), high=pitch_name(high)
             )

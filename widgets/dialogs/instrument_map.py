@@ -18,11 +18,9 @@ from PySide6.QtWidgets import (
     QGridLayout,
     QHBoxLayout,
     QHeaderView,
-    QLabel,
     QLineEdit,
     QListWidget,
     QListWidgetItem,
-    QMessageBox,
     QPushButton,
     QSplitter,
     QStyledItemDelegate,
@@ -42,6 +40,7 @@ from widgets.common.fingering_tags import tag_words, tags_of_text, words_of_tags
 from widgets.common.icons import icon
 from widgets.common.instrument_name import instrument_name
 from widgets.common.pitch import LETTERS, pitch_name, syllables
+from widgets.common.plain import Label, MessageBox
 from widgets.common.session import Session, Severity
 from widgets.common.text import message_text
 from widgets.dialogs.fingering_draft import Draft, base_of
@@ -66,10 +65,11 @@ class InstrumentsDialog(QDialog):
         self._filling = False
         self._list = QListWidget()
         self._list.setObjectName("instruments_list")
-        self._wrong, self._facts, self._file, self._problem = QLabel(), QLabel(), QLabel(), QLabel()
+        self._wrong, self._facts, self._file, self._problem = Label(), Label(), Label(), Label()
         self._wrong.setObjectName("instruments_wrong")
-        self._title = QLabel()
+        self._title, self._id = Label(), Label()
         self._title.setObjectName("instruments_title")
+        self._title.setStyleSheet("font-weight: bold;")
         self._facts.setObjectName("instruments_facts")
         self._problem.setObjectName("instruments_problem")
         self._table = QTableWidget(0, 6)
@@ -77,7 +77,7 @@ class InstrumentsDialog(QDialog):
         self._diagram = FingeringDiagram(session)
         self._diagram.setObjectName("instruments_diagram")
         self._diagram.set_editable(True)
-        self._hint = QLabel()
+        self._hint = Label()
         names = ("up", "down", "add", "remove", "revert", "revert_all", "undo", "redo", "folder", "save", "close")
         self._buttons = {name: QPushButton() for name in names}
         self._build()
@@ -129,7 +129,11 @@ class InstrumentsDialog(QDialog):
         lines = QVBoxLayout(right)
         lines.setContentsMargins(8, 0, 0, 0)
         lines.addWidget(self._wrong)
-        lines.addWidget(self._title)
+        heading = QHBoxLayout()
+        heading.setSpacing(12)
+        heading.addWidget(self._title)
+        heading.addWidget(self._id, 1)
+        lines.addLayout(heading)
         lines.addWidget(self._facts)
         lines.addWidget(self._file)
         lines.addWidget(work, 1)
@@ -232,7 +236,8 @@ class InstrumentsDialog(QDialog):
         if draft is None:
             return
         own = library().own.get(draft.instrument.id)
-        self._title.setText(f"<b>{instrument_name(draft.instrument)}</b>  {draft.instrument.id}")
+        self._title.setText(instrument_name(draft.instrument))
+        self._id.setText(draft.instrument.id)
         self._facts.setText(self._facts_of(draft.instrument))
         self._file.setText(
             self.tr("Your own version: {file}").format(file=str(own)) if own is not None else self.tr("Bundled")
@@ -555,12 +560,12 @@ class InstrumentsDialog(QDialog):
 
     def ask(self, count: int) -> str:
         """``"save"``, ``"discard"`` or ``"cancel"``."""
-        box = QMessageBox(self)
+        box = MessageBox(self)
         box.setWindowTitle(self.tr("Instruments"))
         box.setText(self.tr("Instruments with fingerings that are not saved: {count}.").format(count=count))
-        save = box.addButton(self.tr("Save"), QMessageBox.ButtonRole.AcceptRole)
-        discard = box.addButton(self.tr("Discard"), QMessageBox.ButtonRole.DestructiveRole)
-        box.setEscapeButton(box.addButton(self.tr("Cancel"), QMessageBox.ButtonRole.RejectRole))
+        save = box.addButton(self.tr("Save"), MessageBox.ButtonRole.AcceptRole)
+        discard = box.addButton(self.tr("Discard"), MessageBox.ButtonRole.DestructiveRole)
+        box.setEscapeButton(box.addButton(self.tr("Cancel"), MessageBox.ButtonRole.RejectRole))
         box.exec()
         clicked = box.clickedButton()
         return "save" if clicked is save else "discard" if clicked is discard else "cancel"

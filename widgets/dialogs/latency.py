@@ -7,13 +7,14 @@ from typing import Final
 
 from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QColor, QKeyEvent, QPainter, QPaintEvent, QPen
-from PySide6.QtWidgets import QDialog, QDoubleSpinBox, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QDialog, QDoubleSpinBox, QHBoxLayout, QPushButton, QVBoxLayout, QWidget
 
 from app.audio.click import steady_clicks
 from app.audio.playback import Playback
 from app.audio.track import Mix
 from app.capture.latency import LATEST_S, LEAST_HITS, Measured, hits, measured, placed
 from app.capture.protocol import Events
+from widgets.common.plain import Label
 from widgets.common.session import Session
 
 LEAD: Final = 4
@@ -62,7 +63,7 @@ class LatencyDialog(QDialog):
         self._heard: list[tuple[int, float]] = []
         self._found: Measured | None = None
         self._stopped_why = ""
-        self._explained, self._told, self._value_name = QLabel(), QLabel(), QLabel()
+        self._explained, self._told, self._value_name = Label(), Label(), Label()
         self._told.setObjectName("latency_told")
         self.chart = HitChart(session)
         self.value = QDoubleSpinBox()

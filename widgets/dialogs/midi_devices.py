@@ -14,7 +14,6 @@ from PySide6.QtWidgets import (
     QGroupBox,
     QHBoxLayout,
     QHeaderView,
-    QLabel,
     QPushButton,
     QTreeWidget,
     QTreeWidgetItem,
@@ -31,6 +30,7 @@ from metadata.load import load_controllers
 from metadata.model import BiteSource
 from widgets.common.combo import Combo, Option
 from widgets.common.instrument_name import language
+from widgets.common.plain import Label
 from widgets.common.session import Session
 from widgets.common.text import sentence
 from widgets.dialogs.midi_monitor import MidiMonitor, source_name
@@ -82,10 +82,10 @@ class MidiDevicesDialog(QDialog):
         self._listed: tuple[object, ...] = ()
         self._list = QTreeWidget()
         self._list.setObjectName("midi_device_list")
-        self._hint, self._told, self._heard, self._late = (QLabel() for _ in range(4))
+        self._hint, self._told, self._heard, self._late = (Label() for _ in range(4))
         self._kind, self._channel, self._breath, self._bite = (Combo() for _ in range(4))
-        self._rows = {widget: QLabel() for widget in (self._kind, self._channel, self._breath, self._bite)}
-        self._late_name = QLabel()
+        self._rows = {widget: Label() for widget in (self._kind, self._channel, self._breath, self._bite)}
+        self._late_name = Label()
         self._learn, self._measure, self._beep, self._close = (QPushButton() for _ in range(4))
         self._device, self._incoming = QGroupBox(), QGroupBox()
         self._monitor = MidiMonitor(session)
@@ -254,7 +254,7 @@ class MidiDevicesDialog(QDialog):
 
     # What is shown
 
-    def _tell(self, label: QLabel, text: str, wrong: bool = False) -> None:
+    def _tell(self, label: Label, text: str, wrong: bool = False) -> None:
         tokens = self._session.tokens
         style = f"color: {tokens.warning if wrong else tokens.good};"
         if (text, style) != (label.text(), label.styleSheet()):

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from PySide6.QtCore import QCoreApplication, QEvent, Qt, QTimer
 from PySide6.QtGui import QFont
-from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QListWidget, QProgressBar, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QListWidget, QProgressBar, QVBoxLayout, QWidget
 
 from app.capture.heard import HeardLog, Line
 from app.capture.protocol import Events
 from app.score.take import decoded, is_wired, said
 from instrument_maps.library import all_maps
 from widgets.common.pitch import pitch_text
+from widgets.common.plain import Label
 from widgets.common.session import Session
 
 SHOW_MS = 40
@@ -28,7 +29,7 @@ class MidiMonitor(QWidget):
         self._log = HeardLog()
         self._channel = 0
         self._bite_now = 0.0
-        self._note, self._from = QLabel(), QLabel()
+        self._note, self._from = Label(), Label()
         self._note.setObjectName("midi_note")
         self._from.setObjectName("midi_channel")
         self._from.setWordWrap(True)
@@ -38,7 +39,7 @@ class MidiMonitor(QWidget):
         self._note.setMinimumWidth(96)
         self._note.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self._breath, self._bite = _meter("midi_breath"), _meter("midi_bite")
-        self._names = {meter: QLabel() for meter in (self._breath, self._bite)}
+        self._names = {meter: Label() for meter in (self._breath, self._bite)}
         self._list = QListWidget()
         self._list.setObjectName("midi_messages")
         self._list.setUniformItemSizes(True)

@@ -21,7 +21,6 @@ from PySide6.QtWidgets import (
     QFileDialog,
     QFormLayout,
     QHBoxLayout,
-    QLabel,
     QLineEdit,
     QProgressBar,
     QPushButton,
@@ -32,6 +31,7 @@ from PySide6.QtWidgets import (
 from app.errors import AppError, Cancelled, Message
 from app.export.video import video_into
 from app.performance.span import FrameSpan, cut_span, whole_span
+from widgets.common.plain import Label
 from widgets.common.session import Session
 from widgets.common.tasks import Progress, StopWanted
 from widgets.common.text import message_text
@@ -104,7 +104,7 @@ class PlayblastDialog(QDialog):
         self._choose = QPushButton()
         self._choose.setAutoDefault(False)
         self._choose.clicked.connect(self._choose_file)
-        self._state = QLabel()
+        self._state = Label()
         self._state.setObjectName("playblast_state")
         self._state.setWordWrap(True)
         self._state.setMinimumHeight(40)
@@ -130,7 +130,7 @@ class PlayblastDialog(QDialog):
         self._timer.setInterval(0)
         self._timer.timeout.connect(self._draw)
 
-        self._labels = {name: QLabel() for name in ("size", "rate", "range", "view", "sound", "file")}
+        self._labels = {name: Label() for name in ("size", "rate", "range", "view", "sound", "file")}
         form = QFormLayout()
         form.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
         file = QHBoxLayout()

@@ -15,7 +15,6 @@ from PySide6.QtWidgets import (
     QDialogButtonBox,
     QFormLayout,
     QHBoxLayout,
-    QLabel,
     QLineEdit,
     QPushButton,
     QRadioButton,
@@ -25,6 +24,7 @@ from PySide6.QtWidgets import (
 )
 
 from instrument_maps.library import library, own_folder
+from widgets.common.plain import Label
 from widgets.common.session import Session, TimeDisplay
 from widgets.common.text import message_text
 from widgets.common.tokens import THEMES
@@ -74,7 +74,7 @@ class PreferencesDialog(QDialog):
         self.setObjectName("preferences")
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self._session, self._language = session, language
-        self._labels: dict[str, QLabel] = {}
+        self._labels: dict[str, Label] = {}
         self._radios: dict[str, QRadioButton] = {}
         self._groups: list[QButtonGroup] = []
         self.tabs = QTabWidget()
@@ -128,7 +128,7 @@ class PreferencesDialog(QDialog):
         self.refresh()
 
     def _row(self, name: str, field: QWidget) -> None:
-        label = QLabel()
+        label = Label()
         label.setBuddy(field)
         self._labels[name] = label
         self._form.addRow(label, field)
@@ -156,7 +156,7 @@ class PreferencesDialog(QDialog):
         column = QVBoxLayout(page)
         column.setContentsMargins(16, 16, 16, 16)
         column.setSpacing(12)
-        self._own, self._found = QLabel(), QLabel()
+        self._own, self._found = Label(), Label()
         self._folder = QLineEdit(str(own_folder()))
         self._folder.setObjectName("preferences_instruments")
         self._folder.setReadOnly(True)

@@ -11,7 +11,6 @@ from PySide6.QtWidgets import (
     QDialog,
     QDialogButtonBox,
     QHeaderView,
-    QLabel,
     QListWidget,
     QTableWidget,
     QTableWidgetItem,
@@ -23,6 +22,7 @@ from app.plan.corrections import Correction
 from app.project.model import Project
 from app.project.reimport import Conflict, Reimport
 from app.score.model import Note
+from widgets.common.plain import Label
 from widgets.common.tokens import Tokens
 
 
@@ -58,7 +58,7 @@ class ReimportDialog(QDialog):
         self.setObjectName("reimport_midi")
         self._before, self._outcome, self._file = before, outcome, file
         self._title, self._note_title, self._tokens = title, note_title, tokens
-        self._heading = QLabel()
+        self._heading = Label()
         self._heading.setWordWrap(True)
         self._table = QTableWidget(0, 5)
         self._table.setObjectName("reimport_parts")
@@ -69,16 +69,16 @@ class ReimportDialog(QDialog):
         self._table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
         self._table.horizontalHeader().setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
         self._table.horizontalHeader().setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
-        self._players = QLabel()
+        self._players = Label()
         self._players.setObjectName("reimport_players")
         self._players.setWordWrap(True)
-        self._conflict_title = QLabel()
+        self._conflict_title = Label()
         self._conflict_title.setWordWrap(True)
         self._conflicts = QListWidget()
         self._conflicts.setObjectName("reimport_conflicts")
         self._conflicts.setSelectionMode(QAbstractItemView.SelectionMode.NoSelection)
         self._conflicts.setMaximumHeight(140)
-        self._orphan_title = QLabel()
+        self._orphan_title = Label()
         self._orphan_title.setWordWrap(True)
         self._orphans = QListWidget()
         self._orphans.setObjectName("reimport_orphans")

@@ -12,7 +12,6 @@ from PySide6.QtWidgets import (
     QHBoxLayout,
     QHeaderView,
     QKeySequenceEdit,
-    QLabel,
     QLineEdit,
     QPushButton,
     QTreeWidget,
@@ -21,6 +20,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from widgets.common.plain import Label
 from widgets.common.session import Session
 
 _TEXT, _PLACE, _KEYS, _CONTEXT = range(4)
@@ -97,7 +97,7 @@ class ShortcutsPage(QWidget):
         header.setSectionResizeMode(_TEXT, QHeaderView.ResizeMode.Stretch)
         for column in (_PLACE, _KEYS, _CONTEXT):
             header.setSectionResizeMode(column, QHeaderView.ResizeMode.ResizeToContents)
-        self._label = QLabel()
+        self._label = Label()
         self.edit = QKeySequenceEdit()
         self.edit.setObjectName("shortcut_edit")
         self.edit.setClearButtonEnabled(True)
@@ -115,7 +115,7 @@ class ShortcutsPage(QWidget):
         self.take.clicked.connect(self._take)
         self.back.clicked.connect(self._back)
         self.all_back.clicked.connect(self._all_back)
-        self.told = QLabel()
+        self.told = Label()
         self.told.setObjectName("shortcut_told")
         self.told.setWordWrap(True)
         line = QHBoxLayout()

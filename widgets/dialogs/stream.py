@@ -12,7 +12,6 @@ from PySide6.QtWidgets import (
     QFormLayout,
     QHBoxLayout,
     QHeaderView,
-    QLabel,
     QLineEdit,
     QPushButton,
     QSpinBox,
@@ -24,6 +23,7 @@ from PySide6.QtWidgets import (
 
 from app.stream.sender import LEAST_PORT, LOOPBACK, MOST_PORT, is_loopback
 from widgets.common.combo import Combo, Option
+from widgets.common.plain import Label
 from widgets.common.session import Session
 from widgets.common.streaming import RATES_HZ
 from widgets.common.text import sentence
@@ -46,12 +46,12 @@ class StreamDialog(QDialog):
         self.setObjectName("stream")
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self._session, self._state = session, session.streaming
-        self._explained, self._warning, self._told = QLabel(), QLabel(), QLabel()
+        self._explained, self._warning, self._told = Label(), Label(), Label()
         self._host, self._port = QLineEdit(), QSpinBox()
         self._who, self._faces, self._rate = Combo(), Combo(), Combo()
         self._list = QTreeWidget()
         self._toggle, self._here, self._close = QPushButton(), QPushButton(), QPushButton()
-        self._names = {field: QLabel() for field in (self._host, self._port, self._who, self._faces, self._rate)}
+        self._names = {field: Label() for field in (self._host, self._port, self._who, self._faces, self._rate)}
         self._listed: tuple[object, ...] = ()
         self._build()
         self._host.editingFinished.connect(self._choose_host)

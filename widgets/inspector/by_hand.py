@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from PySide6.QtCore import QEvent, Qt, Signal
 from PySide6.QtGui import QColor, QPainter, QPaintEvent
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QToolButton, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QToolButton, QWidget
 
 from widgets.common.icons import icon
+from widgets.common.plain import Label
 from widgets.common.session import Session
 
 
@@ -26,9 +27,8 @@ class ByHandLine(QWidget):
         self._session = session
         self._generated: str | None = None
         self._yours = ""
-        self._text = QLabel()
+        self._text = Label()
         self._text.setWordWrap(True)
-        self._text.setTextFormat(Qt.TextFormat.PlainText)
         self._button = QToolButton()
         self._button.setObjectName("revert")
         self._button.clicked.connect(self.reverted)

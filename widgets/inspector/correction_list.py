@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from PySide6.QtCore import QEvent, Qt
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QPushButton, QVBoxLayout, QWidget
 
 from app.errors import Message
 from app.plan.corrections import Correction, PinFingering, SetEmbouchure, Vary
@@ -16,6 +16,7 @@ from app.project.model import Player, Project
 from app.project.reimport import orphaned, reattached
 from widgets.common.icons import icon
 from widgets.common.musical_time import place_text
+from widgets.common.plain import Label
 from widgets.common.selection import EventKey, Selection
 from widgets.common.session import Session
 from widgets.common.text import message_text
@@ -45,7 +46,7 @@ class CorrectionList(QWidget):
         self._session, self._generated = session, generated
         self.list = LineList(session)
         self.list.setObjectName("correction_list")
-        self._empty = QLabel()
+        self._empty = Label()
         self._empty.setWordWrap(True)
         self._empty.setMargin(12)
         self._empty.setAlignment(Qt.AlignmentFlag.AlignTop)

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import msgspec
 from PySide6.QtCore import QEvent, Qt
-from PySide6.QtWidgets import QGridLayout, QLabel, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QGridLayout, QVBoxLayout, QWidget
 
 from app.errors import Message
 from app.plan.corrections import PoseCorrection, SetBreath, SetCue
@@ -20,6 +20,7 @@ from widgets.common.combo import Combo, Option
 from widgets.common.event_names import expression_name, kind_name
 from widgets.common.musical_time import place_text, tick_of_place
 from widgets.common.number_slider import NumberSlider
+from widgets.common.plain import Label
 from widgets.common.section import Section
 from widgets.common.session import Session
 from widgets.common.text import message_text
@@ -44,7 +45,7 @@ class EventSection(QWidget):
         self._numbers: dict[str, NumberSlider] = {}
         self._expression = Combo()
         self._expression.setObjectName("event_expression")
-        self._length, self._why = QLabel(), QLabel()
+        self._length, self._why = Label(), Label()
         self._by_hand = ByHandLine(session)
         self._by_hand.setObjectName("event_by_hand")
         self._build()
@@ -84,7 +85,6 @@ class EventSection(QWidget):
         body.addWidget(self._by_hand)
         body.addWidget(self._why)
         self._why.setWordWrap(True)
-        self._why.setTextFormat(Qt.TextFormat.PlainText)
         self._why.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         outer = QVBoxLayout(self)
         outer.setContentsMargins(0, 0, 0, 0)

@@ -7,7 +7,7 @@ from collections.abc import Callable
 import msgspec
 import shiboken6
 from PySide6.QtCore import QCoreApplication, QEvent, Qt, Signal
-from PySide6.QtWidgets import QCheckBox, QGridLayout, QHBoxLayout, QLabel, QLineEdit, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QCheckBox, QGridLayout, QHBoxLayout, QLineEdit, QToolButton, QVBoxLayout, QWidget
 
 from app.errors import AppError, Message
 from app.project import presets
@@ -22,6 +22,7 @@ from widgets.common.event_names import expression_name
 from widgets.common.icons import icon
 from widgets.common.morph_names import morph_name
 from widgets.common.number_slider import NumberSlider
+from widgets.common.plain import Label
 from widgets.common.section import Section
 from widgets.common.session import Session, Severity
 
@@ -70,7 +71,7 @@ class ExpressionMaker(QWidget):
         self._title.setObjectName("expression_name")
         self._playing = QCheckBox()
         self._playing.setObjectName("expression_while_playing")
-        self._hint = QLabel()
+        self._hint = Label()
         self._fades = {
             name: NumberSlider(session, 0.01, 60, step=0.05, fills=(0.0, 3.0), resets=False)
             for name in ("fade_in_s", "fade_out_s")

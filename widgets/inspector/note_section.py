@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QEvent, Qt
-from PySide6.QtWidgets import QGridLayout, QLabel, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QGridLayout, QVBoxLayout, QWidget
 
 from app.errors import MapError, Message
 from app.plan.corrections import PinFingering, SetEmbouchure
@@ -21,6 +21,7 @@ from widgets.common.flow import FlowLayout
 from widgets.common.musical_time import beat_ticks, place_text, tick_of_place
 from widgets.common.number_slider import NumberSlider
 from widgets.common.pitch import pitch_text
+from widgets.common.plain import Label
 from widgets.common.section import Section
 from widgets.common.session import Session
 from widgets.common.text import message_text, sentence
@@ -54,8 +55,8 @@ class NoteSection(QWidget):
         self._chips = FlowLayout()
         self._chip_labels: tuple[tuple[str, str], ...] = ()
         self._chip_of: dict[str, Chip] = {}
-        self._fingering_title, self._lips_title = QLabel(), QLabel()
-        self._why, self._problems = QLabel(), QLabel()
+        self._fingering_title, self._lips_title = Label(), Label()
+        self._why, self._problems = Label(), Label()
         self._fingering_by_hand, self._lips_by_hand = ByHandLine(session), ByHandLine(session)
         self._fingering_by_hand.setObjectName("fingering_by_hand")
         self._lips_by_hand.setObjectName("embouchure_by_hand")
@@ -95,7 +96,6 @@ class NoteSection(QWidget):
         body.addWidget(self._problems)
         for label in (self._why, self._problems):
             label.setWordWrap(True)
-            label.setTextFormat(Qt.TextFormat.PlainText)
             label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         outer = QVBoxLayout(self)
         outer.setContentsMargins(0, 0, 0, 0)

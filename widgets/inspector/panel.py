@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QEvent, Qt
-from PySide6.QtWidgets import QLabel, QScrollArea, QSplitter, QTabWidget, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QScrollArea, QSplitter, QTabWidget, QVBoxLayout, QWidget
 
 from app.project.document import Change
+from widgets.common.plain import Label
 from widgets.common.session import Session
 from widgets.inspector.correction_list import CorrectionList
 from widgets.inspector.event_section import EventSection
@@ -36,7 +37,7 @@ class InspectorPanel(QWidget):
         self._events = EventSection(session, self._generated)
         self._take = TakeSection(session)
         self._maker = ExpressionMaker(session)
-        self._empty = QLabel()
+        self._empty = Label()
         self._empty.setWordWrap(True)
         self._empty.setMargin(16)
         self._problems = ProblemList(session)

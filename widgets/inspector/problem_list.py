@@ -5,13 +5,14 @@ from __future__ import annotations
 from operator import is_
 
 from PySide6.QtCore import QEvent, Qt, Signal
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
 from app.plan.model import Problem
 from app.project.model import Player
 from app.score.model import Score
 from widgets.common.combo import Combo, Option
 from widgets.common.musical_time import place_text
+from widgets.common.plain import Label
 from widgets.common.selection import Selection
 from widgets.common.session import Session
 from widgets.common.text import sentence
@@ -52,7 +53,7 @@ class ProblemList(QWidget):
         self._kind.setObjectName("problems_kind")
         self.list = LineList(session)
         self.list.setObjectName("problem_list")
-        self._empty = QLabel()
+        self._empty = Label()
         self._empty.setWordWrap(True)
         self._empty.setContentsMargins(12, 4, 12, 4)
         self._empty.setAlignment(Qt.AlignmentFlag.AlignTop)

@@ -8,8 +8,8 @@ from fractions import Fraction
 from typing import Final
 
 import msgspec
-from PySide6.QtCore import QEvent, QSize, Qt
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QLineEdit, QPushButton, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtCore import QEvent, QSize
+from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QPushButton, QToolButton, QVBoxLayout, QWidget
 
 from app.errors import Message
 from app.project.edit.takes import colour_take, rename_take, set_cleaning, take_cleaned
@@ -19,6 +19,7 @@ from app.score.take import Cleaning, Take
 from widgets.common.combo import Combo, Option
 from widgets.common.grids import GRIDS
 from widgets.common.number_slider import NumberSlider
+from widgets.common.plain import Label
 from widgets.common.section import Section
 from widgets.common.session import Session
 from widgets.common.swatch import ColourSwatch
@@ -62,7 +63,7 @@ class TakeSection(QWidget):
         self._name.setObjectName("take_name")
         self._swatch = ColourSwatch(session)
         self._swatch.setObjectName("take_swatch")
-        self._about, self._counts = QLabel(), QLabel()
+        self._about, self._counts = Label(), Label()
         self._buttons = {id: QToolButton() for id in BUTTONS}
         self._sliders: dict[str, NumberSlider] = {}
         self._grid = Combo()
@@ -92,7 +93,6 @@ class TakeSection(QWidget):
         body.addLayout(line)
         for label in (self._about, self._counts):
             label.setWordWrap(True)
-            label.setTextFormat(Qt.TextFormat.PlainText)
         body.addWidget(self._about)
         body.addLayout(buttons)
         body = self._cleaning.body

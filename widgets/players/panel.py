@@ -6,7 +6,6 @@ from PySide6.QtCore import QEvent, QPoint, Qt
 from PySide6.QtGui import QContextMenuEvent, QResizeEvent
 from PySide6.QtWidgets import (
     QHBoxLayout,
-    QLabel,
     QMenu,
     QPushButton,
     QScrollArea,
@@ -23,6 +22,7 @@ from instrument_maps.library import all_maps
 from widgets.common.icons import icon
 from widgets.common.instrument_name import instrument_name
 from widgets.common.number_slider import NumberSlider
+from widgets.common.plain import Label, verbatim
 from widgets.common.section import Section
 from widgets.common.session import Session
 from widgets.players.newcomers import add_player, duplicate_players
@@ -67,7 +67,7 @@ class PlayersPanel(QWidget):
         self._tools = {name: QToolButton() for name, _ in _TOOLS}
         self.list = PlayerList(session)
         self.list.setObjectName("player_list")
-        self._empty = QLabel()
+        self._empty = Label()
         self._empty.setWordWrap(True)
         self._empty.setContentsMargins(12, 4, 12, 4)
         self._parameters = ParameterSections(session)
@@ -90,7 +90,7 @@ class PlayersPanel(QWidget):
         bar = QHBoxLayout()
         bar.setContentsMargins(6, 4, 4, 4)
         bar.setSpacing(2)
-        self._count = QLabel()
+        self._count = Label()
         bar.addWidget(self._count, 1)
         for name, button in self._tools.items():
             button.setObjectName(f"players_{name}_button")
@@ -268,7 +268,7 @@ class PlayersPanel(QWidget):
         menu.setObjectName("instrument_menu")
         menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         for instrument in all_maps().values():
-            action = menu.addAction(instrument_name(instrument))
+            action = menu.addAction(verbatim(instrument_name(instrument)))
             action.triggered.connect(lambda _=False, id=instrument.id: self.add(id))
         button = self._tools["add"]
         menu.popup(button.mapToGlobal(button.rect().bottomLeft()))

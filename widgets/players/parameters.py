@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import shiboken6
 from PySide6.QtCore import QEvent, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QIcon, QImage, QPixmap, QShowEvent
-from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QToolButton, QVBoxLayout, QWidget
 
 from app.errors import AppError, Message
 from app.project.edit import players as edit
@@ -20,6 +20,7 @@ from widgets.common.combo import Combo, Option
 from widgets.common.icons import icon
 from widgets.common.instrument_name import character_name, instrument_name
 from widgets.common.number_slider import NumberSlider
+from widgets.common.plain import Label
 from widgets.common.section import Section
 from widgets.common.session import Session
 from widgets.common.swatch import ColourSwatch
@@ -97,7 +98,7 @@ class ParameterSections(QWidget):
     # Building
 
     def _make_player_rows(self) -> None:
-        self._labels = {name: QLabel() for name in ("part", "instrument", "character", "posture", "leader", "colour")}
+        self._labels = {name: Label() for name in ("part", "instrument", "character", "posture", "leader", "colour")}
         self._part, self._instrument, self._character = Combo(), Combo(), Combo()
         self._posture, self._leader = Combo(), Combo()
         self._colour = ColourSwatch(self._session)

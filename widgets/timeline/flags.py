@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import html
 from dataclasses import dataclass
 from itertools import groupby
 
@@ -156,10 +155,10 @@ class Flags(Pictured):
             self.axis.pan(-notches * PAN_A_STEP * self.axis.span_s)
 
     def tip(self, flag: Flag) -> str:
-        """All of a flag's text and its bar, as rich text that wraps: a file's text is no markup."""
+        """All of a flag's text, and its bar."""
         bar = self.session.project.score.bar_of_tick(flag.tick)
         where = self.tr("Bar {bar}").format(bar=bar)
-        return f"<p>{html.escape(flag.text)}<br>{where}</p>"
+        return f"{flag.text}\n{where}"
 
     def event(self, event: QEvent) -> bool:
         if event.type() == QEvent.Type.ToolTip:

@@ -16,7 +16,6 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import (
     QHBoxLayout,
-    QLabel,
     QMenu,
     QSizePolicy,
     QToolButton,
@@ -27,6 +26,7 @@ from PySide6.QtWidgets import (
 from app.plan.model import PlayerPlan
 from app.project.document import Change
 from app.project.model import Player
+from widgets.common.plain import Label
 from widgets.common.selection import Selection
 from widgets.common.session import Session
 from widgets.timeline.axis import TimeAxis
@@ -104,7 +104,7 @@ class Lane(QWidget):
         self.fold_button.setArrowType(Qt.ArrowType.DownArrow)
         self.fold_button.clicked.connect(self._toggle_fold)
         self._name_fold()
-        self.title = QLabel(self.header)
+        self.title = Label(parent=self.header)
         self.title.setObjectName("lane_title")
         self.title.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self.title_row = QHBoxLayout()

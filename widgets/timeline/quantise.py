@@ -12,7 +12,6 @@ from PySide6.QtWidgets import (
     QFrame,
     QGridLayout,
     QHBoxLayout,
-    QLabel,
     QPushButton,
     QWidget,
 )
@@ -20,6 +19,7 @@ from PySide6.QtWidgets import (
 from app.errors import Message
 from app.project.edit import notes
 from widgets.common.number_slider import NumberSlider
+from widgets.common.plain import Label
 from widgets.common.session import Session
 
 GRIDS: tuple[tuple[str, Fraction], ...] = (
@@ -49,7 +49,7 @@ class QuantisePopover(QFrame):
         self._ours = self._base
         self._kept = False
         self._percent = 100.0
-        self.grid_label = QLabel(self)
+        self.grid_label = Label(parent=self)
         self.grid_box = QComboBox(self)
         for name, quarters in GRIDS:
             self.grid_box.addItem(name, quarters)

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from PySide6.QtCore import QEvent, QSize, Qt
 from PySide6.QtGui import QActionGroup, QColor, QIcon, QPalette, QPixmap
-from PySide6.QtWidgets import QButtonGroup, QComboBox, QHBoxLayout, QLabel, QMenu, QSizePolicy, QToolButton, QWidget
+from PySide6.QtWidgets import QButtonGroup, QComboBox, QHBoxLayout, QMenu, QSizePolicy, QToolButton, QWidget
 
 from app.project.document import Change
 from widgets.common.icons import icon
+from widgets.common.plain import Label
 from widgets.common.session import Session
 from widgets.common.timeline_view import Ghosts, Tool
 from widgets.timeline.roll import PianoRoll
@@ -62,7 +63,7 @@ class ToolBar(QWidget):
         modes.triggered.connect(lambda action: self._choose_ghosts(action.data()))
         row.addWidget(self.ghosts_button)
         row.addStretch(1)
-        self.readout = QLabel(self)
+        self.readout = Label(parent=self)
         self.readout.setObjectName("readout")
         self.readout.setForegroundRole(QPalette.ColorRole.PlaceholderText)
         row.addWidget(self.readout)

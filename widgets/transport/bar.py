@@ -6,7 +6,7 @@ from math import ceil, floor
 
 from PySide6.QtCore import QEvent, QSize, Qt
 from PySide6.QtGui import QAction, QResizeEvent, QShowEvent
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QMenu, QSizePolicy, QToolButton, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QMenu, QSizePolicy, QToolButton, QWidget
 
 from app.project.document import Change
 from app.project.grid import Grid
@@ -16,6 +16,7 @@ from widgets.common.icons import icon, pixmap
 from widgets.common.listening import LEAST_SPEED, MOST_SPEED, SOURCES
 from widgets.common.musical_time import metre_at
 from widgets.common.number_slider import NumberSlider
+from widgets.common.plain import Label
 from widgets.common.session import Session
 from widgets.common.tokens import LEAST_TARGET_PX
 from widgets.transport.beat_light import BeatLight
@@ -58,15 +59,15 @@ class TransportBar(QWidget):
         self.buttons = {id: self._button(id) for id, _ in (*BUTTONS, *TOGGLES)}
         self.snap_button = self._tool("snap_on")
         self.bars, self.clock, self.frames = BarsField(session), ClockField(session), FramesField(session)
-        self.tempo = QLabel()
+        self.tempo = Label()
         self.speed = NumberSlider(
             session, 100 * LEAST_SPEED, 100 * MOST_SPEED, default=100.0, step=5.0, decimals=0, parent=self
         )
         self.volume = NumberSlider(session, 0.0, 100.0, default=80.0, step=5.0, decimals=0, parent=self)
         self.source, self.snap = Combo(), Combo()
-        self.silent_sign, self.silent_text = QLabel(), QLabel()
+        self.silent_sign, self.silent_text = Label(), Label()
         self.beat = BeatLight(session)
-        self.take_text = QLabel()
+        self.take_text = Label()
         self.take_text.setObjectName("take_text")
         self.take_text.hide()
         self._name()

@@ -6,9 +6,10 @@ from functools import partial
 
 from PySide6.QtCore import QEvent, QSize, Qt
 from PySide6.QtGui import QAction, QActionGroup, QResizeEvent, QShowEvent
-from PySide6.QtWidgets import QButtonGroup, QHBoxLayout, QLabel, QMenu, QSizePolicy, QToolButton, QWidget
+from PySide6.QtWidgets import QButtonGroup, QHBoxLayout, QMenu, QSizePolicy, QToolButton, QWidget
 
 from widgets.common.icons import icon
+from widgets.common.plain import Label
 from widgets.common.session import Session
 from widgets.common.tokens import LEAST_TARGET_PX
 from widgets.common.viewport_state import SHOWN, VIEWS, Shown, View
@@ -63,7 +64,7 @@ class Header(QWidget):
         self._folded.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
         self._folded.hide()
         self._note_text = ""
-        self._note = QLabel(self)
+        self._note = Label(parent=self)
         self._note.setObjectName("viewport_note")
         self._note.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self._note.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)

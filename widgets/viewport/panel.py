@@ -9,10 +9,11 @@ import numpy as np
 import numpy.typing as npt
 from PySide6.QtCore import QEvent, QObject, QPoint, QPointF, QRectF, QSize, Qt, QTimer
 from PySide6.QtGui import QColor, QImage, QPainter
-from PySide6.QtWidgets import QLabel, QMenu, QStackedWidget, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QMenu, QStackedWidget, QVBoxLayout, QWidget
 
 from app.errors import AppError
 from app.project.document import Change
+from widgets.common.plain import Label
 from widgets.common.session import Session
 from widgets.common.viewport_state import SHOWN, VIEWS, View
 from widgets.viewport.camera import Camera, frame, triple
@@ -71,7 +72,7 @@ class ViewportPanel(QWidget):
 
         self.header = Header(session, self)
         self._stack = QStackedWidget(self)
-        self._reason = QLabel(self._stack)
+        self._reason = Label(parent=self._stack)
         self._reason.setObjectName("viewport_reason")
         self._reason.setWordWrap(True)
         self._reason.setAlignment(Qt.AlignmentFlag.AlignCenter)

@@ -30,6 +30,7 @@ from app.project.model import Project
 from app.shell.action import QT_TRANSLATE_NOOP, Action
 from app.shell.commands.chosen import events_by_player, notes_by_player, plan_of
 from widgets.common.event_names import expression_name
+from widgets.common.plain import verbatim
 from widgets.common.selection import EventKey, Selection
 from widgets.common.session import Session
 
@@ -151,7 +152,7 @@ def choose_expression(session: Session) -> None:
     menu = _menu()
     own = {item.name for item in session.project.expressions}
     for name in sorted(session.performance.expressions, key=lambda name: (name in own, name)):
-        entry = menu.addAction(expression_name(name))
+        entry = menu.addAction(verbatim(expression_name(name)))
         entry.setObjectName(f"expression_{name}")
         entry.triggered.connect(lambda _=False, name=name: expression(session, name))
     menu.popup(QCursor.pos())

@@ -111,7 +111,7 @@ def test_a_tooltip_tells_all_of_a_text_and_takes_none_of_it_for_markup(stage: St
     place = QPoint(*(int(value) for value in middle(flag(stage, 4 * TPQ))))
     QApplication.sendEvent(flags, QHelpEvent(QEvent.Type.ToolTip, place, flags.mapToGlobal(place)))
     assert QToolTip.text() == flags.tip(flag(stage, 4 * TPQ))
-    assert "Fugue &lt;b&gt;subject&lt;/b&gt; &amp; answer" in QToolTip.text()
+    assert "Fugue <b>subject</b> & answer" in QToolTip.text()
     assert "Bar 2" in QToolTip.text()
     QToolTip.hideText()
 

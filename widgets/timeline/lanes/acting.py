@@ -27,6 +27,7 @@ from app.project.edit.generation import variations
 from app.project.model import Project
 from app.score.tempo import TempoMap
 from widgets.common.event_names import expression_name, kind_name, pose_name
+from widgets.common.plain import verbatim
 from widgets.common.selection import EventKey, Selection
 from widgets.common.session import Session
 from widgets.timeline.axis import TimeAxis
@@ -422,7 +423,7 @@ class ActingLane(RegionLane):
         for name in names:
             if name in own and not menu.isEmpty() and name == next(item for item in names if item in own):
                 menu.addSeparator()
-            entry = menu.addAction(expression_name(name))
+            entry = menu.addAction(verbatim(expression_name(name)))
             entry.triggered.connect(lambda _=False, name=name: chosen(name))
             entry.setCheckable(now is not None)
             entry.setChecked(now is not None and now.label == expression_name(name))

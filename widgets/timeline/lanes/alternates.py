@@ -13,6 +13,7 @@ from instrument_maps.model import Fingering
 from widgets.common.chip import Chip
 from widgets.common.fingering_tags import words_of_tags
 from widgets.common.icons import icon
+from widgets.common.plain import verbatim
 from widgets.common.session import Session
 from widgets.common.tokens import LEAST_TARGET_PX
 from widgets.timeline.lane import Lane
@@ -130,7 +131,7 @@ class Alternates(QFrame):
         """The same choices as entries of a menu."""
         for fingering in self.choices(player_id, event):
             note = self.note_text(fingering)
-            entry = menu.addAction(f"{fingering.label}   {note}" if note else fingering.label)
+            entry = menu.addAction(verbatim(f"{fingering.label}   {note}" if note else fingering.label))
             entry.setCheckable(True)
             entry.setChecked(fingering.label == event.label)
             entry.triggered.connect(

@@ -16,6 +16,7 @@ from app.project.document import Change
 from app.project.edit.events import set_embouchure
 from app.project.model import Project
 from app.score.model import Part
+from widgets.common.plain import verbatim
 from widgets.common.selection import EventKey, Selection
 from widgets.common.session import Session
 from widgets.common.text import message_text
@@ -400,7 +401,7 @@ class CurvesLane(Lane):
             self.session.select(Selection(notes=frozenset({event.note_id})))
         menu = QMenu(self)
         for curve in [str(self.choice.itemData(index)) for index in range(self.choice.count())]:
-            entry = menu.addAction(self.curve_name(curve))
+            entry = menu.addAction(verbatim(self.curve_name(curve)))
             entry.setCheckable(True)
             entry.setChecked(curve == self.curve)
             entry.triggered.connect(lambda _=False, curve=curve: self.set_curve(curve))

@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
-from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
+from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from app.plan.model import Problem
+from widgets.common.plain import Label
 from widgets.common.selection import Selection
 from widgets.common.session import Session, Severity
 from widgets.common.text import sentence
@@ -113,7 +114,7 @@ class ProblemsLane(Lane):
         self._note_ids: frozenset[str] = frozenset()
         self._player_id: str | None = None
         session.problems_changed.connect(self.refresh)
-        self.count = QLabel(self.header)
+        self.count = Label(parent=self.header)
         self.count.setObjectName("problem_count")
         self.count.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         self.count.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Preferred)

@@ -1,0 +1,90 @@
+"""Files that nothing may open, and texts that make Qt open them where it takes a text for HTML."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import struct
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from PySide6.QtGui import QColor, QImage
+
+_IN_OPEN = 0x00000020
+"""``inotify(7)``: a file of the watched folder was opened."""
+_EVENT = struct.Struct("iIII")
+_MOST_BYTES = 65_536
+
+WATCHES = sys.platform == "linux"
+"""Whether the system tells which files are opened, whoever opens them."""
+
+
+class Canary:
+    """A folder with a picture and a style sheet, and what opened them.
+
+    Parameters
+    ----------
+    folder : Path
+        Made for this alone.
+    """
+
+    def __init__(self, folder: Path, descriptor: int) -> None:
+        self.folder = folder
+        self._descriptor = descriptor
+        self.picture, self.sheet = folder / "c.png", folder / "c.css"
+        image = QImage(4, 4, QImage.Format.Format_RGB32)
+        image.fill(QColor("#ff00ff"))
+        image.save(str(self.picture))
+        self.sheet.write_text("p { color: #ff00ff }", encoding="utf-8")
+
+    @property
+    def html(self) -> str:
+        """Opens the picture when it is laid out as HTML."""
+        return f'<img src="file://{self.picture}">'
+
+    def name(self, field: str) -> str:
+        """A name that says where it stands: as HTML it opens the picture, in a button ``&8`` is a key, in a window's
+        title ``[*]`` is a mark."""
+        return f'<img src="file://{self.picture}" alt="{field}">&8[*]'
+
+    def file_name(self, field: str) -> str:
+        """The same for a file: it opens the picture if this is in the working directory."""
+        return f'<img src="{self.picture.name}" alt="{field}">&8[*]'
+
+    @property
+    def eager(self) -> str:
+        """Opens the style sheet as soon as it is parsed, as for a screen reader."""
+        return f'<html><head><link rel="stylesheet" type="text/css" href="file://{self.sheet}"></head><p>x</p></html>'
+
+    def opened(self) -> list[str]:
+        """Names of the files that were opened since this was last asked."""
+        names: list[str] = []
+        try:
+            events = os.read(self._descriptor, _MOST_BYTES)
+        except BlockingIOError:
+            return names
+        place = 0
+        while place < len(events):
+            *_, length = _EVENT.unpack_from(events, place)
+            place += _EVENT.size + length
+            names.append(events[place - length : place].rstrip(b"\0").decode())
+        return names
+
+
+@contextmanager
+def canary(folder: Path) -> Iterator[Canary]:
+    """Watch a new folder, by the system's own account (inotify)."""
+    folder.mkdir()
+    system = ctypes.CDLL(None, use_errno=True)
+    descriptor = system.inotify_init1(os.O_NONBLOCK | os.O_CLOEXEC)
+    if descriptor < 0:
+        raise OSError(ctypes.get_errno(), "inotify_init1")
+    try:
+        result = Canary(folder, descriptor)
+        if system.inotify_add_watch(descriptor, os.fsencode(folder), _IN_OPEN) < 0:
+            raise OSError(ctypes.get_errno(), "inotify_add_watch")
+        yield result
+    finally:
+        os.close(descriptor)

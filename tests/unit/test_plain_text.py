@@ -1,0 +1,75 @@
+"""No text is HTML: nothing in the program shows HTML or lets Qt guess whether a text is HTML."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+
+INSTEAD = {
+    **dict.fromkeys(("QLabel", "QMessageBox"), "`Label` and `MessageBox` of widgets.common.plain"),
+    **dict.fromkeys(("QTextEdit", "QTextBrowser", "QTextDocument"), "QPlainTextEdit"),
+    "QErrorMessage": "Session.notice",
+    "QProgressDialog": "Session.tasks",
+    **dict.fromkeys(("QWhatsThis", "setWhatsThis", "WhatsThisRole"), "a tool tip"),
+    **dict.fromkeys(("QGraphicsTextItem", "TextItem", "LabelItem", "QSplashScreen"), "QPainter.drawText"),
+    "QStaticText": "QPainter.drawText, or set its format",
+    **dict.fromkeys(("setHtml", "insertHtml", "appendHtml", "setMarkdown", "insertMarkdown"), "setPlainText"),
+    **dict.fromkeys(("setTextFormat", "RichText", "AutoText", "MarkdownText"), "`Label` of widgets.common.plain"),
+    **dict.fromkeys(("linkActivated", "anchorClicked", "setOpenExternalLinks", "setOpenLinks"), "a button"),
+    **dict.fromkeys(("QtWebEngineWidgets", "QtWebEngineCore", "QtQuick", "QtQml"), "widgets"),
+}
+"""What shows HTML, or could, and what to take for it."""
+ALLOWED = {
+    "widgets/common/plain.py": {"QLabel", "QMessageBox", "setTextFormat"},
+    # Its format is set to plain.
+    "widgets/timeline/roll_items.py": {"QStaticText", "setTextFormat"},
+}
+
+
+def names(tree: ast.AST) -> Iterator[tuple[int, str]]:
+    """Every name a module uses, with its line: of classes, methods, enumerators and imports."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Name):
+            yield node.lineno, node.id
+        elif isinstance(node, ast.Attribute):
+            yield node.lineno, node.attr
+        elif isinstance(node, ast.ImportFrom | ast.Import):
+            module = node.module or "" if isinstance(node, ast.ImportFrom) else ""
+            for alias in node.names:
+                yield from ((node.lineno, part) for part in (*module.split("."), *alias.name.split(".")))
+
+
+def faults(source: str, allowed: set[str]) -> list[str]:
+    """What a module must not use."""
+    found = {(line, name) for line, name in names(ast.parse(source)) if name in INSTEAD and name not in allowed}
+    return [f"{line}: {name}: take {INSTEAD[name]}" for line, name in sorted(found)]
+
+
+def test_nothing_shows_html() -> None:
+    modules = [path for folder in ("app", "widgets") for path in sorted((ROOT / folder).rglob("*.py"))]
+    assert len(modules) > 100
+    found = []
+    for path in modules:
+        place = path.relative_to(ROOT).as_posix()
+        found += [f"{place}:{fault}" for fault in faults(path.read_text("utf-8"), ALLOWED.get(place, set()))]
+    assert not found, "\n".join(found)
+
+
+@pytest.mark.parametrize(
+    "source",
+    [
+        "from PySide6.QtWidgets import QLabel",
+        "from PySide6.QtWidgets import QLabel as Text",
+        "from PySide6 import QtWidgets\nQtWidgets.QTextBrowser()",
+        "label.setTextFormat(format)",
+        "import PySide6.QtWebEngineWidgets",
+        "format = Qt.TextFormat.RichText",
+    ],
+)
+def test_the_judge_sees_what_shows_html(source: str) -> None:
+    assert faults(source, set())

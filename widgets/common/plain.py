@@ -1,0 +1,38 @@
+"""Text that is shown as it is written.
+
+Qt shows text that looks like HTML as HTML, and opens the files that such text names. Nothing here is HTML: what is
+shown comes from files. Labels and message boxes of the program's own are plain from the start; those that Qt makes
+(tips, file dialogs) by the theme's style sheet. A test keeps classes and methods that show HTML out of the program.
+"""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QLabel, QMessageBox, QWidget
+
+
+class Label(QLabel):
+    """Plain text before any style reaches it: Qt measures and reads out texts that are not shown yet."""
+
+    def __init__(self, text: str = "", parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setTextFormat(Qt.TextFormat.PlainText)
+        self.setText(text)
+
+
+class MessageBox(QMessageBox):
+    """A message box whose texts are plain."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setTextFormat(Qt.TextFormat.PlainText)
+
+
+def verbatim(text: str) -> str:
+    """A text for buttons, menus and tabs, where ``&`` would name a key and a tab begin a column."""
+    return text.replace("&", "&&").replace("\t", " ")
+
+
+def verbatim_title(text: str) -> str:
+    """A text for a window's title, where ``[*]`` would mark changes."""
+    return text.replace("[*]", "[*][*]")
