@@ -106,12 +106,18 @@ class Restless:
             (8, 6, 3, 5, 6, 2, 1, 1),
         )[0]
         start_s = time.perf_counter()
-        self._busy = True
-        deed()
-        self._busy = False
+        self.busy(deed)
         QApplication.processEvents()
         self.slowest_s.append((time.perf_counter() - start_s, self.deeds[-1] if self.deeds else ""))
         self.look_away()
+
+    def busy(self, deed: Callable[[], None]) -> None:
+        """Do something; a loop of Qt's own inside it is ended from outside."""
+        self._busy = True
+        try:
+            deed()
+        finally:
+            self._busy = False
 
     def look_away(self) -> None:
         """Sometimes close what asks something; a menu left open would take every other event."""

@@ -1,0 +1,400 @@
+"""What is attacked: one function for each kind of file, which reads it as the program does and checks what came of it.
+
+A reader may raise `AppError`, which is a refusal. `Broken` says that a promise was broken after the file was accepted;
+any other exception has escaped. Imports are inside, so that a process loads only what it attacks.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import sys
+import tempfile
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Final
+
+from app.errors import AppError
+from tests.fuzz.harness import mutators, seeds
+from tests.fuzz.harness.mutators import Mutator
+
+
+class Broken(AssertionError):
+    """What was accepted does not do what it must."""
+
+
+class Refused(Exception):
+    """A refusal that is no `AppError`: that of the plug-in for Unreal."""
+
+
+@contextmanager
+def accepted(step: str) -> Iterator[None]:
+    """What was read must get through this step: a refusal comes too late."""
+    try:
+        yield
+    except AppError as error:
+        raise Broken(f"{step}: {error}") from error
+
+
+def require(holds: bool, what: str) -> None:
+    """Raise `Broken` unless it holds."""
+    if not holds:
+        raise Broken(what)
+
+
+# Music
+
+
+def midi(path: Path, folder: Path) -> None:
+    """Import, save, load, plan; write as MIDI; or read again into a piece that is open."""
+    from app.project.importing import import_project, usual_rows
+    from app.project.midi_out import export_midi
+    from app.project.reimport import reimport
+    from app.score.read import read_contents
+    from instrument_maps.load import bundled_maps
+    from tests.fuzz.test_score_bytes import check
+
+    maps = bundled_maps()
+    contents = read_contents(path)
+    project = import_project(contents, usual_rows(contents, maps), maps, str(path))
+    check(project.score)
+    _saves_and_plays(project, folder)
+    with accepted("write as MIDI"):
+        export_midi(project, folder / "out.mid", maps)
+    with accepted("read again"):
+        again = reimport(_quartet(), project.score, maps, str(path)).project
+    with accepted("save what was read again"):
+        _saved(again, folder)
+
+
+def _quartet() -> Any:
+    from app.project.model import map_choices, project_from_score
+    from app.score.read import read_midi
+    from instrument_maps.load import bundled_maps
+
+    global _QUARTET
+    if _QUARTET is None:
+        maps = bundled_maps()
+        score = read_midi(seeds.ROOT / "resources/examples/quartet.mid", maps=map_choices(maps.values()))
+        _QUARTET = project_from_score(score, maps)
+    return _QUARTET
+
+
+_QUARTET: Any = None
+
+
+def project(path: Path, folder: Path) -> None:
+    """Load, save, load, plan."""
+    from app.project import storage
+
+    _saves_and_plays(storage.load(path), folder)
+
+
+def _saves_and_plays(project: Any, folder: Path) -> None:
+    from app.performance.ensemble import Performance
+
+    with accepted("save and load"):
+        _saved(project, folder)
+    Performance(project).prepare()
+
+
+def _saved(project: Any, folder: Path) -> None:
+    from app.project import storage
+
+    storage.save(project, folder / "saved.suisou")
+    require(storage.load(folder / "saved.suisou") == project, "a saved project is another one when it is loaded")
+
+
+def autosave(path: Path, folder: Path) -> None:
+    """Unsaved work of dead editors is looked for and described, whatever it holds."""
+    from app.project import storage
+    from app.project.recovery import recoverable, recoverable_of
+
+    document = folder / "work.suisou"
+    if not document.exists():
+        document.write_bytes(seeds.project()[-1])
+    (folder / f"work.suisou{storage.AUTOSAVE}").write_bytes(path.read_bytes())
+    (folder / "0123456789abcdef.suisou").write_bytes(path.read_bytes())
+    with accepted("look for unsaved work"):
+        recoverable_of(document, folder)
+        recoverable(folder)
+
+
+def presence(path: Path, folder: Path) -> None:
+    """Traces of dead editors are looked through, whatever is in them."""
+    from app.project.presence import LOCK, NOTE
+    from app.project.recovery import recoverable
+
+    token = "0123456789abcdef"
+    (folder / "work.suisou").write_bytes(seeds.project()[-1])
+    (folder / f"{token}{LOCK}").write_bytes(b"")
+    (folder / f"{token}{NOTE}").write_bytes(path.read_bytes().replace(b"@", str(folder).encode()))
+    with accepted("look for unsaved work"):
+        recoverable(folder)
+
+
+def journal(path: Path, folder: Path) -> None:
+    """A journal becomes takes, which are cleaned, brought into the part and saved."""
+    from app.capture.adopt import takes_of
+    from app.capture.journal import passes, read_journal
+    from app.project.edit.takes import add_takes, comp_whole
+    from app.score.take import Wiring
+
+    read = read_journal(path)
+    passes(read)
+    project = _quartet()
+    player = project.players[0].id
+    takes = takes_of(read, project.score.tempo_map, Wiring(), "Take {number}")
+    project, ids = add_takes(project, player, takes)
+    for id_ in ids[:2]:
+        project = comp_whole(project, player, id_)
+    with accepted("save the takes"):
+        _saved(project, folder)
+
+
+# Tables
+
+
+def instrument_map(path: Path, folder: Path) -> None:
+    """A map in a user's folder is taken or set aside, and the others stay."""
+    from instrument_maps.library import read_library
+    from instrument_maps.load import bundled_maps, check_map
+
+    own = folder / "own"
+    own.mkdir(exist_ok=True)
+    for name in ("trumpet_Bb", "recorder_soprano_C"):
+        (own / f"{name}.toml").write_bytes(path.read_bytes())
+    with accepted("read the folder"):
+        library = read_library(own)
+    require(set(bundled_maps()) <= set(library.maps), "a bundled instrument is gone")
+    check_map(own / "trumpet_Bb.toml")
+
+
+def metadata(path: Path, folder: Path) -> None:
+    """Every reader of a table of metadata; the refusal is that of the last."""
+    from metadata import load
+
+    readers = (
+        *(load.read_controller, load.read_expression, load.read_skeleton, load.read_bone_names),
+        *(load.read_face_names, load.read_body),
+    )
+    refusal: AppError | None = None
+    for read in readers:
+        try:
+            read(path)
+        except AppError as error:
+            refusal = error
+    if refusal is not None:
+        raise refusal
+
+
+def expression(path: Path, folder: Path) -> None:
+    """A user's expressions: a bad one is told and the others stay."""
+    from app.project.presets import expressions
+
+    _one_of_folder(expressions, path, folder, seeds.expression()[0])
+
+
+def preset(path: Path, folder: Path) -> None:
+    """A user's presets: a bad one is told and the others stay."""
+    from app.project.presets import presets
+
+    _one_of_folder(presets, path, folder, b'name = "Another"\namplitude = 1.0\n')
+
+
+def _one_of_folder(read: Callable[[Path], Any], path: Path, folder: Path, good: bytes) -> None:
+    own = folder / "own"
+    own.mkdir(exist_ok=True)
+    (own / "a.toml").write_bytes(path.read_bytes())
+    (own / "b.toml").write_bytes(good)
+    with accepted("read the folder"):
+        found = read(own)
+    require(len(found.items) >= 1, "a good file beside a bad one is not read")
+
+
+def character_entry(path: Path, folder: Path) -> None:
+    """A user's characters: a bad entry is told and the others stay."""
+    from app.rig.character_library import bundled_characters, read_characters
+
+    own = folder / "own"
+    own.mkdir(exist_ok=True)
+    (own / "figure.glb").write_bytes(b"glTF")
+    (own / "somebody.toml").write_bytes(path.read_bytes())
+    (own / "other.toml").write_bytes(b'file = "figure.glb"\n')
+    with accepted("read the folder"):
+        library = read_characters(own)
+    require(set(bundled_characters()) | {"other"} <= set(library.sources), "a character is gone")
+
+
+def settings(path: Path, folder: Path) -> None:
+    """Every setting has a value, whatever the file says."""
+    from app.shell.settings import Settings
+
+    found = Settings(path)
+    for name, member in vars(Settings).items():
+        if isinstance(member, property):
+            getattr(found, name)
+    found.shortcut("edit.undo")
+    found.midi_device("EWI USB", "latency_s")
+    found.add_recent(Path("/tmp/x.suisou"))
+
+
+# Figures
+
+
+def gltf(path: Path, folder: Path) -> None:
+    """A character's file; what it holds becomes a character or is refused."""
+    from app.rig.character import load_character
+
+    load_character(path)
+
+
+def instrument_model(path: Path, folder: Path) -> None:
+    """The model of a user's own map."""
+    from instrument_maps.check_model import model_problems
+    from instrument_maps.load import bundled_maps
+
+    list(model_problems(bundled_maps()["recorder_soprano_C"], path))
+
+
+def fbx(path: Path, folder: Path) -> None:
+    """Our own reader of FBX."""
+    from app.formats.fbx.read import read_scene
+
+    read_scene(path)
+
+
+def foreign_fbx(path: Path, folder: Path) -> None:
+    """The reader of other programs' FBX, up to a character."""
+    from app.rig.character import load_character
+
+    load_character(path)
+
+
+def bvh(path: Path, folder: Path) -> None:
+    """BVH clips."""
+    from app.formats.bvh import read_bvh
+
+    read_bvh(path)
+
+
+def audio(path: Path, folder: Path) -> None:
+    """A recording in memory."""
+    from app.audio.decode import decode
+
+    recording = decode(str(path))
+    require(recording.samples.ndim == 2 and recording.samples.shape[1] == 2, "samples are not in two channels")
+
+
+# Unreal
+
+
+def unreal_description(path: Path, folder: Path) -> None:
+    """The plug-in's reader, as it runs in Unreal's own Python."""
+    from tests.support.fake_unreal import fake_unreal
+
+    if "unreal" not in sys.modules:
+        sys.modules["unreal"] = fake_unreal(folder)
+    plugin = str(seeds.ROOT / "resources/unreal/Suisou/Content/Python")
+    if plugin not in sys.path:
+        sys.path.append(plugin)
+    from suisou_import import performance  # type: ignore[import-not-found]
+    from suisou_import.problem import Problem  # type: ignore[import-not-found]
+
+    (folder / performance.DESCRIPTION).write_bytes(path.read_bytes())
+    try:
+        performance.read(folder)
+    except Problem as problem:
+        raise Refused(str(problem)) from problem
+
+
+def unreal_manifest(path: Path, folder: Path) -> None:
+    """The list of our files in an Unreal project, and what becomes of them."""
+    from app.export.unreal.layout import MANIFEST
+    from app.export.unreal.manifest import changes
+
+    (folder / MANIFEST).write_bytes(path.read_bytes())
+    changes(folder, [])
+
+
+def unreal_project(path: Path, folder: Path) -> None:
+    """Unreal's project file."""
+    from app.export.unreal.project import find_project
+
+    find_project(path)
+
+
+# The table
+
+
+@dataclass(frozen=True)
+class Kind:
+    """A kind of file.
+
+    Attributes
+    ----------
+    group : str
+        Kinds of a group are attacked by one process.
+    read : callable
+        Takes the file and a folder of its own.
+    seeds : callable
+        Good files.
+    structured : tuple of Mutator
+    suffix : str
+    share : float
+        Of the group's time, beside the others'.
+    """
+
+    group: str
+    read: Callable[[Path, Path], None]
+    seeds: Callable[[], list[bytes]]
+    structured: tuple[Mutator, ...]
+    suffix: str
+    share: float = 1.0
+
+    @property
+    def name(self) -> str:
+        """Also that of the folder of found files."""
+        return self.read.__name__
+
+
+_TEXT, _JSON = tuple(mutators.TEXT), tuple(mutators.JSON)
+KINDS: Final[dict[str, Kind]] = {
+    kind.name: kind
+    for kind in (
+        Kind("midi", midi, seeds.midi, tuple(mutators.MIDI), ".mid"),
+        Kind("project", project, seeds.project, _JSON, ".suisou", 3.0),
+        Kind("project", autosave, seeds.project, _JSON, ".suisou"),
+        Kind("project", presence, seeds.presence, _JSON, ".json"),
+        Kind("project", journal, seeds.journal, _TEXT, ".take-journal"),
+        Kind("tables", instrument_map, seeds.instrument_map, _TEXT, ".toml", 2.0),
+        Kind("tables", metadata, seeds.metadata, _TEXT, ".toml"),
+        Kind("tables", expression, seeds.expression, _TEXT, ".toml"),
+        Kind("tables", preset, seeds.preset, _TEXT, ".toml"),
+        Kind("tables", character_entry, seeds.character_entry, _TEXT, ".toml"),
+        Kind("tables", settings, seeds.settings, _TEXT, ".ini"),
+        Kind("figures", gltf, seeds.gltf, tuple(mutators.GLB), ".glb", 2.0),
+        Kind("figures", instrument_model, seeds.gltf, tuple(mutators.GLB), ".glb"),
+        Kind("figures", fbx, seeds.fbx, tuple(mutators.FBX), ".fbx", 2.0),
+        Kind("figures", foreign_fbx, seeds.foreign_fbx, (*mutators.FBX, *mutators.TEXT), ".fbx"),
+        Kind("figures", bvh, seeds.bvh, _TEXT, ".bvh"),
+        Kind("exchange", audio, seeds.audio, (), ".wav", 2.0),
+        Kind("exchange", unreal_description, seeds.unreal_description, _JSON, ".json"),
+        Kind("exchange", unreal_manifest, seeds.unreal_manifest, _JSON, ".json"),
+        Kind("exchange", unreal_project, seeds.unreal_project, _JSON, ".uproject"),
+    )
+}
+GROUPS: Final = tuple(dict.fromkeys(kind.group for kind in KINDS.values()))
+
+
+def digest(data: bytes) -> str:
+    """A short name of a content."""
+    return hashlib.blake2b(data, digest_size=5).hexdigest()
+
+
+@contextmanager
+def scratch() -> Iterator[Path]:
+    """A folder for one file and whatever its reader leaves."""
+    with tempfile.TemporaryDirectory(prefix="suisou-fuzz-") as name:
+        yield Path(name)

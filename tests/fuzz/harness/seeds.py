@@ -1,0 +1,246 @@
+"""Good files of every format, small, from which mutants are made; and every file that ever broke a reader.
+
+A found file lies in ``tests/data/hostile/<kind>/``. One that is better made than kept (long, but regular) is a row of
+`MADE`.
+"""
+
+from __future__ import annotations
+
+import io
+import json
+from collections.abc import Callable, Sequence
+from fractions import Fraction
+from functools import cache
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+import soundfile
+
+ROOT: Final = Path(__file__).parents[3]
+DATA: Final = ROOT / "tests" / "data"
+HOSTILE: Final = DATA / "hostile"
+MOST_BYTES: Final = 20_000
+"""Of a seed that need not be larger: damage to small files reaches more of what reads them."""
+
+
+def found_files(kind: str) -> tuple[Path, ...]:
+    """Every file that once broke a reader of this kind."""
+    folder = HOSTILE / kind
+    return tuple(sorted(path for path in folder.iterdir() if path.is_file())) if folder.is_dir() else ()
+
+
+def _files(pattern: str, most_bytes: int = MOST_BYTES) -> list[bytes]:
+    return [path.read_bytes() for path in sorted(ROOT.glob(pattern)) if path.stat().st_size <= most_bytes]
+
+
+def midi() -> list[bytes]:
+    """Small files of ensembles, odd ones, corrupt ones."""
+    return [*_files("tests/data/midi/*/*.mid", 6000), *_files("resources/examples/*.mid")]
+
+
+def project() -> list[bytes]:
+    """One of every version of the format."""
+    return _files("tests/data/projects/*.suisou")
+
+
+def journal() -> list[bytes]:
+    """A take of two passes, with a gap; one torn off."""
+    header = {
+        "project": "/music/work.suisou", "player": "p1", "port": "EWI USB", "controller": "ewi_usb",
+        "latency_s": 0.01, "started": "2025-01-01T12:00:00+00:00", "version": 1,
+    }  # fmt: skip
+    rows = [json.dumps(header), "s 1000000000 0.000000 0"]
+    for number in range(12):
+        begin = 1_100_000_000 + number * 250_000_000
+        rows += [f"e {begin} 90{60 + number % 5:02x}50", f"e {begin + 10_000_000} b002{40 + number:02x}"]
+        rows.append(f"e {begin + 200_000_000} 80{60 + number % 5:02x}00")
+        if number == 5:
+            rows += [f"lost {begin + 210_000_000}", f"back {begin + 220_000_000}", f"s {begin + 230_000_000} 0.5 1"]
+    whole = "\n".join([*rows, "s 5000000000 2.5 1", "end 5100000000"]) + "\n"
+    return [whole.encode(), "\n".join(rows).encode()]
+
+
+def presence() -> list[bytes]:
+    """What an editor notes down of its work; ``@`` stands for the folder."""
+    return [
+        json.dumps({"pid": 1, "document": document, "autosave": autosave}).encode()
+        for document, autosave in (("", ""), ("@/work.suisou", "@/work.suisou.autosave"), ("", "@/token.suisou"))
+    ]
+
+
+def instrument_map() -> list[bytes]:
+    """Small maps, and one that extends another."""
+    own = b'extends = "trumpet_Bb"\nid = "trumpet_Bb"\nfingerings = [\n  [60, "0"],\n]\n[name]\nen = "Mine"\nja = "X"\n'
+    return [own, *_files("instrument_maps/recorder_*.toml"), *_files("instrument_maps/trumpet_Bb.toml", 30_000)]
+
+
+def metadata() -> list[bytes]:
+    """Tables of every kind."""
+    return _files("metadata/*/*.toml")
+
+
+def expression() -> list[bytes]:
+    """Expressions as a user saves them."""
+    return _files("metadata/expressions/*.toml")
+
+
+def preset() -> list[bytes]:
+    """Presets of players' parameters."""
+    return [b'name = "Calm"\namplitude = 0.5\n', b'name = "Lively"\namplitude = 1.5\nposture = "standing"\n']
+
+
+def character_entry() -> list[bytes]:
+    """What describes a user's own character."""
+    return [
+        b'file = "figure.glb"\n',
+        b'file = "figure.glb"\ntitle = "Somebody"\n\n[joints]\nhips = "Hips"\nleftHand = ""\n\n'
+        b"[morphs.jawOpen]\nopen = 1.0\nwide = -0.5\n",
+    ]
+
+
+def settings() -> list[bytes]:
+    """The editor's settings."""
+    return [
+        b'[interface]\nlanguage=ja\ntheme=dark\nfolded="notes:1,body:0"\ntime_display=bars\n\n[sound]\nvolume=0.5\n'
+        b"click=true\nsource=both\n\n[midi]\nport=EWI USB\ncount_in_bars=2\n\n[stream]\nhost=127.0.0.1\nport=39539\n"
+        b"everyone=false\nrate_hz=60\n\n[window]\ngeometry=@ByteArray(\\x1\\xd9\\xd0\\xcb)\n"
+        b'layout=@ByteArray(\\0\\0\\0\\xff)\ntimeline="{\\"lanes\\": [\\"roll\\"]}"\n\n[files]\nfolder=/tmp\n\n'
+        b"[recent]\n1\\path=/tmp/a.suisou\n2\\path=/tmp/b.mid\nsize=2\n\n[shortcuts]\nedit.undo=Ctrl+Z\n\n"
+        b"[pitch]\nwritten=true\nmiddle_c_octave=3\nsyllables=false\n",
+        b"[general]\nx=@Variant(\\0\\0\\0\\x7f\\0\\0\\0\\x10PyQt_PyObject\\0)\n[midi]\ncount_in_bars=@Invalid()\n",
+    ]
+
+
+@cache
+def gltf() -> list[bytes]:
+    """A skinned figure with morphs, and as text with its data inside; a small whole character."""
+    from tests.unit.formats.gltf.test_read import character
+
+    return [character().glb(), *_files("tests/data/characters/*.glb", 200_000)]
+
+
+@cache
+def fbx() -> list[bytes]:
+    """An instrument and a character as they are exported."""
+    from app.formats.fbx import encode_scene
+    from tests.unit.formats import scenes
+
+    return [
+        encode_scene(scenes.instrument(Fraction(24), frames=5)),
+        encode_scene(scenes.character(Fraction(24), frames=3)),
+    ]
+
+
+@cache
+def foreign_fbx() -> list[bytes]:
+    """FBX files as other programs write them: here too as ours, which that reader takes; and one in ASCII."""
+    ascii_file = (
+        b"; FBX 7.3.0 project file\nFBXHeaderExtension:  {\n\tFBXVersion: 7300\n}\nObjects:  {\n"
+        b'\tModel: 10, "Model::Hips", "LimbNode" {\n\t\tProperties70:  {\n'
+        b'\t\t\tP: "Lcl Translation", "Lcl Translation", "", "A",0,100,0\n\t\t}\n\t}\n'
+        b'\tGeometry: 11, "Geometry::", "Mesh" {\n\t\tVertices: *9 {\n\t\t\ta: 0,0,0,1,0,0,0,1,0\n\t\t}\n'
+        b'\t\tPolygonVertexIndex: *3 {\n\t\t\ta: 0,1,-3\n\t\t}\n\t}\n}\nConnections:  {\n\tC: "OO",10,0\n}\n'
+    )
+    return [ascii_file, *fbx()]
+
+
+@cache
+def bvh() -> list[bytes]:
+    """A short clip."""
+    from app.formats.bvh import encode_bvh
+    from tests.unit.formats.test_bvh import clip
+
+    return [encode_bvh(clip(frames=3))]
+
+
+@cache
+def audio() -> list[bytes]:
+    """A tenth of a second in every format that is read."""
+    samples = 0.3 * np.sin(np.arange(2205) * 0.1)
+    found = []
+    for format_, subtype in (
+        *(("WAV", subtype) for subtype in ("PCM_16", "PCM_24", "FLOAT", "PCM_U8", "IMA_ADPCM")),
+        *(("FLAC", "PCM_16"), ("OGG", "VORBIS"), ("OGG", "OPUS"), ("AIFF", "PCM_16"), ("MP3", "MPEG_LAYER_III")),
+    ):
+        stream = io.BytesIO()
+        rate_hz = 24_000 if subtype == "OPUS" else 22_050
+        soundfile.write(stream, np.stack([samples, -samples], axis=1), rate_hz, format=format_, subtype=subtype)
+        found.append(stream.getvalue())
+    return found
+
+
+def unreal_description() -> list[bytes]:
+    """What an export into Unreal says of itself."""
+    root, place = "/Game/Suisou/Piece", {"x_cm": 0.0, "y_cm": 1.5, "z_cm": 0.0, "yaw_deg": 90.0}
+
+    def figure(kind: str, name: str) -> dict[str, Any]:
+        assets = {key: f"{root}/{kind}/{name}/{prefix}_{name}" for key, prefix in _ASSETS.items()}
+        return {"file": f"{kind}/{name}.fbx", "bones": ["root", "hips"], **assets}
+
+    content = {
+        "schema": 1, "piece": "Piece", "title": "A piece", "content": root, "sequence": f"{root}/LS_Piece",
+        "rate": {"numerator": 60, "denominator": 1}, "frames": 100,
+        "sound": {"file": "Audio/S_Piece.wav", "asset": f"{root}/Audio/S_Piece", "offset_s": 0.0, "duration_s": 1.6},
+        "players": [{
+            "name": "Trumpet 1", "instrument_id": "trumpet_Bb", "place": place,
+            "character": figure("Characters", "Trumpet_1"), "instrument": figure("Instruments", "Trumpet_1"),
+        }],
+        "bars": [{"number": 1, "frame": 0}, {"number": 2, "frame": 60}],
+        "markers": [{"text": "A", "bar": 2, "frame": 60}],
+        "files": {
+            name: {"bytes": 10, "sha256": "0" * 64}
+            for name in ("Characters/Trumpet_1.fbx", "Instruments/Trumpet_1.fbx", "Audio/S_Piece.wav")
+        },
+    }  # fmt: skip
+    return [json.dumps(content, indent=1).encode()]
+
+
+_ASSETS = {"mesh": "SK", "skeleton": "SKEL", "animation": "A"}
+
+
+def unreal_manifest() -> list[bytes]:
+    """The list of the files that are ours in an Unreal project."""
+    files = {"Audio/S_Piece.wav": {"bytes": 10, "sha256": "0" * 64}}
+    return [json.dumps({"schema": 1, "creator": "Suisou", "files": files}).encode()]
+
+
+def unreal_project() -> list[bytes]:
+    """Unreal's own project file."""
+    content = {
+        "FileVersion": 3,
+        "EngineAssociation": "5.6",
+        "Plugins": [{"Name": "PythonScriptPlugin", "Enabled": True}],
+    }
+    text = json.dumps(content)
+    return [text.encode(), text.encode("utf-16")]
+
+
+# Hostile files that are better made than kept
+
+
+def _nested_gltf() -> bytes:
+    nodes = [{"children": [number + 1]} for number in range(5000)] + [{"name": "last"}]
+    return json.dumps({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": nodes}).encode()
+
+
+MADE: Final[dict[str, dict[str, Callable[[], bytes]]]] = {
+    "project": {"deep": lambda: b"[" * 100_000, "deep_object": lambda: b'{"a":' * 60_000},
+    "instrument_map": {"deep": lambda: b"a = " + b"[" * 50_000, "digits": lambda: b"a = " + b"9" * 6000},
+    "expression": {"deep": lambda: b"a = " + b"[" * 50_000, "digits": lambda: b"a = " + b"9" * 6000},
+    "preset": {"deep": lambda: b"a = " + b"[" * 50_000, "digits": lambda: b"a = " + b"9" * 6000},
+    "character_entry": {"deep": lambda: b"a = " + b"[" * 50_000, "digits": lambda: b"a = " + b"9" * 6000},
+    "metadata": {"deep": lambda: b"a = " + b"[" * 50_000, "digits": lambda: b"a = " + b"9" * 6000},
+    "gltf": {"deep": lambda: b'{"a":' * 60_000, "nested_nodes": _nested_gltf},
+    "unreal_description": {"deep": lambda: b"[" * 100_000},
+    "unreal_manifest": {"deep": lambda: b"[" * 100_000},
+    "unreal_project": {"deep": lambda: b"[" * 100_000},
+    "presence": {"deep": lambda: b"[" * 100_000},
+}
+"""By kind and name."""
+
+
+def hostile(kind: str) -> Sequence[tuple[str, bytes]]:
+    """Every file of a kind that ever broke a reader, by name."""
+    made = [(name, make()) for name, make in MADE.get(kind, {}).items()]
+    return [*((path.name, path.read_bytes()) for path in found_files(kind)), *made]
