@@ -6,13 +6,14 @@ Nothing of Qt is imported before it is known that the editor is wanted.
 from __future__ import annotations
 
 import os
+import signal
 import sys
-from collections.abc import Sequence
-from pathlib import Path
-from typing import TYPE_CHECKING
 
+TYPE_CHECKING = False
 if TYPE_CHECKING:
     from argparse import Namespace
+    from collections.abc import Sequence
+    from types import FrameType
 
 NO_DISPLAY = 3
 OPENED = (".suisou", ".mid", ".midi")
@@ -21,16 +22,28 @@ OPENED = (".suisou", ".mid", ".midi")
 
 def main() -> int:
     """Run with the process's arguments and return the exit status."""
-    return run(sys.argv[1:])
+    # While modules load nothing has to be cleared up. The commands and the editor, which have something, take Ctrl-C
+    # over for as long as they run.
+    signal.signal(signal.SIGINT, end_at_once)
+    try:
+        return run(sys.argv[1:])
+    finally:
+        # Python's own end, which calls no handlers any more.
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
+def end_at_once(number: int, frame: FrameType | None) -> None:
+    """End like a program that a signal has ended, without a word."""
+    os._exit(128 + number)
 
 
 def run(arguments: Sequence[str]) -> int:
     """Run with these arguments (without the program's own name) and return the exit status."""
-    from app.cli import BAD_INPUT, BAD_USE, parser
+    from app.cli import BAD_USE, parser
     from app.cli import main as command_line
 
     wanted = list(arguments)
-    if not wanted or Path(wanted[0]).suffix.lower() in OPENED:
+    if not wanted or wanted[0].lower().endswith(OPENED):
         wanted.insert(0, "edit")
     if wanted[0] != "edit":
         return command_line(wanted)
@@ -44,17 +57,14 @@ def run(arguments: Sequence[str]) -> int:
     if reason is not None:
         sys.stderr.write(f"suisou: {reason}\n")
         return NO_DISPLAY
-    try:
-        return edit(parsed)
-    except KeyboardInterrupt:
-        return BAD_INPUT
+    return edit(parsed)
 
 
 def edit(parsed: Namespace) -> int:
     """Start the editor as the command line says."""
     # Which sound libraries this system lacks is nothing a person can act on.
     os.environ.setdefault("QT_LOGGING_RULES", "qt.multimedia.symbolsresolver=false;qt.multimedia.ffmpeg=false")
-    from app.cli import BAD_INPUT
+    from app.cli import BAD_INPUT, STOPPED
     from app.errors import AppError
     from app.messages import error_text
     from app.shell.app import Start
@@ -74,6 +84,8 @@ def edit(parsed: Namespace) -> int:
     except AppError as error:
         sys.stderr.write(f"suisou: {error_text(error)}\n")
         return BAD_INPUT
+    except KeyboardInterrupt:
+        return STOPPED
 
 
 if __name__ == "__main__":

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import contextlib
 import os
-import signal
 import struct
 import subprocess
 import sys
@@ -61,14 +60,7 @@ class RenderProcess:
 
 
 def _started() -> subprocess.Popen[bytes]:
-    command, environment = own_process(__name__)
-    return subprocess.Popen(
-        command,
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        env=environment,
-        creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),
-    )
+    return subprocess.Popen(stdin=subprocess.PIPE, stdout=subprocess.PIPE, **own_process(__name__))
 
 
 def _end(child: subprocess.Popen[bytes]) -> None:
@@ -103,8 +95,6 @@ def _exactly(stream: IO[bytes], count: int) -> bytes:
 
 def main() -> None:
     """Render whatever is asked for."""
-    # Ctrl-C in the terminal is meant for the editor, which ends this process by ending.
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
     if hasattr(os, "nice"):
         os.nice(_NICENESS)
     while True:

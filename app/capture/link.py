@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import os
 import subprocess
+import sys
 import threading
 import time
 from collections import deque
@@ -263,17 +264,13 @@ class RecorderLink:
 
 
 def _started(system: str) -> subprocess.Popen[bytes]:
-    command, environment = own_process("app.capture.recorder")
+    options = own_process("app.capture.recorder")
     if system:
-        environment[SYSTEM_VARIABLE] = system
-    return subprocess.Popen(
-        command,
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        env=environment,
-        # Only Windows has these; elsewhere see `app.capture.recorder.take_precedence`.
-        creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0) | getattr(subprocess, "HIGH_PRIORITY_CLASS", 0),
-    )
+        options["env"][SYSTEM_VARIABLE] = system
+    if sys.platform == "win32":
+        # Elsewhere see `app.capture.recorder.take_precedence`.
+        options["creationflags"] |= subprocess.HIGH_PRIORITY_CLASS
+    return subprocess.Popen(stdin=subprocess.PIPE, stdout=subprocess.PIPE, **options)
 
 
 def _hang_up(child: subprocess.Popen[bytes]) -> None:

@@ -15,7 +15,6 @@ from __future__ import annotations
 import contextlib
 import gc
 import os
-import signal
 import sys
 import threading
 import time
@@ -390,8 +389,6 @@ def main() -> None:
     """Record for whoever started this process."""
     sys.excepthook = _end_at_once
     threading.excepthook = lambda failed: _end_at_once(failed.exc_type, failed.exc_value, failed.exc_traceback)
-    # Ctrl-C in the terminal is meant for the editor, which ends this process by ending.
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
     take_precedence()
     sys.setswitchinterval(_SWITCH_S)
     # What is loaded stays: no stamp waits until all of it was looked through for garbage.

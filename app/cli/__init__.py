@@ -1,6 +1,6 @@
 """The command line: parses, calls the rooms below, prints. Every sub-command is a module of this folder.
 
-Exit status: 0 done, 1 bad input (or stopped by the person), 2 bad use.
+Exit status: 0 done, 1 bad input, 2 bad use, 130 stopped with Ctrl-C.
 """
 
 from __future__ import annotations
@@ -8,8 +8,10 @@ from __future__ import annotations
 import argparse
 import io
 import os
+import signal
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 
 import app.cli.characters
 import app.cli.edit
@@ -25,6 +27,7 @@ from app.messages import error_text
 from app.version import program_version
 
 DONE, BAD_INPUT, BAD_USE = 0, 1, 2
+STOPPED = 128 + signal.SIGINT
 
 _DESCRIPTION = """\
 Turns the MIDI of a wind ensemble into the performance of its players, for animation.
@@ -78,7 +81,8 @@ def main(arguments: Sequence[str]) -> int:
             parser().print_help()
             return DONE
         run: Callable[[argparse.Namespace], None] = parsed.run
-        run(parsed)
+        with _interruptible():
+            run(parsed)
         sys.stdout.flush()
     except SystemExit as stop:  # argparse: --help and --version end with 0, bad use with 2
         return stop.code if isinstance(stop.code, int) else BAD_USE
@@ -87,12 +91,22 @@ def main(arguments: Sequence[str]) -> int:
     except AppError as error:
         return _fail(_with_file(error, parsed), BAD_INPUT)
     except KeyboardInterrupt:
-        return _fail("stopped; nothing was written", BAD_INPUT)
+        return _fail("stopped; nothing was written", STOPPED)
     except BrokenPipeError:
         # Whoever read our output has gone (`| head`): not an error. Python would complain once more at exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return DONE
     return DONE
+
+
+@contextmanager
+def _interruptible() -> Iterator[None]:
+    """Ctrl-C ends what is done here by KeyboardInterrupt, so that nothing half-written stays."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 def _with_file(error: AppError, parsed: argparse.Namespace) -> str:

@@ -8,12 +8,13 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from app.cli.options import Commands
+from app.cli.options import Commands, within
 from app.errors import AppError, Message, UsageError
 from app.messages import filled, text
 
 PLAYED = "clarinet_Bb"
 """What a figure is checked with: it asks for nine fingers, two thumbs and lips."""
+_weight = within(-10.0, 10.0, "a weight", float)
 
 
 class CannotPlayError(AppError):
@@ -138,8 +139,8 @@ def morphs_of(texts: list[str]) -> dict[str, dict[str, float]]:
         for part in filter(None, parts.split("+")):
             name, colon, weight = part.rpartition(":")
             try:
-                found[shape][name if colon else part] = float(weight) if colon else 1.0
-            except ValueError as error:
+                found[shape][name if colon else part] = _weight(weight) if colon else 1.0
+            except argparse.ArgumentTypeError as error:
                 raise UsageError("characters.morph", text=given) from error
     return found
 

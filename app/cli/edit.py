@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import argparse
-import math
 from pathlib import Path
 from typing import Final
 
-from app.cli.options import Commands
+from app.cli.options import Commands, seconds
 
 VIEWS: Final = ("ensemble", "front", "side", "top", "hands", "mouth", "feet")
 LANGUAGES: Final = ("en", "ja")
@@ -32,17 +31,6 @@ def size(text: str) -> tuple[int, int]:
             f"{text!r} is not between {LEAST_PX[0]}x{LEAST_PX[1]} and {MOST_PX[0]}x{MOST_PX[1]}"
         )
     return result
-
-
-def seconds(text: str) -> float:
-    """A finite number of seconds; before the first note it is negative."""
-    try:
-        value = float(text)
-    except ValueError:
-        value = math.nan
-    if not math.isfinite(value):
-        raise argparse.ArgumentTypeError(f"{text!r} is not a number of seconds")
-    return value
 
 
 def add_command(commands: Commands) -> None:

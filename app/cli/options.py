@@ -1,21 +1,21 @@
-"""What a person types, as values: frame rates, bars, players."""
+"""What is typed on the command line, as values: numbers, frame rates, players."""
 
 from __future__ import annotations
 
 import argparse
-import math
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
-from typing import TypeAlias
+from typing import Final, TypeAlias, TypeVar
 
 import msgspec
 
 from app.errors import UsageError
 from app.messages import text as worded
 from app.plan.generate import PREROLL_BEATS, PREROLL_LEAST_S
+from app.project import limits
 from app.project.model import Project, map_choices, project_from_score, with_settings
 from app.project.names import unique_names
 from app.project.parameters import parameter_names, parse_settings, select_players
@@ -31,71 +31,90 @@ from instrument_maps.model import InstrumentMap
 Commands: TypeAlias = "argparse._SubParsersAction[argparse.ArgumentParser]"
 """Where a sub-command declares itself."""
 
-LOWEST_FPS = 1
-HIGHEST_FPS = 240
 _PULLED_DOWN = (24, 30, 48, 60, 120)
 """Nominal rates that television slows by 1000/1001; 29.97 means 30000/1001 and not 2997/100."""
+_MOST_SHOWN = 40
+"""Characters of a wrong number that its error repeats."""
+
+N = TypeVar("N", int, float, Fraction)
 
 
-def frame_rate(text: str) -> Fraction:
-    """Frames per second from ``60``, ``29.97`` or ``30000/1001``.
+def within(least: N, most: N, what: str, parse: Callable[[str], N]) -> Callable[[str], N]:
+    """The type of an option that takes a number: every numeric option has one of these.
 
-    Raises
-    ------
-    argparse.ArgumentTypeError
-        Not a rate between 1 and 240.
+    Parameters
+    ----------
+    least, most : number
+        Both allowed. Not-a-number and infinity never are.
+    what : str
+        What the number is, for the error: "a number of seconds".
+    parse : callable
+        `int`, `float` or `fraction`; raises ValueError for what is no number.
+
+    Returns
+    -------
+    callable
+        For ``type=`` of `argparse`: raises ArgumentTypeError, which names the option, where the text is no such
+        number.
     """
-    try:
-        rate = Fraction(text.strip())
-    except (ValueError, ZeroDivisionError):
-        raise argparse.ArgumentTypeError(f"{text!r} is not a frame rate such as 24, 29.97 or 30000/1001") from None
-    if "/" not in text:
-        for nominal in _PULLED_DOWN:
-            pulled_down = Fraction(nominal * 1000, 1001)
-            # The usual short forms keep two or three decimals: 23.98, 23.976, 29.97, 59.94.
-            if abs(rate - pulled_down) < Fraction(1, 200):
-                rate = pulled_down
-    if not LOWEST_FPS <= rate <= HIGHEST_FPS:
-        raise argparse.ArgumentTypeError(f"{text!r} is not between {LOWEST_FPS} and {HIGHEST_FPS} frames per second")
+
+    def parsed(text: str) -> N:
+        try:
+            value = parse(text)
+            possible = least <= value <= most
+        except (ValueError, ZeroDivisionError, OverflowError):
+            possible = False
+        if not possible:
+            shown = text if len(text) <= _MOST_SHOWN else f"{text[:_MOST_SHOWN]}..."
+            raise argparse.ArgumentTypeError(f"{shown!r} is not {what} from {_plain(least)} to {_plain(most)}")
+        return value
+
+    return parsed
+
+
+def fraction(text: str) -> Fraction:
+    """An exact number from ``1.5`` or ``3/2``. Raises ValueError, ZeroDivisionError."""
+    if "e" in text.casefold():
+        raise ValueError(text)  # 1e999999999 would take hours
+    return Fraction(text.strip())
+
+
+def _plain(number: float | Fraction) -> str:
+    """A bound in a message: every digit of a whole number, a fraction as one."""
+    return f"{number:g}" if isinstance(number, float) else str(number)
+
+
+def pulled_down(rate: Fraction) -> Fraction:
+    """The exact rate that a decimal short form means: 23.98, 23.976, 29.97 or 59.94."""
+    for nominal in _PULLED_DOWN:
+        exact = Fraction(nominal * 1000, 1001)
+        # The usual short forms keep two or three decimals.
+        if abs(rate - exact) < Fraction(1, 200):
+            return exact
     return rate
+
+
+def _rate(text: str) -> Fraction:
+    rate = fraction(text)
+    return rate if "/" in text else pulled_down(rate)
+
+
+LONGEST_S: Final = 24 * 3600.0
+"""A day: no piece and no recording is longer."""
+
+frame_rate = within(*limits.FPS, "a number of frames per second such as 24, 29.97 or 30000/1001", _rate)
+whole_number = within(0, 2**63 - 1, "a whole number", int)
+beats = within(*limits.PREROLL_BEATS, "a number of beats", float)
+felt_beat = within(
+    *limits.FELT_BEAT_QUARTERS, "a length in quarters such as 1, 1.5 or 1/2", lambda text: float(fraction(text))
+)
+seconds = within(-LONGEST_S, LONGEST_S, "a number of seconds", float)
+"""Of the performance; before the first beat it is negative."""
 
 
 def frame_rate_text(rate: Fraction) -> str:
     """``60`` or ``30000/1001``."""
     return str(rate.numerator) if rate.denominator == 1 else f"{rate.numerator}/{rate.denominator}"
-
-
-def whole_number(text: str) -> int:
-    """A whole number of at least 0."""
-    try:
-        number = int(text)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number") from None
-    if not 0 <= number < 2**63:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number from 0 on")
-    return number
-
-
-def beats(text: str) -> float:
-    """A finite number of beats, 0 to 64."""
-    try:
-        number = float(text)
-    except ValueError:
-        number = math.nan
-    if not 0.0 <= number <= 64.0:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a number of beats from 0 to 64")
-    return number
-
-
-def felt_beat(text: str) -> float:
-    """The length of a felt beat in quarters, 1/16 to 16; also as a fraction."""
-    try:
-        number = float(Fraction(text.strip()))
-    except (ValueError, ZeroDivisionError, OverflowError):
-        number = math.nan
-    if not 1 / 16 <= number <= 16.0:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a length in quarters such as 1, 1.5 or 1/2")
-    return number
 
 
 def text_encoding(text: str) -> str:

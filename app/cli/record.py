@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import contextlib
-import math
 import sys
 import time
 from datetime import datetime
@@ -13,7 +12,7 @@ from typing import Final
 
 from app.capture.journal import Header, Journal, passes, read_journal
 from app.capture.protocol import Back, Finished, Lost, NotStarted, Opened, Refused, Restarted, Written
-from app.cli.options import Commands
+from app.cli.options import LONGEST_S, Commands, within
 from app.cli.ports import Listening, NoDevice
 from app.errors import AppError, FileError, UsageError
 from app.formats.locks import is_locked
@@ -25,7 +24,10 @@ _WITHIN_S: Final = 15.0
 _LEAD_S: Final = 0.2
 _BEATS_IN_BAR: Final = 4
 _USUAL_TEMPO: Final = 120.0
-_FOR_EVER_S: Final = 24 * 3600.0
+
+_seconds = within(0.1, LONGEST_S, "a number of seconds", float)
+_tempo = within(20.0, 400.0, "a number of beats in a minute", float)
+_bars = within(0, 16, "a whole number of bars", int)
 
 
 class RecordError(AppError):
@@ -103,7 +105,7 @@ def _listen(arguments: argparse.Namespace, journal: Path) -> None:
             _begun(listening)
             with contextlib.suppress(KeyboardInterrupt):
                 _count_in(listening, arguments.count_in, arguments.tempo, begin_ns)
-                length_s = _FOR_EVER_S if arguments.seconds is None else arguments.seconds
+                length_s = LONGEST_S if arguments.seconds is None else arguments.seconds
                 _say("recording" if arguments.seconds else "recording; Ctrl+C ends it")
                 _tell_until(listening, _monotonic_s(begin_ns) + length_s)
         finally:
@@ -201,28 +203,3 @@ def _monotonic_s(ns: int) -> float:
 
 def _say(sentence: str) -> None:
     print(f"suisou: {sentence}", file=sys.stderr, flush=True)
-
-
-def _seconds(text: str) -> float:
-    return _number(text, 0.1, _FOR_EVER_S, "seconds")
-
-
-def _tempo(text: str) -> float:
-    return _number(text, 20.0, 400.0, "beats in a minute")
-
-
-def _bars(text: str) -> int:
-    bars = _number(text, 0.0, 16.0, "bars")
-    if bars != int(bars):
-        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number of bars")
-    return int(bars)
-
-
-def _number(text: str, least: float, most: float, unit: str) -> float:
-    try:
-        number = float(text)
-    except ValueError:
-        number = math.nan
-    if not least <= number <= most:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a number of {unit} from {least:g} to {most:g}")
-    return number

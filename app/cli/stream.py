@@ -8,17 +8,29 @@ import time
 from fractions import Fraction
 from typing import TYPE_CHECKING, Final
 
-from app.cli.options import Commands, add_source_options, frame_rate, open_project
+from app.cli.options import Commands, add_source_options, frame_rate, open_project, seconds, within
 from app.cli.progress import Progress
 from app.errors import UsageError
 from app.project.parameters import select_players
 from app.stream.faces import FACE_NAMES
-from app.stream.sender import LOOPBACK, PORT, Outcome, Sender, checked_port, find_address, is_loopback
+from app.stream.sender import (
+    LEAST_PORT,
+    LOOPBACK,
+    MOST_PORT,
+    PORT,
+    Outcome,
+    Sender,
+    checked_port,
+    find_address,
+    is_loopback,
+    reaches_many,
+)
 
 if TYPE_CHECKING:
     from app.motion.model import Motion
     from app.performance.chunks import Pose
     from app.performance.ensemble import Performance
+    from app.performance.span import FrameSpan
     from app.project.casting import StagePosition
     from app.project.model import Player
     from app.stream.vmc import Sent
@@ -44,17 +56,36 @@ def add_command(commands: Commands) -> None:
         metavar="NAME",
         help="only this player; repeatable (default: all, each on a port of their own)",
     )
-    command.add_argument("--host", default=LOOPBACK, help=f"name or address of a computer (default: {LOOPBACK})")
-    command.add_argument("--port", type=int, default=PORT, help=f"of the first player (default: {PORT})")
+    command.add_argument(
+        "--host", type=_host, default=LOOPBACK, help=f"name or address of a computer (default: {LOOPBACK})"
+    )
+    command.add_argument(
+        "--broadcast",
+        action="store_true",
+        help="allow a multicast or broadcast address, which every computer on the network can receive from",
+    )
+    command.add_argument(
+        "--port",
+        type=within(LEAST_PORT, MOST_PORT, "a port", int),
+        default=PORT,
+        help=f"of the first player (default: {PORT})",
+    )
     command.add_argument(
         "--fps", type=frame_rate, default=_USUAL_RATE, metavar="RATE", help="frames per second (default: 60)"
     )
     command.add_argument("--faces", choices=FACE_NAMES, default="arkit", help="names of the face (default: arkit)")
     command.add_argument(
-        "--from", dest="from_s", type=float, metavar="S", help="begin here, in seconds (default: the beginning)"
+        "--from", dest="from_s", type=seconds, metavar="S", help="begin here, in seconds (default: the beginning)"
     )
     command.add_argument("--loop", action="store_true", help="begin again at the end")
     command.set_defaults(run=stream)
+
+
+def _host(text: str) -> str:
+    """A computer's name or address."""
+    if not text.strip():
+        raise argparse.ArgumentTypeError("the name or address of a computer is missing")
+    return text.strip()
 
 
 def stream(arguments: argparse.Namespace) -> None:
@@ -66,22 +97,27 @@ def stream(arguments: argparse.Namespace) -> None:
         The file cannot be read, the computer cannot be reached.
     """
     from app.performance.ensemble import Performance
+    from app.performance.span import whole_span
 
     project = open_project(arguments)
     performance = Performance(project)
+    span = whole_span(performance.time_frame, arguments.fps)
+    first = _first_frame(span, arguments.from_s)
     chosen = [project.players[at] for at in select_players(arguments.players, [p.name for p in project.players])]
     if not chosen:
         raise UsageError("stream.nobody")
     checked_port(arguments.port + len(chosen) - 1)
     address = find_address(arguments.host, arguments.port)
-    senders = [Sender(address.port(arguments.port + place)) for place in range(len(chosen))]
+    if not arguments.broadcast and reaches_many(address):
+        raise UsageError("stream.broadcast", host=arguments.host)
+    senders = [Sender(address.port(arguments.port + place), arguments.broadcast) for place in range(len(chosen))]
     try:
-        cast = [_Streamed(performance, player, arguments, alone=len(chosen) == 1) for player in chosen]
+        cast = [_Streamed(performance, player, span, arguments, alone=len(chosen) == 1) for player in chosen]
         for player, sender in zip(chosen, senders, strict=True):
             print(f"{player.name}: {arguments.host}:{sender.address.at[1]}")
         if not is_loopback(arguments.host):
             print(f"what is sent leaves this computer, to {arguments.host}", file=sys.stderr)
-        _play(cast, senders, arguments)
+        _play(cast, senders, span, first, arguments.loop)
     except KeyboardInterrupt:
         print("stopped")
     finally:
@@ -89,16 +125,26 @@ def stream(arguments: argparse.Namespace) -> None:
             sender.close()
 
 
+def _first_frame(span: FrameSpan, from_s: float | None) -> int:
+    """The frame to begin with. Raises UsageError (``stream.from``) where the piece has none then."""
+    if from_s is None:
+        return 0
+    first = round((from_s - span.first_frame_s) * float(span.fps))
+    if not 0 <= first < span.count:
+        raise UsageError("stream.from", time_s=from_s, first_s=span.first_frame_s, end_s=round(span.end_s, 3))
+    return first
+
+
 class _Streamed:
     """A player, their motion, and how they are sent."""
 
-    def __init__(self, performance: Performance, player: Player, arguments: argparse.Namespace, alone: bool) -> None:
+    def __init__(
+        self, performance: Performance, player: Player, span: FrameSpan, arguments: argparse.Namespace, alone: bool
+    ) -> None:
         from app.performance.bodies import character_of
         from app.performance.motion import player_motion
-        from app.performance.span import whole_span
         from app.stream.vmc import IN_THE_MIDDLE, Sent
 
-        span = whole_span(performance.time_frame, arguments.fps)
         progress = Progress(sys.stderr)
         try:
             self._motion: Motion = player_motion(
@@ -108,14 +154,6 @@ class _Streamed:
             progress.clear()
         self._sent: Sent = Sent(character_of(player), player.instrument_id, arguments.faces)
         self._stage: StagePosition = IN_THE_MIDDLE if alone else player.stage
-
-    @property
-    def frames(self) -> int:
-        return self._motion.frames
-
-    @property
-    def first_s(self) -> float:
-        return self._motion.first_frame_s
 
     def datagrams(self, frame: int, time_s: float) -> list[bytes]:
         return self._sent.datagrams(_pose(self._motion, frame), time_s, self._stage)
@@ -134,19 +172,13 @@ def _pose(motion: Motion, frame: int) -> Pose:
     )
 
 
-def _play(cast: list[_Streamed], senders: list[Sender], arguments: argparse.Namespace) -> None:
+def _play(cast: list[_Streamed], senders: list[Sender], span: FrameSpan, first: int, loop: bool) -> None:
     """Every frame at its time; those that come too late are left out."""
-    fps, frames = float(arguments.fps), cast[0].frames
-    first = 0
-    if arguments.from_s is not None:
-        first = round((arguments.from_s - cast[0].first_s) * fps)
-        if not 0 <= first < frames:
-            end_s = cast[0].first_s + frames / fps
-            raise UsageError("stream.from", time_s=arguments.from_s, first_s=cast[0].first_s, end_s=round(end_s, 3))
+    fps, frames = float(span.fps), span.count
     began_s = time.perf_counter()
     heard_s, unheard, sent = began_s, False, 0
     step = 0
-    while arguments.loop or first + step < frames:
+    while loop or first + step < frames:
         wait_s = began_s + step / fps - time.perf_counter()
         if wait_s > 0:
             time.sleep(wait_s)

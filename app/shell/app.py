@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import signal
 import tempfile
+import threading
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -201,7 +202,7 @@ def _end_on_signal(application: QApplication) -> None:
     """Ctrl-C in the terminal ends the editor like its window's button; unsaved work stays recoverable."""
 
     def stop(number: int, frame: object) -> None:
-        application.quit()
+        application.exit(128 + number)
 
     for name in (signal.SIGINT, signal.SIGTERM):
         signal.signal(name, stop)
@@ -214,6 +215,17 @@ def _end_on_signal(application: QApplication) -> None:
 def picture(start: Start, target: Path) -> int:
     """Draw the real window once, whatever the person's settings are, write it to a file, and end."""
     application = make_application()
+    stopped = threading.Event()
+    signal.signal(signal.SIGINT, lambda number, frame: stopped.set())
+
+    def wait(ready: Callable[[], bool], most_s: float = PICTURE_S) -> None:
+        end_s = time.monotonic() + most_s
+        while not ready() and time.monotonic() < end_s:
+            if stopped.is_set():
+                raise KeyboardInterrupt
+            application.processEvents(QEventLoop.ProcessEventsFlag.AllEvents, 50)
+            time.sleep(0.005)
+
     garbage = Garbage()
     with tempfile.TemporaryDirectory() as folder:
         settings = Settings(Path(folder) / "editor.ini")
@@ -237,20 +249,20 @@ def picture(start: Start, target: Path) -> int:
         try:
             if start.file is not None:
                 program.editor.files.open(start.file, ask=False)
-                _wait(application, lambda: program.editor.files.is_open or bool(failure))
+                wait(lambda: program.editor.files.is_open or bool(failure))
                 if failure:
                     raise failure[0]
-                _wait(application, lambda: program.session.performance.project is program.session.project)
+                wait(lambda: program.session.performance.project is program.session.project)
                 if start.view in VIEWS:
                     program.session.viewport.set_view(start.view)
                 program.session.set_playhead(start.time_s)
                 program.session.reveal(start.time_s)
-                _wait(application, lambda: _moves(program, start.time_s) and not _working(program))
-                _wait(application, lambda: program.generator.ready_share >= 1.0, READY_S)
+                wait(lambda: _moves(program, start.time_s) and not _working(program))
+                wait(lambda: program.generator.ready_share >= 1.0, READY_S)
                 window.reset_layout()
             # Flights of the camera and late layouts.
-            _wait(application, lambda: False, 1.2)
-            _wait(application, lambda: not _working(program), READY_S)
+            wait(lambda: False, 1.2)
+            wait(lambda: not _working(program), READY_S)
             image = window.grab().toImage()
             if not image.save(str(target)):
                 raise AppError("file.cannot_write", file=str(target), reason=_why_not(target))
@@ -272,13 +284,6 @@ def _moves(program: Program, time_s: float) -> bool:
 
 def _working(program: Program) -> bool:
     return isinstance(program.tasks, ThreadTasks) and bool(program.tasks.running)
-
-
-def _wait(application: QApplication, ready: Callable[[], bool], most_s: float = PICTURE_S) -> None:
-    end_s = time.monotonic() + most_s
-    while not ready() and time.monotonic() < end_s:
-        application.processEvents(QEventLoop.ProcessEventsFlag.AllEvents, 50)
-        time.sleep(0.005)
 
 
 def _why_not(target: Path) -> str:

@@ -26,7 +26,7 @@ from app.rig.model import Character
 from app.shell.calls import window_calls
 from app.shell.settings import Settings
 from app.stream.faces import FACE_NAMES, FaceNames
-from app.stream.sender import MOST_PORT, Address, Outcome, Sender, find_address
+from app.stream.sender import MOST_PORT, TO_MANY, Address, Outcome, Sender, StreamError, find_address, reaches_many
 from app.stream.vmc import IN_THE_MIDDLE, Sent
 from widgets.common.session import Session, Severity
 from widgets.common.streaming import RATES_HZ, StreamState
@@ -66,8 +66,8 @@ class Streamer(QObject):
         self._session, self._settings, self._state = session, settings, session.streaming
         self._poses = LivePoses(session, poses)
         self._address: Address | None = None
-        self._asked: tuple[str, int] | None = None
-        """What the address was, or is, looked up from."""
+        self._asked: tuple[str, int, bool] | None = None
+        """What the address was, or is, looked up from, and whether it may be that of many computers."""
         self._thread: _Thread | None = None
         self._ending: weakref.finalize[[], Streamer] | None = None
         """Closes the thread, also where nobody says good-bye."""
@@ -98,7 +98,12 @@ class Streamer(QObject):
 
     def _wished(self) -> tuple[object, ...]:
         state = self._state
-        return state.on, state.host, state.port, state.everyone, state.faces, state.rate_hz
+        return state.on, state.host, self._broadcast, state.port, state.everyone, state.faces, state.rate_hz
+
+    @property
+    def _broadcast(self) -> bool:
+        """Whether the host may be many computers."""
+        return self._state.broadcast == self._state.host
 
     def _changed(self) -> None:
         wished = self._wished()
@@ -111,27 +116,30 @@ class Streamer(QObject):
         settings.stream_rate_hz = state.rate_hz
         if not state.on:
             self.close()
-        elif (state.host, state.port) != self._asked:
+        elif (state.host, state.port, self._broadcast) != self._asked:
             self._look_up()
         else:
             self._wish()
 
     def _look_up(self) -> None:
         """A computer with a name may take seconds to be found."""
-        host, port = self._state.host, self._state.port
+        asked = host, port, broadcast = self._state.host, self._state.port, self._broadcast
         self.close()
-        self._asked = (host, port)
+        self._asked = asked
         self._state.set(state="looking")
 
         def work(progress: Progress, stop_wanted: StopWanted) -> Address:
-            return find_address(host, port)
+            address = find_address(host, port)
+            if not broadcast and reaches_many(address):
+                raise StreamError(TO_MANY, host=host)
+            return address
 
         def done(address: Address) -> None:
-            if self._asked == (host, port):
+            if self._asked == asked:
                 self._begin(address)
 
         def failed(error: AppError) -> None:
-            if self._asked == (host, port):
+            if self._asked == asked:
                 self._fail(error.message)
 
         self._session.tasks.run(Message("work.stream", {"host": host}), work, done, failed, key="stream")
@@ -174,6 +182,7 @@ class Streamer(QObject):
                 stages=tuple(player.stage if state.everyone else IN_THE_MIDDLE for player in players),
                 faces=state.faces,
                 rate_hz=state.rate_hz,
+                broadcast=self._broadcast,
             )
         )
         self.moved()
@@ -212,6 +221,7 @@ class _Wish:
     stages: tuple[StagePosition, ...]
     faces: FaceNames
     rate_hz: int
+    broadcast: bool
 
 
 @dataclass(frozen=True)
@@ -340,7 +350,7 @@ class _Thread:
             if pose is not None:
                 datagrams = self._sent_of(player, wish.faces).datagrams(pose, now_s - self._began_s, stage)
                 if port not in self._senders:
-                    self._senders[port] = Sender(wish.address.port(port))
+                    self._senders[port] = Sender(wish.address.port(port), wish.broadcast)
                 outcomes.append(self._senders[port].send(datagrams))
         if outcomes and Outcome.DROPPED not in outcomes:
             self._frames.append(now_s)

@@ -8,6 +8,8 @@ stream.port : port
     "{port} is no port ..."
 stream.not_sent : host, port, reason
     "nothing can be sent to {host}, port {port} ({reason}) ..."
+stream.to_many : host
+    "{host} is no single computer ..."
 """
 
 from __future__ import annotations
@@ -27,6 +29,7 @@ LOOPBACK: Final = "127.0.0.1"
 PORT: Final = 39539
 """Where a receiver of the VMC protocol listens, usually."""
 LEAST_PORT, MOST_PORT = 1024, 65535
+TO_MANY: Final = "stream.to_many"
 
 SocketAddress: TypeAlias = tuple[str, int] | tuple[str, int, int, int]
 
@@ -93,13 +96,33 @@ def find_address(host: str, port: int) -> Address:
         ``stream.host_unknown``, ``stream.port``.
     """
     wanted = host.strip()
+    if not wanted:
+        # The system would take it for any computer.
+        raise StreamError("stream.host_unknown", host=wanted)
     try:
-        found = socket.getaddrinfo(wanted or LOOPBACK, checked_port(port), type=socket.SOCK_DGRAM)
+        found = socket.getaddrinfo(wanted, checked_port(port), type=socket.SOCK_DGRAM)
     except (socket.gaierror, UnicodeError) as error:
         raise StreamError("stream.host_unknown", host=wanted) from error
     # A name that has both is reached by the older one: receivers listen on that.
     family, _, _, _, at = sorted(found, key=lambda row: row[0] != socket.AF_INET)[0]
     return Address(wanted, family, at)  # type: ignore[arg-type]
+
+
+def reaches_many(address: Address) -> bool:
+    """Whether an address is that of many computers: multicast, or the broadcast address of a network."""
+    found = ipaddress.ip_address(address.at[0])
+    if (getattr(found, "ipv4_mapped", None) or found).is_multicast:
+        return True
+    with socket.socket(address.family, socket.SOCK_DGRAM) as probe:
+        try:
+            # Which address is a network's broadcast address only the system knows; it refuses unless it was asked
+            # for with SO_BROADCAST. Nothing is sent by this.
+            probe.connect(address.at)
+        except PermissionError:
+            return True
+        except OSError:
+            return False  # no way there, which a sender says
+    return False
 
 
 class Sender:
@@ -108,18 +131,23 @@ class Sender:
     Parameters
     ----------
     address : Address
+    broadcast : bool
+        Whether the address may be that of many computers.
 
     Raises
     ------
     StreamError
-        ``stream.not_sent``: there is no way there.
+        ``stream.not_sent``: there is no way there; ``stream.to_many``: it reaches many and must not.
     """
 
-    def __init__(self, address: Address) -> None:
+    def __init__(self, address: Address, broadcast: bool = False) -> None:
+        if not broadcast and reaches_many(address):
+            raise StreamError(TO_MANY, host=address.host)
         self.address = address
         self._socket = socket.socket(address.family, socket.SOCK_DGRAM)
         self._socket.setblocking(False)
         try:
+            self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_BROADCAST, int(broadcast))
             # Told where it goes, the system says when nobody listens there.
             self._socket.connect(address.at)
         except OSError as error:

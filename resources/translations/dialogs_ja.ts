@@ -1617,6 +1617,10 @@ Unreal で「Suisou &gt; 演奏をインポート」を選んでください。�
         <translation>閉じる</translation>
     </message>
     <message>
+        <source>Send Anyway</source>
+        <translation>それでも送信</translation>
+    </message>
+    <message>
         <source>Looking for {host}...</source>
         <translation>{host} を探しています...</translation>
     </message>

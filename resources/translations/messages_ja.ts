@@ -1300,6 +1300,14 @@
             <translation>{host!r} というコンピューターは見つかりません。つづりを確かめるか、192.168.0.20 のような数字のアドレスを入力してください</translation>
         </message>
         <message>
+            <source>--host {host} is a multicast or broadcast address, which every computer on the network can receive from; add --broadcast if that is intended</source>
+            <translation>--host {host} はマルチキャストまたはブロードキャストのアドレスで、ネットワーク上のすべてのコンピューターが受信できます。意図したものなら --broadcast を付けてください</translation>
+        </message>
+        <message>
+            <source>{host} is a multicast or broadcast address: every computer on the network could receive what is sent. Nothing was sent</source>
+            <translation>{host} はマルチキャストまたはブロードキャストのアドレスです。送信すると、ネットワーク上のすべてのコンピューターが受信できます。まだ何も送信していません</translation>
+        </message>
+        <message>
             <source>there is no player to stream</source>
             <translation>配信するプレイヤーがいません</translation>
         </message>

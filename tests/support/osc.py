@@ -115,10 +115,10 @@ def frames(packets: list[tuple[float, bytes]]) -> list[Frame]:
 class Receiver:
     """A program that listens on a port of this computer and keeps every packet."""
 
-    def __init__(self, port: int = 0) -> None:
+    def __init__(self, port: int = 0, host: str = "127.0.0.1") -> None:
         self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1 << 22)
-        self._socket.bind(("127.0.0.1", port))
+        self._socket.bind((host, port))
         self._socket.settimeout(0.05)
         self.port: int = self._socket.getsockname()[1]
         self.packets: list[tuple[float, bytes]] = []

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
+import sys
 from pathlib import Path
+
+import pytest
 
 from app.own_process import own_process
 
@@ -11,7 +15,16 @@ from app.own_process import own_process
 def test_what_lies_where_it_is_started_is_not_run(tmp_path: Path) -> None:
     for name in ("json", "ufbx", "app"):
         (tmp_path / f"{name}.py").write_text("import os; os._exit(77)")
-    command, environment = own_process("app.formats.fbx.foreign_child", str(tmp_path / "none.fbx"))
-    done = subprocess.run(command, env=environment, cwd=tmp_path, stdout=subprocess.PIPE, check=False)
+    options = own_process("app.formats.fbx.foreign_child", str(tmp_path / "none.fbx"))
+    done = subprocess.run(cwd=tmp_path, stdout=subprocess.PIPE, check=False, **options)
     assert done.returncode == 3
     assert b"none.fbx" in done.stdout or b"not found" in done.stdout.lower()
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="process groups of POSIX")
+def test_ctrl_c_in_the_terminal_is_not_sent_to_them() -> None:
+    """A terminal sends it to every process of the group in front."""
+    with subprocess.Popen(
+        stdin=subprocess.PIPE, stdout=subprocess.PIPE, **own_process("app.audio.render_process")
+    ) as child:
+        assert os.getpgid(child.pid) == child.pid != os.getpgid(0)

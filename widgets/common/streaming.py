@@ -38,6 +38,8 @@ class Streaming(QObject):
         Whether it is to be streamed.
     host : str
         A computer's name or address.
+    broadcast : str
+        The host that may be sent to although every computer on the network can receive it: it was confirmed.
     port : int
         Of the player in front; of several, the first one's.
     everyone : bool
@@ -65,6 +67,7 @@ class Streaming(QObject):
         super().__init__()
         self.on = False
         self.host = LOOPBACK
+        self.broadcast = ""
         self.port = PORT
         self.everyone = False
         self.faces: FaceNames = "arkit"

@@ -21,7 +21,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from app.stream.sender import LEAST_PORT, LOOPBACK, MOST_PORT, is_loopback
+from app.stream.sender import LEAST_PORT, LOOPBACK, MOST_PORT, TO_MANY, is_loopback
 from widgets.common.combo import Combo, Option
 from widgets.common.plain import Label
 from widgets.common.session import Session
@@ -50,7 +50,7 @@ class StreamDialog(QDialog):
         self._host, self._port = QLineEdit(), QSpinBox()
         self._who, self._faces, self._rate = Combo(), Combo(), Combo()
         self._list = QTreeWidget()
-        self._toggle, self._here, self._close = QPushButton(), QPushButton(), QPushButton()
+        self._toggle, self._here, self._close, self._anyway = (QPushButton() for _ in range(4))
         self._names = {field: Label() for field in (self._host, self._port, self._who, self._faces, self._rate)}
         self._listed: tuple[object, ...] = ()
         self._build()
@@ -62,6 +62,7 @@ class StreamDialog(QDialog):
         self._rate.chosen.connect(lambda rate: self._state.set(rate_hz=int(rate)))
         self._toggle.clicked.connect(lambda: self._state.set(on=not self._state.on))
         self._close.clicked.connect(self.close)
+        self._anyway.clicked.connect(lambda: self._state.set(broadcast=self._state.host))
         self._state.changed.connect(self._show)
         session.changed.connect(self._show)
         session.players_changed.connect(self._show)
@@ -73,6 +74,7 @@ class StreamDialog(QDialog):
         named: dict[QWidget, str] = {self._host: "stream_host", self._port: "stream_port", self._who: "stream_who"}
         named |= {self._faces: "stream_faces", self._rate: "stream_rate", self._list: "stream_list"}
         named |= {self._toggle: "stream_toggle", self._here: "stream_here", self._close: "stream_close"}
+        named |= {self._anyway: "stream_anyway"}
         named |= {self._warning: "stream_warning", self._told: "stream_told"}
         for widget, name in named.items():
             widget.setObjectName(name)
@@ -80,7 +82,7 @@ class StreamDialog(QDialog):
             label.setWordWrap(True)
         self._port.setRange(LEAST_PORT, MOST_PORT)
         self._port.setKeyboardTracking(False)
-        for button in (self._here, self._close):
+        for button in (self._here, self._close, self._anyway):
             button.setAutoDefault(False)
         self._list.setColumnCount(2)
         self._list.setRootIsDecorated(False)
@@ -114,7 +116,10 @@ class StreamDialog(QDialog):
         page.addLayout(form)
         page.addWidget(self._warning)
         page.addWidget(self._list, 1)
-        page.addWidget(self._told)
+        told = QHBoxLayout()
+        told.addWidget(self._told, 1)
+        told.addWidget(self._anyway)
+        page.addLayout(told)
         page.addLayout(bottom)
 
     def _choose_host(self) -> None:
@@ -138,6 +143,7 @@ class StreamDialog(QDialog):
         self._warning.setStyleSheet(f"color: {tokens.warning};")
         self._toggle.setText(self.tr("Stop Streaming") if state.on else self.tr("Start Streaming"))
         self._show_lines()
+        self._anyway.setVisible(state.trouble is not None and state.trouble.id == TO_MANY)
         text, colour = self._state_text()
         self._told.setText(text)
         self._told.setStyleSheet(f"color: {colour};")
@@ -202,6 +208,7 @@ class StreamDialog(QDialog):
         self._rate.set_options([Option(str(rate), str(rate)) for rate in RATES_HZ])
         self._list.setHeaderLabels([self.tr("Player"), self.tr("Port")])
         self._close.setText(self.tr("Close"))
+        self._anyway.setText(self.tr("Send Anyway"))
         self._listed = ()
         self._show()
 

@@ -170,17 +170,14 @@ def read_foreign_fbx(path: str | os.PathLike[str]) -> FbxContent:
 
 def _child(path: str, file: str) -> bytes:
     """What the child printed. Raises FileError."""
-    command, environment = own_process("app.formats.fbx.foreign_child", path)
     try:
-        ended = subprocess.run(
-            command,
+        ended: subprocess.CompletedProcess[bytes] = subprocess.run(
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,
-            env=environment,
             timeout=PATIENCE_S,
             check=False,
-            creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),
+            **own_process("app.formats.fbx.foreign_child", path),
         )
     except subprocess.TimeoutExpired as error:
         raise FileError("fbx.too_large", file=file) from error

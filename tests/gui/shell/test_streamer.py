@@ -226,6 +226,42 @@ def test_the_dialog_by_mouse_and_keys(program: Program, qtbot: QtBot) -> None:
     dialog.close()
 
 
+def test_many_computers_are_sent_to_only_after_a_confirmation(
+    start: Start, program: Program, qtbot: QtBot, settings: Settings
+) -> None:
+    ready(program, qtbot)
+    streaming = program.session.streaming
+    trigger(program, "stream.settings")
+    dialog = program.window.findChild(StreamDialog)
+    assert dialog is not None
+    told, anyway = dialog.findChild(QLabel, "stream_told"), dialog.findChild(QPushButton, "stream_anyway")
+    assert told is not None
+    assert anyway is not None
+    assert anyway.isHidden()
+    with Receiver(host="0.0.0.0") as receiver:
+        streaming.set(host="127.255.255.255", port=receiver.port)
+        trigger(program, "stream.toggle")
+        assert streaming.state == "failed"
+        assert "every computer on the network" in told.text()
+        assert not anyway.isHidden()
+        qtbot.wait(300)
+        assert not receiver.packets
+        QTest.mouseClick(anyway, Qt.MouseButton.LeftButton)
+        heard(receiver, qtbot, 2)
+        assert anyway.isHidden()
+        # For this address and this session only.
+        streaming.set(host="127.0.0.1")
+        streaming.set(host="239.1.2.3")
+        assert streaming.state == "failed"
+        assert not anyway.isHidden()
+        streaming.set(on=False)
+    dialog.close()
+    settings.stream_host = "127.255.255.255"
+    again = start().session.streaming
+    again.set(on=True)
+    assert again.state == "failed"
+
+
 def test_where_to_is_remembered_but_not_that_it_was_on(start: Start, settings: Settings, qtbot: QtBot) -> None:
     first = start()
     first.session.streaming.set(host="studio-pc", port=40001, everyone=True, faces="vrm", rate_hz=30)

@@ -243,17 +243,6 @@ def test_a_killed_editor_loses_nothing(tmp_path: Path) -> None:
     assert list(journal.messages) == [message for _, message in sent]
 
 
-def test_ctrl_c_in_the_terminal_leaves_the_recorder(ear: Ear) -> None:
-    with WindPlayer() as player:
-        opened(ear, player.name)
-        child = ear.link._child
-        assert child is not None
-        child.send_signal(signal.SIGINT)
-        player.send(b"\x90\x3c\x40")
-        assert ear.wait_for_messages(1)
-        assert not ear.of(Restarted)
-
-
 def test_a_journal_that_is_there_is_not_written_over(ear: Ear, tmp_path: Path) -> None:
     path = tmp_path / "take"
     path.write_text("precious")

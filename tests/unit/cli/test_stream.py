@@ -55,9 +55,29 @@ def test_everyone_has_a_port_and_a_place(quartet: Path, capsys: pytest.CaptureFi
 
 def test_what_makes_no_sense_is_said(quartet: Path, capsys: pytest.CaptureFixture[str]) -> None:
     one = ["stream", str(quartet), "--player", "Trombone 1"]
-    assert main([*one, "--port", "80"]) == BAD_INPUT
-    assert "80 is no port" in capsys.readouterr().err
+    assert main([*one, "--port", "80"]) == BAD_USE
+    assert "--port: '80' is not a port from 1024 to 65535" in capsys.readouterr().err
+    assert main([*one, "--host", " "]) == BAD_USE
+    assert "--host" in capsys.readouterr().err
     assert main(["stream", str(quartet), "--port", "65534"]) == BAD_INPUT
     assert "65537" in capsys.readouterr().err
     assert main([*one, "--host", "nobody at all"]) == BAD_INPUT
     assert "nobody at all" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("host", ["239.1.2.3", "127.255.255.255", "255.255.255.255"])
+def test_many_computers_are_sent_to_only_where_that_is_asked_for(
+    quartet: Path, capsys: pytest.CaptureFixture[str], host: str
+) -> None:
+    assert main(["stream", str(quartet), "--player", "Trombone 1", "--host", host]) == BAD_USE
+    told = capsys.readouterr().err
+    assert host in told
+    assert "--broadcast" in told
+
+
+def test_a_broadcast_that_is_asked_for_is_sent(quartet: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    end_s = length_s(quartet, capsys)
+    with Receiver(host="0.0.0.0") as receiver:
+        asked = ["--player", "Trombone 1", "--port", str(receiver.port), "--from", str(end_s - 0.3)]
+        assert main(["stream", str(quartet), *asked, "--host", "127.255.255.255", "--broadcast"]) == DONE
+        assert receiver.frames

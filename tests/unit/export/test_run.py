@@ -235,7 +235,7 @@ def test_other_frame_rates(tmp_path: Path, rate: str) -> None:
 
 
 def test_ctrl_c_leaves_nothing(tmp_path: Path) -> None:
-    """Stopped in the middle of the work: exit status 1, a sentence, no file and no folder."""
+    """Stopped in the middle of the work: exit status 130, a sentence, no file and no folder."""
     if os.name == "nt":
         pytest.skip("signals to a child are another thing there")
     target = tmp_path / "out"
@@ -248,7 +248,7 @@ def test_ctrl_c_leaves_nothing(tmp_path: Path) -> None:
         assert not list(target.glob("*.*"))[1:]  # only the hidden folder
         process.send_signal(signal.SIGINT)
         out, err = process.communicate(timeout=60)
-    assert process.returncode == 1
+    assert process.returncode == 130
     assert out == b""
     assert b"Traceback" not in err
     assert b"stopped" in err

@@ -15,7 +15,6 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 
-from app.errors import AppError
 from app.messages import error_text
 from app.performance.bodies import character_of
 from app.performance.chunks import Pose
@@ -31,7 +30,7 @@ from app.rig.skeleton import forward
 from app.score.read import read_midi
 from app.stream.faces import FACE_NAMES, VRM_PRESETS
 from app.stream.packets import MOST_BYTES
-from app.stream.sender import Address, Outcome, Sender, StreamError, find_address, is_loopback
+from app.stream.sender import Outcome, Sender, StreamError, find_address, is_loopback, reaches_many
 from app.stream.unity import unity_bone
 from app.stream.vmc import Sent
 from instrument_maps.load import bundled_maps
@@ -326,10 +325,24 @@ def test_what_cannot_be_reached_is_said() -> None:
     with pytest.raises(StreamError) as port:
         find_address("127.0.0.1", 70000)
     assert "70000" in error_text(port.value)
-    # Broadcasting has to be asked for; the system refuses it.
-    with pytest.raises(AppError) as refused:
-        Sender(Address("255.255.255.255", socket.AF_INET, ("255.255.255.255", 39539))).send([b"abcd"])
-    assert "255.255.255.255" in error_text(refused.value)
+    with pytest.raises(StreamError):
+        find_address(" ", 39539)
+
+
+@pytest.mark.parametrize(
+    "host", ["255.255.255.255", "127.255.255.255", "224.0.0.1", "239.255.0.1", "ff02::1", "::ffff:239.1.2.3"]
+)
+def test_many_computers_are_reached_only_where_that_is_asked_for(host: str) -> None:
+    address = find_address(host, 39539)
+    assert reaches_many(address)
+    with pytest.raises(StreamError) as refused:
+        Sender(address)
+    assert host in error_text(refused.value)
+
+
+@pytest.mark.parametrize("host", ["127.0.0.1", "::1", "localhost"])
+def test_one_computer_is_one(host: str) -> None:
+    assert not reaches_many(find_address(host, 39539))
 
 
 def test_loopback_is_known() -> None:
