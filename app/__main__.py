@@ -25,11 +25,15 @@ def main() -> int:
     # While modules load nothing has to be cleared up. The commands and the editor, which have something, take Ctrl-C
     # over for as long as they run.
     signal.signal(signal.SIGINT, end_at_once)
-    try:
-        return run(sys.argv[1:])
-    finally:
-        # Python's own end, which calls no handlers any more.
-        signal.signal(signal.SIGINT, signal.SIG_DFL)
+    status = run(sys.argv[1:])
+    if status == 128 + signal.SIGINT:
+        # Python's own end would be death by the signal where KeyboardInterrupt came in code of `exec`, a dataclass's
+        # for one, although it was caught.
+        sys.stdout.flush()
+        os._exit(status)
+    # It is done, and Python's own end calls no handlers any more.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    return status
 
 
 def end_at_once(number: int, frame: FrameType | None) -> None:

@@ -45,7 +45,7 @@ def test_while_modules_load(tmp_path: Path) -> None:
     with ThreadPoolExecutor(len(LOADING)) as pool:
         ended = pool.map(lambda module: stopped_after(module, LOADING[module], tmp_path), LOADING)
     for module, (status, printed) in zip(LOADING, ended, strict=True):
-        assert status == 130, module
+        assert status == 130, f"{module}: {printed}"
         assert printed in ("", "suisou: stopped; nothing was written\n"), module
     assert list(tmp_path.iterdir()) == []
 
