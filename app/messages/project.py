@@ -31,6 +31,21 @@ TEMPLATES: Final[dict[str, str]] = {
         "transposed in the editor"
     ),
     "project.encoding": "--encoding says how the texts of a MIDI file are read; {file} is a project and needs none",
+    "autosave.elsewhere": (
+        "{file} cannot be autosaved in its own folder ({reason}); for now it is autosaved in {folder} and offered from "
+        "there after a crash. Free some space or allow writing, or save the project in another folder"
+    ),
+    "autosave.refused": (
+        "unsaved work is at risk: {file} can be autosaved neither in its own folder ({reason}) nor in {folder} "
+        "({folder_reason}); save the project in another folder now"
+    ),
+    "autosave.nowhere": (
+        "unsaved work is at risk: it cannot be autosaved in {folder} ({reason}); save the project in another folder now"
+    ),
+    "presence.refused": (
+        "{file} cannot be written ({reason}): new pieces are not autosaved until they are saved to a file, and unsaved "
+        "work is offered only when its file is opened; allow writing there or free some space"
+    ),
     "project.instrument_missing": (
         "{player} plays the instrument {id!r}, which is not installed; choose another one or install it"
     ),

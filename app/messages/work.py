@@ -8,6 +8,7 @@ TEMPLATES: Final[dict[str, str]] = {
     "work.open": "opening",
     "work.save": "saving",
     "work.autosave": "writing unsaved work down",
+    "work.recoverable": "looking for unsaved work",
     "work.plan": "planning what {players} players do",
     "work.hold": "finding out how {players} players hold their instruments",
     "work.instruments": "reading your instruments",

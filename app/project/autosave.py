@@ -1,27 +1,40 @@
 """Unsaved work is written down by itself, beside the project's file and never over it.
 
-When to write is decided here from times that are handed in, so that a test never sleeps; the shell asks every second
-or so. Writing is a value (`Writing`) that can be done in the background.
+When to write is decided here from times that are handed in, so that a test never sleeps; the shell asks when
+something is due. Writing is a value (`Writing`) that is done in the background.
 
-A project that has no file yet is kept in the user's state folder, each running editor its own; so is one whose file a
-second editor has open, because two editors must not write one autosave, and one beside whose file a crash left work
-that nobody has decided about.
+A project that has no file yet is kept in the user's state folder, each running editor its own. So is one whose file a
+second editor has open, because two editors must not write one autosave; one beside whose file a crash left work that
+the user has not decided about; and one whose folder refuses (read-only, full, gone, not answering) until it does not.
+
+Messages (warnings)
+--------
+autosave.elsewhere : file, reason, folder
+autosave.refused : file, reason, folder, folder_reason
+autosave.nowhere : folder, reason
 """
 
 from __future__ import annotations
 
 import os
+import secrets
+import threading
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from app.formats.atomic import atomic_write, sweep
+from app.errors import FileError, Message
+from app.formats.atomic import atomic_write
 from app.project.model import Project
 from app.project.presence import Presence, is_open_elsewhere, remove
-from app.project.storage import AUTOSAVE, SUFFIX, encode
+from app.project.storage import AUTOSAVE, Autosaved, encode_autosave
 
-DELAY_S: Final = 30.0
-"""From the first change that is not written down yet."""
+DELAY_S: Final = 4.0
+"""From the first change that is in no file. With the writing it is at most five seconds of work that a crash costs."""
+PATIENCE_S: Final = 5.0
+"""A disk that has not answered for this long, as one of the network may, is not waited for any longer."""
+MOST_PENDING: Final = 2
+"""One that waits for the project's disk, and one for the state folder's."""
 
 
 def autosave_path(document: Path) -> Path:
@@ -29,20 +42,117 @@ def autosave_path(document: Path) -> Path:
     return document.with_name(document.name + AUTOSAVE)
 
 
+@dataclass(frozen=True)
+class Written:
+    """An autosave that was made.
+
+    Attributes
+    ----------
+    path : Path or None
+        None: a newer one is there already.
+    held : frozenset of Path
+        All files that hold this work now, of whatever generation.
+    warning : Message or None
+        Why it is not in its usual place: ``autosave.elsewhere``.
+    """
+
+    path: Path | None
+    held: frozenset[Path]
+    warning: Message | None = None
+
+
+class _OwnPlace:
+    """Lets no writing that was held up replace a newer one in the state folder."""
+
+    def __init__(self) -> None:
+        self.lock = threading.Lock()
+        self.generation = 0
+
+
 @dataclass(frozen=True, eq=False)
 class Writing:
-    """An autosave to be made: a snapshot, so that it can be made on another thread."""
+    """An autosave to be made: a snapshot, so that it can be made on another thread.
+
+    Attributes
+    ----------
+    held : frozenset of Path
+        Files that hold earlier generations of this work: they may be replaced, and go once there is a newer one.
+    asks_usual : bool
+        Whether the place beside the project's file is tried first; not while it keeps another writing waiting.
+    """
 
     project: Project
-    path: Path
-    period: object
-    """Stands for the time between two savings: what was taken in one is nothing in the next."""
+    facts: Autosaved
+    document: Path | None
+    presence: Presence
+    held: frozenset[Path]
+    asks_usual: bool
+    own_place: _OwnPlace
 
-    def run(self) -> None:
-        """Write it; what was there is replaced only when the new one is whole. Raises FileError."""
-        content = encode(self.project, self.path)
-        with atomic_write(self.path) as stream:
+    def run(self) -> Written:
+        """Write it; what was there is replaced only when the new one is whole.
+
+        Raises
+        ------
+        FileError
+            ``autosave.refused``, ``autosave.nowhere``: no place takes it. ``project.cannot_save``.
+        """
+        beside, refusal = self._usual(), ""
+        if beside is not None:
+            try:
+                self._write(beside)
+                return self._written(beside)
+            except FileError as error:
+                if error.message.id != "file.cannot_write":
+                    raise
+                refusal = str(error.message.arguments["reason"])
+        folder = self.presence.folder
+        place = {"file": str(self.document or ""), "folder": os.fspath(folder)}
+        with self.own_place.lock:
+            if self.own_place.generation > self.facts.generation:
+                return Written(None, self.held)
+            try:
+                folder.mkdir(parents=True, exist_ok=True)
+                self._write(self.presence.own_path)
+            except (FileError, OSError) as error:
+                reason = _reason(error)
+                if refusal:
+                    place |= {"reason": refusal, "folder_reason": reason}
+                    raise FileError("autosave.refused", **place) from error
+                raise FileError("autosave.nowhere", **place, reason=reason) from error
+            self.own_place.generation = self.facts.generation
+        warning = Message("autosave.elsewhere", {**place, "reason": refusal}) if refusal else None
+        return self._written(self.presence.own_path, warning)
+
+    def _usual(self) -> Path | None:
+        """The place beside the project's file, where it is this editor's to use."""
+        document, presence = self.document, self.presence
+        if document is None or not self.asks_usual or is_open_elsewhere(document, presence.folder, presence.token):
+            return None
+        beside = autosave_path(document)
+        # What a crash left there stays until the user has decided about it.
+        return beside if beside in self.held or not os.path.lexists(beside) else None
+
+    def _write(self, path: Path) -> None:
+        content = encode_autosave(self.project, Path(os.path.realpath(path)), self.facts)
+        with atomic_write(path) as stream:
             stream.write(content)
+
+    def _written(self, path: Path, warning: Message | None = None) -> Written:
+        former = self.held - {path}
+        if self.asks_usual:
+            for one in former:
+                remove(one)
+            former = frozenset(filter(os.path.lexists, former))
+        return Written(path, former | {path}, warning)
+
+
+def _reason(error: FileError | OSError) -> str:
+    if isinstance(error, OSError):
+        return error.strerror or str(error)
+    if error.message.id != "file.cannot_write":
+        raise error
+    return str(error.message.arguments["reason"])
 
 
 class Autosave:
@@ -59,10 +169,19 @@ class Autosave:
         self.presence = presence
         self.delay_s = delay_s
         self._document: Path | None = None
+        self._begin("", None)
+
+    def _begin(self, base: str, former: Autosaved | None) -> None:
+        """Another work: what was taken in the one before is nothing in this one."""
         self._project: Project | None = None
-        self._changed_s: float | None = None
         self._written: Project | None = None
-        self._period = object()
+        self._changed_s: float | None = None
+        self._base = base
+        self._work = secrets.token_hex(8) if former is None else former.work
+        self._generation = self._newest = 0 if former is None else former.generation
+        self._held: frozenset[Path] = frozenset()
+        self._pending: dict[Writing, float] = {}
+        self._own_place = _OwnPlace()
 
     @property
     def document(self) -> Path | None:
@@ -77,26 +196,40 @@ class Autosave:
         )
 
     @property
-    def path(self) -> Path:
-        """Where the unsaved work goes."""
-        own = self.presence.folder / f"{self.presence.token}{SUFFIX}"
-        if self._document is None or self.is_shared:
-            return own
-        beside = autosave_path(self._document)
-        # What a crash left there stays until the person has decided about it.
-        return own if beside.exists() and str(beside) != self.presence.note.autosave else beside
-
-    @property
     def due_s(self) -> float | None:
-        """When the next autosave is to be made; None: everything is written down."""
-        return None if self._changed_s is None else self._changed_s + self.delay_s
+        """When the next autosave is to be made; None: everything is written down, or about to be."""
+        if self._changed_s is None or len(self._pending) >= MOST_PENDING:
+            return None
+        # One that does not come back is not waited for.
+        return max([self._changed_s + self.delay_s, *(taken_s + PATIENCE_S for taken_s in self._pending.values())])
 
     def has(self, project: Project) -> bool:
         """Whether this project is written down."""
         return project is self._written
 
-    def opened(self, document: Path | None) -> None:
-        """Another project is open now, from this file or without one; the one before was saved or given up.
+    @property
+    def has_work(self) -> bool:
+        """Whether there is unsaved work, written down or not."""
+        return self._project is not None or bool(self._held)
+
+    def is_current(self, writing: Writing) -> bool:
+        """Whether a writing is of the work that is open."""
+        return writing.own_place is self._own_place
+
+    def opened(
+        self, document: Path | None, base: str = "", former: Autosaved | None = None, held: Path | None = None
+    ) -> None:
+        """A project is open that was just read from this file, or saved to it, or has none (None); the unsaved work
+        before was saved or given up, and there is nothing of it to recover any more.
+
+        Parameters
+        ----------
+        base : str
+            `app.project.storage.content_hash` of that file.
+        former : Autosaved, optional
+            The project is unsaved work that is taken over: what its autosave said.
+        held : Path, optional
+            Where that work is. The file is this editor's from now on, and goes when the work is written again.
 
         Raises
         ------
@@ -104,10 +237,11 @@ class Autosave:
             The note of what this editor works on cannot be written.
         """
         self._drop()
+        self._begin(base, former)
         self._document = document
-        if document is not None:
-            sweep(Path(os.path.realpath(document)).parent)
-        self._tell()
+        if held is not None:
+            self._held = frozenset((held,))
+        self._tell(held)
 
     def changed(self, project: Project, now_s: float) -> None:
         """The project is this now and is not in its file."""
@@ -120,43 +254,45 @@ class Autosave:
 
     def due(self, now_s: float) -> Writing | None:
         """The autosave to be made now; None where there is none. To be done at once or in the background, and
-        reported with `written`, or with `failed`."""
+        reported with `ended`, then, if it was made, with `written`."""
         if self.due_s is None or now_s < self.due_s:
             return None
-        return self.take()
+        return self.take(now_s)
 
-    def take(self) -> Writing | None:
+    def take(self, now_s: float) -> Writing | None:
         """The autosave that would be due next, now; None where everything is written down."""
         if self._project is None or self._changed_s is None:
             return None
         self._changed_s = None
-        return Writing(self._project, self.path, self._period)
+        self._generation += 1
+        facts = Autosaved(self._work, self._generation, self.presence.token, str(self._document or ""), self._base)
+        asks_usual = not self._pending
+        writing = Writing(self._project, facts, self._document, self.presence, self._held, asks_usual, self._own_place)
+        self._pending[writing] = now_s
+        return writing
 
-    def written(self, writing: Writing) -> None:
-        """It was done. Raises FileError where the note of it cannot be written."""
-        before = self.presence.note.autosave
-        if writing.period is not self._period:
-            # Meanwhile the project was saved or closed: what was written is nobody's.
-            if str(writing.path) != before:
-                remove(writing.path)
-            return
-        self._written = writing.project
-        self._tell(writing.path)
-        if before and before != str(writing.path):
-            remove(Path(before))
-
-    def failed(self, writing: Writing, now_s: float) -> None:
-        """It could not be done; it is tried again after the delay."""
-        if writing.period is self._period and self._changed_s is None:
+    def ended(self, writing: Writing, now_s: float) -> None:
+        """The writing is over, however it went. What was not written is due again after the delay."""
+        if self._pending.pop(writing, None) is not None and self._changed_s is None:
             self._changed_s = now_s
 
-    def saved(self, document: Path) -> None:
-        """The project, as it is, was saved to this file: there is nothing to recover any more. Raises FileError."""
-        self._drop()
-        if not is_open_elsewhere(document, self.presence.folder, self.presence.token):
-            remove(autosave_path(document))
-        self._document = document
-        self._tell()
+    def written(self, writing: Writing, written: Written) -> None:
+        """It was made. Raises FileError where the note of it cannot be written."""
+        path = written.path
+        if path is None:
+            return
+        if not self.is_current(writing) or writing.facts.generation < self._newest:
+            # Meanwhile the project was saved or closed, or a newer one was written elsewhere.
+            remove(path)
+            if path in self._held and self._project is not None:
+                # It has replaced what belongs there.
+                self._held -= {path}
+                self._written, self._changed_s = None, 0.0
+            return
+        self._newest, self._written, self._held = writing.facts.generation, writing.project, written.held
+        if self._project is writing.project:
+            self._changed_s = None
+        self._tell(path)
 
     def closed(self) -> None:
         """The editor ends in an orderly way: nothing is left to recover."""
@@ -164,11 +300,9 @@ class Autosave:
         self.presence.leave()
 
     def _drop(self) -> None:
-        written = self.presence.note.autosave
-        if written:
-            remove(Path(written))
-        self._project = self._written = self._changed_s = None
-        self._period = object()
+        for path in self._held:
+            remove(path)
+        self._held = frozenset()
 
     def _tell(self, autosave: Path | None = None) -> None:
         self.presence.tell(self._document, autosave)

@@ -20,6 +20,7 @@ import platformdirs
 from app.errors import FileError
 from app.formats.atomic import atomic_write, sweep
 from app.formats.locks import is_locked, is_same_file, lock
+from app.project.storage import SUFFIX
 
 LOCK: Final = ".lock"
 NOTE: Final = ".json"
@@ -51,47 +52,90 @@ def recovery_folder() -> Path:
 class Presence:
     """This editor, alive until `leave` or the end of its process.
 
+    Where the folder refuses, the editor goes on unseen by others, and tries again with every note.
+
     Parameters
     ----------
     folder : Path
         `recovery_folder`; made if needed.
 
-    Raises
-    ------
-    FileError
-        ``file.cannot_write``: the folder cannot be used.
+    Attributes
+    ----------
+    token : str
+        Names this editor's files in the folder.
+    note : Note
+        What this editor works on, whether or not the folder took it.
+    refusal : FileError or None
+        Why the folder could not be used when the editor started: ``presence.refused`` (file, reason).
     """
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
+        self.token = secrets.token_hex(8)
         self.note = Note(os.getpid())
+        self.refusal: FileError | None = None
+        self._on_disk = self.note
+        self._stream: IO[bytes] | None = None
         try:
-            folder.mkdir(parents=True, exist_ok=True)
-            sweep(folder)
-            self.token, self._stream = _new_lock(folder)
-        except OSError as error:
-            reason = error.strerror or str(error)
-            raise FileError("file.cannot_write", file=os.fspath(folder), reason=reason) from error
+            self._enter()
+        except FileError as error:
+            self.refusal = error
+
+    @property
+    def own_path(self) -> Path:
+        """The file for unsaved work in the folder."""
+        return self.folder / f"{self.token}{SUFFIX}"
 
     def tell(self, document: Path | None, autosave: Path | None) -> None:
-        """Note down what this editor works on. Raises FileError."""
-        note = Note(os.getpid(), str(document or ""), str(autosave or ""))
-        if note != self.note:
+        """Note down what this editor works on. Raises FileError where the folder refuses."""
+        self.note = Note(os.getpid(), str(document or ""), str(autosave or ""))
+        was_here = self._is_here()
+        if not was_here:
+            self._enter()
+        if was_here and self.note == self._on_disk:
+            return
+        try:
             with atomic_write(self.folder / f"{self.token}{NOTE}") as stream:
-                stream.write(msgspec.json.encode(note))
-            self.note = note
+                stream.write(msgspec.json.encode(self.note))
+        except FileError as error:
+            raise FileError(
+                "presence.refused", file=os.fspath(self.folder), reason=error.message.arguments["reason"]
+            ) from error
+        self._on_disk = self.note
 
     def leave(self) -> None:
         """Nothing is left to recover: take every trace away."""
-        if not self._stream.closed:
-            remove(self.folder / f"{self.token}{NOTE}")
-            # On Windows an open file cannot be removed.
-            if sys.platform == "win32":
-                self._stream.close()
-                remove(self.folder / f"{self.token}{LOCK}")
-            else:
-                remove(self.folder / f"{self.token}{LOCK}")
-                self._stream.close()
+        stream = self._stream
+        if stream is None or stream.closed:
+            return
+        remove(self.folder / f"{self.token}{NOTE}")
+        # On Windows an open file cannot be removed.
+        if sys.platform == "win32":
+            stream.close()
+            remove(self._lock_path)
+        else:
+            remove(self._lock_path)
+            stream.close()
+
+    @property
+    def _lock_path(self) -> Path:
+        return self.folder / f"{self.token}{LOCK}"
+
+    def _is_here(self) -> bool:
+        """Whether others see this editor: its folder may have been cleared."""
+        stream = self._stream
+        return stream is not None and not stream.closed and is_same_file(self._lock_path, stream)
+
+    def _enter(self) -> None:
+        if self._stream is not None:
+            self._stream.close()
+        try:
+            self.folder.mkdir(parents=True, exist_ok=True)
+            sweep(self.folder)
+            self._stream = _new_lock(self._lock_path)
+        except OSError as error:
+            reason = error.strerror or str(error)
+            raise FileError("presence.refused", file=os.fspath(self.folder), reason=reason) from error
 
 
 def editors(folder: Path) -> Iterator[tuple[str, bool]]:
@@ -126,14 +170,12 @@ def is_open_elsewhere(document: Path, folder: Path, own_token: str = "") -> bool
     )
 
 
-def _new_lock(folder: Path) -> tuple[str, IO[bytes]]:
+def _new_lock(path: Path) -> IO[bytes]:
     while True:
-        token = secrets.token_hex(8)
-        path = folder / f"{token}{LOCK}"
         stream = path.open("xb")
-        # Somebody who looks for dead editors may have taken it for one between the two steps.
+        # Another editor that looks for dead ones may have removed it between the two steps.
         if lock(stream) and is_same_file(path, stream):
-            return token, stream
+            return stream
         stream.close()
 
 

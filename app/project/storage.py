@@ -17,6 +17,7 @@ file.cannot_read : file, reason
 
 from __future__ import annotations
 
+import hashlib
 import os
 import re
 from collections.abc import Iterator
@@ -74,8 +75,51 @@ class _Content(msgspec.Struct, forbid_unknown_fields=True):
     """By player."""
 
 
-def save(project: Project, path: str | os.PathLike[str]) -> None:
+class Autosaved(msgspec.Struct, frozen=True):
+    """What an autosave says of itself, under the key ``autosave``; a file that was saved does not have it.
+
+    Nothing here depends on a clock: one may have been set back.
+
+    Attributes
+    ----------
+    work : str
+        The same for all autosaves from opening a project to saving or closing it, also across a crash and a recovery.
+    generation : int
+        Ascends within a work: the highest is the newest.
+    editor : str
+        Token of the editor that wrote it (`app.project.presence`).
+    document : str
+        Absolute path of the project's file; empty for a project that was never saved.
+    base : str
+        `content_hash` of that file when the work on it began; empty where it was not there.
+    """
+
+    work: str
+    generation: int
+    editor: str = ""
+    document: str = ""
+    base: str = ""
+
+
+class _Autosave(_Content):
+    """What an autosave holds."""
+
+    autosave: Autosaved
+
+
+class _Facts(msgspec.Struct):
+    """What is read of an autosave beside its project."""
+
+    autosave: Autosaved | None = None
+
+
+def save(project: Project, path: str | os.PathLike[str]) -> str:
     """Write a project; what the file held before stays beside it as ``.bak``.
+
+    Returns
+    -------
+    str
+        `content_hash` of the file.
 
     Raises
     ------
@@ -89,6 +133,24 @@ def save(project: Project, path: str | os.PathLike[str]) -> None:
         raise FileError("project.read_only", file=os.fspath(path))
     with atomic_write(path, backup=backup_path(target)) as stream:
         stream.write(content)
+    return content_hash(content)
+
+
+def content_hash(content: bytes) -> str:
+    """By which it is known whether a file holds what it held before; its times would not do, clocks are set back."""
+    return hashlib.sha256(content).hexdigest()
+
+
+def file_hash(path: Path) -> str:
+    """`content_hash` of a file; empty where it is not there or cannot be read."""
+    try:
+        if path.is_file():
+            with path.open("rb") as stream:
+                return hashlib.file_digest(stream, "sha256").hexdigest()
+    except (OSError, ValueError):
+        # Whoever reads or writes the file next gets the reason.
+        pass
+    return ""
 
 
 def backup_path(path: Path) -> Path:
@@ -104,13 +166,38 @@ def encode(project: Project, path: Path) -> bytes:
     FileError
         ``project.cannot_save``: the project holds what could not be read again.
     """
+    content = _content(project, path)
+    try:
+        raw = msgspec.to_builtins(content, order="deterministic", enc_hook=_plain_number)
+        return ("".join(_layout(raw, "")) + "\n").encode()
+    except (TypeError, ValueError, OverflowError) as error:
+        raise FileError("project.cannot_save", file=os.fspath(path), place="-", detail=str(error)) from error
+
+
+def encode_autosave(project: Project, path: Path, facts: Autosaved) -> bytes:
+    """The bytes of an autosave that is to lie at a path: a project's file without its layout, which would cost fifty
+    times the time, and what it says of itself.
+
+    Raises
+    ------
+    FileError
+        ``project.cannot_save``: the project holds what could not be read again.
+    """
+    content = _Autosave(autosave=facts, **msgspec.structs.asdict(_content(project, path)))
+    try:
+        return msgspec.json.encode(content, enc_hook=_plain_number)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise FileError("project.cannot_save", file=os.fspath(path), place="-", detail=str(error)) from error
+
+
+def _content(project: Project, path: Path) -> _Content:
     for place, detail in faults(project):
         raise FileError("project.cannot_save", file=os.fspath(path), place=place, detail=detail)
     folder = path.absolute().parent
     audio = project.audio
     if audio is not None:
         audio = msgspec.structs.replace(audio, path=_stored_path(audio.path, folder))
-    content = _Content(
+    return _Content(
         schema_version=CURRENT,
         source=_stored_path(project.source, folder),
         fps=str(project.fps),
@@ -125,11 +212,6 @@ def encode(project: Project, path: Path) -> bytes:
         edited_notes=_edited_notes(project),
         takes=dict(project.takes),
     )
-    try:
-        raw = msgspec.to_builtins(content, order="deterministic", enc_hook=_plain_number)
-        return ("".join(_layout(raw, "")) + "\n").encode()
-    except (TypeError, ValueError, OverflowError) as error:
-        raise FileError("project.cannot_save", file=os.fspath(path), place="-", detail=str(error)) from error
 
 
 def load(path: str | os.PathLike[str]) -> Project:
@@ -143,6 +225,11 @@ def load(path: str | os.PathLike[str]) -> Project:
     FileError
         See the module's docstring.
     """
+    return decode(read(path), Path(os.path.realpath(path)), os.fspath(path))
+
+
+def read(path: str | os.PathLike[str]) -> bytes:
+    """The bytes of a project's file, for `decode`. Raises FileError."""
     name = os.fspath(path)
     try:
         with Path(path).open("rb") as stream:
@@ -152,7 +239,7 @@ def load(path: str | os.PathLike[str]) -> Project:
         raise FileError("file.cannot_read", file=name, reason=reason) from error
     if len(content) > MOST_BYTES:
         raise FileError("project.too_large", file=name, most_mb=MOST_BYTES // 2**20)
-    return decode(content, Path(os.path.realpath(path)), name)
+    return content
 
 
 def decode(content: bytes, path: Path, name: str | None = None) -> Project:
@@ -170,6 +257,7 @@ def decode(content: bytes, path: Path, name: str | None = None) -> Project:
         raise FileError("project.damaged", file=file, detail=str(error)) from error
     if not isinstance(raw, dict) or not _is_version(raw.get(VERSION_KEY)):
         raise FileError("project.damaged", file=file, detail=f"no {VERSION_KEY}")
+    raw.pop("autosave", None)
     version = raw[VERSION_KEY]
     if version > CURRENT:
         raise FileError("project.newer", file=file, version=version, known=CURRENT)
@@ -181,6 +269,14 @@ def decode(content: bytes, path: Path, name: str | None = None) -> Project:
     for place, detail in faults(project):
         raise FileError("project.invalid", file=file, place=place, detail=detail)
     return project
+
+
+def autosave_facts(content: bytes) -> Autosaved | None:
+    """What the bytes of an autosave say of it; None where they say nothing, as those of older versions."""
+    try:
+        return _FACTS.decode(content).autosave
+    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError):
+        return None
 
 
 def is_project_file(path: Path) -> bool:
@@ -372,3 +468,4 @@ def _plain_number(value: Any) -> Any:
 # Worked out here, under the import's lock: two threads that use a type for the first time at once crash msgspec.
 for _type in (_Content, tuple[Correction, ...]):
     msgspec.json.Decoder(_type)
+_FACTS: Final = msgspec.json.Decoder(_Facts)

@@ -161,13 +161,8 @@ def run(start: Start) -> int:
     application = make_application()
     garbage = Garbage()
     settings = Settings(settings_path())
-    trouble: AppError | None = None
-    autosave: Autosave | None = None
-    try:
-        autosave = Autosave(Presence(recovery_folder()))
-    except AppError as error:
-        trouble = error
-    program = Program(settings, autosave=autosave)
+    presence = Presence(recovery_folder())
+    program = Program(settings, autosave=Autosave(presence))
     if isinstance(program.tasks, ThreadTasks):
         program.tasks.failed.connect(lambda error: program.session.notice(error.message, Severity.ERROR))
     faults = Faults(program.session, program.editor.files.write_now, log_path())
@@ -179,8 +174,8 @@ def run(start: Start) -> int:
         _wish(program, start)
     program.window.show()
     QTimer.singleShot(0, program.recorder, program.recorder.begin_where_remembered)
-    if trouble is not None:
-        program.session.notice(trouble.message, Severity.WARNING)
+    if presence.refusal is not None:
+        program.editor.files.warn_once(presence.refusal.message)
     if start.file is not None:
         program.editor.files.open(start.file, ask=False)
     try:

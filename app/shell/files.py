@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import time
 from collections.abc import Callable
@@ -9,16 +10,16 @@ from importlib.resources import as_file, files
 from pathlib import Path
 from typing import Final
 
-from PySide6.QtCore import QCoreApplication, QObject, QTimer, Signal
+from PySide6.QtCore import QCoreApplication, QObject, Qt, QTimer, Signal
 
 from app.errors import AppError, Cancelled, Message
 from app.project import storage
-from app.project.autosave import Autosave, Writing
+from app.project.autosave import Autosave, Writing, Written
 from app.project.document import Change
 from app.project.edit.piece import new_piece, set_audio, set_offset
 from app.project.importing import import_project, usual_rows
 from app.project.model import Project
-from app.project.recovery import Recoverable, discard, recover, recoverable, recoverable_of
+from app.project.recovery import Recoverable, discard, load_work, recoverable, recoverable_of
 from app.score.read import MidiContents, read_contents
 from app.shell.questions import Questions
 from app.shell.settings import Settings
@@ -28,7 +29,6 @@ from widgets.common.session import Session, Severity
 MIDI_SUFFIXES: Final = (".mid", ".midi", ".smf", ".kar", ".rmi")
 AUDIO_SUFFIXES: Final = (".wav", ".flac", ".mp3", ".ogg", ".aif", ".aiff")
 EXAMPLE: Final = "quartet.mid"
-TICK_MS: Final = 1000
 
 Then = Callable[[], None]
 
@@ -51,7 +51,7 @@ class Files(QObject):
     opened()
         A project is open that was not, or none is any more.
     found(Recoverable)
-        There is newer unsaved work on the file that was just opened.
+        There is unsaved work on the file that was just opened.
     missing(Path)
         The recording of the project that was just opened is not where it was.
     overtaken(Path, Then or None)
@@ -73,21 +73,24 @@ class Files(QObject):
         self.questions = questions
         self.autosave = autosave
         self.path: Path | None = None
-        self._stamp: Stamp | None = None
-        """Of the file as this editor read or wrote it last."""
+        self._base = ""
+        """`storage.content_hash` of the file as this editor read or wrote it last; empty where it was not there."""
         self.is_open = False
         self.saved_s: float | None = None
         """When the project, or unsaved work on it, was written last; of `time.monotonic`."""
         self.autosaved = False
         """Whether that was an autosave."""
+        self.risk: Message | None = None
+        """Why unsaved work is in no file, not even in an autosave; None: it is, or is about to be."""
+        self._warned: set[str] = set()
+        """What was said about autosaves of the open project: it is said once."""
         self._recovered: tuple[str, ...] = ()
         """Editors that are gone whose work this is."""
         session.changed.connect(self._project_changed)
         self._timer = QTimer(self)
-        self._timer.setInterval(TICK_MS)
+        self._timer.setSingleShot(True)
+        self._timer.setTimerType(Qt.TimerType.PreciseTimer)
         self._timer.timeout.connect(self.tick)
-        if autosave is not None:
-            self._timer.start()
 
     @property
     def name(self) -> str:
@@ -173,17 +176,17 @@ class Files(QObject):
         self.session.attempt(Message("edit.set_audio"), replaced)
 
     def _load(self, path: Path) -> None:
-        folder = self.autosave.presence.folder if self.autosave is not None else None
+        presence = self.autosave.presence if self.autosave is not None else None
 
         def work(progress: Callable[[float], None], stop_wanted: Callable[[], bool]) -> Opened:
-            stamp = stamp_of(path)
-            project = storage.load(path)
-            return project, recoverable_of(path, folder) if folder is not None else None, stamp
+            content = storage.read(path)
+            project = storage.decode(content, Path(os.path.realpath(path)), str(path))
+            items = recoverable_of(path, presence.folder, presence.token) if presence is not None else ()
+            return project, items[0] if items else None, storage.content_hash(content)
 
         def done(opened: Opened) -> None:
-            project, item, stamp = opened
-            self._become(project, path)
-            self._stamp = stamp
+            project, item, base = opened
+            self._become(project, path, base)
             if self.autosave is not None and self.autosave.is_shared:
                 self.session.notice(Message("project.open_elsewhere", {"file": path.name}), Severity.WARNING)
             for problem in storage.missing(project):
@@ -232,21 +235,26 @@ class Files(QObject):
 
         return failed
 
-    def _become(self, project: Project, path: Path | None, saved: bool = True, recovered: str = "") -> None:
-        self.path = path
-        self._recovered = (recovered,) if recovered else ()
-        self._stamp = stamp_of(path) if path is not None else None
+    def _become(
+        self, project: Project, path: Path | None, base: str = "", recovered: Recoverable | None = None
+    ) -> None:
+        self.path, self._base = path, base
+        self._recovered = (recovered.token,) if recovered is not None and recovered.token else ()
         self.is_open = True
         self.saved_s = None
+        self._warned.discard("autosave.elsewhere")
         if path is not None:
             self.settings.add_recent(path)
             self.settings.folder = str(path.parent)
-        if self.autosave is not None and saved:
-            self._tell(lambda autosave: autosave.opened(path))
+        if recovered is None:
+            self._begin_autosave()
+        else:
+            self._begin_autosave(recovered.facts, recovered.autosave)
         self.session.set_playhead(0.0)
         self.session.document.open(project)
-        if not saved:
+        if recovered is not None:
             self.session.document.mark_unsaved()
+            self._note_unsaved()
         self.opened.emit()
         self.changed.emit()
 
@@ -259,14 +267,10 @@ class Files(QObject):
             return
         answer = self.questions.unsaved(self.name)
         if answer == "discard":
-            self._give_up()
+            self._begin_autosave()
             then()
         elif answer == "save":
             self.save(then)
-
-    def _give_up(self) -> None:
-        if self.autosave is not None:
-            self._tell(lambda autosave: autosave.opened(None))
 
     def close(self) -> None:
         """Back to the start page."""
@@ -291,12 +295,8 @@ class Files(QObject):
         """Save to the project's file; one without a file is asked where, and work of others is not written over."""
         if self.path is None:
             self.save_as(then)
-            return
-        found = stamp_of(self.path)
-        if found is not None and found != self._stamp:
-            self.overtaken.emit(self.path, then)
         else:
-            self._save(self.path, then)
+            self._save(self.path, then, over=(self._base, ""))
 
     def save_over(self, then: Then | None = None) -> None:
         """Save to the project's file, whoever wrote it last."""
@@ -315,25 +315,30 @@ class Files(QObject):
         if path is not None:
             self._save(path, then)
 
-    def _save(self, path: Path, then: Then | None) -> None:
+    def _save(self, path: Path, then: Then | None, over: tuple[str, ...] | None = None) -> None:
+        """Save to a file; with `over` only to one of which the content is one of these."""
         project = self.session.project
 
-        def work(progress: Callable[[float], None], stop_wanted: Callable[[], bool]) -> Stamp | None:
+        def work(progress: Callable[[float], None], stop_wanted: Callable[[], bool]) -> str | None:
             if stop_wanted():
                 raise Cancelled("work.stopped")
-            storage.save(project, path)
-            return stamp_of(path)
+            if over is not None and storage.file_hash(path) not in over:
+                return None
+            return storage.save(project, path)
 
-        def done(stamp: Stamp | None) -> None:
-            self.path, self._stamp = path, stamp
+        def done(base: str | None) -> None:
+            if base is None:
+                self.overtaken.emit(path, then)
+                return
+            self.path, self._base = path, base
             self.session.document.mark_saved(project)
             self.settings.add_recent(path)
             self.settings.folder = str(path.parent)
             self.saved_s, self.autosaved = time.monotonic(), False
-            if self.autosave is not None:
-                self._tell(lambda autosave: autosave.saved(path))
-                if not self.session.document.is_saved:
-                    self.autosave.changed(self.session.project, time.monotonic())
+            self._warned.discard("autosave.elsewhere")
+            self._begin_autosave()
+            if not self.session.document.is_saved:
+                self._note_unsaved()
             self.changed.emit()
             if then is not None:
                 then()
@@ -341,56 +346,104 @@ class Files(QObject):
         self.session.tasks.run(Message("work.save"), work, done, key="save")
 
     def _project_changed(self, change: Change) -> None:
-        if not change.opened and self.autosave is not None and not self.session.document.is_saved:
-            self.autosave.changed(change.after, time.monotonic())
+        if not change.opened and self.is_open:
+            if not self.session.document.is_saved:
+                self._note_unsaved()
+            elif self.autosave is not None and self.autosave.has_work:
+                # Undone to what is in the file.
+                self._begin_autosave()
+                if self.autosaved:
+                    self.saved_s, self.autosaved = None, False
         self.changed.emit()
 
     # Unsaved work
 
+    def _begin_autosave(self, former: storage.Autosaved | None = None, held: Path | None = None) -> None:
+        """The project is as in its file, or as in `held`: nothing else is to be recovered."""
+        self.risk = None
+        self._timer.stop()
+        self._tell(lambda autosave: autosave.opened(self.path, self._base, former, held))
+
+    def _note_unsaved(self) -> None:
+        """The project is not as in its file."""
+        if self.autosave is not None:
+            self.autosave.changed(self.session.project, time.monotonic())
+            self._schedule()
+
+    def _schedule(self) -> None:
+        """Have the timer ring when unsaved work is to be written down. Further changes do not postpone it."""
+        due_s = self.autosave.due_s if self.autosave is not None else None
+        if due_s is None:
+            self._timer.stop()
+        elif not self._timer.isActive():
+            self._timer.start(max(math.ceil(1000.0 * (due_s - time.monotonic())), 0))
+
     def tick(self) -> None:
-        """Write unsaved work down when it is due; asked every second."""
+        """Write unsaved work down if it is due."""
         if self.autosave is not None and self.is_open:
             writing = self.autosave.due(time.monotonic())
             if writing is not None:
                 self._write(writing)
+            self._schedule()
 
     def write_now(self) -> None:
-        """Write unsaved work down here and now: the program may not live on."""
-        if self.autosave is None or not self.is_open:
+        """Write unsaved work down here and now: the program may not live on. Raises FileError."""
+        writing = self._taken()
+        if writing is None or self.autosave is None:
             return
-        if not self.session.document.is_saved:
-            self.autosave.changed(self.session.project, time.monotonic())
-        writing = self.autosave.take()
-        if writing is not None:
-            writing.run()
-            self.autosave.written(writing)
+        try:
+            written = writing.run()
+        finally:
+            self.autosave.ended(writing, time.monotonic())
+        self.autosave.written(writing, written)
 
     def write_soon(self) -> None:
         """Write unsaved work down now, beside the window."""
-        if self.autosave is None or not self.is_open or self.session.document.is_saved:
-            return
-        self.autosave.changed(self.session.project, time.monotonic())
-        writing = self.autosave.take()
+        writing = self._taken()
         if writing is not None:
             self._write(writing)
 
-    def _write(self, writing: Writing) -> None:
-        def work(progress: Callable[[float], None], stop_wanted: Callable[[], bool]) -> None:
-            writing.run()
+    def _taken(self) -> Writing | None:
+        if self.autosave is None or not self.is_open or self.session.document.is_saved:
+            return None
+        now_s = time.monotonic()
+        self.autosave.changed(self.session.project, now_s)
+        return self.autosave.take(now_s)
 
-        def done(nothing: None) -> None:
+    def _write(self, writing: Writing) -> None:
+        def work(progress: Callable[[float], None], stop_wanted: Callable[[], bool]) -> Written:
+            return writing.run()
+
+        def ended() -> None:
+            if self.autosave is not None:
+                self.autosave.ended(writing, time.monotonic())
+                self._schedule()
+
+        def done(written: Written) -> None:
             if self.autosave is None:
                 return
-            self._tell(lambda autosave: autosave.written(writing))
-            self.saved_s, self.autosaved = time.monotonic(), True
+            self._tell(lambda autosave: autosave.written(writing, written))
+            self._schedule()
+            if self.autosave.has(writing.project):
+                self.saved_s, self.autosaved, self.risk = time.monotonic(), True, None
+                if written.warning is not None:
+                    self.warn_once(written.warning)
             self.changed.emit()
 
         def failed(error: AppError) -> None:
-            if self.autosave is not None:
-                self.autosave.failed(writing, time.monotonic())
-            self.session.notice(error.message, Severity.WARNING)
+            if self.autosave is not None and self.autosave.is_current(writing):
+                if self.risk is None:
+                    self.session.notice(error.message, Severity.ERROR)
+                self.risk = error.message
+                self.changed.emit()
 
-        self.session.tasks.run(Message("work.autosave"), work, done, failed)
+        self.session.tasks.run(Message("work.autosave"), work, done, failed, ended=ended)
+
+    def warn_once(self, message: Message) -> None:
+        """Warn of something that autosaves meet again every few seconds."""
+        if message.id not in self._warned:
+            self._warned.add(message.id)
+            self.session.notice(message, Severity.WARNING)
 
     def _tell(self, say: Callable[[Autosave], None]) -> None:
         if self.autosave is None:
@@ -398,44 +451,45 @@ class Files(QObject):
         try:
             say(self.autosave)
         except AppError as error:
-            self.session.notice(error.message, Severity.WARNING)
+            self.warn_once(error.message)
 
-    def recoverable(self) -> tuple[Recoverable, ...]:
-        """What editors that are gone left behind."""
-        return recoverable(self.autosave.presence.folder) if self.autosave is not None else ()
+    def find_recoverable(self, found: Callable[[tuple[Recoverable, ...]], None]) -> None:
+        """Look for what editors that are gone left behind, beside the window."""
+        if self.autosave is None:
+            found(())
+            return
+        folder = self.autosave.presence.folder
+
+        def work(progress: Callable[[float], None], stop_wanted: Callable[[], bool]) -> tuple[Recoverable, ...]:
+            return recoverable(folder)
+
+        self.session.tasks.run(Message("work.recoverable"), work, found, key="recoverable")
 
     def recover(self, item: Recoverable) -> None:
         """Go on with unsaved work."""
-        autosave = self.autosave
-        if autosave is None:
-            return
 
-        def go_on() -> None:
-            try:
-                project = recover(item, autosave)
-            except AppError as error:
-                self.session.notice(error.message, Severity.ERROR)
-                return
-            self._become(project, item.document, saved=False, recovered=item.token)
+        def work(progress: Callable[[float], None], stop_wanted: Callable[[], bool]) -> tuple[Project, str]:
+            return load_work(item)
 
-        self.let_go(go_on)
+        def done(loaded: tuple[Project, str]) -> None:
+            project, base = loaded
+            self._become(project, item.document, base, item)
+
+        if self.autosave is not None:
+            self.let_go(
+                lambda: self.session.tasks.run(
+                    Message("work.open"), work, done, self._failed(item.autosave), key="open"
+                )
+            )
 
     def discard(self, item: Recoverable) -> None:
         """Throw unsaved work away."""
-        if self.autosave is not None:
-            discard(item, self.autosave.presence.folder)
+        try:
+            discard(item)
+        except AppError as error:
+            self.session.notice(error.message, Severity.WARNING)
         self.changed.emit()
 
 
-def stamp_of(path: Path) -> Stamp | None:
-    """By what a file that was written since is known; None: it is not there."""
-    try:
-        found = path.stat()
-    except OSError:
-        return None
-    return found.st_mtime_ns, found.st_size
-
-
-Stamp = tuple[int, int]
-Opened = tuple[Project, Recoverable | None, Stamp | None]
+Opened = tuple[Project, Recoverable | None, str]
 Read = tuple[MidiContents, Project | None]

@@ -97,8 +97,13 @@ class StartPage(QScrollArea):
 
     def refresh(self) -> None:
         """Look for recent files and unsaved work anew."""
-        self._offers = self._files.recoverable()
+        self._offers = ()
         self.retranslate()
+        self._files.find_recoverable(self._offer)
+
+    def _offer(self, items: tuple[Recoverable, ...]) -> None:
+        self._offers = items
+        self._fill_recovery()
 
     def retranslate(self) -> None:
         """Set all texts, and what depends on them."""
@@ -146,7 +151,12 @@ class StartPage(QScrollArea):
             changed = QDateTime.fromSecsSinceEpoch(round(item.changed_s))
             when = QLocale().toString(changed, QLocale.FormatType.ShortFormat)
             name = item.name or self.tr("a piece that was never saved")
-            text = Label(self.tr("Unsaved work was found: {name}, {when}").format(name=name, when=when))
+            told = self.tr("Unsaved work was found: {name}, {when}").format(name=name, when=when)
+            if item.is_file_missing:
+                told = "\n".join((told, self.tr("The project's file no longer exists.")))
+            elif item.is_file_changed:
+                told = "\n".join((told, self.tr("The project's file has changed since.")))
+            text = Label(told)
             text.setWordWrap(True)
             go_on, throw = QPushButton(self.tr("Recover")), QPushButton(self.tr("Discard"))
             go_on.setObjectName("recover")

@@ -102,6 +102,9 @@ class StatusLine(QStatusBar):
         self.addWidget(self._work)
         self.addWidget(self._notice)
         self.addWidget(self._dismiss)
+        self._risk = _flat("unsaved_at_risk")
+        self._risk.clicked.connect(lambda: files.save_as())
+        self.addPermanentWidget(self._risk)
         self._instruments = _flat("instrument_problems")
         self._instruments.clicked.connect(self.instruments_asked)
         self.addPermanentWidget(self._instruments)
@@ -294,7 +297,17 @@ class StatusLine(QStatusBar):
         who = [f"{names[line.player_id]}: {line.port}" for line in lines if line.player_id in names]
         self._stream.setToolTip("\n".join([*who, "", self.tr("Live stream: what is sent, and where")]).strip())
 
+    def _tell_risk(self) -> None:
+        """For as long as unsaved work is in no file."""
+        risk, tokens = self._files.risk, self._session.tokens
+        self._risk.setVisible(risk is not None)
+        if risk is not None:
+            self._risk.setIcon(icon("error", tokens, tokens.error))
+            self._risk.setText(" " + self.tr("Unsaved work at risk: Save As..."))
+            self._risk.setToolTip(sentence(risk, self._session))
+
     def _tell_saved(self) -> None:
+        self._tell_risk()
         files = self._files
         if not files.is_open:
             self._saved.clear()

@@ -359,11 +359,15 @@ class Window(QMainWindow):
     # What files say
 
     def _offer_recovery(self, item: Recoverable) -> None:
+        def texts() -> tuple[str, tuple[str, ...]]:
+            if item.is_file_changed:
+                told = self.tr("There is unsaved work on an earlier version of this file; the file has changed since.")
+            else:
+                told = self.tr("There is unsaved work on this project.")
+            return told, (self.tr("Recover"), self.tr("Discard"))
+
         self.banner.ask(
-            lambda: (
-                self.tr("There is unsaved work on this project that is newer than its file."),
-                (self.tr("Recover"), self.tr("Discard")),
-            ),
+            texts,
             (partial(self._files.recover, item), partial(self._files.discard, item)),
         )
 

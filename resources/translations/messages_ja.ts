@@ -900,6 +900,22 @@
             <translation>--encoding は MIDI ファイルの文字の読み方を指定するものです。{file} はプロジェクトなので不要です</translation>
         </message>
         <message>
+            <source>{file} cannot be autosaved in its own folder ({reason}); for now it is autosaved in {folder} and offered from there after a crash. Free some space or allow writing, or save the project in another folder</source>
+            <translation>{file} は、そのフォルダーに自動保存できません（{reason}）。当面は {folder} に自動保存され、異常終了後はそこから復元を提案します。空き容量を増やすか書き込みを許可するか、プロジェクトを別のフォルダーに保存してください</translation>
+        </message>
+        <message>
+            <source>unsaved work is at risk: {file} can be autosaved neither in its own folder ({reason}) nor in {folder} ({folder_reason}); save the project in another folder now</source>
+            <translation>未保存の作業が失われる恐れがあります。{file} は、そのフォルダー（{reason}）にも {folder}（{folder_reason}）にも自動保存できません。すぐにプロジェクトを別のフォルダーに保存してください</translation>
+        </message>
+        <message>
+            <source>unsaved work is at risk: it cannot be autosaved in {folder} ({reason}); save the project in another folder now</source>
+            <translation>未保存の作業が失われる恐れがあります。{folder} に自動保存できません（{reason}）。すぐにプロジェクトを別のフォルダーに保存してください</translation>
+        </message>
+        <message>
+            <source>{file} cannot be written ({reason}): new pieces are not autosaved until they are saved to a file, and unsaved work is offered only when its file is opened; allow writing there or free some space</source>
+            <translation>{file} に書き込めません（{reason}）。新しい曲はファイルに保存するまで自動保存されず、未保存の作業はそのファイルを開いたときにだけ復元を提案します。書き込みを許可するか、空き容量を増やしてください</translation>
+        </message>
+        <message>
             <source>{player} plays the instrument {id!r}, which is not installed; choose another one or install it</source>
             <translation>{player} の楽器 {id!r} が入っていません。別の楽器を選ぶか、追加してください</translation>
         </message>
@@ -1630,6 +1646,10 @@
         <message>
             <source>writing unsaved work down</source>
             <translation>自動保存しています</translation>
+        </message>
+        <message>
+            <source>looking for unsaved work</source>
+            <translation>未保存の作業を探しています</translation>
         </message>
         <message>
             <source>planning what {players} players do</source>

@@ -1065,6 +1065,14 @@
         <translation>未保存の作業が見つかりました: {name}、{when}</translation>
     </message>
     <message>
+        <source>The project&apos;s file no longer exists.</source>
+        <translation>プロジェクトのファイルはもうありません。</translation>
+    </message>
+    <message>
+        <source>The project&apos;s file has changed since.</source>
+        <translation>プロジェクトのファイルはその後変更されています。</translation>
+    </message>
+    <message>
         <source>Recover</source>
         <translation>復元</translation>
     </message>
@@ -1148,6 +1156,10 @@
         <translation>ライブ配信: 送信内容と送信先</translation>
     </message>
     <message>
+        <source>Unsaved work at risk: Save As...</source>
+        <translation>未保存の作業が危険です: 名前を付けて保存...</translation>
+    </message>
+    <message>
         <source>saved</source>
         <translation>保存済み</translation>
     </message>
@@ -1207,8 +1219,12 @@
         <translation>まだありません</translation>
     </message>
     <message>
-        <source>There is unsaved work on this project that is newer than its file.</source>
-        <translation>このプロジェクトには、ファイルより新しい未保存の作業があります。</translation>
+        <source>There is unsaved work on an earlier version of this file; the file has changed since.</source>
+        <translation>このファイルの以前の版に対する未保存の作業があります。ファイルはその後変更されています。</translation>
+    </message>
+    <message>
+        <source>There is unsaved work on this project.</source>
+        <translation>このプロジェクトには未保存の作業があります。</translation>
     </message>
     <message>
         <source>Recover</source>

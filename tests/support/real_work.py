@@ -24,6 +24,7 @@ from app.errors import Message
 from app.plan.model import PlayerPlan
 from app.project.autosave import Autosave
 from app.project.presence import Presence
+from app.project.recovery import Recoverable
 from app.shell.app import Program, make_application
 from app.shell.settings import Settings
 from tests.gui.shell.conftest import Answers
@@ -311,7 +312,9 @@ def work_until_killed(folder: Path) -> None:
 def recover_and_export(folder: Path) -> None:
     """The editor begins anew: what was lost is offered; then export."""
     work = Work(folder)
-    offered = work.program.editor.files.recoverable()
+    offered: list[Recoverable] = []
+    work.program.editor.files.find_recoverable(offered.extend)
+    work.until(lambda: bool(offered), "what was lost")
     assert len(offered) == 1, offered
     work.window.grab().save(str(folder / "20_offered.png"))
     work.program.editor.files.recover(offered[0])

@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
+import os
+import shutil
 import sys
 from pathlib import Path
 
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QPushButton
+from PySide6.QtWidgets import QApplication, QLabel, QPushButton
 from pytestqt.qtbot import QtBot
 
 from app.errors import Message
-from app.project.autosave import DELAY_S, Autosave
+from app.project.autosave import DELAY_S
 from app.project.edit.piece import set_title
 from app.project.presence import Presence
+from app.project.recovery import Recoverable
+from app.project.storage import load, save
 from app.shell.app import Program
 from app.shell.faults import Faults
 from tests.gui.conftest import QUARTET
@@ -33,6 +37,13 @@ def crash(program: Program) -> None:
     program.editor.files._timer.stop()
     program.editor.files.autosave = None
     program.window.hide()
+
+
+def offered(program: Program) -> tuple[Recoverable, ...]:
+    """What editors that are gone left behind."""
+    found: list[tuple[Recoverable, ...]] = []
+    program.editor.files.find_recoverable(found.append)
+    return found[-1]
 
 
 def later(program: Program, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -97,7 +108,7 @@ def test_work_that_is_thrown_away_is_not_offered_again(
     crash(first)
     second = start()
     click(second, "discard", qtbot)
-    assert second.editor.files.recoverable() == ()
+    assert offered(second) == ()
     qtbot.waitUntil(lambda: second.window.findChild(QPushButton, "recover") is None)
 
 
@@ -111,7 +122,7 @@ def test_an_orderly_end_leaves_nothing_to_recover(
     answers.answer = "discard"
     trigger(first, "file.close")
     first.window.close()
-    assert start().editor.files.recoverable() == ()
+    assert offered(start()) == ()
 
 
 def test_a_fault_is_told_noted_down_and_the_work_written(
@@ -161,10 +172,52 @@ def test_notices_unfold_and_go(program: Program, qtbot: QtBot) -> None:
     assert status.notice_text == ""
 
 
-def test_an_editor_whose_recovery_folder_cannot_be_used_still_opens(tmp_path: Path) -> None:
-    blocked = tmp_path / "file"
-    blocked.write_text("no folder")
-    from app.errors import AppError
+def test_what_the_window_says_of_work_that_no_place_takes(
+    start: Start, answers: Answers, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
+) -> None:
+    answers.path = document = tmp_path / "work" / "piece.suisou"
+    document.parent.mkdir()
+    first = start()
+    first.editor.files.open(QUARTET, ask=False)
+    trigger(first, "file.save")
+    button = first.window.status.findChild(QPushButton, "unsaved_at_risk")
+    assert button is not None
+    assert button.isHidden()
+    shutil.rmtree(document.parent)
+    edit(first, "Precious")
+    with monkeypatch.context() as patch:
+        patch.setattr(Presence, "own_path", tmp_path / "nowhere" / "x.suisou")
+        later(first, monkeypatch)
+        assert button.isVisible()
+        for code, words in (("ja", "フォルダー"), ("en", "in another folder now")):
+            first.editor.speak(code)
+            QApplication.processEvents()
+            assert words in button.toolTip()
+        answers.path = tmp_path / "elsewhere.suisou"
+        qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
+    assert load(answers.path).score.title == "Precious"
+    assert button.isHidden()
 
-    with pytest.raises(AppError):
-        Autosave(Presence(blocked / "recovery"))
+
+def test_work_on_a_file_that_has_changed_since_does_not_replace_it_unasked(
+    start: Start, answers: Answers, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
+) -> None:
+    answers.path = document = tmp_path / "piece.suisou"
+    first = start()
+    first.editor.files.open(QUARTET, ask=False)
+    trigger(first, "file.save")
+    edit(first, "Precious")
+    later(first, monkeypatch)
+    crash(first)
+    save(set_title(load(document), "Of somebody else"), document)
+    os.utime(document, (1.0, 1.0))
+    second = start()
+    assert any("file has changed since" in label.text() for label in second.window.start_page.findChildren(QLabel))
+    second.editor.files.open(document)
+    banner = second.window.banner
+    assert "file has changed since" in banner._text.text()
+    banner._buttons[0].click()
+    trigger(second, "file.save")
+    assert load(document).score.title == "Of somebody else"
+    banner._buttons[1].click()
+    assert load(document).score.title == "Precious"
