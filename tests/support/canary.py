@@ -69,7 +69,9 @@ class Canary:
         while place < len(events):
             *_, length = _EVENT.unpack_from(events, place)
             place += _EVENT.size + length
-            names.append(events[place - length : place].rstrip(b"\0").decode())
+            # Without a name it is the folder itself.
+            if length:
+                names.append(events[place - length : place].rstrip(b"\0").decode())
         return names
 
 

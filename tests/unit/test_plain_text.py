@@ -11,7 +11,7 @@ import pytest
 ROOT = Path(__file__).parents[2]
 
 INSTEAD = {
-    **dict.fromkeys(("QLabel", "QMessageBox"), "`Label` and `MessageBox` of widgets.common.plain"),
+    **dict.fromkeys(("QLabel", "QMessageBox", "QComboBox"), "the one of widgets.common.plain"),
     **dict.fromkeys(("QTextEdit", "QTextBrowser", "QTextDocument"), "QPlainTextEdit"),
     "QErrorMessage": "Session.notice",
     "QProgressDialog": "Session.tasks",
@@ -25,7 +25,7 @@ INSTEAD = {
 }
 """What shows HTML, or could, and what to take for it."""
 ALLOWED = {
-    "widgets/common/plain.py": {"QLabel", "QMessageBox", "setTextFormat"},
+    "widgets/common/plain.py": {"QLabel", "QMessageBox", "QComboBox", "setTextFormat"},
     # Its format is set to plain.
     "widgets/timeline/roll_items.py": {"QStaticText", "setTextFormat"},
 }

@@ -7,9 +7,10 @@ from dataclasses import dataclass
 
 from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QIcon, QStandardItemModel, QWheelEvent
-from PySide6.QtWidgets import QComboBox, QSizePolicy, QWidget
+from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from widgets.common.numbers import MIXED
+from widgets.common.plain import ComboBox
 from widgets.common.tokens import LEAST_TARGET_PX
 
 
@@ -23,7 +24,7 @@ class Option:
     reason: str = ""
 
 
-class Combo(QComboBox):
+class Combo(ComboBox):
     """Options by id. Shows a dash where several things differ; the wheel works only where the keyboard is.
 
     Signals
@@ -40,7 +41,7 @@ class Combo(QComboBox):
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         # As wide as there is room, not as the longest name.
-        self.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+        self.setSizeAdjustPolicy(ComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         self.setMinimumContentsLength(6)
         self.setMinimumHeight(LEAST_TARGET_PX + 1)
         self.setPlaceholderText(MIXED)

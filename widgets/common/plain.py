@@ -7,8 +7,9 @@ shown comes from files. Labels and message boxes of the program's own are plain 
 
 from __future__ import annotations
 
-from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QLabel, QMessageBox, QWidget
+from PySide6.QtCore import QEvent, Qt
+from PySide6.QtGui import QHelpEvent
+from PySide6.QtWidgets import QComboBox, QLabel, QMessageBox, QToolTip, QWidget
 
 
 class Label(QLabel):
@@ -26,6 +27,17 @@ class MessageBox(QMessageBox):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setTextFormat(Qt.TextFormat.PlainText)
+
+
+class ComboBox(QComboBox):
+    """A combo box whose tip is plain: Qt keeps style sheets from frames within a combo box, and a tip is one."""
+
+    def event(self, event: QEvent) -> bool:
+        """Show the tip as one of what the box is in."""
+        if not isinstance(event, QHelpEvent) or event.type() != QEvent.Type.ToolTip:
+            return super().event(event)
+        QToolTip.showText(event.globalPos(), self.toolTip(), self.parentWidget())
+        return True
 
 
 def verbatim(text: str) -> str:

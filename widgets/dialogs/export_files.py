@@ -10,7 +10,6 @@ from pathlib import Path
 from PySide6.QtCore import QEvent, QSize, Qt, QTimer, QUrl, Signal
 from PySide6.QtGui import QCloseEvent, QDesktopServices
 from PySide6.QtWidgets import (
-    QComboBox,
     QDialog,
     QDialogButtonBox,
     QDoubleSpinBox,
@@ -30,7 +29,7 @@ from app.performance.ensemble import Performance
 from app.performance.span import bars_span, whole_span
 from app.project.model import Player
 from metadata.load import load_bone_names
-from widgets.common.plain import Label
+from widgets.common.plain import ComboBox, Label
 from widgets.common.session import Session
 from widgets.common.tasks import Progress, StopWanted
 from widgets.common.text import message_text
@@ -107,10 +106,10 @@ class ExportDialog(QDialog):
         self._place = PlaceChooser(folder, unreal, destination)
         self._shown_folder = folder
         self._formats = FormatChooser()
-        self._bvh_names = QComboBox()
+        self._bvh_names = ComboBox()
         self._bvh_names.setObjectName("export_bvh_names")
         # As wide as there is room, not as the longest title.
-        self._bvh_names.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+        self._bvh_names.setSizeAdjustPolicy(ComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         self._bvh_names.addItem("", "")
         for profile, table in load_bone_names().items():
             self._bvh_names.addItem(table.title, profile)
@@ -122,7 +121,7 @@ class ExportDialog(QDialog):
         self._preroll.setSingleStep(1.0)
         self._preroll.setDecimals(2)
         self._preroll.setValue(self._project.preroll_beats)
-        self._rate = QComboBox()
+        self._rate = ComboBox()
         self._rate.setObjectName("export_rate")
         for rate in sorted({*RATES, self._project.fps}):
             self._rate.addItem(f"{float(rate):.6g}", str(rate))

@@ -5,8 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 from PySide6.QtCore import QEvent, Signal
-from PySide6.QtWidgets import QComboBox, QFileDialog, QHBoxLayout, QLineEdit, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QLineEdit, QPushButton, QVBoxLayout, QWidget
 
+from widgets.common.plain import ComboBox
 from widgets.dialogs.export_destination import Destination
 
 _DESTINATIONS: tuple[Destination, ...] = ("folder", "unreal")
@@ -32,7 +33,7 @@ class PlaceChooser(QWidget):
     ) -> None:
         super().__init__(parent)
         self._paths = {"folder": str(folder), "unreal": "" if unreal is None else str(unreal)}
-        self._box = QComboBox()
+        self._box = ComboBox()
         self._box.setObjectName("export_destination")
         for choice in _DESTINATIONS:
             self._box.addItem("", choice)

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QEvent, Signal
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QSpinBox, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QSpinBox, QWidget
 
 from app.score.model import Score
-from widgets.common.plain import Label
+from widgets.common.plain import ComboBox, Label
 from widgets.common.session import Session
 
 _WHOLE, _BARS, _SELECTION = "whole", "bars", "selection"
@@ -31,7 +31,7 @@ class RangeChooser(QWidget):
     def __init__(self, session: Session, score: Score, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._session, self._score = session, score
-        self._choice = QComboBox()
+        self._choice = ComboBox()
         self._choice.setObjectName("export_range")
         self._first_bar, self._last_bar = QSpinBox(), QSpinBox()
         self._first_bar.setObjectName("export_first_bar")

@@ -9,7 +9,6 @@ from typing import TypeAlias
 from PySide6.QtCore import QEvent, QSize, Signal
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import (
-    QComboBox,
     QFileDialog,
     QHBoxLayout,
     QLineEdit,
@@ -24,7 +23,7 @@ from app.export.target import SkeletonChoice
 from app.export.targets import CheckedTarget, checked_targets
 from app.project.model import Player
 from app.rig.read_figure import SUFFIXES, read_figure
-from widgets.common.plain import Label
+from widgets.common.plain import ComboBox, Label
 from widgets.common.session import Session
 from widgets.common.tasks import Progress, StopWanted
 from widgets.common.text import sentence
@@ -60,7 +59,7 @@ class SkeletonChooser(QWidget):
         self._checked: dict[str, CheckedTarget] = {}
         self._error: AppError | None = None
         self._comparing = False
-        self._box = QComboBox()
+        self._box = ComboBox()
         self._box.setObjectName("export_skeleton")
         for choice in CHOICES:
             self._box.addItem("", choice)

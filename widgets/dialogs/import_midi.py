@@ -10,7 +10,6 @@ from PySide6.QtGui import QColor, QIcon, QPainter, QPaintEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QCheckBox,
-    QComboBox,
     QDialog,
     QDialogButtonBox,
     QHBoxLayout,
@@ -32,7 +31,7 @@ from app.score.read import MidiContents
 from instrument_maps.model import InstrumentMap
 from widgets.common.instrument_name import character_name, instrument_name
 from widgets.common.pitch import pitch_name
-from widgets.common.plain import Label
+from widgets.common.plain import ComboBox, Label
 from widgets.common.text import message_text
 from widgets.common.tokens import LEAST_TARGET_PX, Tokens
 
@@ -218,7 +217,7 @@ class ImportDialog(QDialog):
         count.setContentsMargins(6, 0, 6, 0)
         self._table.setCellWidget(place, _NOTES, count)
 
-        split = QComboBox()
+        split = ComboBox()
         split.setObjectName(f"split_{place}")
         split.addItem(self.tr("Share among players"), True)
         split.addItem(self.tr("One player"), False)
@@ -226,9 +225,9 @@ class ImportDialog(QDialog):
         split.currentIndexChanged.connect(lambda _, box=split: self._wish(place, split=bool(box.currentData())))
         self._table.setCellWidget(place, _SPLIT, split)
 
-        instrument = QComboBox()
+        instrument = ComboBox()
         instrument.setObjectName(f"instrument_{place}")
-        instrument.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+        instrument.setSizeAdjustPolicy(ComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         instrument.setMinimumContentsLength(_INSTRUMENT_LETTERS)
         instrument.addItem(self.tr("Automatic: {name}").format(name=self._automatic(row)), None)
         for id_, table in self._maps.items():
@@ -239,7 +238,7 @@ class ImportDialog(QDialog):
         instrument.currentTextChanged.connect(instrument.setToolTip)
         self._table.setCellWidget(place, _INSTRUMENT, instrument)
 
-        pitches = QComboBox()
+        pitches = ComboBox()
         pitches.setObjectName(f"pitches_{place}")
         pitches.addItem(self.tr("Sounding"), False)
         pitches.addItem(self.tr("Written"), True)
@@ -250,7 +249,7 @@ class ImportDialog(QDialog):
         )
         self._table.setCellWidget(place, _PITCHES, pitches)
 
-        character = QComboBox()
+        character = ComboBox()
         character.setObjectName(f"character_{place}")
         character.addItem(self.tr("Automatic"), None)
         for id_ in characters():

@@ -15,7 +15,6 @@ from PySide6.QtCore import QEvent, QSize, Qt, QTimer, QUrl, Signal
 from PySide6.QtGui import QCloseEvent, QDesktopServices
 from PySide6.QtWidgets import (
     QCheckBox,
-    QComboBox,
     QDialog,
     QDialogButtonBox,
     QFileDialog,
@@ -31,7 +30,7 @@ from PySide6.QtWidgets import (
 from app.errors import AppError, Cancelled, Message
 from app.export.video import video_into
 from app.performance.span import FrameSpan, cut_span, whole_span
-from widgets.common.plain import Label
+from widgets.common.plain import ComboBox, Label
 from widgets.common.session import Session
 from widgets.common.tasks import Progress, StopWanted
 from widgets.common.text import message_text
@@ -83,18 +82,18 @@ class PlayblastDialog(QDialog):
         self._span: FrameSpan | None = None
         self._drawn = 0
 
-        self._size = QComboBox()
+        self._size = ComboBox()
         self._size.setObjectName("playblast_size")
         for width, height in SIZES:
             self._size.addItem(f"{width} × {height}", (width, height))
-        self._rate = QComboBox()
+        self._rate = ComboBox()
         self._rate.setObjectName("playblast_rate")
         for rate in sorted({*map(Fraction, ("24", "25", "30000/1001", "30", "60")), session.project.fps}):
             self._rate.addItem(f"{float(rate):.6g}", str(rate))
         self._rate.setCurrentIndex(self._rate.findData(str(min(session.project.fps, Fraction(30)))))
-        self._range = QComboBox()
+        self._range = ComboBox()
         self._range.setObjectName("playblast_range")
-        self._view = QComboBox()
+        self._view = ComboBox()
         self._view.setObjectName("playblast_view")
         self._with_sound = QCheckBox()
         self._with_sound.setObjectName("playblast_sound")
@@ -322,7 +321,7 @@ def _next(pictures: queue.Queue[Pictures], stop_wanted: Callable[[], bool]) -> P
     raise Cancelled("work.stopped")
 
 
-def _refill(box: QComboBox, entries: list[tuple[str, object]] | list[tuple[str, str]]) -> None:
+def _refill(box: ComboBox, entries: list[tuple[str, object]] | list[tuple[str, str]]) -> None:
     chosen = box.currentIndex()
     box.clear()
     for text, data in entries:

@@ -10,7 +10,6 @@ from PySide6.QtCore import QEvent, QSize, Qt, QUrl, Signal
 from PySide6.QtGui import QDesktopServices
 from PySide6.QtWidgets import (
     QButtonGroup,
-    QComboBox,
     QDialog,
     QDialogButtonBox,
     QFormLayout,
@@ -24,7 +23,7 @@ from PySide6.QtWidgets import (
 )
 
 from instrument_maps.library import library, own_folder
-from widgets.common.plain import Label
+from widgets.common.plain import ComboBox, Label
 from widgets.common.session import Session, TimeDisplay
 from widgets.common.text import message_text
 from widgets.common.tokens import THEMES
@@ -84,7 +83,7 @@ class PreferencesDialog(QDialog):
         self._form.setContentsMargins(16, 16, 16, 16)
         self._form.setVerticalSpacing(12)
         self._form.setHorizontalSpacing(24)
-        self._languages = QComboBox()
+        self._languages = ComboBox()
         self._languages.setObjectName("preferences_language")
         for code in language.names:
             self._languages.addItem(language.names[code], code)

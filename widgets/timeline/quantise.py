@@ -8,7 +8,6 @@ from PySide6.QtCore import QEvent, QPoint, Qt
 from PySide6.QtGui import QHideEvent, QKeyEvent
 from PySide6.QtWidgets import (
     QCheckBox,
-    QComboBox,
     QFrame,
     QGridLayout,
     QHBoxLayout,
@@ -19,7 +18,7 @@ from PySide6.QtWidgets import (
 from app.errors import Message
 from app.project.edit import notes
 from widgets.common.number_slider import NumberSlider
-from widgets.common.plain import Label
+from widgets.common.plain import ComboBox, Label
 from widgets.common.session import Session
 
 GRIDS: tuple[tuple[str, Fraction], ...] = (
@@ -50,7 +49,7 @@ class QuantisePopover(QFrame):
         self._kept = False
         self._percent = 100.0
         self.grid_label = Label(parent=self)
-        self.grid_box = QComboBox(self)
+        self.grid_box = ComboBox(self)
         for name, quarters in GRIDS:
             self.grid_box.addItem(name, quarters)
         self.strength = NumberSlider(session, 0.0, 100.0, default=100.0, step=5.0, decimals=0, parent=self)

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from PySide6.QtCore import QEvent, QSize, Qt
 from PySide6.QtGui import QActionGroup, QColor, QIcon, QPalette, QPixmap
-from PySide6.QtWidgets import QButtonGroup, QComboBox, QHBoxLayout, QMenu, QSizePolicy, QToolButton, QWidget
+from PySide6.QtWidgets import QButtonGroup, QHBoxLayout, QMenu, QSizePolicy, QToolButton, QWidget
 
 from app.project.document import Change
 from widgets.common.icons import icon
-from widgets.common.plain import Label
+from widgets.common.plain import ComboBox, Label
 from widgets.common.session import Session
 from widgets.common.timeline_view import Ghosts, Tool
 from widgets.timeline.roll import PianoRoll
@@ -41,7 +41,7 @@ class ToolBar(QWidget):
             row.addWidget(button)
         group.buttonClicked.connect(self._choose_tool)
         row.addSpacing(8)
-        self.player_box = QComboBox(self)
+        self.player_box = ComboBox(self)
         self.player_box.setObjectName("front_player")
         self.player_box.setSizePolicy(QSizePolicy.Policy.Maximum, QSizePolicy.Policy.Fixed)
         self.player_box.setMinimumWidth(150)

@@ -10,18 +10,23 @@ from PySide6.QtCore import QEvent, QPoint, Qt
 from PySide6.QtGui import QAccessible, QAction, QHelpEvent, QKeySequence
 from PySide6.QtWidgets import (
     QApplication,
+    QGroupBox,
     QInputDialog,
     QLabel,
+    QLineEdit,
     QListWidget,
     QListWidgetItem,
     QPushButton,
+    QSpinBox,
+    QTabBar,
     QToolButton,
     QWidget,
 )
 from pytestqt.qtbot import QtBot
 
+from tests.gui.conftest import delete_now
 from tests.support.canary import WATCHES, Canary, canary
-from widgets.common.plain import Label, MessageBox, verbatim, verbatim_title
+from widgets.common.plain import ComboBox, Label, MessageBox, verbatim, verbatim_title
 
 pytestmark = pytest.mark.skipif(not WATCHES, reason="only Linux reports which files are opened")
 
@@ -65,25 +70,40 @@ def test_a_label_is_plain_before_any_style_reaches_it(watched: Canary, qtbot: Qt
     assert watched.opened() == []
 
 
-def test_tips_are_plain(watched: Canary, qtbot: QtBot) -> None:
-    plain, by_action, items = QWidget(), QToolButton(), QListWidget()
-    plain.setToolTip(watched.html)
-    # A widget with a style of its own gives it to its tip.
-    plain.setStyleSheet("color: red;")
-    by_action.setDefaultAction(QAction(watched.html, by_action))
+@pytest.mark.parametrize(
+    "kind", [QWidget, QToolButton, ComboBox, QSpinBox, QLineEdit, QListWidget, QTabBar, QGroupBox, QLabel, QPushButton]
+)
+@pytest.mark.parametrize("sheet", ["", "color: red;"])
+def test_tips_are_plain(watched: Canary, qtbot: QtBot, kind: type[QWidget], sheet: str) -> None:
+    """Each new: a tip that is up already is used again, and plain since it came up."""
+    widget = kind()
+    qtbot.addWidget(widget)
+    # A widget with a style sheet of its own gives it to its tip.
+    widget.setStyleSheet(sheet)
+    widget.setToolTip(watched.html)
+    widget.show()
+    tip = tip_at(widget, QPoint(3, 3))
+    assert (tip.isVisible(), tip.text(), tip.textFormat()) == (True, watched.html, Qt.TextFormat.PlainText)
+    assert watched.opened() == []
+
+
+def test_tips_of_actions_and_items_are_plain(watched: Canary, qtbot: QtBot) -> None:
+    button, items, box = QToolButton(), QListWidget(), ComboBox()
+    button.setDefaultAction(QAction(watched.html, button))
     item = QListWidgetItem("item")
     item.setToolTip(watched.html)
     items.addItem(item)
-    for widget in (plain, by_action, items):
+    box.addItem("item")
+    box.setItemData(0, watched.html, Qt.ItemDataRole.ToolTipRole)
+    for widget, asked in ((button, button), (items, items.viewport()), (box, box.view().viewport())):
         qtbot.addWidget(widget)
-        widget.resize(100, 60)
         widget.show()
-        qtbot.waitExposed(widget)
-        asked = items.viewport() if widget is items else widget
+        if widget is box:
+            box.showPopup()
         tip = tip_at(asked, QPoint(10, 10))
-        assert tip.isVisible()
-        assert tip.text().startswith("<img")
-        assert tip.textFormat() == Qt.TextFormat.PlainText
+        assert (tip.text(), tip.textFormat()) == (watched.html, Qt.TextFormat.PlainText)
+        tip.close()
+        delete_now()
     assert watched.opened() == []
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from PySide6.QtCore import QRectF, Qt
 from PySide6.QtGui import QColor, QKeyEvent, QPainter, QPen
-from PySide6.QtWidgets import QComboBox, QMenu, QWidget
+from PySide6.QtWidgets import QMenu, QWidget
 
 from app.errors import Message
 from app.plan.model import EmbouchureEvent, PlayerPlan
@@ -16,7 +16,7 @@ from app.project.document import Change
 from app.project.edit.events import set_embouchure
 from app.project.model import Project
 from app.score.model import Part
-from widgets.common.plain import verbatim
+from widgets.common.plain import ComboBox, verbatim
 from widgets.common.selection import EventKey, Selection
 from widgets.common.session import Session
 from widgets.common.text import message_text
@@ -183,9 +183,9 @@ class CurvesLane(Lane):
         self._part: Part | None = None
         self._drag: _Drag | None = None
         self._preview: dict[str, float] = {}
-        self.choice = QComboBox(self.header)
+        self.choice = ComboBox(self.header)
         self.choice.setObjectName("curve_choice")
-        self.choice.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+        self.choice.setSizeAdjustPolicy(ComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         self.choice.activated.connect(self._chosen)
         self.controls.addWidget(self.choice)
         self.item = _Curves(self)
