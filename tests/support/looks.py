@@ -10,6 +10,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 
 from PySide6.QtCore import Qt
@@ -44,6 +45,7 @@ from tests.support.real_work import LUTKIN
 from tests.support.takes import take_of
 from tests.support.tasks import ImmediateTasks
 from widgets.common.selection import EventKey, Selection
+from widgets.common.session import Severity
 from widgets.common.tokens import LEAST_TARGET_PX
 from widgets.dialogs.import_midi import ImportDialog
 
@@ -197,7 +199,8 @@ class Look:
         self.program.editor.settings.add_recent(long)
         self.program.editor.settings.add_recent(LUTKIN)
         lost = Recoverable(self.folder / "a.suisou", None, LUTKIN.name, 1.0e9, 400)
-        self.program.editor.files.recoverable = lambda: (lost,)  # type: ignore[method-assign]
+        older = replace(lost, is_file_changed=True)
+        self.program.editor.files.find_recoverable = lambda found: found((lost, older))  # type: ignore[method-assign]
         self.window.start_page.refresh()
         self.both("start_full")
 
@@ -236,8 +239,15 @@ class Look:
         self.at("players")
         self.session.set_players((player.id,))
         self.takes(player.id)
-        self.window._offer_recovery(Recoverable(self.folder / "a.suisou", None, "work", 1.0e9, 400))
+        lost = Recoverable(self.folder / "a.suisou", None, "work", 1.0e9, 400, is_file_changed=True)
+        self.window._offer_recovery(lost)
+        files = self.program.editor.files
+        files.risk = Message("autosave.nowhere", {"folder": "/home/nobody/.local/state", "reason": "disk full"})
+        self.session.notice(files.risk, Severity.ERROR)
+        files.changed.emit()
         self.at("banner")
+        files.risk = None
+        files.changed.emit()
         self.window._ask_to_save_over(Path(f"{LUTKIN.stem}.suisou"), None)
         self.at("banner_long")
         self.window.banner.hide()
