@@ -117,7 +117,7 @@ def close_others(program: Program) -> None:
 
 def start_page(program: Program, judge: Judge, folder: Path) -> None:
     lost = Recoverable(folder / "a.suisou", None, judge.canary.name("lost"), 1.0e9, 400)
-    program.editor.files.recoverable = lambda: (lost,)  # type: ignore[method-assign]
+    program.editor.files.find_recoverable = lambda found: found((lost,))  # type: ignore[method-assign]
     program.window.start_page.refresh()
     judge.look("start page")
 
