@@ -47,11 +47,11 @@ class Canary:
     def name(self, field: str) -> str:
         """A name that says where it stands: as HTML it opens the picture, in a button ``&8`` is a key, in a window's
         title ``[*]`` is a mark."""
-        return f'<img src="file://{self.picture}" alt="{field}">&8[*]'
+        return f'<img alt="{field}" src="file://{self.picture}">&8[*]'
 
     def file_name(self, field: str) -> str:
         """The same for a file: it opens the picture if this is in the working directory."""
-        return f'<img src="{self.picture.name}" alt="{field}">&8[*]'
+        return f'<img alt="{field}" src="{self.picture.name}">&8[*]'
 
     @property
     def eager(self) -> str:

@@ -11,7 +11,7 @@ import pytest
 ROOT = Path(__file__).parents[2]
 
 INSTEAD = {
-    **dict.fromkeys(("QLabel", "QMessageBox", "QComboBox"), "the one of widgets.common.plain"),
+    **{f"Q{name}": f"widgets.common.plain.{name}" for name in ("Label", "MessageBox", "ComboBox")},
     **dict.fromkeys(("QTextEdit", "QTextBrowser", "QTextDocument"), "QPlainTextEdit"),
     "QErrorMessage": "Session.notice",
     "QProgressDialog": "Session.tasks",
@@ -19,7 +19,7 @@ INSTEAD = {
     **dict.fromkeys(("QGraphicsTextItem", "TextItem", "LabelItem", "QSplashScreen"), "QPainter.drawText"),
     "QStaticText": "QPainter.drawText, or set its format",
     **dict.fromkeys(("setHtml", "insertHtml", "appendHtml", "setMarkdown", "insertMarkdown"), "setPlainText"),
-    **dict.fromkeys(("setTextFormat", "RichText", "AutoText", "MarkdownText"), "`Label` of widgets.common.plain"),
+    **dict.fromkeys(("setTextFormat", "RichText", "AutoText", "MarkdownText"), "widgets.common.plain.Label"),
     **dict.fromkeys(("linkActivated", "anchorClicked", "setOpenExternalLinks", "setOpenLinks"), "a button"),
     **dict.fromkeys(("QtWebEngineWidgets", "QtWebEngineCore", "QtQuick", "QtQml"), "widgets"),
 }

@@ -38,6 +38,7 @@ from widgets.common.tokens import LEAST_TARGET_PX, Tokens
 _USE, _NAME, _PREVIEW, _NOTES, _SPLIT, _INSTRUMENT, _PITCHES, _CHARACTER = range(8)
 _ROW_PX = 40
 _SIZE = QSize(1280, 580)
+_TITLE_PX = 600
 _INSTRUMENT_LETTERS = 31
 """Width of the column of instruments: the longest names would leave the notes no room."""
 
@@ -152,10 +153,10 @@ class ImportDialog(QDialog):
         """Set every text anew."""
         self.setWindowTitle(self.tr("Import MIDI"))
         contents = self._contents
-        length_s = contents.tempo_map.seconds(float(self._end_tick))
+        length_s, metrics = contents.tempo_map.seconds(float(self._end_tick)), self._heading.fontMetrics()
         self._heading.setText(
             self.tr("{title} · {minutes}:{seconds:02d} · ♩= {tempo:g} · {metre}").format(
-                title=contents.title,
+                title=metrics.elidedText(contents.title, Qt.TextElideMode.ElideRight, _TITLE_PX),
                 minutes=int(length_s) // 60,
                 seconds=int(length_s) % 60,
                 tempo=round(contents.tempo_map.bpm[0][1], 1),

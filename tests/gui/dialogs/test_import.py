@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import mido
+import msgspec
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
@@ -138,3 +139,15 @@ def piece(folder: Path, tracks: dict[str, tuple[int, ...]]) -> Path:
     path = folder / "piece.mid"
     mido.MidiFile(type=1, tracks=made).save(path)
     return path
+
+
+def test_a_long_title_does_not_widen_the_dialog(qt_app: QApplication, qtbot: QtBot) -> None:
+    contents = msgspec.structs.replace(read_contents(LUTKIN), title="Allegro ma non troppo " * 500)
+    dialog = ImportDialog(contents, MAPS, str(LUTKIN), DARK)
+    qtbot.addWidget(dialog)
+    dialog.show()
+    heading = dialog.findChild(QLabel, "heading")
+    assert heading is not None
+    assert "Allegro" in heading.text()
+    assert "4/4" in heading.text()
+    assert dialog.width() == ImportDialog(read_contents(LUTKIN), MAPS, str(LUTKIN), DARK).width()
