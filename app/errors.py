@@ -45,12 +45,18 @@ class AppError(Exception):
         super().__init__(f"{id} ({detail})" if detail else id)
 
 
+def shortened(detail: object, most: int = 200) -> str:
+    """What a library says about a fault, for a message: it may quote any amount of the file."""
+    text = str(detail)
+    return text if len(text) <= most else f"{text[: most - 1]}…"
+
+
 class FileError(AppError):
     """A file that cannot be read or written; ``file`` is always among the arguments."""
 
 
 class MapError(AppError):
-    """An instrument map or metadata table that is not valid; names the line or key path."""
+    """A table (instrument map, metadata, preset, settings) that is not valid; names the file and the line or key."""
 
 
 class UsageError(AppError):

@@ -65,7 +65,7 @@ def _merged(base: Mapping[str, Any], own: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _named(value: object) -> bool:
-    return isinstance(value, list) and bool(value) and all(isinstance(row, Mapping) and "name" in row for row in value)
+    return isinstance(value, list) and bool(value) and all(isinstance(_name(row), str) for row in value)
 
 
 def _fingerings(merged: Mapping[str, Any], base: Any, own: Any) -> Any:

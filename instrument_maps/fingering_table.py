@@ -30,8 +30,9 @@ from typing import Any, TypeAlias
 
 import msgspec
 
-from app.errors import MapError, UsageError
+from app.errors import FileError, MapError, UsageError
 from app.formats.atomic import atomic_write
+from app.formats.toml import toml_text
 from instrument_maps.extend import BASE
 from instrument_maps.fingering_label import HALF, NONE, OPEN, controls_of, says_words, words_of
 from instrument_maps.load import bundled_maps, parse_map, parse_table
@@ -209,7 +210,7 @@ def base_table(instrument: InstrumentMap, path: Path | None) -> Table:
     """The fingerings an own map has from the one it extends; of a bundled map its own; none where it stands alone."""
     if path is None:
         return instrument.fingerings
-    text = path.read_text("utf-8-sig")
+    text = toml_text(path)
     base = parse_table(text, str(path)).get(BASE)
     if not isinstance(base, str):
         return ()
@@ -233,7 +234,7 @@ def own_text(instrument: InstrumentMap, table: Table, text: str | None, file: st
     Raises
     ------
     MapError
-        ``map.syntax`` of the person's file; ``map.not_rewritten``; what `parse_map` finds wrong with the result.
+        ``table.syntax`` of the person's file; ``map.not_rewritten``; what `parse_map` finds wrong with the result.
     """
     known: dict[str, Any] = {} if text is None else parse_table(text, file)
     fresh = text is None
@@ -259,7 +260,7 @@ def own_text(instrument: InstrumentMap, table: Table, text: str | None, file: st
         read = parse_map(result, file)
         rest = {key: value for key, value in parse_table(result, file).items() if key != "fingerings"}
     except MapError as error:
-        if error.message.id == "map.syntax":
+        if error.message.id == "table.syntax":
             raise MapError("map.not_rewritten", file=file) from error
         raise
     if read.fingerings != table or (not fresh and rest != {key: v for key, v in known.items() if key != "fingerings"}):
@@ -273,20 +274,20 @@ def save_own(instrument: InstrumentMap, table: Table, folder: Path) -> Path | No
     Raises
     ------
     MapError
-        As `own_text`; ``map.unreadable`` for a file of theirs that cannot be read.
+        As `own_text`.
     FileError
-        The folder or the file cannot be written.
+        Their file cannot be read, or the folder or the file not be written.
     """
     path = folder / f"{instrument.id}.toml"
+    before = toml_text(path) if path.exists() else None
+    text = own_text(instrument, table, before, str(path))
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        before = path.read_text("utf-8-sig") if path.is_file() else None
-        text = own_text(instrument, table, before, str(path))
         if text is None:
             path.unlink(missing_ok=True)
             return None
-    except (OSError, UnicodeDecodeError) as error:
-        raise MapError("map.unreadable", file=str(path), detail=str(error)) from error
+    except OSError as error:
+        raise FileError("file.cannot_write", file=str(path), reason=error.strerror or str(error)) from error
     with atomic_write(path) as stream:
         stream.write(text.encode())
     return path

@@ -7,7 +7,7 @@ it stays in use. Everybody asks `library`; `reload` alone replaces it, by anothe
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from threading import RLock
@@ -16,7 +16,8 @@ from typing import TypeAlias
 import msgspec
 import platformdirs
 
-from app.errors import MapError, Message
+from app.errors import AppError, MapError, Message
+from app.formats.files import files_in
 from instrument_maps.check_model import model_problems
 from instrument_maps.load import MODELS, NOT_MAPS, bundled_maps, named_map
 from instrument_maps.model import InstrumentMap
@@ -94,13 +95,14 @@ def read_library(folder: Path, before: Library | None = None) -> Library:
         What was read before: unchanged maps stay the objects they were, and the good versions of files that are wrong
         now stay in use.
     """
-    stamp = _stamp(folder)
+    problems: dict[Path, tuple[Message, ...]] = {}
+    listed = _listed(folder, problems)
+    stamp = _stamp(listed)
     if before is not None and before.folder == folder and before.stamp == stamp:
         return before
     maps, own = dict(bundled_maps()), dict[str, Path]()
-    problems: dict[Path, tuple[Message, ...]] = {}
-    for path in sorted(folder.glob("*.toml")):
-        if path.name in NOT_MAPS:
+    for path in listed:
+        if path.suffix.lower() != ".toml" or path.name in NOT_MAPS:
             continue
         earlier = None if before is None or path.stem not in before.own else before.maps[path.stem]
         found, wrong = _own_map(path)
@@ -124,19 +126,28 @@ def _own_map(path: Path) -> tuple[InstrumentMap | None, tuple[Message, ...]]:
     """A map of a person's folder, or everything that is wrong with it."""
     try:
         instrument = named_map(path)
-    except MapError as error:
+    except AppError as error:
         return None, (error.message,)
     beside = path.parent / instrument.model
     wrong = model_problems(instrument, beside if beside.is_file() else MODELS / instrument.model)
     told = tuple(
-        Message("map.invalid", {"file": str(path), "path": where, "detail": detail}) for where, detail in wrong
+        Message("table.invalid", {"file": str(path), "place": where, "detail": detail}) for where, detail in wrong
     )
     return (None if told else msgspec.structs.replace(instrument)), told
 
 
-def _stamp(folder: Path) -> Stamp:
+def _listed(folder: Path, problems: dict[Path, tuple[Message, ...]]) -> list[Path]:
+    """Maps and models of a person's folder; what is wrong with the folder itself is added to the problems."""
+    try:
+        return files_in(folder, ".toml", ".glb")
+    except AppError as error:
+        problems[folder] = (error.message,)
+        return []
+
+
+def _stamp(paths: Iterable[Path]) -> Stamp:
     stamps = []
-    for path in (*folder.glob("*.toml"), *folder.glob("*.glb")):
+    for path in paths:
         try:
             status = path.stat()
         except OSError:

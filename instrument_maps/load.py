@@ -4,18 +4,14 @@ Messages
 --------
 map.unreadable : file, detail
     "{file}: cannot be read: {detail}"
-map.syntax : file, line, column, detail
-    "{file}, line {line}, column {column}: {detail}"
-map.invalid : file, path, detail
-    "{file}: {path}: {detail}"
+table.invalid : file, place, detail
+    "{file}: {place}: {detail}"; and what `app.formats.toml` says
 """
 
 from __future__ import annotations
 
 import contextlib
 import hashlib
-import re
-import tomllib
 from collections.abc import Mapping
 from functools import cache, lru_cache
 from pathlib import Path
@@ -23,9 +19,11 @@ from typing import Any
 
 import msgspec
 
-from app.errors import FileError, MapError, Message
+from app.errors import AppError, FileError, MapError, Message
 from app.formats.atomic import atomic_write
 from app.formats.cache import cache_folder
+from app.formats.files import files_in, read_file
+from app.formats.toml import parse_toml, shaped, toml_text
 from app.version import program_version
 from instrument_maps.extend import BASE, WITHOUT, extended, not_there
 from instrument_maps.fingering_label import controls_of
@@ -40,8 +38,11 @@ MODELS = FOLDER.parent / "resources" / "instruments"
 
 NOT_MAPS = frozenset({"vocabulary.toml"})
 
-_SYNTAX_PLACE = re.compile(r" \(at (?:line (\d+), column (\d+)|end of document)\)$")
-_SCHEMA_PLACE = re.compile(r" - at `(?:key in )?\$?\.?(.*)`$")
+MOST_BASES = 16
+"""How many maps may extend one another in a row."""
+
+MOST_KEPT_BYTES = 2**24
+"""Of the parsed maps in the cache, which have a tenth of it."""
 
 
 def parse_map(text: str, file: str) -> InstrumentMap:
@@ -57,11 +58,11 @@ def parse_map(text: str, file: str) -> InstrumentMap:
     Raises
     ------
     MapError
-        With line and column (``map.syntax``) or the key path (``map.invalid``) of the first problem.
+        With line and column (``table.syntax``) or the key path (``table.invalid``) of the first problem.
     """
     instrument = _shaped(text, file)
     for path, detail in problems(instrument):
-        raise MapError("map.invalid", file=file, path=path, detail=detail)
+        raise MapError("table.invalid", file=file, place=path, detail=detail)
     return instrument
 
 
@@ -71,9 +72,11 @@ def load_map(path: Path | str) -> InstrumentMap:
     Raises
     ------
     MapError
-        See `parse_map`; ``map.unreadable`` where the file cannot be read at all.
+        See `parse_map`.
+    FileError
+        The file cannot be read at all.
     """
-    return parse_map(_text(Path(path)), str(path))
+    return parse_map(toml_text(path), str(path))
 
 
 def check_map(path: Path | str) -> tuple[Message, ...]:
@@ -85,15 +88,15 @@ def check_map(path: Path | str) -> tuple[Message, ...]:
 
     file = Path(path)
     try:
-        instrument = _shaped(_text(file), str(file))
-    except MapError as error:
+        instrument = _shaped(toml_text(file), str(file))
+    except AppError as error:
         return (error.message,)
     found = [*problems(instrument)]
     if not any(where == "model" for where, _ in found):
         model = file.parent / instrument.model
         found += model_problems(instrument, model if model.exists() else MODELS / instrument.model)
     return tuple(
-        Message("map.invalid", {"file": str(file), "path": where, "detail": detail}) for where, detail in found
+        Message("table.invalid", {"file": str(file), "place": where, "detail": detail}) for where, detail in found
     )
 
 
@@ -106,8 +109,8 @@ def bundled_maps() -> Mapping[str, InstrumentMap]:
     """
     kept = cache_folder("maps") / f"maps-{_digest()}.msgpack"
     try:
-        return {instrument.id: instrument for instrument in _KEPT.decode(kept.read_bytes())}
-    except (OSError, msgspec.MsgspecError):
+        return {instrument.id: instrument for instrument in _KEPT.decode(read_file(kept, MOST_KEPT_BYTES))}
+    except (FileError, msgspec.MsgspecError, ValueError, RecursionError):
         maps = _folder_maps(FOLDER)
     # A cache that cannot be written costs the next start some tenths of a second and nothing else.
     with contextlib.suppress(OSError, FileError):
@@ -138,8 +141,7 @@ def model_path(instrument: InstrumentMap) -> Path:
 
 
 def _folder_maps(folder: Path) -> dict[str, InstrumentMap]:
-    paths = sorted(path for path in folder.glob("*.toml") if path.name not in NOT_MAPS)
-    return {path.stem: named_map(path) for path in paths}
+    return {path.stem: named_map(path) for path in files_in(folder, ".toml") if path.name not in NOT_MAPS}
 
 
 def named_map(path: Path) -> InstrumentMap:
@@ -147,29 +149,13 @@ def named_map(path: Path) -> InstrumentMap:
     instrument = load_map(path)
     if instrument.id != path.stem:
         detail = f"'{instrument.id}' is not the file's name, '{path.stem}'"
-        raise MapError("map.invalid", file=str(path), path="id", detail=detail)
+        raise MapError("table.invalid", file=str(path), place="id", detail=detail)
     return instrument
-
-
-def _text(path: Path) -> str:
-    try:
-        return path.read_bytes().decode("utf-8-sig").replace("\r\n", "\n")
-    except OSError as error:
-        raise MapError("map.unreadable", file=str(path), detail=error.strerror or str(error)) from error
-    except UnicodeDecodeError as error:
-        raise MapError("map.unreadable", file=str(path), detail=f"byte {error.start} is not UTF-8") from error
 
 
 def _shaped(text: str, file: str) -> InstrumentMap:
     """Parse, extend and convert: everything that types alone can tell."""
-    table = _extended(parse_table(text, file), file, ())
-    try:
-        instrument = msgspec.convert(table, InstrumentMap)
-    except msgspec.ValidationError as error:
-        place = _SCHEMA_PLACE.search(str(error))
-        path = place.group(1) if place else ""
-        detail = _SCHEMA_PLACE.sub("", str(error))
-        raise MapError("map.invalid", file=file, path=path or "(top level)", detail=detail) from error
+    instrument = shaped(_extended(parse_table(text, file), file, ()), InstrumentMap, file)
     told = [
         msgspec.structs.replace(fingering, controls=controls_of(fingering.label, instrument.controls) or {})
         if not fingering.controls
@@ -181,16 +167,8 @@ def _shaped(text: str, file: str) -> InstrumentMap:
 
 @lru_cache(maxsize=4)
 def parse_table(text: str, file: str) -> dict[str, Any]:
-    """Return a map's table, which nobody changes: several maps extend the same one. MapError: ``map.syntax``."""
-    try:
-        return tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        place = _SYNTAX_PLACE.search(str(error))
-        line, column = _place(text, place)
-        detail = _SYNTAX_PLACE.sub("", str(error))
-        raise MapError("map.syntax", file=file, line=line, column=column, detail=detail) from error
-    except RecursionError as error:
-        raise MapError("map.syntax", file=file, line=1, column=1, detail="nested too deeply") from error
+    """Return a map's table, which nobody changes: several maps extend the same one. Raises MapError."""
+    return parse_toml(text, file)
 
 
 def _extended(table: dict[str, Any], file: str, above: tuple[Path, ...]) -> dict[str, Any]:
@@ -199,27 +177,21 @@ def _extended(table: dict[str, Any], file: str, above: tuple[Path, ...]) -> dict
         return table
     base, own = table[BASE], Path(file).absolute()
     if not isinstance(base, str) or not base.isidentifier():
-        raise MapError("map.invalid", file=file, path=BASE, detail=f"{base!r} is not the id of a map")
+        raise MapError("table.invalid", file=file, place=BASE, detail=f"{base!r} is not the id of a map")
     # A person's own map may extend the bundled one of its own name.
     paths = [path for path in (folder / f"{base}.toml" for folder in (own.parent, FOLDER)) if path != own]
     path = next((path for path in paths if path.is_file()), None)
     if path in above or (path is None and base == own.stem):
-        raise MapError("map.invalid", file=file, path=BASE, detail=f"'{base}' extends itself")
+        raise MapError("table.invalid", file=file, place=BASE, detail=f"'{base}' extends itself")
+    if len(above) >= MOST_BASES:
+        raise MapError("table.invalid", file=file, place=BASE, detail=f"more than {MOST_BASES} maps extend one another")
     if path is None:
-        raise MapError("map.invalid", file=file, path=BASE, detail=f"there is no map named '{base}'")
-    below = _extended(parse_table(_text(path), str(path)), str(path), (*above, own))
+        raise MapError("table.invalid", file=file, place=BASE, detail=f"there is no map named '{base}'")
+    below = _extended(parse_table(toml_text(path), str(path)), str(path), (*above, own))
     wrong = not_there(below, table)
     if wrong is not None:
-        raise MapError("map.invalid", file=file, path=WITHOUT, detail=wrong)
+        raise MapError("table.invalid", file=file, place=WITHOUT, detail=wrong)
     return extended(below, table)
-
-
-def _place(text: str, found: re.Match[str] | None) -> tuple[int, int]:
-    """Line and column of a syntax error, counted from 1; the end of the text where the parser says so."""
-    if found is not None and found.group(1):
-        return int(found.group(1)), int(found.group(2))
-    lines = text.split("\n")
-    return len(lines), len(lines[-1]) + 1
 
 
 # Worked out here, under the import's lock: two threads that use a type for the first time at once crash msgspec.

@@ -12,7 +12,6 @@ vocabulary.invalid : file, detail
 from __future__ import annotations
 
 import re
-import tomllib
 import unicodedata
 from functools import cache
 from pathlib import Path
@@ -21,6 +20,7 @@ from typing import Literal
 import msgspec
 
 from app.errors import MapError
+from app.formats.toml import read_toml, shaped
 
 PATH = Path(__file__).with_name("vocabulary.toml")
 
@@ -202,10 +202,7 @@ def vocabulary() -> Vocabulary:
     MapError
         If the table is not valid.
     """
-    try:
-        table = msgspec.convert(tomllib.loads(PATH.read_text(encoding="utf-8")), _Table)
-    except (tomllib.TOMLDecodeError, msgspec.ValidationError) as error:
-        raise MapError("vocabulary.invalid", file=PATH.name, detail=str(error)) from error
+    table = shaped(read_toml(PATH, PATH.name), _Table, PATH.name)
     return Vocabulary(table.instruments, PATH.name, table.seating)
 
 

@@ -2,13 +2,12 @@
 
 Messages
 --------
-metadata.missing(kind, name, known), metadata.syntax(file, detail), metadata.invalid(file, key, detail)
+metadata.missing(kind, name, known); table.invalid(file, place, detail) and what `app.formats.toml` says
 """
 
 from __future__ import annotations
 
 import re
-import tomllib
 from collections.abc import Iterable
 from functools import cache
 from pathlib import Path
@@ -16,7 +15,9 @@ from typing import TypeVar, get_args
 
 import msgspec
 
-from app.errors import MapError, Message
+from app.errors import AppError, MapError, Message
+from app.formats.files import files_in
+from app.formats.toml import read_toml, shaped
 from metadata.model import (
     ARKIT_MORPHS,
     Body,
@@ -138,13 +139,17 @@ def load_folder_expressions(
     with files that hold none. A folder that is not there holds none."""
     found: dict[str, Expression] = {}
     problems = []
-    for path in sorted(folder.glob("*.toml")) if paths is None else paths:
+    try:
+        listed = files_in(folder, ".toml") if paths is None else paths
+    except AppError as error:
+        return {}, (error.message,)
+    for path in listed:
         try:
             expression = _decode(path, Expression)
             if not expression.name.strip() or not expression.name.isprintable():
                 raise _invalid(path, "name", "must be a name on one line")
             _check_morphs(path, "weights", expression.weights)
-        except MapError as error:
+        except AppError as error:
             problems.append(error.message)
         else:
             found[expression.name] = expression
@@ -252,23 +257,11 @@ def _path(kind: str, name: str) -> Path:
 
 
 def _decode(path: Path, type_: type[T]) -> T:
-    try:
-        table = tomllib.loads(path.read_bytes().decode())
-    except OSError as error:
-        raise MapError("metadata.syntax", file=path.name, detail=error.strerror or str(error)) from error
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise MapError("metadata.syntax", file=path.name, detail=str(error)) from error
-    try:
-        return msgspec.convert(table, type_)
-    except msgspec.ValidationError as error:
-        text = str(error)
-        found = re.search(r"^(.*?)(?: - at (?:`key` in )?`\$?\.?(.*?)`)?$", text)
-        detail, key = (found.group(1), found.group(2) or "") if found else (text, "")
-        raise _invalid(path, key, detail) from error
+    return shaped(read_toml(path, path.name), type_, path.name)
 
 
 def _invalid(path: Path, key: str, detail: str) -> MapError:
-    return MapError("metadata.invalid", file=path.name, key=key, detail=detail)
+    return MapError("table.invalid", file=path.name, place=key, detail=detail)
 
 
 def _check_name(path: Path, name: str) -> None:

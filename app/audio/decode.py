@@ -14,7 +14,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Final
 
 import numpy as np
@@ -23,6 +22,7 @@ import soxr
 
 from app.audio.track import RATE_HZ, Block, Samples
 from app.errors import Cancelled, FileError, Message
+from app.formats.files import open_file
 
 MOST_HOURS: Final = 4
 """Longer recordings would fill the memory: an hour takes 0.7 GB."""
@@ -75,12 +75,7 @@ def decode(
     Cancelled
     """
     try:
-        Path(path).open("rb").close()
-    except (OSError, ValueError) as error:
-        reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
-        raise FileError("file.cannot_read", file=path, reason=reason) from error
-    try:
-        with soundfile.SoundFile(path) as file:
+        with open_file(path) as stream, soundfile.SoundFile(stream) as file:
             return _read(path, file, progress, stop_wanted)
     except (soundfile.SoundFileError, RuntimeError, TypeError) as error:
         raise FileError("audio.not_readable", file=path, detail=_detail(error)) from error

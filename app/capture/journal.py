@@ -25,13 +25,16 @@ from typing import Final, TypeAlias
 import msgspec
 
 from app.errors import FileError
+from app.formats.files import read_file
 from app.formats.locks import lock
 
 VERSION: Final = 1
 _LENGTHS: Final = {0x8: 3, 0x9: 3, 0xA: 3, 0xB: 3, 0xC: 2, 0xD: 2, 0xE: 3}
 _LARGEST_NS: Final = 1 << 62
 _LARGEST_S: Final = 1e7
-_LARGEST_LATENCY_S: Final = 10.0
+LARGEST_LATENCY_S: Final = 10.0
+MOST_BYTES: Final = 2**28
+"""Of a journal; an hour of playing with breath has some 20 MB."""
 
 Gap: TypeAlias = tuple[int, int | None]
 """When the device had gone and when it was back; None where it stayed away."""
@@ -226,10 +229,7 @@ def read_journal(path: Path) -> Journal:
         ``file.cannot_read`` (file, reason), ``journal.no_header`` (file), ``journal.newer`` (file, version),
         ``journal.line`` (file, line, detail).
     """
-    try:
-        data = path.read_bytes()
-    except OSError as error:
-        raise FileError("file.cannot_read", file=str(path), reason=error.strerror or str(error)) from error
+    data = read_file(path, MOST_BYTES)
     first, *lines = data.split(b"\n")
     # What follows the last line feed was torn off, or nothing.
     torn = not lines
@@ -351,7 +351,7 @@ def _header(path: Path, line: bytes) -> Header | None:
         header = _HEADERS.decode(line)
     except (msgspec.MsgspecError, UnicodeDecodeError, RecursionError):
         return None
-    known = header.version == VERSION and abs(header.latency_s) <= _LARGEST_LATENCY_S
+    known = header.version == VERSION and abs(header.latency_s) <= LARGEST_LATENCY_S
     return header if known else None
 
 

@@ -28,9 +28,11 @@ from pathlib import Path, PureWindowsPath
 from typing import Final
 
 from app.errors import FileError
+from app.formats.files import read_file
 from app.formats.locks import is_locked, lock
 
 _SCRATCH: Final = re.compile(r"\.[0-9a-f]{16}\.partial")
+MOST_BYTES = 2**24
 _NEW, _OLD, _LOCK, _LIST = "new", "old", "lock", "coming.txt"
 
 
@@ -172,7 +174,7 @@ def _give_back(root: Path, partial: Path) -> None:
     """Make the tree what it was before its change began."""
     if not (partial / _LIST).is_file():
         return
-    lines = (partial / _LIST).read_text(encoding="utf-8", errors="replace").splitlines()
+    lines = read_file(partial / _LIST, MOST_BYTES).decode("utf-8", "replace").splitlines()
     # A project comes from anywhere, with whatever list in it.
     coming = [Path(line) for line in lines if stays_inside(line)]
     old = files_below(partial / _OLD) if (partial / _OLD).is_dir() else []

@@ -18,7 +18,6 @@ import os
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
@@ -26,6 +25,7 @@ import numpy.typing as npt
 from app.errors import FileError
 from app.formats import euler
 from app.formats.atomic import atomic_write
+from app.formats.files import read_file
 from app.formats.fixed_point import table_text
 from app.formats.rates import exact_rate
 
@@ -34,6 +34,7 @@ FloatArray = npt.NDArray[np.floating]
 _ORDER = "ZXY"
 _POSITIONS = ["Xposition", "Yposition", "Zposition"]
 _DEEPEST = 512
+MOST_BYTES = 2**29
 
 
 @dataclass(frozen=True, eq=False)
@@ -187,10 +188,7 @@ def read_bvh(path: str | os.PathLike[str]) -> BvhClip:
         If it is no such file.
     """
     file = os.fspath(path)
-    try:
-        text = Path(path).read_bytes().decode("utf-8", "replace")
-    except OSError as error:
-        raise FileError("file.cannot_read", file=file, reason=error.strerror or str(error)) from error
+    text = read_file(path, MOST_BYTES).decode("utf-8", "replace")
     return decode_bvh(text, file)
 
 

@@ -1,10 +1,113 @@
-"""Writing TOML files: tables of texts, numbers, truth values and tables of such."""
+"""TOML files, both ways: tables of texts, numbers, truth values, lists and tables of such.
+
+Reading is meant for files of any origin. What the format allows and no table of ours needs is refused: numbers beyond
+64 bits, nan and infinity, names and tables nested deeper than anybody writes. Besides being wrong, each of them makes
+some step behind the parser fail, or take longer than the square of the file's size.
+
+Messages (`MapError`)
+--------
+table.syntax : file, line, column, detail
+table.not_utf8 : file, byte
+table.invalid : file, place, detail
+"""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
-from typing import Any
+import math
+import os
+import re
+import tomllib
+from collections.abc import Iterator, Mapping
+from typing import Any, Final, TypeVar
+
+import msgspec
+
+from app.errors import MapError, shortened
+from app.formats.files import read_file
+
+T = TypeVar("T")
+
+MOST_BYTES: Final = 2**18
+"""The largest table that comes with the program has a fifth of it; parsing that much takes up to half a second."""
+DEEPEST: Final = 16
+
+_LINE_PLACE = re.compile(r" \(at (?:line (\d+), column (\d+)|end of document)\)$")
+_KEY_PLACE = re.compile(r" - at (?:`key` in )?`\$?\.?(.*)`$", re.DOTALL)
+# tomllib takes the square of a dotted name's length. Possessive, so that the search itself takes no square.
+_LONG_NAME = re.compile(
+    rf"""(?<![\w"'-])(?:(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+){{{DEEPEST}}}""", re.ASCII
+)
+_LONG_NUMBER = re.compile(r"[0-9][0-9_]{4000}", re.ASCII)
+
+
+def read_toml(path: str | os.PathLike[str], file: str | None = None) -> dict[str, Any]:
+    """The table in a file.
+
+    Parameters
+    ----------
+    path : str or path-like
+    file : str, optional
+        What the file is called in messages, by default its path.
+
+    Raises
+    ------
+    FileError
+        The file cannot be read, is no ordinary file, or too large.
+    MapError
+        It is no TOML, or not what a table of ours may hold.
+    """
+    return parse_toml(toml_text(path, file), os.fspath(path) if file is None else file)
+
+
+def toml_text(path: str | os.PathLike[str], file: str | None = None) -> str:
+    """The text of a file, line ends as ``\\n``. Raises FileError, MapError ``table.not_utf8``."""
+    try:
+        return read_file(path, MOST_BYTES).decode("utf-8-sig").replace("\r\n", "\n")
+    except UnicodeDecodeError as error:
+        raise MapError("table.not_utf8", file=os.fspath(path) if file is None else file, byte=error.start) from error
+
+
+def parse_toml(text: str, file: str) -> dict[str, Any]:
+    """The table in a text.
+
+    Raises
+    ------
+    MapError
+        ``table.syntax``: with the line and column, counted from 1; ``table.invalid``: with the key path.
+    """
+    deep = _LONG_NAME.search(text)
+    if deep is not None:
+        raise _syntax(text, file, deep.start(), f"a name of more than {DEEPEST} parts")
+    try:
+        table = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        found, detail = _LINE_PLACE.search(str(error)), shortened(_LINE_PLACE.sub("", str(error)))
+        if found is None or found.group(1) is None:
+            raise _syntax(text, file, len(text), detail) from error
+        line, column = int(found.group(1)), int(found.group(2))
+        raise MapError("table.syntax", file=file, line=line, column=column, detail=detail) from error
+    except RecursionError as error:
+        raise _syntax(text, file, _deepest(text), "lists or tables nested too deeply") from error
+    except ValueError as error:
+        # Python refuses to read a number of thousands of digits.
+        number = _LONG_NUMBER.search(text)
+        raise _syntax(text, file, 0 if number is None else number.start(), "a number with too many digits") from error
+    for place, detail in _not_allowed(table):
+        raise MapError("table.invalid", file=file, place=place, detail=detail)
+    return table
+
+
+def shaped(table: object, kind: type[T], file: str) -> T:
+    """A table as a typed value. Raises MapError ``table.invalid`` with the key path."""
+    try:
+        return msgspec.convert(table, kind)
+    except msgspec.ValidationError as error:
+        detail = str(error)
+        found = _KEY_PLACE.search(detail)
+        place = "" if found is None else shortened(found.group(1))
+        detail = shortened(detail if found is None else detail[: found.start()])
+        raise MapError("table.invalid", file=file, place=place or "(top level)", detail=detail) from error
 
 
 def toml(table: Mapping[str, Any], above: tuple[str, ...] = ()) -> str:
@@ -25,8 +128,45 @@ def toml(table: Mapping[str, Any], above: tuple[str, ...] = ()) -> str:
     return text
 
 
+def _syntax(text: str, file: str, at: int, detail: str) -> MapError:
+    line = text.count("\n", 0, at) + 1
+    column = at - text.rfind("\n", 0, at)
+    return MapError("table.syntax", file=file, line=line, column=column, detail=shortened(detail))
+
+
+def _deepest(text: str) -> int:
+    """Where more brackets are open than a table of ours has; those in texts count, for it is only told."""
+    depth = 0
+    for found in re.finditer(r"[\[\]{}]", text):
+        depth += 1 if found.group() in "[{" else -1
+        if depth > DEEPEST:
+            return found.start()
+    return 0
+
+
+def _not_allowed(table: dict[str, Any]) -> Iterator[tuple[str, str]]:
+    """What no table of ours may hold, by key path. Walked without recursion: a table may be of any depth."""
+    pending: list[tuple[tuple[str | int, ...], Any]] = [((), table)]
+    while pending:
+        keys, value = pending.pop()
+        if isinstance(value, dict | list):
+            if len(keys) > DEEPEST:
+                yield _place(keys), f"nested in more than {DEEPEST} others"
+                return
+            items = value.items() if isinstance(value, dict) else enumerate(value)
+            pending += [((*keys, key), item) for key, item in items]
+        elif isinstance(value, float) and not math.isfinite(value):
+            yield _place(keys), "not a finite number"
+        elif isinstance(value, int) and not -(2**63) <= value < 2**63:
+            yield _place(keys), "a number that is too large"
+
+
+def _place(keys: tuple[str | int, ...]) -> str:
+    return shortened("".join(f"[{key}]" if isinstance(key, int) else f".{key}" for key in keys).lstrip("."))
+
+
 def _key(key: str) -> str:
-    return key if key.isascii() and key.replace("_", "").isalnum() else _value(key)
+    return key if key and key.isascii() and key.replace("_", "").isalnum() else _value(key)
 
 
 def _value(value: Any) -> str:
@@ -35,4 +175,6 @@ def _value(value: Any) -> str:
         return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
     if isinstance(value, bool):
         return "true" if value else "false"
+    if isinstance(value, list | tuple):
+        return f"[{', '.join(map(_value, value))}]"
     return repr(float(value)) if isinstance(value, float) else str(int(value))

@@ -18,7 +18,6 @@ TEMPLATES: Final[dict[str, str]] = {
         "{file} was saved by a newer version of the program (its file version is {version}, this program knows up to "
         "{known}); open it with the newer version"
     ),
-    "project.too_large": "{file} is larger than the {most_mb} MB that a project can have; it is no project file",
     "project.cannot_save": (
         "{file} was not saved, it could not be opened again: {place}: {detail}; undo the last edit, then save"
     ),
@@ -77,5 +76,4 @@ TEMPLATES: Final[dict[str, str]] = {
     "reimport.not_played": "the player does not play the note {note}; choose one of theirs",
     "preset.no_name": "a preset needs a name that can be seen",
     "preset.none_of_name": "there is no preset {name!r}",
-    "preset.invalid": "{file}: {place}: {detail}",
 }

@@ -5,6 +5,9 @@ from __future__ import annotations
 from typing import Final
 
 TEMPLATES: Final[dict[str, str]] = {
+    "table.syntax": "{file}, line {line}, column {column}: {detail}; correct it in a text editor",
+    "table.invalid": "{file}: {place}: {detail}",
+    "table.not_utf8": "{file} is not UTF-8 text (byte {byte}); save it as UTF-8 in a text editor",
     "vocabulary.invalid": "{file}: {detail}",
     "gltf.not_gltf": "{file} is not a glTF 2.0 file",
     "gltf.damaged": "{file} is damaged: {what} is wrong",
@@ -17,8 +20,8 @@ TEMPLATES: Final[dict[str, str]] = {
     "figure.scaled": "{file} makes its figure {height_m} m tall, so its unit is wrong: sizes are taken times {factor}",
     "figure.odd_height": "{file} makes its figure {height_m} m tall; if that is not meant, export it in the right unit",
     "character.incomplete": "{file} cannot play: no bone was found for {joints}; name those bones by hand",
-    "character.unreadable": "{file} does not describe a character: {detail}",
     "character.file_missing": "{file} names {name}, which is not beside it",
+    "character.odd_name": "the name of {file} has characters that cannot be shown; rename it",
     "character.taken": "{file} describes {id!r}, which is one of our own characters; give it another name",
     "character.cannot_play": "{file} cannot play; what it lacks is said above",
     "characters.joint": "{text!r} names no joint and its bone; write e.g. leftHand=Wrist_L",
@@ -26,8 +29,6 @@ TEMPLATES: Final[dict[str, str]] = {
     "instruments.invalid": "{file} is not valid; problems: {count}",
     "instruments.read_again": "read again: {maps}",
     "map.unreadable": "{file}: cannot be read: {detail}",
-    "map.syntax": "{file}, line {line}, column {column}: {detail}",
-    "map.invalid": "{file}: {path}: {detail}",
     "map.not_rewritten": (
         "{file}: its table of fingerings is written in a way that cannot be changed here; change it in a text editor"
     ),
@@ -42,8 +43,6 @@ TEMPLATES: Final[dict[str, str]] = {
     "figure.no_shape": "{file}: there is no shape of the face named {shape!r} among ARKit's",
     "figure.no_morph": "{file} has no morph named {morph!r}, which is said to make {shape}",
     "metadata.missing": "there is no {kind} named {name!r}; there are: {known}",
-    "metadata.syntax": "{file}: {detail}",
-    "metadata.invalid": "{file}: {key}: {detail}",
     "character.missing": "there is no character named {id!r}; there are: {known}",
     "character.added": "{name} is there now: choose it for a player, under Character",
     "character.landmarks_missing": "the character {id!r} lacks what playing needs: {missing}",

@@ -19,11 +19,14 @@ import platformdirs
 
 from app.errors import FileError
 from app.formats.atomic import atomic_write, sweep
+from app.formats.files import read_file
+from app.formats.json_data import decode_json
 from app.formats.locks import is_locked, is_same_file, lock
 from app.project.storage import SUFFIX
 
 LOCK: Final = ".lock"
 NOTE: Final = ".json"
+MOST_NOTE_BYTES: Final = 2**16
 
 
 class Note(msgspec.Struct, frozen=True):
@@ -146,9 +149,10 @@ def editors(folder: Path) -> Iterator[tuple[str, bool]]:
 
 def note_of(folder: Path, token: str) -> Note:
     """What an editor works on; an empty note where it left none."""
+    path = folder / f"{token}{NOTE}"
     try:
-        return msgspec.json.decode((folder / f"{token}{NOTE}").read_bytes(), type=Note)
-    except (OSError, msgspec.MsgspecError):
+        return decode_json(read_file(path, MOST_NOTE_BYTES), Note, str(path))
+    except FileError:
         return Note()
 
 

@@ -6,13 +6,11 @@ does not need these files.
 
 Messages
 --------
-preset.no_name, preset.none_of_name : name, preset.invalid : file, place, detail
-file.cannot_read : file, reason; file.cannot_write : file, reason
+preset.no_name, preset.none_of_name : name, table.invalid : file, place, detail; file.cannot_write : file, reason
 """
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -21,9 +19,10 @@ from typing import Any, Final, Generic, TypeVar
 import msgspec
 import platformdirs
 
-from app.errors import AppError, FileError, Message, UsageError
+from app.errors import AppError, FileError, MapError, Message, UsageError
 from app.formats.atomic import atomic_write
-from app.formats.toml import toml
+from app.formats.files import files_in
+from app.formats.toml import read_toml, toml
 from app.plan.model import PlayerParameters
 from app.project import limits
 from app.project.check import expression_faults
@@ -36,7 +35,6 @@ T = TypeVar("T")
 
 NOT_IN_PRESETS: Final = frozenset({"seed", "cue_leader"})
 """Parameters that make one player differ from the others: a preset is for many."""
-_MOST_BYTES: Final = 2**20
 _NAME: Final = "name"
 
 
@@ -113,23 +111,16 @@ def delete_expression(folder: Path, name: str) -> None:
 
 
 def _read_preset(path: Path) -> Preset:
-    try:
-        with path.open("rb") as stream:
-            content = stream.read(_MOST_BYTES)
-        table = tomllib.loads(content.decode())
-    except OSError as error:
-        raise FileError("file.cannot_read", file=path.name, reason=error.strerror or str(error)) from error
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as error:
-        raise FileError("preset.invalid", file=path.name, place="-", detail=str(error)) from error
+    table = read_toml(path, path.name)
     name = table.pop(_NAME, None)
     if not isinstance(name, str) or not 0 < len(name) <= limits.MOST_NAME or name != clean_name(name):
-        raise FileError("preset.invalid", file=path.name, place=_NAME, detail="must be a name on one line")
+        raise MapError("table.invalid", file=path.name, place=_NAME, detail="must be a name on one line")
     for parameter, value in table.items():
         if parameter not in PlayerParameters.__struct_fields__ or parameter in NOT_IN_PRESETS:
-            raise FileError("preset.invalid", file=path.name, place=parameter, detail="not a parameter of presets")
+            raise MapError("table.invalid", file=path.name, place=parameter, detail="not a parameter of presets")
         if not is_possible(parameter, value):
-            raise FileError(
-                "preset.invalid", file=path.name, place=parameter, detail=f"possible: {range_text(parameter)}"
+            raise MapError(
+                "table.invalid", file=path.name, place=parameter, detail=f"possible: {range_text(parameter)}"
             )
     return Preset(name, table)
 
@@ -137,7 +128,11 @@ def _read_preset(path: Path) -> Preset:
 def _found(folder: Path, read: Callable[[Path], T], name_of: Callable[[T], str]) -> Found[T]:
     items: dict[str, T] = {}
     problems = []
-    for path in _files(folder):
+    try:
+        listed = files_in(folder, ".toml")
+    except FileError as error:
+        return Found({}, (error.message,))
+    for path in listed:
         try:
             item = read(path)
         except AppError as error:
@@ -147,16 +142,9 @@ def _found(folder: Path, read: Callable[[Path], T], name_of: Callable[[T], str])
     return Found(dict(sorted(items.items())), tuple(problems))
 
 
-def _files(folder: Path) -> list[Path]:
-    try:
-        return sorted(folder.glob("*.toml"))
-    except OSError:
-        return []
-
-
 def _path_of_preset(folder: Path, name: str) -> Path | None:
     """The file that holds a preset, whatever it is called."""
-    for path in _files(folder):
+    for path in files_in(folder, ".toml"):
         try:
             if _read_preset(path).name == name:
                 return path
@@ -166,7 +154,7 @@ def _path_of_preset(folder: Path, name: str) -> Path | None:
 
 
 def _path_of_expression(folder: Path, name: str) -> Path | None:
-    for path in _files(folder):
+    for path in files_in(folder, ".toml"):
         items, _ = load_folder_expressions(folder, [path])
         if name in items:
             return path
@@ -187,7 +175,7 @@ def _save(
     path = path_of(folder, name) if name in known else None
     if path is None:
         stem = file_stem(name)
-        taken = {existing.stem.casefold() for existing in _files(folder)}
+        taken = {existing.stem.casefold() for existing in files_in(folder, ".toml")}
         number, path = 2, folder / f"{stem}.toml"
         while path.stem.casefold() in taken:
             number, path = number + 1, folder / f"{stem} ({number}).toml"

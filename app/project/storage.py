@@ -9,10 +9,9 @@ Messages (`FileError`)
 project.damaged : file, detail
 project.invalid : file, place, detail
 project.newer : file, version, known
-project.too_large : file, most_mb
 project.cannot_save : file, place, detail
 project.read_only : file
-file.cannot_read : file, reason
+and what `read_file` says
 """
 
 from __future__ import annotations
@@ -28,8 +27,9 @@ from typing import Any, Final
 import msgspec
 import numpy as np
 
-from app.errors import FileError, Message
+from app.errors import FileError, Message, shortened
 from app.formats.atomic import atomic_write
+from app.formats.files import open_file, read_file
 from app.plan.corrections import Correction
 from app.project.check import faults
 from app.project.ids import is_made_here
@@ -50,7 +50,7 @@ AUTOSAVE: Final = ".autosave"
 
 MOST_BYTES: Final = 256 * 2**20
 
-_PLACE = re.compile(r"^(.*?)(?: - at `(key in )?\$?\.?(.*?)`)?$", re.DOTALL)
+_PLACE = re.compile(r"^(.*?)(?: - at (`key` in )?`\$?\.?(.*?)`)?$", re.DOTALL)
 _FPS = re.compile(r"[1-9][0-9]{0,8}(?:/[1-9][0-9]{0,8})?", re.ASCII)
 
 
@@ -144,13 +144,11 @@ def content_hash(content: bytes) -> str:
 def file_hash(path: Path) -> str:
     """`content_hash` of a file; empty where it is not there or cannot be read."""
     try:
-        if path.is_file():
-            with path.open("rb") as stream:
-                return hashlib.file_digest(stream, "sha256").hexdigest()
-    except (OSError, ValueError):
+        with open_file(path) as stream:
+            return hashlib.file_digest(stream, "sha256").hexdigest()
+    except (OSError, FileError):
         # Whoever reads or writes the file next gets the reason.
-        pass
-    return ""
+        return ""
 
 
 def backup_path(path: Path) -> Path:
@@ -230,16 +228,7 @@ def load(path: str | os.PathLike[str]) -> Project:
 
 def read(path: str | os.PathLike[str]) -> bytes:
     """The bytes of a project's file, for `decode`. Raises FileError."""
-    name = os.fspath(path)
-    try:
-        with Path(path).open("rb") as stream:
-            content = stream.read(MOST_BYTES + 1)
-    except (OSError, ValueError) as error:
-        reason = (error.strerror if isinstance(error, OSError) else None) or str(error)
-        raise FileError("file.cannot_read", file=name, reason=reason) from error
-    if len(content) > MOST_BYTES:
-        raise FileError("project.too_large", file=name, most_mb=MOST_BYTES // 2**20)
-    return content
+    return read_file(path, MOST_BYTES)
 
 
 def decode(content: bytes, path: Path, name: str | None = None) -> Project:
@@ -254,7 +243,7 @@ def decode(content: bytes, path: Path, name: str | None = None) -> Project:
     try:
         raw = msgspec.json.decode(content)
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
-        raise FileError("project.damaged", file=file, detail=str(error)) from error
+        raise FileError("project.damaged", file=file, detail=shortened(error)) from error
     if not isinstance(raw, dict) or not _is_version(raw.get(VERSION_KEY)):
         raise FileError("project.damaged", file=file, detail=f"no {VERSION_KEY}")
     raw.pop("autosave", None)
@@ -387,8 +376,8 @@ def _converted(raw: Any, type_: Any, prefix: str, file: str) -> Any:
     except msgspec.ValidationError as error:
         found = _PLACE.match(str(error))
         detail, place = (found.group(1), found.group(3) or "") if found else (str(error), "")
-        where = f"{prefix}{place}" if prefix else place
-        raise FileError("project.invalid", file=file, place=where or "$", detail=detail) from error
+        where = shortened(f"{prefix}{place}" if prefix else place)
+        raise FileError("project.invalid", file=file, place=where or "$", detail=shortened(detail)) from error
     except RecursionError as error:
         raise FileError("project.damaged", file=file, detail=str(error)) from error
 

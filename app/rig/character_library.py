@@ -8,10 +8,12 @@ Messages
 --------
 character.missing : id, known
     "There is no character named '{id}'; known: {known}"
-character.unreadable : file, detail
-    "{file} does not describe a character: {detail}"
+table.invalid : file, place, detail
+    "{file}: {place}: {detail}"; and what `app.formats.toml` says
 character.file_missing : file, name
     "{file} names {name}, which is not beside it"
+character.odd_name : file
+    "the name of {file} has characters that cannot be shown; rename it"
 character.taken : file, id
     "{file} describes '{id}', which is a character of ours"
 """
@@ -20,7 +22,6 @@ from __future__ import annotations
 
 import os
 import re
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cache, lru_cache
@@ -33,16 +34,17 @@ from typing import Final, TypeAlias
 import msgspec
 import platformdirs
 
-from app.errors import AppError, FileError, Message, UsageError
+from app.errors import AppError, FileError, MapError, Message, UsageError, shortened
 from app.formats.atomic import atomic_write
-from app.formats.toml import toml
+from app.formats.files import files_in, open_file, read_file
+from app.formats.gltf.read import MOST_BYTES
+from app.formats.toml import read_toml, shaped, toml
 from app.rig.character import load_character
 from app.rig.model import Character
 from app.rig.read_figure import SUFFIXES
 
 FOLDER_VARIABLE: Final = "SUISOU_CHARACTERS"
 """Environment variable that names another folder for a person's own characters."""
-MOST_TOML_BYTES: Final = 2**20
 MOST_ID: Final = 60
 RESERVED: Final = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)", re.IGNORECASE)
 """Names that are devices on Windows."""
@@ -144,16 +146,23 @@ def read_characters(folder: Path, before: CharacterLibrary | None = None) -> Cha
         What was read before: the good versions of entries that are wrong now stay in use.
     """
     # Also the one that a program has called X.VRM.
-    stamp = _stamp(sorted(path for path in folder.glob("*") if path.suffix.lower() in (".toml", *SUFFIXES)))
+    problems: dict[Path, Message] = {}
+    try:
+        listed = files_in(folder, ".toml", *SUFFIXES)
+    except FileError as error:
+        problems[folder] = error.message
+        listed = []
+    stamp = _stamp(listed)
     if before is not None and before.folder == folder and before.stamp == stamp:
         return before
     bundled = {id: Source(path) for id, path in bundled_characters().items()}
     own: dict[str, Source] = {}
-    problems: dict[Path, Message] = {}
-    for path in sorted(folder.glob("*.toml")):
+    for path in listed:
+        if path.suffix.lower() != ".toml":
+            continue
         try:
             own[path.stem] = _own_source(path)
-        except FileError as error:
+        except AppError as error:
             problems[path] = error.message
             if before is not None and path.stem in before.own:
                 own[path.stem] = before.sources[path.stem]
@@ -168,6 +177,8 @@ def read_characters(folder: Path, before: CharacterLibrary | None = None) -> Cha
 
 def _own_source(path: Path) -> Source:
     """The source of an entry. Raises FileError."""
+    if not path.stem.isprintable():  # Bytes that are no UTF-8 are not printable either.
+        raise FileError("character.odd_name", file=str(path))
     if path.stem in bundled_characters():
         # What is known of ours beforehand, their size and their holds, would not be true of another.
         raise FileError("character.taken", file=str(path), id=path.stem)
@@ -179,21 +190,11 @@ def _own_source(path: Path) -> Source:
 
 
 def read_entry(path: Path) -> CharacterEntry:
-    """Read the description of a person's own character. Raises FileError."""
-    try:
-        with path.open("rb") as stream:
-            data = stream.read(MOST_TOML_BYTES + 1)
-    except OSError as error:
-        raise FileError("file.cannot_read", file=str(path), reason=error.strerror or str(error)) from error
-    if len(data) > MOST_TOML_BYTES:
-        raise FileError("character.unreadable", file=str(path), detail="too long")
-    try:
-        entry = msgspec.convert(tomllib.loads(data.decode()), CharacterEntry)
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError, msgspec.ValidationError, RecursionError) as error:
-        raise FileError("character.unreadable", file=str(path), detail=str(error)) from error
+    """Read the description of a person's own character. Raises FileError, MapError."""
+    entry = shaped(read_toml(path), CharacterEntry, str(path))
     if not _is_plain(entry.file):
-        detail = f"file: {entry.file!r} must be the name of a file in this folder ({', '.join(SUFFIXES)})"
-        raise FileError("character.unreadable", file=str(path), detail=detail)
+        detail = f"{shortened(entry.file)!r} must be the name of a file in this folder ({', '.join(SUFFIXES)})"
+        raise MapError("table.invalid", file=str(path), place="file", detail=detail)
     return entry
 
 
@@ -328,10 +329,7 @@ def add_character(
     with _lock:
         id = _free_id(title, folder)
         suffix = path.suffix.lower() if path.suffix.lower() in SUFFIXES else _suffix_of(path)
-        try:
-            content = path.read_bytes()
-        except OSError as error:
-            raise FileError("file.cannot_read", file=str(path), reason=error.strerror or str(error)) from error
+        content = read_file(path, MOST_BYTES)
         with atomic_write(folder / f"{id}{suffix}") as stream:
             stream.write(content)
         # A file without a description is nobody: what fails between the two leaves no half of a character.
@@ -382,6 +380,6 @@ def _free_id(title: str, folder: Path) -> str:
 
 def _suffix_of(path: Path) -> str:
     """The ending of a file that is not called as what it is."""
-    with path.open("rb") as opened:
+    with open_file(path) as opened:
         start = opened.read(16)
     return ".glb" if start.startswith(b"glTF") else ".fbx" if start.startswith(b"Kaydara") else ".gltf"

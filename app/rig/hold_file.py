@@ -22,6 +22,8 @@ import numpy.typing as npt
 from app.errors import FileError
 from app.formats.atomic import atomic_write
 from app.formats.cache import cache_folder
+from app.formats.files import read_file
+from app.formats.json_data import decode_json
 from app.rig.carriage import usual_posture
 from app.rig.fit import FIT_VERSION, PLACES_VERSION, fit_hold, require_landmarks
 from app.rig.grip_search import Told, unheard
@@ -32,6 +34,8 @@ from app.rig.stations import asked_together, only_at
 from instrument_maps.model import InstrumentMap
 from metadata.model import Body
 
+MOST_BYTES = 2**22
+"""Of a file; those that come with the program have a twentieth of it."""
 DIGITS = 6
 """A millionth of a radian or of a metre is far below what anybody sees, and keeps the files small."""
 
@@ -94,8 +98,8 @@ def usual_wrists(instrument_id: str) -> Mapping[str, tuple[npt.NDArray[np.float6
     """Where the wrists of one of our bodies are on an instrument, by side: place (3,) and rotation (4,) in its frame.
     Empty for an instrument that none of them holds yet."""
     for path in sorted(bundled_path("*", instrument_id).parent.glob(f"*.{instrument_id}.json")):
-        with contextlib.suppress(OSError, msgspec.MsgspecError, UnicodeDecodeError):
-            kept = _DECODER.decode(path.read_bytes())
+        with contextlib.suppress(FileError):
+            kept = _read(path)
             return {
                 hand.side: (
                     np.atleast_2d(hand.instrument_from_hand_m)[0],
@@ -123,8 +127,8 @@ def stored(hold: Hold) -> Hold:
 def read_hold(path: Path, digest: str, lips: Lips) -> Hold | None:
     """Read the hold fitted from inputs of this digest; None where the file holds no such thing."""
     try:
-        stored = msgspec.json.decode(path.read_bytes(), type=_StoredHold, dec_hook=_array)
-    except (OSError, msgspec.MsgspecError, UnicodeDecodeError):
+        stored = _read(path)
+    except FileError:
         return None
     if stored.digest != digest:
         return None
@@ -152,6 +156,10 @@ def hold_for(
         cached.parent.mkdir(parents=True, exist_ok=True)
         write_hold(cached, digest, hold)
     return hold
+
+
+def _read(path: Path) -> _StoredHold:
+    return decode_json(read_file(path, MOST_BYTES), _DECODER, str(path))
 
 
 def _plain(value: Any) -> Any:

@@ -10,11 +10,11 @@ file.cannot_read : file, reason
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 from typing import Final
 
 from app.errors import FileError
+from app.formats.files import open_file
 from app.rig.figure import Figure
 from app.rig.figure_fbx import fbx_figure
 from app.rig.figure_gltf import gltf_figure
@@ -22,8 +22,6 @@ from app.rig.source import invalid
 
 SUFFIXES: Final = (".vrm", ".glb", ".gltf", ".fbx")
 """Of the files that can be opened."""
-MOST_BYTES: Final = 2**30
-"""Of a file; characters have a hundredth of it."""
 
 
 def read_figure(path: Path) -> Figure:
@@ -34,14 +32,8 @@ def read_figure(path: Path) -> Figure:
     FileError
         It cannot be read, is of no known format, damaged, absurdly large, or holds no skeleton.
     """
-    try:
-        with path.open("rb") as opened:
-            start = opened.read(64)
-            size = opened.seek(0, os.SEEK_END)
-    except OSError as error:
-        raise FileError("file.cannot_read", file=str(path), reason=error.strerror or str(error)) from error
-    if size > MOST_BYTES:
-        raise FileError("figure.too_large", file=str(path))
+    with open_file(path) as opened:
+        start = opened.read(64)
     try:
         if start.startswith(b"glTF") or start.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"{"):
             return gltf_figure(path)

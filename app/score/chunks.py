@@ -2,8 +2,8 @@
 
 Errors (all `FileError`)
 ------------------------
-file.unreadable : file, detail
-    "{file}: cannot be read: {detail}"
+file.cannot_read, file.not_regular, file.too_large : file ...
+    See `app.formats.files`.
 midi.empty : file
     "{file}: the file is empty"
 midi.not_midi : file, byte, found
@@ -38,7 +38,10 @@ from pathlib import Path
 import msgspec
 
 from app.errors import FileError, Message
+from app.formats.files import read_file
 
+MOST_BYTES = 2**26
+"""Of a file; a symphony has some hundreds of kilobytes."""
 _END_OF_TRACK = b"\xff\x2f\x00"
 
 
@@ -80,10 +83,7 @@ def read_container(path: Path) -> Container:
     FileError
     """
     file = str(path)
-    try:
-        data = path.read_bytes()
-    except OSError as error:
-        raise FileError("file.unreadable", file=file, detail=error.strerror or type(error).__name__) from error
+    data = read_file(path, MOST_BYTES)
     if not data:
         raise FileError("midi.empty", file=file)
     start = data.find(b"MThd", 0, 4096)

@@ -9,6 +9,7 @@ import threading
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 from PySide6.QtCore import QCoreApplication, QEventLoop, QObject, Qt, QTimer
@@ -16,7 +17,7 @@ from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QApplication
 
 from app.audio.playback import Playback
-from app.errors import AppError
+from app.errors import AppError, Message
 from app.project.autosave import Autosave
 from app.project.edit.piece import new_piece
 from app.project.presence import Presence, recovery_folder
@@ -119,6 +120,9 @@ class Program(QObject):
         self._application = application
         self.tasks: Tasks = ThreadTasks() if tasks is None else tasks
         self.session = Session(new_piece(), self.tasks)
+        settings.failed.connect(self._warn)
+        for problem in settings.problems:
+            QTimer.singleShot(0, self, partial(self._warn, problem))
         asked: Questions = Dialogs() if questions is None else questions
         self.language = Language()
         self.language.set(settings.language)
@@ -141,6 +145,9 @@ class Program(QObject):
         self.language.changed.connect(self.editor.table.retranslate)
         self.window = Window(self.editor, self.generator)
         KeyboardButtons(application, self)
+
+    def _warn(self, message: Message) -> None:
+        self.session.notice(message, Severity.WARNING)
 
     def _dress(self) -> None:
         apply_theme(self._application, self.session.tokens)
@@ -223,7 +230,7 @@ def picture(start: Start, target: Path) -> int:
 
     garbage = Garbage()
     with tempfile.TemporaryDirectory() as folder:
-        settings = Settings(Path(folder) / "editor.ini")
+        settings = Settings(Path(folder) / "editor.toml")
         settings.language = start.language or "en"
         settings.theme = start.theme or "dark"
         program = Program(settings, heard=False)

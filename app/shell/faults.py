@@ -75,6 +75,8 @@ class Faults:
         head = f"{datetime.now(UTC).isoformat(timespec='seconds')} Python {platform.python_version()} {sys.platform}"
         try:
             self._log.parent.mkdir(parents=True, exist_ok=True)
+            if self._log.exists() and not self._log.is_file():
+                raise OSError(f"{self._log} is no file")  # A pipe would wait for a reader.
             is_long = self._log.exists() and self._log.stat().st_size > MOST_BYTES
             with self._log.open("w" if is_long else "a", encoding="utf-8") as stream:
                 stream.write(f"{head}\n{text}\n")

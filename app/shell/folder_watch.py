@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Callable, Collection
 from pathlib import Path
 
 from PySide6.QtCore import QFileSystemWatcher, QObject, QTimer, Signal
+
+from app.errors import FileError
+from app.formats.files import files_in
 
 QUIET_MS = 250
 """A program that writes a file touches it several times: it is told when nothing was heard of it for so long."""
@@ -39,8 +43,8 @@ class FolderWatch(QObject):
         """Watch the folder and its files as they are now; a folder that is not there yet, by the one it would be in."""
         folder = self._folder()
         wanted = {str(next(place for place in (folder, *folder.parents) if place.is_dir()))}
-        if folder.is_dir():
-            wanted |= {str(path) for path in folder.iterdir() if path.suffix.lower() in self._suffixes}
+        with contextlib.suppress(FileError):  # Who reads the folder says that it cannot be listed.
+            wanted |= {str(path) for path in files_in(folder, *self._suffixes) if path.exists()}
         watched = {*self._watcher.directories(), *self._watcher.files()}
         if gone := watched - wanted:
             self._watcher.removePaths(sorted(gone))

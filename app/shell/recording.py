@@ -20,7 +20,7 @@ from PySide6.QtCore import QCoreApplication, QObject, Qt, QTimer
 
 from app.audio.playback import Playback
 from app.capture.adopt import takes_of
-from app.capture.journal import Header, Journal, read_journal
+from app.capture.journal import LARGEST_LATENCY_S, Header, Journal, read_journal
 from app.capture.link import RecorderLink
 from app.capture.protocol import (
     Back,
@@ -201,6 +201,8 @@ class Recorder(QObject):
             latency_s = float(self._settings.midi_device(port, "latency_s") or 0.0)
         except ValueError:
             latency_s = 0.0
+        # Also where somebody wrote nan or an hour into the settings.
+        latency_s = latency_s if abs(latency_s) <= LARGEST_LATENCY_S else 0.0
         self._state.set(controller=controller, latency_s=latency_s, wiring=self._wiring(port, controllers[controller]))
 
     def _wiring(self, port: str, controller: Controller) -> Wiring:

@@ -1,341 +1,324 @@
-"""What a person chose for the editor on this machine; in a file of their configuration folder, never in a project."""
+"""What the user chose for the editor on this machine; in a file of their configuration folder, never in a project.
+
+The file is a TOML table that may be edited by hand. A value that is not possible is as if it were not there; a file
+that cannot be read at all is left as it is, and what is chosen meanwhile is kept until it can be, or the editor ends.
+
+Messages
+--------
+settings.value : file, place, detail
+settings.set_aside : file
+    After the message that says why.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import base64
+import binascii
+import os
 from pathlib import Path
-from typing import Final, TypeVar
-from urllib.parse import quote
+from typing import Annotated, Any, Final, Generic, Literal, TypeVar, overload
+from urllib.parse import quote, unquote_to_bytes
 
+import msgspec
 import platformdirs
-from PySide6.QtCore import QByteArray, QSettings
+from PySide6.QtCore import QByteArray, QCoreApplication, QObject, QTimer, Signal
 
+from app.errors import AppError, FileError, Message
+from app.formats.atomic import atomic_write
+from app.formats.toml import read_toml, shaped, toml
 from app.stream.sender import LEAST_PORT, MOST_PORT
 
 T = TypeVar("T")
 
 MOST_RECENT: Final = 12
 """Recent files kept."""
+WRITE_MS: Final = 300
+"""What is dragged changes many times a second: it is written once in this time."""
+_PATH_OF_BYTES: Final = "file://"
+"""Before a path whose name is not UTF-8, which no text file can hold as it is."""
 
 
 def settings_path() -> Path:
-    """Where the settings of this person are."""
-    return Path(platformdirs.user_config_dir("suisou", appauthor=False)) / "editor.ini"
+    """Where the settings of this user are."""
+    return Path(platformdirs.user_config_dir("suisou", appauthor=False)) / "editor.toml"
 
 
-class Settings:
-    """Typed values in an INI file; each is written at once.
+class _Value(Generic[T]):
+    """One setting, an attribute of `Settings`.
+
+    Parameters
+    ----------
+    key : str
+        ``section/name``, or a whole section.
+    default : T
+    kind : type, optional
+        What is possible, as msgspec understands it; by default the default's type.
+    """
+
+    def __init__(self, key: str, default: T, kind: Any = None) -> None:
+        section, _, name = key.partition("/")
+        self.keys = section, name
+        self.default = default
+        self._kind = type(default) if kind is None else kind
+
+    @overload
+    def __get__(self, settings: None, owner: type) -> _Value[T]: ...
+    @overload
+    def __get__(self, settings: Settings, owner: type) -> T: ...
+    def __get__(self, settings: Settings | None, owner: type) -> T | _Value[T]:
+        if settings is None:
+            return self
+        stored = settings.stored(self.keys)
+        return self.default if stored is None else self.read(stored, "")
+
+    def __set__(self, settings: Settings, value: T) -> None:
+        settings.store(self.keys, self.written(value))
+
+    def read(self, stored: object, file: str) -> T:
+        """The value; MapError where it is not possible."""
+        value: T = shaped(stored, self._kind, file)
+        return value
+
+    def written(self, value: T) -> object:
+        """As the file has it."""
+        return value
+
+
+class _Bytes(_Value[QByteArray]):
+    """Bytes of Qt, as base64."""
+
+    def __init__(self, key: str) -> None:
+        super().__init__(key, QByteArray(), str)
+
+    def read(self, stored: object, file: str) -> QByteArray:
+        try:
+            return QByteArray(base64.b64decode(shaped(stored, str, file), validate=True))
+        except (binascii.Error, ValueError):
+            return self.default
+
+    def written(self, value: QByteArray) -> object:
+        return base64.b64encode(value.data()).decode()
+
+
+class _FilePath(_Value[str]):
+    """A path; its bytes survive also where they are not UTF-8."""
+
+    def read(self, stored: object, file: str) -> str:
+        return _path_of(super().read(stored, file))
+
+    def written(self, value: str) -> object:
+        return _path_text(value)
+
+
+class Settings(QObject):
+    """Typed values in a TOML file; each is written soon after it changes, beside those of other editors.
 
     Parameters
     ----------
     path : Path
         Need not exist.
+
+    Signals
+    -------
+    failed(Message)
+        The file can no longer be read or written; told once.
     """
 
+    failed = Signal(object)
+
+    language = _Value("interface/language", "")
+    """``"en"``, ``"ja"``; empty: the system's."""
+    theme = _Value("interface/theme", "dark")
+    folded = _Value("interface/folded", dict[str, bool](), dict[str, bool])
+    """Which parts of panels are folded, by name."""
+    time_display = _Value("interface/time_display", "bars")
+    """``"bars"``, ``"seconds"`` or ``"frames"``."""
+
+    written_pitch = _Value("pitch/written", False)
+    """Pitches as written for the instrument instead of as they sound."""
+    middle_c_octave = _Value("pitch/middle_c_octave", 4, Literal[3, 4])
+    syllables = _Value("pitch/syllables", False)
+    """Do re mi instead of C D E."""
+
+    volume = _Value("sound/volume", 0.8, Annotated[float, msgspec.Meta(ge=0.0, le=1.0)])
+    """0..1 as the ear judges it."""
+    click = _Value("sound/click", False)
+    """Whether a metronome is heard."""
+    scrub_sound = _Value("sound/scrub", True)
+    """Whether moving the playhead by hand is heard."""
+    source = _Value("sound/source", "recording")
+    """What is heard where a project has a recording: ``"recording"``, ``"synthesiser"`` or ``"both"``."""
+
+    midi_port = _Value("midi/port", "")
+    """The device that is recorded from; empty: none was chosen."""
+    count_in_bars = _Value("midi/count_in_bars", 1, Annotated[int, msgspec.Meta(ge=0, le=4)])
+
+    stream_host = _Value("stream/host", "")
+    """The computer that is streamed to; empty: none was chosen."""
+    stream_port = _Value("stream/port", 0, Annotated[int, msgspec.Meta(ge=LEAST_PORT, le=MOST_PORT)])
+    """0: none was chosen."""
+    stream_everyone = _Value("stream/everyone", False)
+    """Every player is streamed, not only the one in front."""
+    stream_faces = _Value("stream/faces", "")
+    """Of `app.stream.faces.FACE_NAMES`; empty: none was chosen."""
+    stream_rate_hz = _Value("stream/rate_hz", 0)
+    """Frames in a second; 0: none were chosen."""
+
+    geometry = _Bytes("window/geometry")
+    """Where the window is and how large."""
+    layout = _Bytes("window/layout")
+    """Where the panels are."""
+    timeline = _Value("window/timeline", "")
+    """The timeline's lanes: order, heights, folds."""
+
+    folder = _FilePath("files/folder", "")
+    """Where a file was last opened or saved."""
+    export_folder = _FilePath("files/export_folder", "")
+    """Where players were last exported to."""
+    unreal_project = _FilePath("files/unreal_project", "")
+    """The Unreal project that players were last exported into; empty: none."""
+    export_into = _Value("files/export_into", "folder")
+    """Where players were last exported to: ``"folder"`` or ``"unreal"``."""
+    _recent = _Value("files/recent", tuple[str, ...](), tuple[str, ...])
+
+    _shortcuts = _Value("shortcuts", dict[str, str](), dict[str, str])
+    _midi_devices = _Value("midi_devices", dict[str, dict[str, str]](), dict[str, dict[str, str]])
+
     def __init__(self, path: Path) -> None:
+        super().__init__()
         self.path = path
-        self._file = QSettings(str(path), QSettings.Format.IniFormat)
-
-    def _get(self, key: str, default: T) -> T:
-        # A new process reads every value as a string unless it is told the type.
+        self.problems: tuple[Message, ...] = ()
+        """What is wrong with the file, as it was found at the start."""
+        self._is_told = False
+        self._changes: dict[tuple[str, str], object] = {}
+        self._timer = QTimer(self, interval=WRITE_MS, singleShot=True)
+        self._timer.timeout.connect(self.sync)
         try:
-            value = self._file.value(key, default, type(default))
-        except (TypeError, ValueError, EOFError):
-            # Somebody edited the file by hand, or it is damaged: what cannot be understood is as if it were not there.
-            return default
-        return value if isinstance(value, type(default)) else default
+            self._table = self._possible(self._read())
+        except AppError as error:
+            self._table = {}
+            self._is_told = True
+            self.problems = (error.message, Message("settings.set_aside", {"file": os.fspath(path)}))
 
-    def _set(self, key: str, value: object) -> None:
-        self._file.setValue(key, value)
+    # What is in the file
+
+    def stored(self, keys: tuple[str, str]) -> object:
+        """What the file has under a section and a name; None: nothing."""
+        section, name = keys
+        values = self._table.get(section)
+        return values if not name else values.get(name) if isinstance(values, dict) else None
+
+    def store(self, keys: tuple[str, str], value: object) -> None:
+        """Put something under a section and a name, and write it soon."""
+        if self.stored(keys) == value:
+            return
+        _put(self._table, keys, value)
+        self._changes[keys] = value
+        if not self._timer.isActive() and QCoreApplication.instance() is not None:
+            self._timer.start()
 
     def sync(self) -> None:
-        """Write to the disk now."""
-        self._file.sync()
-
-    @property
-    def language(self) -> str:
-        """``"en"``, ``"ja"``; empty: the system's."""
-        return self._get("interface/language", "")
-
-    @language.setter
-    def language(self, value: str) -> None:
-        self._set("interface/language", value)
-
-    @property
-    def theme(self) -> str:
-        """``"dark"`` or ``"light"``."""
-        return self._get("interface/theme", "dark")
-
-    @theme.setter
-    def theme(self, value: str) -> None:
-        self._set("interface/theme", value)
-
-    @property
-    def folded(self) -> dict[str, bool]:
-        """Which parts of panels are folded, by name."""
-        found = {}
-        for entry in self._get("interface/folded", "").split(","):
-            name, _, state = entry.partition(":")
-            if name and state in ("0", "1"):
-                found[name] = state == "1"
-        return found
-
-    @folded.setter
-    def folded(self, value: Mapping[str, bool]) -> None:
-        self._set("interface/folded", ",".join(f"{name}:{int(folded)}" for name, folded in sorted(value.items())))
-
-    @property
-    def written_pitch(self) -> bool:
-        """Pitches as written for the instrument instead of as they sound."""
-        return self._get("pitch/written", False)
-
-    @written_pitch.setter
-    def written_pitch(self, value: bool) -> None:
-        self._set("pitch/written", value)
-
-    @property
-    def middle_c_octave(self) -> int:
-        """3 or 4."""
-        return 3 if self._get("pitch/middle_c_octave", 4) == 3 else 4
-
-    @middle_c_octave.setter
-    def middle_c_octave(self, value: int) -> None:
-        self._set("pitch/middle_c_octave", value)
-
-    @property
-    def syllables(self) -> bool:
-        """Do re mi instead of C D E."""
-        return self._get("pitch/syllables", False)
-
-    @syllables.setter
-    def syllables(self, value: bool) -> None:
-        self._set("pitch/syllables", value)
-
-    @property
-    def time_display(self) -> str:
-        """``"bars"``, ``"seconds"`` or ``"frames"``."""
-        return self._get("interface/time_display", "bars")
-
-    @time_display.setter
-    def time_display(self, value: str) -> None:
-        self._set("interface/time_display", value)
-
-    @property
-    def volume(self) -> float:
-        """0..1 as the ear judges it."""
-        # Read as a number, a word is 0, and nobody would hear anything.
+        """Write what changed to the disk now; what other editors have written there stays, and so does a file that
+        cannot be read: the changes wait until it can."""
+        self._timer.stop()
+        if not self._changes:
+            return
         try:
-            value = float(self._get("sound/volume", ""))
-        except ValueError:
-            return 0.8
-        return value if 0.0 <= value <= 1.0 else 0.8
+            table = self._read()
+            for keys, value in self._changes.items():
+                _put(table, keys, value)
+            self.path.parent.mkdir(parents=True, exist_ok=True)
+            with atomic_write(self.path) as stream:
+                stream.write(toml(table).encode("utf-8", "replace"))
+        except (AppError, OSError) as error:
+            if not self._is_told:
+                self._is_told = True
+                self.failed.emit(error.message if isinstance(error, AppError) else _cannot_write(self.path, error))
+                self.failed.emit(Message("settings.set_aside", {"file": os.fspath(self.path)}))
+            return
+        self._changes.clear()
 
-    @volume.setter
-    def volume(self, value: float) -> None:
-        self._set("sound/volume", value)
+    def _read(self) -> dict[str, Any]:
+        try:
+            return read_toml(self.path)
+        except FileError as error:
+            if isinstance(error.__cause__, FileNotFoundError):
+                return {}
+            raise
 
-    @property
-    def click(self) -> bool:
-        """Whether a metronome is heard."""
-        return self._get("sound/click", False)
+    def _possible(self, table: dict[str, Any]) -> dict[str, Any]:
+        """The table without values that are not possible, which are problems."""
+        self._table = table
+        file = os.fspath(self.path)
+        for value in vars(type(self)).values():
+            if isinstance(value, _Value) and (stored := self.stored(value.keys)) is not None:
+                try:
+                    value.read(stored, file)
+                except AppError as error:
+                    place, detail = ".".join(filter(None, value.keys)), str(error.message.arguments["detail"])
+                    self.problems += (Message("settings.value", {"file": file, "place": place, "detail": detail}),)
+                    _put(table, value.keys, None)
+        return table
 
-    @click.setter
-    def click(self, value: bool) -> None:
-        self._set("sound/click", value)
-
-    @property
-    def scrub_sound(self) -> bool:
-        """Whether moving the playhead by hand is heard."""
-        return self._get("sound/scrub", True)
-
-    @scrub_sound.setter
-    def scrub_sound(self, value: bool) -> None:
-        self._set("sound/scrub", value)
-
-    @property
-    def source(self) -> str:
-        """What is heard where a project has a recording: ``"recording"``, ``"synthesiser"`` or ``"both"``."""
-        return self._get("sound/source", "recording")
-
-    @source.setter
-    def source(self, value: str) -> None:
-        self._set("sound/source", value)
-
-    @property
-    def midi_port(self) -> str:
-        """The device that is recorded from; empty: none was chosen."""
-        return self._get("midi/port", "")
-
-    @midi_port.setter
-    def midi_port(self, value: str) -> None:
-        self._set("midi/port", value)
-
-    @property
-    def count_in_bars(self) -> int:
-        """0..4."""
-        return min(max(self._get("midi/count_in_bars", 1), 0), 4)
-
-    @count_in_bars.setter
-    def count_in_bars(self, value: int) -> None:
-        self._set("midi/count_in_bars", value)
-
-    @property
-    def stream_host(self) -> str:
-        """The computer that is streamed to; empty: none was chosen."""
-        return self._get("stream/host", "")
-
-    @stream_host.setter
-    def stream_host(self, value: str) -> None:
-        self._set("stream/host", value)
-
-    @property
-    def stream_port(self) -> int:
-        """0: none was chosen, or it is none."""
-        value = self._get("stream/port", 0)
-        return value if LEAST_PORT <= value <= MOST_PORT else 0
-
-    @stream_port.setter
-    def stream_port(self, value: int) -> None:
-        self._set("stream/port", value)
-
-    @property
-    def stream_everyone(self) -> bool:
-        """Every player is streamed, not only the one in front."""
-        return self._get("stream/everyone", False)
-
-    @stream_everyone.setter
-    def stream_everyone(self, value: bool) -> None:
-        self._set("stream/everyone", value)
-
-    @property
-    def stream_faces(self) -> str:
-        """Of `app.stream.faces.FACE_NAMES`; empty: none was chosen."""
-        return self._get("stream/faces", "")
-
-    @stream_faces.setter
-    def stream_faces(self, value: str) -> None:
-        self._set("stream/faces", value)
-
-    @property
-    def stream_rate_hz(self) -> int:
-        """Frames in a second; 0: none were chosen."""
-        return self._get("stream/rate_hz", 0)
-
-    @stream_rate_hz.setter
-    def stream_rate_hz(self, value: int) -> None:
-        self._set("stream/rate_hz", value)
+    # Values that are several
 
     def midi_device(self, port: str, name: str) -> str:
         """What is remembered of a device; empty: nothing."""
-        return self._get(f"midi_devices/{quote(port, safe='')}/{name}", "") if port else ""
+        return self._midi_devices.get(port, {}).get(name, "")
 
     def set_midi_device(self, port: str, name: str, value: str) -> None:
         """Remember something of a device."""
         if port:
-            self._set(f"midi_devices/{quote(port, safe='')}/{name}", value)
-
-    @property
-    def geometry(self) -> QByteArray:
-        """Where the window is and how large."""
-        return self._get("window/geometry", QByteArray())
-
-    @geometry.setter
-    def geometry(self, value: QByteArray) -> None:
-        self._set("window/geometry", value)
-
-    @property
-    def layout(self) -> QByteArray:
-        """Where the panels are."""
-        return self._get("window/layout", QByteArray())
-
-    @layout.setter
-    def layout(self, value: QByteArray) -> None:
-        self._set("window/layout", value)
-
-    @property
-    def timeline(self) -> str:
-        """The timeline's lanes: order, heights, folds."""
-        return self._get("window/timeline", "")
-
-    @timeline.setter
-    def timeline(self, value: str) -> None:
-        self._set("window/timeline", value)
-
-    @property
-    def folder(self) -> str:
-        """Where a file was last opened or saved."""
-        return self._get("files/folder", "")
-
-    @folder.setter
-    def folder(self, value: str) -> None:
-        self._set("files/folder", value)
-
-    @property
-    def export_folder(self) -> str:
-        """Where players were last exported to."""
-        return self._get("files/export_folder", "")
-
-    @export_folder.setter
-    def export_folder(self, value: str) -> None:
-        self._set("files/export_folder", value)
-
-    @property
-    def unreal_project(self) -> str:
-        """The Unreal project that players were last exported into; empty: none."""
-        return self._get("files/unreal_project", "")
-
-    @unreal_project.setter
-    def unreal_project(self, value: str) -> None:
-        self._set("files/unreal_project", value)
-
-    @property
-    def export_into(self) -> str:
-        """Where players were last exported to: ``"folder"`` or ``"unreal"``."""
-        return self._get("files/export_into", "folder")
-
-    @export_into.setter
-    def export_into(self, value: str) -> None:
-        self._set("files/export_into", value)
+            devices = self._midi_devices
+            self._midi_devices = {**devices, port: {**devices.get(port, {}), name: value}}
 
     @property
     def recent(self) -> tuple[str, ...]:
         """Files opened lately, the newest first."""
-        count = self._file.beginReadArray("recent")
-        try:
-            found = []
-            for index in range(min(count, MOST_RECENT)):
-                self._file.setArrayIndex(index)
-                found.append(self._get("path", ""))
-            return tuple(path for path in found if path)
-        finally:
-            self._file.endArray()
+        return tuple(path for text in self._recent[:MOST_RECENT] if (path := _path_of(text)))
 
     def add_recent(self, path: Path) -> None:
         """This file was opened or saved just now."""
         text = str(path)
-        self._write_recent((text, *(other for other in self.recent if other != text))[:MOST_RECENT])
+        others = tuple(other for other in self.recent if other != text)
+        self._recent = tuple(map(_path_text, (text, *others)))[:MOST_RECENT]
 
     def remove_recent(self, path: str) -> None:
         """Forget a file."""
-        self._write_recent(tuple(other for other in self.recent if other != path))
-
-    def _write_recent(self, paths: tuple[str, ...]) -> None:
-        self._file.remove("recent")
-        self._file.beginWriteArray("recent", len(paths))
-        for index, path in enumerate(paths):
-            self._file.setArrayIndex(index)
-            self._file.setValue("path", path)
-        self._file.endArray()
+        self._recent = tuple(_path_text(other) for other in self.recent if other != path)
 
     def shortcut(self, action_id: str) -> str | None:
-        """A person's own shortcut of an action, ``;`` between several, empty for none; None: as it comes."""
-        key = f"shortcuts/{action_id}"
-        return self._get(key, "") if self._file.contains(key) else None
+        """The user's own shortcut of an action, ``;`` between several, empty for none; None: as it comes."""
+        return self._shortcuts.get(action_id)
 
     def set_shortcut(self, action_id: str, keys: str | None) -> None:
         """Give an action a shortcut of one's own; None: as it comes."""
-        key = f"shortcuts/{action_id}"
-        if keys is None:
-            self._file.remove(key)
-        else:
-            self._file.setValue(key, keys)
+        others = {id: own for id, own in self._shortcuts.items() if id != action_id}
+        self._shortcuts = others if keys is None else {**others, action_id: keys}
+
+
+def _put(table: dict[str, Any], keys: tuple[str, str], value: object) -> None:
+    """Put a value into a table of tables; None takes it away."""
+    section, name = keys
+    if not name:
+        table[section] = value
+        return
+    if not isinstance(table.get(section), dict):
+        table[section] = {}
+    table[section][name] = value
+
+
+def _path_text(path: str) -> str:
+    try:
+        path.encode()
+    except UnicodeEncodeError:
+        return _PATH_OF_BYTES + quote(os.fsencode(path))
+    return path
+
+
+def _path_of(text: str) -> str:
+    return os.fsdecode(unquote_to_bytes(text[len(_PATH_OF_BYTES) :])) if text.startswith(_PATH_OF_BYTES) else text
+
+
+def _cannot_write(path: Path, error: OSError) -> Message:
+    return Message("file.cannot_write", {"file": os.fspath(path), "reason": error.strerror or str(error)})

@@ -440,8 +440,24 @@
             <translation>{file} に書き込めません: {reason}</translation>
         </message>
         <message>
-            <source>{file} cannot be read: {detail}</source>
-            <translation>{file} を読み込めません: {detail}</translation>
+            <source>{file} is not a file but a folder, a pipe or a device; choose a file</source>
+            <translation>{file} はファイルではなく、フォルダー、パイプまたはデバイスです。ファイルを選んでください</translation>
+        </message>
+        <message>
+            <source>{file} is too large ({size_mb} MB; at most {most_mb} MB are read); choose a smaller file</source>
+            <translation>{file} は大きすぎます ({size_mb} MB。読み込めるのは {most_mb} MB まで)。もっと小さいファイルを選んでください</translation>
+        </message>
+        <message>
+            <source>{file} is damaged: {detail}</source>
+            <translation>{file} は壊れています: {detail}</translation>
+        </message>
+        <message>
+            <source>{file}: {place}: {detail}; the default is used</source>
+            <translation>{file}: {place}: {detail}。既定値を使います</translation>
+        </message>
+        <message>
+            <source>{file} cannot be used: settings changed now last only until the editor ends; correct the file or remove it</source>
+            <translation>{file} を使えません。いま変更した設定はエディターを終了するまでしか保たれません。ファイルを修正するか削除してください</translation>
         </message>
         <message>
             <source>files written to {folder}: {count}</source>
@@ -876,10 +892,6 @@
             <translation>{file} はより新しいバージョンで保存されています（ファイルのバージョン {version}、対応は {known} まで）。新しいバージョンで開いてください</translation>
         </message>
         <message>
-            <source>{file} is larger than the {most_mb} MB that a project can have; it is no project file</source>
-            <translation>{file} はプロジェクトの上限 {most_mb} MB を超えており、プロジェクトファイルではありません</translation>
-        </message>
-        <message>
             <source>{file} was not saved, it could not be opened again: {place}: {detail}; undo the last edit, then save</source>
             <translation>{file} は保存されませんでした。そのままでは開けなくなります: {place}: {detail}。直前の編集を元に戻してから保存してください</translation>
         </message>
@@ -1010,10 +1022,6 @@
         <message>
             <source>there is no preset {name!r}</source>
             <translation>プリセット {name!r} はありません</translation>
-        </message>
-        <message>
-            <source>{file}: {place}: {detail}</source>
-            <translation>{file}: {place}: {detail}</translation>
         </message>
         <message>
             <source>record {count} {count:take|takes}</source>
@@ -1344,6 +1352,18 @@
             <translation>{host} のポート {port} に送信できません ({reason})。アドレスとネットワークを確かめてください。自動で再試行します</translation>
         </message>
         <message>
+            <source>{file}, line {line}, column {column}: {detail}; correct it in a text editor</source>
+            <translation>{file}、{line} 行 {column} 列: {detail}。テキストエディターで修正してください</translation>
+        </message>
+        <message>
+            <source>{file}: {place}: {detail}</source>
+            <translation>{file}: {place}: {detail}</translation>
+        </message>
+        <message>
+            <source>{file} is not UTF-8 text (byte {byte}); save it as UTF-8 in a text editor</source>
+            <translation>{file} は UTF-8 のテキストではありません (バイト {byte})。テキストエディターで UTF-8 として保存してください</translation>
+        </message>
+        <message>
             <source>{file}: {detail}</source>
             <translation>{file}: {detail}</translation>
         </message>
@@ -1388,12 +1408,12 @@
             <translation>{file} は演奏できません。次の関節に当たるボーンが見つかりません：{joints}。ボーンを手動で指定してください</translation>
         </message>
         <message>
-            <source>{file} does not describe a character: {detail}</source>
-            <translation>{file} はキャラクターの設定として読めません：{detail}</translation>
-        </message>
-        <message>
             <source>{file} names {name}, which is not beside it</source>
             <translation>{file} に書かれた {name} が同じフォルダーにありません</translation>
+        </message>
+        <message>
+            <source>the name of {file} has characters that cannot be shown; rename it</source>
+            <translation>{file} の名前に表示できない文字があります。名前を変更してください</translation>
         </message>
         <message>
             <source>{file} describes {id!r}, which is one of our own characters; give it another name</source>
@@ -1422,14 +1442,6 @@
         <message>
             <source>{file}: cannot be read: {detail}</source>
             <translation>{file}: 読み込めません: {detail}</translation>
-        </message>
-        <message>
-            <source>{file}, line {line}, column {column}: {detail}</source>
-            <translation>{file}、{line} 行 {column} 桁: {detail}</translation>
-        </message>
-        <message>
-            <source>{file}: {path}: {detail}</source>
-            <translation>{file}: {path}: {detail}</translation>
         </message>
         <message>
             <source>{file}: its table of fingerings is written in a way that cannot be changed here; change it in a text editor</source>
@@ -1478,10 +1490,6 @@
         <message>
             <source>there is no {kind} named {name!r}; there are: {known}</source>
             <translation>{kind} に {name!r} はありません。使えるもの: {known}</translation>
-        </message>
-        <message>
-            <source>{file}: {key}: {detail}</source>
-            <translation>{file}: {key}: {detail}</translation>
         </message>
         <message>
             <source>there is no character named {id!r}; there are: {known}</source>

@@ -39,7 +39,7 @@ class Studio:
 
     def __init__(self, application: QApplication, folder: Path, language: str, theme: str) -> None:
         self.application = application
-        settings = Settings(folder / "editor.ini")
+        settings = Settings(folder / "editor.toml")
         settings.language, settings.theme = language, theme
         self.program = Program(settings, heard=False)
         self.window = self.program.window

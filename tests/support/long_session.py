@@ -236,7 +236,7 @@ def long_run(rounds: int, players: int = 20, notes: int = 500) -> None:
     garbage = Garbage()
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        settings = Settings(folder / "editor.ini")
+        settings = Settings(folder / "editor.toml")
         settings.language = "en"
         program = Program(settings, autosave=Autosave(Presence(folder / "recovery")))
         program.window.resize(960, 640)

@@ -140,7 +140,7 @@ class Look:
 
     def __init__(self, theme: str, size: tuple[int, int], folder: Path, pictures: Path | None) -> None:
         self.application = make_application()
-        settings = Settings(folder / "editor.ini")
+        settings = Settings(folder / "editor.toml")
         settings.language, settings.theme = "en", theme
         answers = Answers()
         answers.answer = "discard"

@@ -48,7 +48,7 @@ class Work:
     def __init__(self, folder: Path) -> None:
         self.application: QApplication = make_application()
         self.folder = folder
-        settings = Settings(folder / "settings" / "editor.ini")
+        settings = Settings(folder / "settings" / "editor.toml")
         settings.language = "en"
         self.answers = Answers()
         self.program = Program(settings, questions=self.answers, autosave=Autosave(Presence(folder / "recovery"), 1.0))

@@ -99,7 +99,7 @@ class Film:
 
     def __init__(self, application: QApplication, folder: Path, wind: Wind) -> None:
         self.application, self.wind = application, wind
-        settings = Settings(folder / "editor.ini")
+        settings = Settings(folder / "editor.toml")
         settings.language, settings.theme = "en", "dark"
         make = lambda: Playback(UnheardDevices(application))  # noqa: E731
         self.program = Program(

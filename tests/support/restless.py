@@ -410,7 +410,7 @@ def long_run(seed: int, steps: int, chatty: Callable[[str], None] = print) -> in
     complaints.install()
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        settings = Settings(folder / "editor.ini")
+        settings = Settings(folder / "editor.toml")
         settings.language = "en"
         answers = Answers()
         answers.answer = "discard"

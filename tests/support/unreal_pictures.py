@@ -37,7 +37,7 @@ class Artist:
 
     def __init__(self, folder: Path, language: str, theme: str) -> None:
         self.application = make_application()
-        settings = Settings(folder / "editor.ini")
+        settings = Settings(folder / "editor.toml")
         settings.language, settings.theme = language, theme
         settings.export_into = "unreal"
         # Relative, so that the picture shows nobody's folders.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from app.errors import MapError
+from app.errors import AppError
 from instrument_maps import fingering_table as edit
 from instrument_maps.library import library
 from instrument_maps.model import InstrumentMap
@@ -53,6 +53,6 @@ def base_of(instrument: InstrumentMap) -> edit.Table:
     """The fingerings of the map that an instrument extends; of a bundled one its own."""
     try:
         return edit.base_table(instrument, library().own.get(instrument.id))
-    except (MapError, OSError, UnicodeDecodeError):
+    except AppError:
         # Their file is wrong now and an earlier version in use: there is nothing to go back to.
         return instrument.fingerings

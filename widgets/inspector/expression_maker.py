@@ -170,7 +170,10 @@ class ExpressionMaker(QWidget):
         if is_open and not self._sliders:
             self._make_sliders()
         if is_open:
-            self._kept = dict(presets.expressions(presets.expression_folder()).items)
+            found = presets.expressions(presets.expression_folder())
+            self._kept = dict(found.items)
+            for problem in found.problems:
+                self._session.notice(problem, Severity.WARNING)
             if self.expression is None:
                 own = self._session.project.expressions
                 self._name = own[0].name if own else next(iter(load_expressions()))

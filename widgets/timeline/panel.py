@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import json
-
+import msgspec
 from PySide6.QtCore import QEvent, QPoint, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QHideEvent, QPainter, QPaintEvent, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import (
@@ -15,6 +14,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.errors import FileError
+from app.formats.json_data import decode_json
 from app.project.document import Change
 from widgets.common.icons import icon
 from widgets.common.session import Session
@@ -41,6 +42,16 @@ PAGE_TO = 0.06
 SCROLL_A_S = 1000
 """Steps of the scroll bar in a second."""
 SELECTION_AIR = 0.08
+
+
+class _State(msgspec.Struct, frozen=True):
+    """What is remembered of the lanes, by their ids."""
+
+    order: list[str]
+    hidden: list[str]
+    folded: list[str]
+    heights: dict[str, int]
+    ghosts: Ghosts
 
 
 class Playhead(QWidget):
@@ -233,32 +244,28 @@ class TimelinePanel(QWidget):
     def save_state(self) -> str:
         """Order, visibility, folds and heights of the lanes, as text."""
         order = [lane.id for lane in self.stack.lanes]
-        return json.dumps(
-            {
-                "order": order,
-                "hidden": [id for id in order if self.lanes[id].isHidden()],
-                "folded": [id for id in order if self.lanes[id].folded],
-                "heights": self.stack.heights_px,
-                "ghosts": self.ghosts.value,
-            }
+        state = _State(
+            order=order,
+            hidden=[id for id in order if self.lanes[id].isHidden()],
+            folded=[id for id in order if self.lanes[id].folded],
+            heights=self.stack.heights_px,
+            ghosts=self.ghosts,
         )
+        return msgspec.json.encode(state).decode()
 
     def restore_state(self, state: str) -> None:
         """Take what `save_state` gave; what does not fit this program's lanes is left as it is."""
         try:
-            saved = json.loads(state)
-            order = [id for id in saved["order"] if id in self.lanes]
-            hidden, folded = set(saved["hidden"]), set(saved["folded"])
-            heights = {str(id): int(height) for id, height in saved["heights"].items()}
-            ghosts = Ghosts(saved["ghosts"])
-        except (ValueError, KeyError, TypeError, AttributeError):
+            saved = decode_json(state.encode("utf-8", "replace"), _State, "")
+        except FileError:
             return
+        order = [id for id in dict.fromkeys(saved.order) if id in self.lanes]
         self.stack.set_order(order)
         for id in order:
-            self.lanes[id].setVisible(id not in hidden)
-            self.lanes[id].set_folded(id in folded)
-        self.stack.set_heights(heights)
-        self.set_ghosts(ghosts)
+            self.lanes[id].setVisible(id not in saved.hidden)
+            self.lanes[id].set_folded(id in saved.folded)
+        self.stack.set_heights(saved.heights)
+        self.set_ghosts(saved.ghosts)
 
     # Lanes
 

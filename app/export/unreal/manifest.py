@@ -16,11 +16,14 @@ from typing import Final
 
 import msgspec
 
-from app.errors import FileError, Message
+from app.errors import FileError, Message, shortened
 from app.export.tree import stays_inside
 from app.export.unreal.layout import MANIFEST
+from app.formats.files import open_file, read_file
+from app.formats.json_data import decode_json
 
 SCHEMA: Final = 1
+MOST_BYTES: Final = 2**26
 _TEXTS: Final = frozenset((".json", ".py", ".uplugin"))
 
 
@@ -65,8 +68,8 @@ def own_text(data: bytes) -> OwnFile:
 def own_file(path: Path) -> OwnFile:
     """What a file holds."""
     if path.suffix.lower() in _TEXTS:
-        return own_text(path.read_bytes())
-    with path.open("rb") as stream:
+        return own_text(read_file(path, MOST_BYTES))
+    with open_file(path) as stream:
         return OwnFile(path.stat().st_size, hashlib.file_digest(stream, "sha256").hexdigest())
 
 
@@ -124,12 +127,13 @@ def read_manifest(folder: Path) -> dict[PurePosixPath, OwnFile]:
     if not path.exists():
         return {}
     try:
-        manifest = msgspec.json.decode(path.read_bytes(), type=Manifest)
-    except (msgspec.DecodeError, UnicodeDecodeError) as error:
-        raise FileError("unreal.manifest", file=os.fspath(path), detail=str(error)) from error
+        manifest = decode_json(read_file(path, MOST_BYTES), Manifest, os.fspath(path))
+    except FileError as error:
+        detail = error.message.arguments.get("detail", error.message.id)
+        raise FileError("unreal.manifest", file=os.fspath(path), detail=detail) from error
     for name in manifest.files:
         if not stays_inside(name):
-            raise FileError("unreal.manifest", file=os.fspath(path), detail=repr(name))
+            raise FileError("unreal.manifest", file=os.fspath(path), detail=repr(shortened(name)))
     return {PurePosixPath(name): own for name, own in manifest.files.items()}
 
 

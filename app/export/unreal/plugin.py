@@ -18,7 +18,8 @@ from typing import Final
 
 from app.errors import FileError
 from app.export.unreal.layout import MANIFEST, PLUGIN
-from app.export.unreal.manifest import own_text, read_manifest
+from app.export.unreal.manifest import MOST_BYTES, own_text, read_manifest
+from app.formats.files import read_file
 
 DESCRIPTOR: Final = "Suisou.uplugin"
 CREATED_BY: Final = "Suisou"
@@ -41,7 +42,7 @@ def wanted_plugin(folder: Path) -> dict[PurePosixPath, bytes]:
     place = folder / PLUGIN
     if not place.exists():
         return own
-    there = _version((place / DESCRIPTOR).read_bytes()) if (place / DESCRIPTOR).is_file() else None
+    there = _version(read_file(place / DESCRIPTOR, MOST_BYTES)) if (place / DESCRIPTOR).is_file() else None
     if there is None and any(path.name != MANIFEST for path in place.iterdir()):
         raise FileError("unreal.plugin_foreign", file=os.fspath(place))
     newest = _version(own[PurePosixPath(DESCRIPTOR)])
@@ -55,7 +56,7 @@ def _version(descriptor: bytes) -> int | None:
     """The version of a plug-in of ours; None of another's."""
     try:
         content = json.loads(descriptor.decode("utf-8-sig"))
-    except ValueError:
+    except (ValueError, RecursionError):
         return None
     if not isinstance(content, dict) or content.get("CreatedBy") != CREATED_BY:
         return None

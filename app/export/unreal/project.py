@@ -16,7 +16,8 @@ from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 from typing import Final
 
-from app.errors import FileError
+from app.errors import FileError, shortened
+from app.formats.files import read_file
 
 LEAST_ENGINE: Final = (5, 2)
 """Before, a sequence had other functions to add tracks."""
@@ -106,13 +107,12 @@ def _project_file(path: Path) -> Path:
 
 def _content(file: Path) -> dict[str, object]:
     """What a project's file says. Unreal writes UTF-8, or UTF-16 where there is more than ASCII in it."""
-    with file.open("rb") as stream:
-        data = stream.read(_MOST_BYTES)
+    data = read_file(file, _MOST_BYTES)
     try:
         wide = data.startswith((b"\xff\xfe", b"\xfe\xff"))
         content = json.loads(data.decode("utf-16" if wide else "utf-8-sig"))
     except (ValueError, RecursionError) as error:
-        raise FileError("unreal.not_a_project", file=os.fspath(file), detail=str(error)) from error
+        raise FileError("unreal.not_a_project", file=os.fspath(file), detail=shortened(error)) from error
     if isinstance(content, dict) and isinstance(content.get("FileVersion"), int):
         return content
     raise FileError("unreal.not_a_project", file=os.fspath(file), detail="it has no FileVersion")

@@ -27,6 +27,7 @@ import numpy as np
 import numpy.typing as npt
 
 from app.errors import FileError
+from app.formats.files import open_file
 from app.own_process import own_process
 
 FloatArray = npt.NDArray[np.float64]
@@ -153,11 +154,8 @@ def read_foreign_fbx(path: str | os.PathLike[str]) -> FbxContent:
         If it cannot be read, is no FBX file, is damaged or absurdly large.
     """
     file = os.fspath(path)
-    try:
-        with Path(path).open("rb"):
-            pass
-    except OSError as error:
-        raise FileError("file.cannot_read", file=file, reason=error.strerror or str(error)) from error
+    with open_file(path):
+        pass
     printed = _child(str(Path(path).resolve()), file)
     try:
         with np.load(io.BytesIO(printed), allow_pickle=False) as packed:

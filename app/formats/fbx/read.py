@@ -14,7 +14,6 @@ from __future__ import annotations
 
 import os
 from fractions import Fraction
-from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
@@ -27,8 +26,10 @@ from app.formats.fbx.encode import Element
 from app.formats.fbx.graph import FbxObject, Float64Array, ObjectGraph, numbers, properties_of
 from app.formats.fbx.materials import Phong, metallic_roughness
 from app.formats.fbx.write import EULER_ORDER
+from app.formats.files import read_file
 from app.formats.scene import Bone, Clip, Material, MorphTarget, Scene, SkinnedMesh, check_scene
 
+MOST_BYTES = 2**30
 # Frames times bones, and vertices times influences: far beyond any real file, small enough for any computer.
 _MOST_VALUES = 2**25
 
@@ -49,10 +50,7 @@ def read_scene(path: str | os.PathLike[str]) -> Scene:
         If the file is no such file.
     """
     file = os.fspath(path)
-    try:
-        data = Path(path).read_bytes()
-    except OSError as error:
-        raise FileError("file.cannot_read", file=file, reason=error.strerror or str(error)) from error
+    data = read_file(path, MOST_BYTES)
     return decode_scene(data, file)
 
 

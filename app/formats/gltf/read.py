@@ -17,12 +17,12 @@ from __future__ import annotations
 
 import math
 import os
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from app.errors import FileError
+from app.formats.files import read_file
 from app.formats.gltf.accessors import Accessors
 from app.formats.gltf.container import field, split
 from app.formats.gltf.model import (
@@ -37,6 +37,8 @@ from app.formats.gltf.model import (
     IntArray,
 )
 
+MOST_BYTES = 2**30
+"""Of a file; characters have a hundredth of it."""
 _TRIANGLES, _STRIP, _FAN = 4, 5, 6
 
 
@@ -49,10 +51,7 @@ def read_glb(path: str | os.PathLike[str]) -> GltfModel:
         If it cannot be read, is damaged, or needs another file.
     """
     file = os.fspath(path)
-    try:
-        data = Path(path).read_bytes()
-    except OSError as error:
-        raise FileError("file.cannot_read", file=file, reason=error.strerror or str(error)) from error
+    data = read_file(path, MOST_BYTES)
     return decode_gltf(data, file)
 
 

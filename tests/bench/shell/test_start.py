@@ -45,6 +45,6 @@ def seconds(script: str, *arguments: str) -> float:
 
 def test_the_window_is_up(tmp_path: Path) -> None:
     libraries = seconds(LIBRARIES)
-    window = seconds(WINDOW, str(tmp_path / "editor.ini"))
+    window = seconds(WINDOW, str(tmp_path / "editor.toml"))
     ratio = window / libraries
     print(f"window up in {window:.2f} s, its libraries alone {libraries:.2f} s: ratio {ratio:.2f} (goal 2.5)")

@@ -72,7 +72,7 @@ class LargeEditor:
         application = QApplication.instance()
         assert isinstance(application, QApplication)
         self.application = application
-        settings = Settings(self.folder / "editor.ini")
+        settings = Settings(self.folder / "editor.toml")
         settings.language = "en"
         self._drawing_s = self._drawing_wall_s = 0.0
         self._time_drawing()

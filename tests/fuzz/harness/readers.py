@@ -233,11 +233,12 @@ def settings(path: Path, folder: Path) -> None:
 
     found = Settings(path)
     for name, member in vars(Settings).items():
-        if isinstance(member, property):
+        if hasattr(member, "__get__"):
             getattr(found, name)
     found.shortcut("edit.undo")
     found.midi_device("EWI USB", "latency_s")
     found.add_recent(Path("/tmp/x.suisou"))
+    found.sync()
 
 
 # Figures
@@ -373,7 +374,7 @@ KINDS: Final[dict[str, Kind]] = {
         Kind("tables", expression, seeds.expression, _TEXT, ".toml"),
         Kind("tables", preset, seeds.preset, _TEXT, ".toml"),
         Kind("tables", character_entry, seeds.character_entry, _TEXT, ".toml"),
-        Kind("tables", settings, seeds.settings, _TEXT, ".ini"),
+        Kind("tables", settings, seeds.settings, _TEXT, ".toml"),
         Kind("figures", gltf, seeds.gltf, tuple(mutators.GLB), ".glb", 2.0),
         Kind("figures", instrument_model, seeds.gltf, tuple(mutators.GLB), ".glb"),
         Kind("figures", fbx, seeds.fbx, tuple(mutators.FBX), ".fbx", 2.0),

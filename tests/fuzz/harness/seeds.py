@@ -102,13 +102,13 @@ def character_entry() -> list[bytes]:
 def settings() -> list[bytes]:
     """The editor's settings."""
     return [
-        b'[interface]\nlanguage=ja\ntheme=dark\nfolded="notes:1,body:0"\ntime_display=bars\n\n[sound]\nvolume=0.5\n'
-        b"click=true\nsource=both\n\n[midi]\nport=EWI USB\ncount_in_bars=2\n\n[stream]\nhost=127.0.0.1\nport=39539\n"
-        b"everyone=false\nrate_hz=60\n\n[window]\ngeometry=@ByteArray(\\x1\\xd9\\xd0\\xcb)\n"
-        b'layout=@ByteArray(\\0\\0\\0\\xff)\ntimeline="{\\"lanes\\": [\\"roll\\"]}"\n\n[files]\nfolder=/tmp\n\n'
-        b"[recent]\n1\\path=/tmp/a.suisou\n2\\path=/tmp/b.mid\nsize=2\n\n[shortcuts]\nedit.undo=Ctrl+Z\n\n"
-        b"[pitch]\nwritten=true\nmiddle_c_octave=3\nsyllables=false\n",
-        b"[general]\nx=@Variant(\\0\\0\\0\\x7f\\0\\0\\0\\x10PyQt_PyObject\\0)\n[midi]\ncount_in_bars=@Invalid()\n",
+        b'[interface]\nlanguage = "ja"\ntheme = "dark"\ntime_display = "bars"\n\n[interface.folded]\nnotes = true\n\n'
+        b'[sound]\nvolume = 0.5\nclick = true\nsource = "both"\n\n[midi]\nport = "EWI USB"\ncount_in_bars = 2\n\n'
+        b'[stream]\nhost = "127.0.0.1"\nport = 39539\neveryone = false\nrate_hz = 60\n\n'
+        b'[window]\ngeometry = "AdnQywADAAA="\nlayout = "AAAA/wAA"\ntimeline = "{\\"order\\": [\\"roll\\"]}"\n\n'
+        b'[files]\nfolder = "/tmp"\nrecent = ["/tmp/a.suisou", "file:///tmp/%FF.mid"]\n\n'
+        b'[shortcuts]\n"edit.undo" = "Ctrl+Z"\n\n[midi_devices."EWI USB"]\nlatency_s = "0.01"\n\n'
+        b"[pitch]\nwritten = true\nmiddle_c_octave = 3\nsyllables = false\n",
     ]
 
 

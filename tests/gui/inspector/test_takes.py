@@ -31,7 +31,7 @@ PLAYED = [(0.1, 0.5, 60, 0.6), (0.52, 0.55, 62, 0.1), (0.6, 1.0, 64, 0.6), (1.01
 @pytest.fixture
 def taken(panel: InspectorPanel, session: Session, tmp_path_factory: pytest.TempPathFactory) -> Session:
     """A take of whoever is in front, all of which is in the part, and which is selected."""
-    ActionTable(session, Settings(tmp_path_factory.mktemp("settings") / "editor.ini"), [*edit.ACTIONS, *takes.ACTIONS])
+    ActionTable(session, Settings(tmp_path_factory.mktemp("settings") / "editor.toml"), [*edit.ACTIONS, *takes.ACTIONS])
     assert session.player is not None
     project, (take_id,) = add_takes(
         session.project, session.player.id, [take_of(PLAYED, tempo_map=session.project.score.tempo_map)]

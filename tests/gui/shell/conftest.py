@@ -78,7 +78,7 @@ def answers() -> Answers:
 @pytest.fixture
 def settings(tmp_path: Path) -> Settings:
     """Settings of nobody; English, whatever the system speaks."""
-    result = Settings(tmp_path / "settings" / "editor.ini")
+    result = Settings(tmp_path / "settings" / "editor.toml")
     result.language = "en"
     return result
 

@@ -98,6 +98,7 @@ def test_a_shortcut_of_ones_own_works_and_is_remembered(program: Program, settin
     qtbot.keyClick(program.window, Qt.Key.Key_J, Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.AltModifier)
     assert program.session.tokens.name == "light"
     assert "Ctrl+Alt+J" in program.session.actions["theme.light"].toolTip()
+    settings.sync()
     again = ActionTable(program.session, Settings(settings.path), rows())
     assert again.keys("theme.light") == "Ctrl+Alt+J"
     table.set_keys("theme.light", None)
@@ -163,8 +164,8 @@ def test_the_preferences_hold_at_once(program: Program, settings: Settings, qtbo
     assert program.session.tokens.name == "light"
     assert program.session.pitch_display.middle_c_octave == 3
     assert program.session.time_display == "frames"
-    kept = Settings(settings.path)
     settings.sync()
+    kept = Settings(settings.path)
     assert (kept.theme, kept.middle_c_octave, kept.time_display) == ("light", 3, "frames")
     dialog.close()
 

@@ -67,9 +67,9 @@ def test_a_map_that_is_edited_is_played_at_once_and_a_wrong_one_is_told(
     # A wrong file: told with its place, and what was good plays on.
     good = session.performance
     write(folder / "trumpet_Bb.toml", OWN.replace('label = "13"', 'label = "19"'), 2)
-    qtbot.waitUntil(lambda: told[-1][0] == "map.invalid", timeout=5000)
+    qtbot.waitUntil(lambda: told[-1][0] == "table.invalid", timeout=5000)
     assert told[-1][1]["file"] == str(folder / "trumpet_Bb.toml")
-    assert str(told[-1][1]["path"]).startswith("fingerings[")
+    assert str(told[-1][1]["place"]).startswith("fingerings[")
     assert labels() == {"13"}
     assert session.performance.instrument(trumpet) is good.instrument(trumpet)
     # It stays to be seen, whatever else is said, until it is mended.

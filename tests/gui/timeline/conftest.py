@@ -105,7 +105,7 @@ class Stage:
 def stage(qt_app: QApplication, qtbot: QtBot, tmp_path: Path) -> Iterator[Stage]:
     session = Session(scale_project(), ImmediateTasks())
     table = ActionTable(
-        session, Settings(tmp_path / "editor.ini"), [*edit.ACTIONS, *events.ACTIONS, *notes.ACTIONS, *timeline.ACTIONS]
+        session, Settings(tmp_path / "editor.toml"), [*edit.ACTIONS, *events.ACTIONS, *notes.ACTIONS, *timeline.ACTIONS]
     )
     panel = TimelinePanel(session)
     qtbot.addWidget(panel)

@@ -31,7 +31,7 @@ def panel(session: Session, qtbot: QtBot, tmp_path: Path) -> Iterator[TimelinePa
     result = shown_panel(session)
     qtbot.addWidget(result)
     all_rows = [*undoing.ACTIONS, *events.ACTIONS, *fingerings.ACTIONS, *problems.ACTIONS]
-    table = ActionTable(session, Settings(tmp_path / "editor.ini"), all_rows)
+    table = ActionTable(session, Settings(tmp_path / "editor.toml"), all_rows)
     table.attach("timeline", result)
     table.refresh()
     result.activateWindow()

@@ -45,7 +45,7 @@ def lane(qt_app: QApplication, qtbot: QtBot, tmp_path: Path) -> Iterator[TakesLa
     )
     session = Session(project, ImmediateTasks())
     table = ActionTable(
-        session, Settings(tmp_path / "editor.ini"), [*edit.ACTIONS, *notes.ACTIONS, *timeline.ACTIONS, *takes.ACTIONS]
+        session, Settings(tmp_path / "editor.toml"), [*edit.ACTIONS, *notes.ACTIONS, *timeline.ACTIONS, *takes.ACTIONS]
     )
     panel = TimelinePanel(session)
     qtbot.addWidget(panel)

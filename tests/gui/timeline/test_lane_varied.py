@@ -33,7 +33,9 @@ SPAN = (3840, 7680)
 def panel(session: Session, qtbot: QtBot, tmp_path: Path) -> Iterator[TimelinePanel]:
     result = shown_panel(session)
     qtbot.addWidget(result)
-    table = ActionTable(session, Settings(tmp_path / "editor.ini"), [*edit.ACTIONS, *events.ACTIONS, *generate.ACTIONS])
+    table = ActionTable(
+        session, Settings(tmp_path / "editor.toml"), [*edit.ACTIONS, *events.ACTIONS, *generate.ACTIONS]
+    )
     table.attach("timeline", result)
     result.axis.show(-3.0, 27.0)
     session.select(Selection(span=SPAN))

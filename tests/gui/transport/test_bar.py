@@ -32,7 +32,7 @@ LEFT = Qt.MouseButton.LeftButton
 
 @pytest.fixture
 def bar(session: Session, sound: Sound, tmp_path: Path, qtbot: QtBot) -> TransportBar:
-    table = ActionTable(session, Settings(tmp_path / "settings.ini"), (*edit.ACTIONS, *playback.ACTIONS))
+    table = ActionTable(session, Settings(tmp_path / "settings.toml"), (*edit.ACTIONS, *playback.ACTIONS))
     table.refresh()
     result = TransportBar(session)
     qtbot.addWidget(result)

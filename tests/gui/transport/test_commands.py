@@ -19,7 +19,7 @@ from widgets.common.session import Session
 
 @pytest.fixture
 def table(session: Session, sound: Sound, tmp_path: Path) -> ActionTable:
-    result = ActionTable(session, Settings(tmp_path / "settings.ini"), (*edit.ACTIONS, *playback.ACTIONS))
+    result = ActionTable(session, Settings(tmp_path / "settings.toml"), (*edit.ACTIONS, *playback.ACTIONS))
     result.refresh()
     return result
 

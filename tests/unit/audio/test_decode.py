@@ -84,7 +84,7 @@ def test_what_is_no_sound_is_refused_by_name(tmp_path: Path, content: bytes) -> 
 
 def test_a_missing_file_and_a_folder(tmp_path: Path) -> None:
     for path in (tmp_path / "none.wav", tmp_path):
-        with pytest.raises(FileError, match="cannot_read"):
+        with pytest.raises(FileError, match=r"file\.(cannot_read|not_regular)"):
             decode(str(path))
     with pytest.raises(FileError):
         decode("nul\0byte.wav")

@@ -59,7 +59,7 @@ def test_controls_it_is_without_are_left_out() -> None:
 def test_what_it_is_without_must_be_there(without: str, told: str) -> None:
     with pytest.raises(MapError) as caught:
         parse_map(CORNET.replace("id =", f"without = {without}\nid =", 1), "my_cornet.toml")
-    assert caught.value.message.arguments == {"file": "my_cornet.toml", "path": "without", "detail": told}
+    assert caught.value.message.arguments == {"file": "my_cornet.toml", "place": "without", "detail": told}
 
 
 @pytest.mark.parametrize(
@@ -76,7 +76,7 @@ def test_a_base_that_is_none_is_told(text: str, told: str, tmp_path: Path) -> No
     path.write_text(text, "utf-8")
     with pytest.raises(MapError) as caught:
         load_map(path)
-    assert caught.value.message.arguments == {"file": str(path), "path": "extends", "detail": told}
+    assert caught.value.message.arguments == {"file": str(path), "place": "extends", "detail": told}
 
 
 def test_two_that_extend_each_other_are_told(tmp_path: Path) -> None:
@@ -91,5 +91,5 @@ def test_a_fault_of_the_base_names_its_file(tmp_path: Path) -> None:
     (tmp_path / "b.toml").write_text("id = ", "utf-8")
     with pytest.raises(MapError) as caught:
         load_map(tmp_path / "a.toml")
-    assert caught.value.message.id == "map.syntax"
+    assert caught.value.message.id == "table.syntax"
     assert caught.value.message.arguments["file"] == str(tmp_path / "b.toml")

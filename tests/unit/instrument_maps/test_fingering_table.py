@@ -162,7 +162,7 @@ def test_a_file_that_was_broken_meanwhile_is_told_and_left_alone(tmp_path: Path)
     path.write_text(text, "utf-8")
     with pytest.raises(MapError) as caught:
         edit.save_own(TRUMPET, edit.moved(TRUMPET.fingerings, D5, 1, 1), tmp_path)
-    assert caught.value.message.id == "map.syntax"
+    assert caught.value.message.id == "table.syntax"
     assert caught.value.message.arguments["line"] == 2
     assert path.read_text("utf-8") == text
 

@@ -74,11 +74,11 @@ def test_only_what_changed_is_another_object(folder: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "id", "place"),
     [
-        ('extends = "trumpet_Bb"\nid = \n', "map.syntax", ("line", 2)),
-        (CHANGED + "transposition_semitones = 90\n", "map.invalid", ("path", "transposition_semitones")),
-        (CHANGED + 'nonsense = "x"\n', "map.invalid", ("path", "(top level)")),
-        (CHANGED + 'model = "nothing.glb"\n', "map.invalid", ("path", "model")),
-        (CHANGED.replace('id = "trumpet_Bb"', 'id = "other"'), "map.invalid", ("path", "id")),
+        ('extends = "trumpet_Bb"\nid = \n', "table.syntax", ("line", 2)),
+        (CHANGED + "transposition_semitones = 90\n", "table.invalid", ("place", "transposition_semitones")),
+        (CHANGED + 'nonsense = "x"\n', "table.invalid", ("place", "(top level)")),
+        (CHANGED + 'model = "nothing.glb"\n', "table.invalid", ("place", "model")),
+        (CHANGED.replace('id = "trumpet_Bb"', 'id = "other"'), "table.invalid", ("place", "id")),
     ],
 )
 def test_what_is_wrong_is_told_exactly_and_the_last_good_version_stays(
@@ -127,4 +127,4 @@ def test_own_maps_may_extend_one_another_and_the_bundled_one_of_their_name(folde
     assert find_map("pocket_trumpet").short_name == "Mine"  # What lies beside it goes before the bundled one.
     write(folder / "trumpet_Bb.toml", CHANGED.replace('extends = "trumpet_Bb"', 'extends = "pocket_trumpet"'))
     problems = module.reload().problems
-    assert [message.arguments["path"] for (message, *_) in problems.values()] == ["extends", "extends"]
+    assert [message.arguments["place"] for (message, *_) in problems.values()] == ["extends", "extends"]

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from app.errors import MapError
+from app.errors import FileError, MapError
 from instrument_maps import load
 from instrument_maps.library import find_map
 from instrument_maps.load import bundled_maps, check_map, load_map, model_path, named_map, parse_map
@@ -53,17 +53,16 @@ def test_unknown_map_is_named() -> None:
 )
 def test_syntax_errors_name_the_line(text: str, line: int, column: int) -> None:
     found = refused(text)
-    assert found["id"] == "map.syntax"
+    assert found["id"] == "table.syntax"
     assert found["file"] == "trumpet_Bb.toml"
     assert found["line"] == line
 
 
-def test_unreadable_files_are_map_errors(tmp_path: Path) -> None:
-    with pytest.raises(MapError) as caught:
+def test_unreadable_files_are_our_errors(tmp_path: Path) -> None:
+    with pytest.raises(FileError, match=r"file\.cannot_read"):
         load_map(tmp_path / "none.toml")
-    assert caught.value.message.id == "map.unreadable"
     (tmp_path / "latin.toml").write_bytes(b'id = "\xe9"\n')
-    assert [message.id for message in check_map(tmp_path / "latin.toml")] == ["map.unreadable"]
+    assert [message.id for message in check_map(tmp_path / "latin.toml")] == ["table.not_utf8"]
 
 
 @pytest.mark.parametrize(
@@ -117,9 +116,9 @@ def test_refusals_name_the_key_path(old: str, new: str, path: str | None, detail
     assert old in TRUMPET
     text = TRUMPET.replace(old, new, 1)
     found = refused(text)
-    assert found["id"] == "map.invalid"
-    assert path is None or str(found["path"]).startswith(path)
-    assert detail in f"{found['path']} {found['detail']}"
+    assert found["id"] == "table.invalid"
+    assert path is None or str(found["place"]).startswith(path)
+    assert detail in f"{found['place']} {found['detail']}"
 
 
 def test_a_map_may_be_checked_under_any_name_but_is_found_by_its_own(tmp_path: Path) -> None:
@@ -129,7 +128,7 @@ def test_a_map_may_be_checked_under_any_name_but_is_found_by_its_own(tmp_path: P
     assert load_map(copy).id == "trumpet_Bb"
     with pytest.raises(MapError) as caught:
         named_map(copy)
-    assert caught.value.message.arguments["path"] == "id"
+    assert caught.value.message.arguments["place"] == "id"
 
 
 def test_check_finds_every_problem_at_once(tmp_path: Path) -> None:
@@ -137,7 +136,7 @@ def test_check_finds_every_problem_at_once(tmp_path: Path) -> None:
     text = TRUMPET.replace('finger = "right.index"', 'finger = "right.indx"', 1)
     text = text.replace('model = "trumpet_Bb.glb"', 'model = "trombone_tenor_F_attachment.glb"')
     file.write_text(text.replace("low = 52", "low = 51"), "utf-8")
-    paths = [str(message.arguments["path"]) for message in check_map(file)]
+    paths = [str(message.arguments["place"]) for message in check_map(file)]
     assert "controls[0].finger" in paths
     assert "fingerings" in paths
     # the trombone has no valves: the nodes are missed
@@ -147,9 +146,9 @@ def test_check_finds_every_problem_at_once(tmp_path: Path) -> None:
 def test_missing_and_broken_models_are_problems_of_the_map(tmp_path: Path) -> None:
     file = tmp_path / "trumpet_Bb.toml"
     file.write_text(TRUMPET.replace('model = "trumpet_Bb.glb"', 'model = "none.glb"'), "utf-8")
-    assert [message.arguments["path"] for message in check_map(file)] == ["model"]
+    assert [message.arguments["place"] for message in check_map(file)] == ["model"]
     (tmp_path / "none.glb").write_bytes(b"glTF" + bytes(40))
-    assert [message.arguments["path"] for message in check_map(file)] == ["model"]
+    assert [message.arguments["place"] for message in check_map(file)] == ["model"]
 
 
 def problem_of(text: str, name: str) -> MapError | None:
@@ -169,5 +168,5 @@ def test_no_damage_escapes_as_another_error(data: st.DataObject) -> None:
     insert = data.draw(st.text(st.sampled_from('"[]{}=,.#\n -1aé\x00'), max_size=8))
     text = source[:start] + insert + source[end:]
     problem = problem_of(text, name)
-    assert problem is None or problem.message.id in {"map.syntax", "map.invalid"}
+    assert problem is None or problem.message.id in {"table.syntax", "table.invalid"}
     assert problem is None or problem.message.arguments["file"] == name

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.errors import MapError
+from app.errors import FileError, MapError
 from metadata.load import (
     GENERIC_CONTROLLER,
     ROOT,
@@ -269,22 +269,22 @@ def test_a_wrong_table_is_refused_with_its_key(
     with pytest.raises(MapError) as caught:
         READERS[source.split("/")[0]](path)
     message = caught.value.message
-    assert message.id == "metadata.invalid"
+    assert message.id == "table.invalid"
     assert message.arguments["file"] == path.name
-    assert str(message.arguments["key"]).startswith(key)
-    assert detail in str(message.arguments["detail"]) + str(message.arguments["key"])
+    assert str(message.arguments["place"]).startswith(key)
+    assert detail in str(message.arguments["detail"]) + str(message.arguments["place"])
 
 
 def test_a_syntax_error_names_the_line(tmp_path: Path) -> None:
     path = changed(tmp_path, "expressions/smile.toml", "fade_in_s = 0.50", "fade_in_s = = 0.50")
     with pytest.raises(MapError) as caught:
         read_expression(path)
-    assert caught.value.message.id == "metadata.syntax"
-    assert "line 4" in str(caught.value.message.arguments["detail"])
+    assert caught.value.message.id == "table.syntax"
+    assert caught.value.message.arguments["line"] == 4
 
 
-def test_unreadable_files_and_unknown_names_are_map_errors(tmp_path: Path) -> None:
-    with pytest.raises(MapError):
+def test_unreadable_files_and_unknown_names_are_our_errors(tmp_path: Path) -> None:
+    with pytest.raises(FileError):
         read_expression(tmp_path / "none.toml")
     (tmp_path / "bad.toml").write_bytes(b'name = "\xff"')
     with pytest.raises(MapError):

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from app.errors import FileError, UsageError
+from app.errors import FileError, MapError, UsageError
 from app.rig import character_library
 from app.rig.character_library import (
     FOLDER_VARIABLE,
@@ -134,7 +134,7 @@ def test_a_name_in_a_file_never_leads_out_of_the_folder(folder: Path, name: str)
     folder.mkdir()
     path = folder / "one.toml"
     write_entry("one", CharacterEntry(name))
-    with pytest.raises(FileError):
+    with pytest.raises(MapError):
         read_entry(path)
 
 

@@ -24,7 +24,7 @@ print(" ".join(sys.modules))
 program.end()
 """
     run = subprocess.run(
-        [sys.executable, "-c", script, str(tmp_path / "editor.ini")],
+        [sys.executable, "-c", script, str(tmp_path / "editor.toml")],
         cwd=ROOT,
         capture_output=True,
         text=True,

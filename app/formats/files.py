@@ -1,0 +1,93 @@
+"""Reading files of any origin: only ordinary files, only up to a size, and never waiting for one.
+
+A pipe would block its reader for ever and a device may have no end, so what is opened is looked at before it is read.
+
+Messages
+--------
+file.cannot_read : file, reason
+file.not_regular : file
+file.too_large : file, size_mb, most_mb
+"""
+
+from __future__ import annotations
+
+import os
+import stat
+from io import BufferedReader
+from pathlib import Path
+from typing import Final
+
+from app.errors import FileError
+
+_FLAGS: Final = os.O_RDONLY | sum(getattr(os, name, 0) for name in ("O_NONBLOCK", "O_NOCTTY", "O_CLOEXEC", "O_BINARY"))
+"""A pipe that nobody writes to is opened without waiting; a terminal does not become this process's own."""
+
+
+def open_file(path: str | os.PathLike[str]) -> BufferedReader:
+    """Open an ordinary file for reading.
+
+    Raises
+    ------
+    FileError
+        ``file.cannot_read``; ``file.not_regular`` for a folder, a pipe or a device.
+    """
+    try:
+        if stat.S_ISREG(Path(path).stat().st_mode):
+            stream = open(os.open(path, _FLAGS), "rb")  # noqa: PTH123, SIM115 - a descriptor; the caller closes it
+            if stat.S_ISREG(os.fstat(stream.fileno()).st_mode):
+                return stream
+            stream.close()  # It was replaced between the two.
+    except (OSError, ValueError) as error:  # ValueError: a NUL in the path
+        raise cannot_read(path, error) from error
+    raise FileError("file.not_regular", file=os.fspath(path))
+
+
+def read_file(path: str | os.PathLike[str], most_bytes: int) -> bytes:
+    """The content of an ordinary file.
+
+    Parameters
+    ----------
+    path : str or path-like
+    most_bytes : int
+        A longer file is refused before any of it is read.
+
+    Raises
+    ------
+    FileError
+        As `open_file`; ``file.too_large``.
+    """
+    with open_file(path) as stream:
+        try:
+            size = os.fstat(stream.fileno()).st_size
+            content = b"" if size > most_bytes else stream.read(size + 1)
+            if len(content) > size:  # It grows while it is read, or is one of the system's that have no size.
+                content += stream.read(most_bytes + 1 - len(content)) or b""
+                size = len(content)
+        except OSError as error:
+            raise cannot_read(path, error) from error
+    if size > most_bytes:
+        raise FileError("file.too_large", file=os.fspath(path), size_mb=_mb(size), most_mb=_mb(most_bytes))
+    return content
+
+
+def files_in(folder: Path, *suffixes: str) -> list[Path]:
+    """The entries of a folder whose names end so, in any case, by name; none where there is no such folder.
+
+    Raises FileError where there is one that cannot be listed.
+    """
+    try:
+        return sorted(path for path in folder.iterdir() if path.suffix.lower() in suffixes)
+    except FileNotFoundError:
+        return []
+    except (OSError, ValueError) as error:
+        raise cannot_read(folder, error) from error
+
+
+def cannot_read(path: str | os.PathLike[str], error: OSError | ValueError) -> FileError:
+    """The error of a file that the system does not let us read."""
+    reason = error.strerror if isinstance(error, OSError) else None
+    return FileError("file.cannot_read", file=os.fspath(path), reason=reason or str(error))
+
+
+def _mb(size: int) -> float:
+    return round(size / 2**20, 1)

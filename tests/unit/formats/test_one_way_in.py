@@ -1,0 +1,54 @@
+"""What comes from outside is read by `app.formats.files` alone: nobody else can forget pipes, sizes or odd errors."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+
+ROOT = Path(__file__).parents[3]
+FOLDERS = ("app", "widgets", "instrument_maps", "metadata")
+
+THE_READERS = {"app/formats/files.py", "app/formats/toml.py"}
+OUR_OWN = {
+    # Bundled with the program.
+    "app/audio/rendering.py": {"read_bytes"},
+    "app/export/unreal/plugin.py": {"read_bytes"},
+    "app/shell/language.py": {"read_bytes"},
+    "instrument_maps/load.py": {"read_bytes"},
+    "widgets/common/icons.py": {"read_text"},
+    # A file that this process has made: a lock, or what it copies to its backup.
+    "app/formats/locks.py": {"open"},
+    "app/formats/atomic.py": {"open"},
+    "app/formats/usd.py": {"open"},
+    # Files of ours, written a moment ago.
+    "app/export/unreal/check.py": {"read_bytes"},
+}
+READING = {"read_bytes", "read_text", "fromfile", "QSettings", "tomllib"}
+
+
+def readings(path: Path) -> Iterator[tuple[str, int]]:
+    """What in a module reads a file by itself, and in which line."""
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        name = getattr(node, "attr", getattr(node, "id", None)) if isinstance(node, ast.Attribute | ast.Name) else None
+        if name in READING:
+            yield str(name), node.lineno
+        if isinstance(node, ast.Call):
+            function = getattr(node.func, "attr", getattr(node.func, "id", None))
+            texts = [one.value for one in node.args if isinstance(one, ast.Constant) and isinstance(one.value, str)]
+            if function == "open" and any(text.startswith("r") and len(text) < 4 for text in texts):
+                yield "open", node.lineno
+
+
+def test_every_file_of_others_is_read_in_one_way() -> None:
+    found: dict[str, set[str]] = {}
+    places = []
+    for path in sorted(path for folder in FOLDERS for path in (ROOT / folder).rglob("*.py")):
+        module = path.relative_to(ROOT).as_posix()
+        for name, line in readings(path):
+            found.setdefault(module, set()).add(name)
+            if module not in THE_READERS and name not in OUR_OWN.get(module, set()):
+                places.append(f"{module}:{line}: {name}")
+    assert places == []
+    assert set(OUR_OWN) <= set(found), "an exception that nobody needs any more"
+    assert found["app/formats/toml.py"] == {"tomllib"}
