@@ -23,7 +23,7 @@ need_packages() {
     DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
 }
 
-# What Qt's wheels take from a Debian system: a display, OpenGL, fonts, sound.
+# What Qt's wheels take from a Debian system: a display, OpenGL, fonts; and PulseAudio's library, for the sound.
 qt_packages=(
     libdbus-1-3 libegl1 libfontconfig1 libgl1 libgl1-mesa-dri libglib2.0-0 libpulse0 libx11-xcb1 libxcb-cursor0 libxcb-icccm4
     libxcb-image0 libxcb-keysyms1 libxcb-randr0 libxcb-render-util0 libxcb-shape0 libxcb-sync1 libxcb-xfixes0 libxcb-xkb1

@@ -4,32 +4,17 @@ from __future__ import annotations
 
 import time
 from collections import deque
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from typing import Final, Protocol
+from collections.abc import Callable
+from typing import Final
 
 import numpy as np
-import soxr
-from PySide6.QtCore import QByteArray, QIODevice, QObject, Qt, QTimer, Signal, SignalInstance, qInstallMessageHandler
+from PySide6.QtCore import QObject, Qt, QTimer, Signal
 
 from app.audio.clock import DeviceClock
+from app.audio.output import open_output
 from app.audio.reader import Mark, Reader
 from app.audio.sink import BUFFER_S, SilentSink, Sink
-from app.audio.track import RATE_HZ, Block, Mix
-
-
-@contextmanager
-def _quietly() -> Iterator[None]:
-    """Qt tells of every library that it looked for in vain; a missing device is told by us."""
-    before = qInstallMessageHandler(lambda kind, context, text: None)
-    try:
-        yield
-    finally:
-        qInstallMessageHandler(before)
-
-
-with _quietly():
-    from PySide6.QtMultimedia import QAudioDevice, QAudioFormat, QAudioSink, QMediaDevices, QtAudio
+from app.audio.track import RATE_HZ, Mix
 
 _FEED_MS: Final = 10
 _GRAIN_S: Final = 0.09
@@ -38,16 +23,8 @@ _GRAINS_REST_MS: Final = 3000
 """The device is kept open so long after a grain: opening one takes a while."""
 _LEAST_S: Final = 1e-3
 _HOPELESS_S: Final = 1.0
-
-
-class Devices(Protocol):
-    """Where sinks come from."""
-
-    changed: SignalInstance
-
-    def open(self) -> Sink | None:
-        """The device that the system plays on, ready to be written to; None where there is none."""
-        ...
+_RETRY_S: Final = 2.0
+"""How often a missing device is looked for."""
 
 
 class Playback(QObject):
@@ -57,8 +34,8 @@ class Playback(QObject):
 
     Parameters
     ----------
-    devices : Devices, optional
-        The system's, if None.
+    open_sink : callable
+        Gives the device that the system plays on, ready to be written to; None where there is none.
     now : callable
         A monotonic clock in seconds.
 
@@ -66,7 +43,7 @@ class Playback(QObject):
     -------
     playing_changed(bool)
     silent_changed(bool)
-        Whether a device was missing when sound was last wanted.
+        Whether there is no device to play on.
     """
 
     playing_changed = Signal(bool)
@@ -74,12 +51,12 @@ class Playback(QObject):
 
     def __init__(
         self,
-        devices: Devices | None = None,
+        open_sink: Callable[[], Sink | None] = open_output,
         now: Callable[[], float] = time.perf_counter,
         parent: QObject | None = None,
     ) -> None:
         super().__init__(parent)
-        self._devices = devices if devices is not None else SystemDevices(self)
+        self._open_sink = open_sink
         self._now = now
         self._mix = Mix()
         self._position_s = 0.0
@@ -88,6 +65,8 @@ class Playback(QObject):
         self._speed = 1.0
         self._gain = 1.0
         self._silent = False
+        self._retry_s = 0.0
+        """When a missing device is looked for again."""
         self._sink: Sink | None = None
         self._clock = DeviceClock(now)
         self._reader = Reader(self._mix)
@@ -104,7 +83,6 @@ class Playback(QObject):
         self._rest_timer.setSingleShot(True)
         self._rest_timer.setInterval(_GRAINS_REST_MS)
         self._rest_timer.timeout.connect(self._end_grains)
-        self._devices.changed.connect(self._device_changed)
 
     # What is played
 
@@ -188,9 +166,14 @@ class Playback(QObject):
         self.seek(position_s)
         if self._sink is not None:
             return
+        if self._grains is not None and self._grains.failed():
+            self._end_grains()
         if self._grains is None:
-            self._grains = self._devices.open()
+            if self._now() < self._retry_s:
+                return
+            self._grains = self._open_sink()
             if self._grains is None:
+                self._retry_s = self._now() + _RETRY_S
                 return
             self._grains.set_volume(self._gain)
         self._rest_timer.start()
@@ -228,6 +211,12 @@ class Playback(QObject):
             # A device that fails as soon as it is opened is not tried again and again.
             self._begin(self.position_s(), may_sound=self._now() - self._begun_s > _HOPELESS_S)
             return
+        if self._silent and self._now() >= self._retry_s:
+            self._retry_s = self._now() + _RETRY_S
+            found = self._open_sink()
+            if found is not None:
+                self._begin(self.position_s(), found)
+                return
         free = sink.free()
         if free > 0:
             block, marks = self._reader.read(free)
@@ -239,12 +228,18 @@ class Playback(QObject):
             self.stop()
             self._position_s = self._span_s[1]
 
-    def _begin(self, start_s: float, may_sound: bool = True) -> None:
-        """Start a device and fill it."""
+    def _begin(self, start_s: float, sink: Sink | None = None, may_sound: bool = True) -> None:
+        """Fill a device that was opened, else open one, or play silently."""
         if self._sink is not None:
             self._sink.stop()
         self._begun_s = self._now()
-        self._sink = self._open(may_sound)
+        if sink is None and may_sound:
+            sink = self._open_sink()
+        # One that was there, but failed at once, is not looked for again.
+        self._retry_s = self._begun_s + _RETRY_S if may_sound else float("inf")
+        self._set_silent(sink is None)
+        self._sink = sink if sink is not None else SilentSink(self._now)
+        self._sink.set_volume(self._gain)
         self._clock = DeviceClock(self._now)
         self._reader = Reader(self._mix, start_s, self._speed, self._loop_s, silent=self._silent)
         self._marks.clear()
@@ -253,17 +248,10 @@ class Playback(QObject):
         self._position_s = start_s
         self.feed()
 
-    def _open(self, may_sound: bool = True) -> Sink:
-        """The device; the silent one where there is none."""
-        sink = self._devices.open() if may_sound else None
-        silent = sink is None
-        if sink is None:
-            sink = SilentSink(self._now)
-        sink.set_volume(self._gain)
+    def _set_silent(self, silent: bool) -> None:
         if silent != self._silent:
             self._silent = silent
             self.silent_changed.emit(silent)
-        return sink
 
     def _in_loop(self, position_s: float) -> bool:
         return self._loop_s is not None and position_s <= self._loop_s[1] + BUFFER_S
@@ -273,121 +261,3 @@ class Playback(QObject):
         if self._grains is not None:
             self._grains.stop()
             self._grains = None
-
-    def _device_changed(self) -> None:
-        """Another device is the system's now, or the one that played was taken away."""
-        self._end_grains()
-        if self._sink is not None:
-            self._begin(self.position_s())
-
-
-class SystemDevices(QObject):
-    """The system's default output, whichever it is at the moment."""
-
-    changed = Signal()
-
-    def __init__(self, parent: QObject | None = None) -> None:
-        super().__init__(parent)
-        self._media: QMediaDevices | None = None
-        self._last = QByteArray()
-
-    def open(self) -> Sink | None:
-        """The device that the system plays on."""
-        if self._media is None:
-            # Made when sound is wanted for the first time: the window is up sooner.
-            with _quietly():
-                self._media = QMediaDevices(self)
-                self._last = QMediaDevices.defaultAudioOutput().id()
-            self._media.audioOutputsChanged.connect(self._outputs_changed)
-        device = QMediaDevices.defaultAudioOutput()
-        if device.isNull():
-            return None
-        sink = DeviceSink(device)
-        return None if sink.failed() else sink
-
-    def _outputs_changed(self) -> None:
-        now: QByteArray = QMediaDevices.defaultAudioOutput().id()
-        if now != self._last:
-            self._last = now
-            self.changed.emit()
-
-
-class DeviceSink:
-    """A device of the system."""
-
-    def __init__(self, device: QAudioDevice) -> None:
-        audio_format = _format(device)
-        self._sample_format = audio_format.sampleFormat()
-        self._rate_hz = audio_format.sampleRate()
-        self._resampler = (
-            None if self._rate_hz == RATE_HZ else soxr.ResampleStream(RATE_HZ, self._rate_hz, 2, dtype="float32")
-        )
-        self._frame_bytes = audio_format.bytesPerFrame()
-        self._waiting = b""
-        self._sink = QAudioSink(device, audio_format)
-        self._sink.setBufferSize(round(BUFFER_S * self._rate_hz) * self._frame_bytes)
-        self._device: QIODevice | None = self._sink.start()
-
-    def free(self) -> int:
-        """Samples that may be written now, at `RATE_HZ`."""
-        free = self._sink.bytesFree() - len(self._waiting)
-        # Devices may take a longer buffer than they were asked for; what is heard must follow the hand.
-        most = round(BUFFER_S * self._rate_hz) * self._frame_bytes
-        free = min(free, most - (self._sink.bufferSize() - self._sink.bytesFree()) - len(self._waiting))
-        return max(free // self._frame_bytes * RATE_HZ // self._rate_hz, 0)
-
-    def write(self, block: Block) -> None:
-        """Play this next."""
-        if self._resampler is not None:
-            block = self._resampler.resample_chunk(np.ascontiguousarray(block))
-        self._waiting += _bytes(block, self._sample_format)
-        if self._device is not None:
-            written = self._device.write(self._waiting)
-            self._waiting = self._waiting[max(written, 0) :]
-
-    def processed_s(self) -> float:
-        """Seconds that were played since the start."""
-        return self._sink.processedUSecs() / 1e6
-
-    def set_volume(self, gain: float) -> None:
-        """0..1, linear."""
-        self._sink.setVolume(gain)
-
-    def failed(self) -> bool:
-        """Whether the device refused or went away; having nothing to play is no failure."""
-        stopped = self._sink.state() == QtAudio.State.StoppedState
-        harmless = self._sink.error() in (QtAudio.Error.NoError, QtAudio.Error.UnderrunError)
-        return self._device is None or (stopped and not harmless)
-
-    def stop(self) -> None:
-        """Be silent at once."""
-        self._device = None
-        self._sink.reset()
-        self._sink.stop()
-        self._sink.deleteLater()
-
-
-_WANTED = (QAudioFormat.SampleFormat.Int16, QAudioFormat.SampleFormat.Float, QAudioFormat.SampleFormat.Int32)
-
-
-def _format(device: QAudioDevice) -> QAudioFormat:
-    """Stereo at our rate if the device can, else at its own."""
-    wanted = QAudioFormat()
-    wanted.setChannelCount(2)
-    for rate_hz in (RATE_HZ, device.preferredFormat().sampleRate()):
-        wanted.setSampleRate(rate_hz)
-        for sample_format in _WANTED:
-            wanted.setSampleFormat(sample_format)
-            if device.isFormatSupported(wanted):
-                return wanted
-    wanted.setSampleRate(RATE_HZ)
-    wanted.setSampleFormat(QAudioFormat.SampleFormat.Int16)
-    return wanted
-
-
-def _bytes(block: Block, sample_format: QAudioFormat.SampleFormat) -> bytes:
-    if sample_format == QAudioFormat.SampleFormat.Float:
-        return np.ascontiguousarray(block, np.float32).tobytes()
-    if sample_format == QAudioFormat.SampleFormat.Int32:
-        return (block.astype(np.float64) * (2**31 - 1)).astype(np.int32).tobytes()
-    return np.round(block * 32767.0).astype(np.int16).tobytes()

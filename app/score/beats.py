@@ -1,7 +1,7 @@
 """The beats of what was played without a click: a tempo map that follows the player.
 
-The beats are found by librosa (dynamic programming over an onset envelope: Ellis, 2007, "Beat tracking by dynamic
-programming").
+The beats are found by dynamic programming over an onset envelope (Ellis, 2007, "Beat tracking by dynamic programming",
+Journal of New Music Research 36).
 """
 
 from __future__ import annotations
@@ -21,7 +21,9 @@ _RATE_HZ: Final = 200
 _SPREAD_S: Final = 0.02
 _LEAST_NOTES: Final = 8
 TIGHTNESS: Final = 60.0
-"""How much a beat's length may differ from the one before; librosa's usual 100 is for bands that keep time."""
+"""How much a beat that is longer or shorter than the others costs; the usual 100 is for bands that keep time."""
+_SMOOTHED: Final = 32
+"""The envelope is smoothed by a Gaussian that is so much narrower than a beat (Ellis)."""
 _SLOWEST_US, _FASTEST_US = 2_000_000.0, 200_000.0
 
 
@@ -47,8 +49,6 @@ def find_beats(onsets_s: Floats, ends_s: Floats, start_bpm: float = 100.0) -> Fl
     """
     if len(onsets_s) < _LEAST_NOTES:
         raise AppError("take.too_few_notes", count=len(onsets_s), least=_LEAST_NOTES)
-    import librosa  # heavy: compiles on its first use, and only here
-
     first_s = float(onsets_s[0]) - 1.0
     envelope = np.zeros(int(np.ceil((float(onsets_s[-1]) - first_s + 2.0) * _RATE_HZ)))
     times_s = first_s + np.arange(len(envelope)) / _RATE_HZ
@@ -56,27 +56,41 @@ def find_beats(onsets_s: Floats, ends_s: Floats, start_bpm: float = 100.0) -> Fl
         weight = 0.5 + min(max(end_s - onset_s, 0.0), 1.0)
         low, high = np.searchsorted(times_s, [onset_s - 4 * _SPREAD_S, onset_s + 4 * _SPREAD_S])
         envelope[low:high] += weight * np.exp(-0.5 * ((times_s[low:high] - onset_s) / _SPREAD_S) ** 2)
-    _, frames = librosa.beat.beat_track(
-        onset_envelope=envelope,
-        sr=_RATE_HZ,
-        hop_length=1,
-        bpm=_likely_bpm(envelope, start_bpm),
-        tightness=TIGHTNESS,
-        trim=False,
-    )
+    frames = _tracked(envelope, 60.0 * _RATE_HZ / _likely_bpm(envelope, start_bpm))
     beats = _settled(times_s[frames], onsets_s)
     if len(beats) < 2:
         raise AppError("take.no_beats")
     return _covering(beats, float(onsets_s[0]), float(onsets_s[-1]))
 
 
-def _likely_bpm(envelope: Floats, start_bpm: float) -> float:
-    """The tempo at which the envelope is most like itself, as librosa weighs it: logarithmic, and an octave from
-    ``start_bpm`` is a standard deviation away.
+def _tracked(envelope: Floats, period: float) -> npt.NDArray[np.intp]:
+    """The frames of the beats: those at which the envelope is high and whose distances are near a period, in frames."""
+    reach = round(period)
+    kernel = np.exp(-0.5 * (np.arange(-(reach // 4), reach // 4 + 1) * _SMOOTHED / period) ** 2)
+    strength = np.convolve(envelope / envelope.std(), kernel, "same")
+    # No beat is nearer than half a period: so many frames have all their predecessors before them.
+    least, most = max(reach // 2, 1), 2 * reach
+    lags = np.arange(most, least - 1, -1)
+    cost = TIGHTNESS * np.log(lags / period) ** 2
+    score = np.concatenate([np.zeros(most), strength])
+    before = np.full(len(score), -1)
+    for first in range(most, len(score), least):
+        last = min(first + least, len(score))
+        ways = np.lib.stride_tricks.sliding_window_view(score[first - most : last - least], len(lags)) - cost
+        best = ways.argmax(axis=1)
+        gain = ways[np.arange(last - first), best]
+        # A beat whose predecessors are worth nothing is the first one.
+        score[first:last] += np.maximum(gain, 0.0)
+        before[first:last] = np.where(gain > 0.0, np.arange(first, last) - lags[best], -1)
+    beats = [len(score) - 2 * reach + int(score[-2 * reach :].argmax())]
+    while before[beats[-1]] >= most:
+        beats.append(int(before[beats[-1]]))
+    return np.array(beats[::-1]) - most
 
-    Librosa's own estimate correlates eight seconds around each of its frames, at this rate gigabytes for ten minutes.
-    """
-    import scipy.fft  # heavy, like librosa, and only here
+
+def _likely_bpm(envelope: Floats, start_bpm: float) -> float:
+    """The tempo at which the envelope is most like itself; an octave from ``start_bpm`` is a standard deviation."""
+    import scipy.fft  # heavy, and only here
 
     size = scipy.fft.next_fast_len(2 * len(envelope), real=True)
     alike = scipy.fft.irfft(np.abs(scipy.fft.rfft(envelope, size)) ** 2, size)

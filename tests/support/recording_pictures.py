@@ -20,7 +20,7 @@ from pathlib import Path
 from typing import Final, TypeVar
 
 from PIL import Image
-from PySide6.QtCore import QEventLoop, QObject, QPointF, Qt, Signal
+from PySide6.QtCore import QEventLoop, QPointF, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QPushButton, QTreeWidget, QWidget
 
@@ -44,16 +44,6 @@ PIECE: Final = ROOT / "tests" / "data" / "midi" / "ensemble" / "brass_quartet_lu
 FIRST_BAR, LAST_BAR = 4, 8
 LATE_S, UNEVEN_S = 0.045, 0.009
 W = TypeVar("W", bound=QWidget)
-
-
-class UnheardDevices(QObject):
-    """An audio device that nobody hears."""
-
-    changed = Signal()
-
-    def open(self) -> SilentSink:
-        """A new one."""
-        return SilentSink(time.perf_counter)
 
 
 class Wind:
@@ -101,7 +91,7 @@ class Film:
         self.application, self.wind = application, wind
         settings = Settings(folder / "editor.toml")
         settings.language, settings.theme = "en", "dark"
-        make = lambda: Playback(UnheardDevices(application))  # noqa: E731
+        make = lambda: Playback(lambda: SilentSink(time.perf_counter))  # noqa: E731
         self.program = Program(
             settings,
             autosave=Autosave(Presence(folder / "recovery")),

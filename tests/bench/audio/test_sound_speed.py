@@ -92,7 +92,7 @@ def test_reading_a_mix_of_fifty() -> None:
 def test_a_frame_while_it_plays(qtbot: QtBot) -> None:
     session = Session(quartet(), ImmediateTasks())
     now = Time()
-    playback = Playback(FakeDevices(now), now)
+    playback = Playback(FakeDevices(now).open, now)
     sound = Sound(session, playback)
     bar = TransportBar(session)
     qtbot.addWidget(bar)
@@ -119,7 +119,7 @@ def test_a_frame_while_it_plays(qtbot: QtBot) -> None:
 def test_an_edit_of_a_large_score(qtbot: QtBot) -> None:
     project = crowd(50)
     session = Session(project, ImmediateTasks())
-    sound = Sound(session, Playback(FakeDevices(Time())))
+    sound = Sound(session, Playback(FakeDevices(Time()).open))
     print(sum(len(part.notes) for part in project.score.parts), "notes")
     phrases = took_s(lambda: [player_phrases(project, player) for player in project.players[:5]])
     tell("cutting a player of 3,000 notes", phrases / 5)

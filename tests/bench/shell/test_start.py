@@ -16,7 +16,8 @@ LIBRARIES = """
 import time
 start = time.perf_counter()
 import numpy, scipy.ndimage, scipy.spatial.transform, scipy.optimize, msgspec, mido, soundfile, pyqtgraph, vispy.scene
-from PySide6 import QtCore, QtGui, QtMultimedia, QtOpenGLWidgets, QtSvg, QtWidgets
+import miniaudio
+from PySide6 import QtCore, QtGui, QtOpenGLWidgets, QtSvg, QtWidgets
 print(time.perf_counter() - start)
 """
 WINDOW = """

@@ -22,15 +22,13 @@ def time() -> Time:
 
 
 @pytest.fixture
-def devices(time: Time) -> Iterator[FakeDevices]:
-    result = FakeDevices(time)
-    yield result
-    result.deleteLater()
+def devices(time: Time) -> FakeDevices:
+    return FakeDevices(time)
 
 
 @pytest.fixture
 def playback(qapp: object, devices: FakeDevices, time: Time) -> Iterator[Playback]:
-    result = Playback(devices, time)
+    result = Playback(devices.open, time)
     result.set_span(-1.0, 20.0)
     yield result
     result.stop()

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from PySide6.QtCore import QObject, Signal
 
 from app.audio.sink import BUFFER_S
 from app.audio.track import RATE_HZ, Block
@@ -61,13 +60,10 @@ class FakeSink:
         return np.concatenate(self.blocks) if self.blocks else np.zeros((0, 2), np.float32)
 
 
-class FakeDevices(QObject):
+class FakeDevices:
     """The system's device, which can be taken away."""
 
-    changed = Signal()
-
     def __init__(self, time: Time) -> None:
-        super().__init__()
         self._time = time
         self.there = True
         self.sinks: list[FakeSink] = []

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).parents[3]
-LATER = ("librosa", "numba", "scipy", "vispy.scene", "app.export", "widgets.dialogs")
+LATER = ("scipy", "vispy.scene", "app.export", "widgets.dialogs")
 
 
 def test_the_window_comes_up_without_what_is_needed_later(tmp_path: Path) -> None:

@@ -1,0 +1,123 @@
+"""What a sound is made of, moment by moment: its pitch classes (chroma), where tones begin (onsets), and its tuning.
+
+Usual features of music analysis, as far as `offset` needs them. librosa has them too, but cannot be installed without
+numba, LLVM and scikit-learn: 270 MB.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Final
+
+import numpy as np
+import numpy.typing as npt
+
+Floats = npt.NDArray[np.float64]
+Sound = npt.NDArray[np.float32]
+
+_A4_HZ: Final = 440.0
+_PITCHED_HZ: Final = (60.0, 5000.0)
+"""Where fundamentals and low harmonics of winds lie; other peaks tell nothing of the tuning."""
+_CENTRE_HZ: Final = 880.0
+_OCTAVES: Final = 2.0
+"""Pitch classes are told by the middle of the range: standard deviation of the weights around its centre."""
+_SPREAD: Final = 0.6
+"""Standard deviation in semitones of how a line of the spectrum counts for the pitch classes near it."""
+_BANDS: Final = 64
+_LOWEST_BAND_HZ: Final = 40.0
+_COMPRESSION: Final = 1e4
+"""Band energies are compared by their logarithm, down to this part of the mean energy."""
+_FRAMES: Final = 1024
+"""Transformed at once; all of an hour would not fit into memory."""
+
+
+def tuning(sound: Sound, rate_hz: int, size: int = 8192) -> float:
+    """How far a sound lies from 440 Hz: the circular mean over the peaks of its spectra.
+
+    Parameters
+    ----------
+    sound : float32 array, shape (n,)
+    rate_hz : int
+    size : int
+        Samples of a spectrum.
+
+    Returns
+    -------
+    float
+        Semitones, -0.5..0.5.
+    """
+    total = 0.0 + 0.0j
+    for power in _spectra(sound, size, size // 2):
+        level = np.log(power + 1e-12)
+        frame, line = np.nonzero((level[:, 1:-1] > level[:, :-2]) & (level[:, 1:-1] > level[:, 2:]))
+        below, peak, above = level[frame, line], level[frame, line + 1], level[frame, line + 2]
+        # The top of the parabola through the three.
+        hz = (line + 1 + 0.5 * (below - above) / (below - 2.0 * peak + above)) * rate_hz / size
+        weights = np.exp(0.5 * peak) * ((hz > _PITCHED_HZ[0]) & (hz < _PITCHED_HZ[1]))
+        total += complex((weights * np.exp(2j * np.pi * 12.0 * np.log2(hz / _A4_HZ))).sum())
+    return float(np.angle(total) / (2.0 * np.pi))
+
+
+def chroma(sound: Sound, rate_hz: int, size: int, hop: int, tuned: float) -> Floats:
+    """Energy of each pitch class, C first.
+
+    Parameters
+    ----------
+    sound : float32 array, shape (n,)
+    rate_hz : int
+    size, hop : int
+        Samples of a spectrum, and from one to the next; the first is centred on the first sample.
+    tuned : float
+        Semitones above 440 Hz, as `tuning` finds them.
+
+    Returns
+    -------
+    float64, shape (12, frames)
+    """
+    lines = np.arange(1, size // 2 + 1)
+    octaves = np.log2(lines * rate_hz / size / _A4_HZ)
+    apart = (12.0 * octaves[:, None] + 9.0 - tuned - np.arange(12) + 6.0) % 12.0 - 6.0
+    # Low lines are further apart than semitones: each counts for all that it may be.
+    spread = np.maximum(_SPREAD, 6.0 * np.log2((lines + 1) / lines))[:, None]
+    weights = np.exp(-0.5 * (apart / spread) ** 2)
+    weights /= weights.sum(axis=1, keepdims=True)
+    weights *= np.exp(-0.5 * ((octaves - np.log2(_CENTRE_HZ / _A4_HZ)) / _OCTAVES) ** 2)[:, None]
+    return np.concatenate([power[:, 1:] @ weights for power in _spectra(sound, size, hop)]).T
+
+
+def onset_strength(sound: Sound, rate_hz: int, size: int, hop: int) -> Floats:
+    """How much louder it has become since the frame before, over bands as wide as the ear's: the spectral flux.
+
+    Parameters
+    ----------
+    sound : float32 array, shape (n,)
+    rate_hz : int
+    size, hop : int
+        Samples of a spectrum, and from one to the next; the first is centred on the first sample.
+
+    Returns
+    -------
+    float64, shape (frames,)
+    """
+    edges = np.geomspace(_LOWEST_BAND_HZ, rate_hz / 2, _BANDS, endpoint=False) * size / rate_hz
+    starts = np.unique(np.round(edges).astype(np.intp))
+    # A window's energy, spread over the bands.
+    mean = max(float((sound.astype(np.float64) ** 2).mean()) * size**2 / 8 / len(starts), 1e-12)
+    result: list[Floats] = []
+    before: Floats | None = None
+    for power in _spectra(sound, size, hop):
+        level = np.log1p(_COMPRESSION / mean * np.add.reduceat(power, starts, axis=1))
+        rise = np.diff(level, axis=0, prepend=level[:1] if before is None else before)
+        result.append(np.maximum(rise, 0.0).mean(axis=1))
+        before = level[-1:]
+    return np.concatenate(result)
+
+
+def _spectra(sound: Sound, size: int, hop: int) -> Iterator[Floats]:
+    """Power spectra, shape (frames, size // 2 + 1), some frames at a time."""
+    padded = np.pad(sound, size // 2)
+    frames = np.lib.stride_tricks.sliding_window_view(padded, size)[::hop]
+    window = np.hanning(size + 1)[:-1].astype(np.float32)
+    for first in range(0, len(frames), _FRAMES):
+        spectrum = np.fft.rfft(frames[first : first + _FRAMES] * window, axis=1)
+        yield spectrum.real.astype(np.float64) ** 2 + spectrum.imag.astype(np.float64) ** 2
