@@ -6,7 +6,7 @@ import platform
 
 import PySide6
 from PySide6.QtCore import QEvent, Qt, qVersion
-from PySide6.QtWidgets import QDialog, QDialogButtonBox, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QDialog, QDialogButtonBox, QPushButton, QVBoxLayout, QWidget
 
 from app.shell.faults import log_path
 from app.version import program_version
@@ -34,6 +34,10 @@ class AboutDialog(QDialog):
         self._text.setMinimumWidth(440)
         self._buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
         self._buttons.rejected.connect(self.reject)
+        self._licences = QPushButton()
+        self._licences.setObjectName("about_licences")
+        self._licences.clicked.connect(self._show_licences)
+        self._buttons.addButton(self._licences, QDialogButtonBox.ButtonRole.HelpRole)
         column = QVBoxLayout(self)
         column.setContentsMargins(24, 20, 24, 16)
         column.setSpacing(12)
@@ -45,6 +49,7 @@ class AboutDialog(QDialog):
     def retranslate(self) -> None:
         """Set the texts."""
         self.setWindowTitle(self.tr("About Suisou"))
+        self._licences.setText(self.tr("Licences..."))
         versions = f"Python {platform.python_version()}, Qt {qVersion()}, PySide6 {PySide6.__version__}"
         self._text.setText(
             "\n\n".join(
@@ -57,6 +62,11 @@ class AboutDialog(QDialog):
                 )
             )
         )
+
+    def _show_licences(self) -> None:
+        from app.shell.licences_dialog import LicencesDialog
+
+        LicencesDialog(self).open()
 
     def _settings_path(self) -> str:
         from app.shell.editor import editor_of

@@ -8,6 +8,10 @@
         <translation>Suisou について</translation>
     </message>
     <message>
+        <source>Licences...</source>
+        <translation>ライセンス...</translation>
+    </message>
+    <message>
         <source>The performance of a wind ensemble, from its MIDI, for animation.</source>
         <translation>MIDI から管楽アンサンブルの演奏を作る、アニメーション制作のための道具です。</translation>
     </message>
@@ -812,6 +816,45 @@
     <message>
         <source>Add Character</source>
         <translation>キャラクターを追加</translation>
+    </message>
+</context>
+<context>
+    <name>LicencesDialog</name>
+    <message>
+        <source>Licences</source>
+        <translation>ライセンス</translation>
+    </message>
+    <message>
+        <source>Suisou is under the Apache License 2.0. The packages below were installed with it, each under its own licence.</source>
+        <translation>Suisou のライセンスは Apache License 2.0 です。以下のパッケージは Suisou とともにインストールされたもので、それぞれ独自のライセンスに従います。</translation>
+    </message>
+    <message>
+        <source>Qt, PySide6, soxr and libsndfile are under the LGPL: libraries in files of their own, which you may replace with your own builds.</source>
+        <translation>Qt、PySide6、soxr、libsndfile は LGPL です。独立したファイルのライブラリで、自分でビルドしたものに置き換えることができます。</translation>
+    </message>
+    <message>
+        <source>FFmpeg is under the GPL: a separate program, started as a process of its own to write films.</source>
+        <translation>FFmpeg は GPL です。独立したプログラムで、動画の書き出し時に別プロセスとして起動されます。</translation>
+    </message>
+    <message>
+        <source>Work</source>
+        <translation>名称</translation>
+    </message>
+    <message>
+        <source>Version</source>
+        <translation>バージョン</translation>
+    </message>
+    <message>
+        <source>Licence</source>
+        <translation>ライセンス</translation>
+    </message>
+    <message>
+        <source>Source</source>
+        <translation>入手先</translation>
+    </message>
+    <message>
+        <source>Suisou&apos;s own files</source>
+        <translation>Suisou 自身のファイル</translation>
     </message>
 </context>
 <context>

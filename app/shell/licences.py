@@ -1,0 +1,145 @@
+"""The licences of everything that is installed with the program.
+
+What packages say of themselves is read from their metadata; what these leave out is in `resources/licences.toml`.
+"""
+
+from __future__ import annotations
+
+from email.message import Message
+from fnmatch import filter as matching
+from functools import cache
+from importlib.metadata import Distribution, PackageNotFoundError, distribution
+from importlib.resources import files
+from pathlib import Path
+from typing import Final
+
+import msgspec
+from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
+
+from app.formats.toml import read_toml, shaped
+
+PROGRAM: Final = "suisou"
+_EXTRAS: Final = ("", "usd")
+_LONGEST: Final = 80
+"""A longer statement is the licence's text, not its name."""
+_SOURCES: Final = ("source", "source code", "repository", "homepage", "home")
+
+
+class Part(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """Somebody else's work within a package, or among the program's data.
+
+    Attributes
+    ----------
+    name, licence, source : str
+        The licence as an SPDX expression; where its source is.
+    files : tuple of str
+        Patterns of the files that are it; none: it is linked into the package's own modules.
+    """
+
+    name: str
+    licence: str
+    source: str
+    files: tuple[str, ...] = ()
+
+
+class Package(msgspec.Struct, frozen=True):
+    """An installed package; its licence is empty where nobody says it."""
+
+    name: str
+    version: str
+    licence: str
+    source: str
+    parts: tuple[Part, ...] = ()
+
+
+class _Fact(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """What a package's metadata leave out."""
+
+    licence: str = ""
+    source: str = ""
+    parts: tuple[Part, ...] = ()
+
+
+class _Facts(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    packages: dict[str, _Fact]
+    data: tuple[Part, ...]
+
+
+@cache
+def _facts() -> _Facts:
+    path = Path(str(files("resources"))) / "licences.toml"
+    return shaped(read_toml(path), _Facts, path.name)
+
+
+def data() -> tuple[Part, ...]:
+    """What others made among the program's own files."""
+    return _facts().data
+
+
+def installed() -> tuple[Package, ...]:
+    """Every package that the program needs, directly or not, with the parts that it has on this system.
+
+    Raises
+    ------
+    importlib.metadata.PackageNotFoundError
+        The program itself is not installed.
+    """
+    return tuple(_present(found) for _, found in sorted(distributions().items()))
+
+
+def distributions() -> dict[str, Distribution]:
+    """What is installed of all that the program needs, directly or not, by normalised name; without itself."""
+    found: dict[str, Distribution] = {}
+    waiting = [distribution(PROGRAM)]
+    while waiting:
+        for text in waiting.pop().requires or ():
+            requirement = Requirement(text)
+            name = canonicalize_name(requirement.name)
+            wanted = requirement.marker is None or any(requirement.marker.evaluate({"extra": e}) for e in _EXTRAS)
+            if not wanted or name in found:
+                continue
+            try:
+                found[name] = distribution(name)
+            except PackageNotFoundError:
+                continue  # An extra that was not asked for.
+            waiting.append(found[name])
+    return found
+
+
+def package_of(found: Distribution) -> Package:
+    """What is known of an installed package, with the parts that it has on any system."""
+    metadata: Message = found.metadata  # type: ignore[assignment]
+    fact = _facts().packages.get(canonicalize_name(metadata["Name"]), _Fact())
+    return Package(
+        metadata["Name"],
+        found.version,
+        fact.licence or _licence(metadata),
+        fact.source or _source(metadata),
+        fact.parts,
+    )
+
+
+def _present(found: Distribution) -> Package:
+    package, names = package_of(found), [str(file) for file in found.files or ()]
+    here = [part for part in package.parts if not part.files or any(matching(names, p) for p in part.files)]
+    return msgspec.structs.replace(package, parts=tuple(here))
+
+
+def _licence(metadata: Message) -> str:
+    """The licence's name as a package states it: an SPDX expression where it is a new one."""
+    stated = str(metadata.get("License-Expression") or metadata.get("License") or "").strip()
+    if stated and "\n" not in stated and len(stated) <= _LONGEST:
+        return stated
+    classes = [str(value).split(" :: ") for value in metadata.get_all("Classifier", ())]
+    return ", ".join(parts[-1] for parts in classes if parts[0] == "License" and len(parts) > 2)
+
+
+def _source(metadata: Message) -> str:
+    """Where a package's source is, or its home."""
+    addresses = {}
+    for entry in metadata.get_all("Project-URL", ()):
+        label, _, address = str(entry).partition(",")
+        addresses[label.strip().lower()] = address.strip()
+    known = [addresses[label] for label in _SOURCES if label in addresses]
+    return next(iter(known), str(metadata.get("Home-page") or f"https://pypi.org/project/{metadata['Name']}"))
