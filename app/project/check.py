@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise
@@ -232,14 +231,15 @@ def _take_faults(project: Project) -> Iterator[Fault]:
         if player not in known:
             yield place, "there is no player of this id"
         for index, take in enumerate(recorded.takes):
-            yield from _one_take_faults(take, f"{place}.takes[{index}]")
+            yield from take_faults(take, f"{place}.takes[{index}]")
         yield from _comp_faults(recorded, f"{place}.comp")
         yield from _note_faults(recorded.before_notes, f"{place}.before_notes")
         for index, curve in enumerate(recorded.before_curves):
             yield from _curve_faults(curve, f"{place}.before_curves[{index}]")
 
 
-def _one_take_faults(take: Take, place: str) -> Iterator[Fault]:
+def take_faults(take: Take, place: str) -> Iterator[Fault]:
+    """What is wrong with a take, by itself."""
     if not _TAKE.fullmatch(take.id):
         yield f"{place}.id", 'must be like "take:1"'
     yield from _text(f"{place}.name", take.name)
@@ -327,7 +327,8 @@ def _within(prefix: str, found: Iterable[Fault]) -> Iterator[Fault]:
 
 
 def _between(place: str, value: float, bounds: limits.Bounds) -> Iterator[Fault]:
-    if not math.isfinite(value) or not bounds[0] <= value <= bounds[1]:
+    # Also not where it is no number at all, or a whole one that no float can hold.
+    if not bounds[0] <= value <= bounds[1]:
         yield place, f"must be from {bounds[0]:.15g} to {bounds[1]:.15g}"
 
 

@@ -1560,6 +1560,10 @@
             <translation>プロジェクトに入るテイクは{most}個までです。先にいくつか削除してください。</translation>
         </message>
         <message>
+            <source>What was recorded cannot be used: {place}: {detail}. Its journal is damaged.</source>
+            <translation>録音された内容を使用できません: {place}: {detail}。ジャーナルファイルが壊れています。</translation>
+        </message>
+        <message>
             <source>{part} has notes already, so the tempo cannot follow one take. Quantise the take instead.</source>
             <translation>{part}にはすでに音符があるため、テンポを1つのテイクに合わせられません。代わりにテイクをクオンタイズしてください。</translation>
         </message>

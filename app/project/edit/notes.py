@@ -12,6 +12,7 @@ note.velocity_outside(velocity, low, high): there is no such velocity.
 note.too_short(): a note would have no length.
 note.nothing_to_split(): no chosen note sounds across that place.
 note.nothing_to_join(): no two chosen notes follow one another at one pitch.
+tempo.too_many_bars(most): a note would lie in a bar later than a project can hold.
 """
 
 from __future__ import annotations
@@ -20,14 +21,17 @@ from collections.abc import Callable, Collection, Iterable, Iterator
 from dataclasses import replace
 from fractions import Fraction
 from itertools import groupby
+from typing import Annotated
 
 import msgspec
 
-from app.errors import AppError
+from app.errors import AppError, FileError
+from app.formats.json_data import decode_json
 from app.plan.corrections import Correction, anchor
+from app.project.edit.length import with_score
 from app.project.grid import Grid
 from app.project.ids import new_note_ids
-from app.project.limits import LAST_TICK
+from app.project.limits import LAST_TICK, TICKS_PER_QUARTER
 from app.project.model import Project
 from app.score.model import Note, Part
 
@@ -246,8 +250,16 @@ class CopiedLine(msgspec.Struct, frozen=True):
 class Clip(msgspec.Struct, frozen=True):
     """Notes on the clipboard, with the resolution that their ticks are counted in."""
 
-    ticks_per_quarter: int
+    ticks_per_quarter: Annotated[int, msgspec.Meta(ge=TICKS_PER_QUARTER[0], le=TICKS_PER_QUARTER[1])]
     lines: tuple[CopiedLine, ...]
+
+
+def read_clip(data: bytes) -> Clip | None:
+    """Notes from the clipboard; None where another program has put something else there under our name."""
+    try:
+        return decode_json(data, Clip, "")
+    except FileError:
+        return None
 
 
 def copied(project: Project, note_ids: Collection[str]) -> Clip:
@@ -340,7 +352,7 @@ def _edited(project: Project, part_ids: Collection[str], edit: Callable[[tuple[N
         parts.append(part)
     if all(after is before for after, before in zip(parts, project.score.parts, strict=True)):
         return project
-    return replace(project, score=msgspec.structs.replace(project.score, parts=tuple(parts)))
+    return with_score(project, msgspec.structs.replace(project.score, parts=tuple(parts)))
 
 
 def _order(note: Note) -> tuple[int, int]:

@@ -8,7 +8,9 @@ Messages
 --------
 take.none(take) : there is no such take.
 take.too_many(most) : a project has no room for more takes.
+take.invalid(place, detail) : what was recorded cannot be kept, for example because its journal is damaged.
 take.not_free(part) : other parts have notes, so the tempo is not one take's to say.
+tempo.too_many_bars(most) : a note of a take would lie in a bar later than a project can hold.
 take.too_few_notes(count, least), take.no_beats() : no beat is found (`app.score.beats`).
 """
 
@@ -27,6 +29,8 @@ from app.errors import AppError
 from app.identity_cache import IdentityCache
 from app.project import limits
 from app.project.alignment import Floats, Line, align
+from app.project.check import take_faults
+from app.project.edit.length import with_score
 from app.project.grid import Grid
 from app.project.ids import MOST_TAKE_NOTES, fresh_take_ids, take_note_id
 from app.project.limits import LAST_TICK
@@ -74,12 +78,21 @@ def recorded_of(project: Project, player_id: str) -> PlayerTakes:
 
 
 def add_takes(project: Project, player_id: str, takes: Sequence[Take]) -> tuple[Project, tuple[str, ...]]:
-    """Add what was recorded; ids are given here, and come with the project. Raises AppError ``take.too_many``."""
+    """Add what was recorded; ids are given here, and come with the project.
+
+    Raises
+    ------
+    AppError
+        ``take.too_many``; ``take.invalid``: no project could hold it.
+    """
     count = sum(len(recorded.takes) for recorded in project.takes.values()) + len(takes)
     if count > limits.MOST_TAKES:
         raise AppError("take.too_many", most=limits.MOST_TAKES)
     ids = fresh_take_ids(project, len(takes))
     named = tuple(msgspec.structs.replace(take, id=id) for take, id in zip(takes, ids, strict=True))
+    for take in named:
+        for place, detail in take_faults(take, "take"):
+            raise AppError("take.invalid", place=place, detail=detail)
     recorded = recorded_of(project, player_id)
     return _with(project, player_id, msgspec.structs.replace(recorded, takes=(*recorded.takes, *named))), ids
 
@@ -406,7 +419,7 @@ def _with_part(project: Project, part_id: str, notes: Iterable[Note], curves: tu
         parts.append(part)
     if all(after is before for after, before in zip(parts, project.score.parts, strict=True)):
         return project
-    return replace(project, score=msgspec.structs.replace(project.score, parts=tuple(parts)))
+    return with_score(project, msgspec.structs.replace(project.score, parts=tuple(parts)))
 
 
 def _spliced(

@@ -25,6 +25,7 @@ import msgspec
 
 from app.errors import UsageError
 from app.project import limits
+from app.project.edit.length import with_score
 from app.project.model import Project
 from app.score.model import Metre, Score
 from app.score.tempo import TempoChange, TempoMap
@@ -180,6 +181,4 @@ def _with_metres(project: Project, metres: Iterable[Metre], pickup_ticks: int) -
     if ordered == before.metres and pickup_ticks == before.pickup_ticks:
         return project
     score: Score = msgspec.structs.replace(before, metres=ordered, pickup_ticks=pickup_ticks)
-    if score.bar_of_tick(score.sounding_end_tick) > limits.MOST_BARS:
-        raise UsageError("tempo.too_many_bars", most=limits.MOST_BARS)
-    return replace(project, score=score)
+    return with_score(project, score)

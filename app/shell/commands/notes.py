@@ -288,11 +288,7 @@ def _clipboard() -> notes.Clip | None:
     data = QGuiApplication.clipboard().mimeData()
     if data is None or not data.hasFormat(MIME_TYPE):
         return None
-    try:
-        return msgspec.json.decode(bytes(data.data(MIME_TYPE).data()), type=notes.Clip)
-    except (msgspec.DecodeError, msgspec.ValidationError):
-        # Another program may put anything under our name.
-        return None
+    return notes.read_clip(bytes(data.data(MIME_TYPE).data()))
 
 
 def _playhead_tick(session: Session) -> int:

@@ -224,9 +224,11 @@ def _attack(child: Child, kind: str, seconds: float, seed: int, tally: Tally) ->
     pool: list[bytes] = []
     known: set[tuple[str, str]] = set()
     end_s = time.monotonic() + seconds
-    while time.monotonic() < end_s:
+    ahead = good[::-1]
+    while ahead or time.monotonic() < end_s:
         seeds = pool if pool and chance.random() < 0.3 else good
-        data = mutated(seeds, chance, spec.structured)
+        # What is good, and what was found before, comes first and as it is.
+        data = ahead.pop() if ahead else mutated(seeds, chance, spec.structured)
         result = child.run(kind, data)
         costly = tally.add(data, result)
         way = result.outcome, result.place

@@ -48,10 +48,10 @@ def main() -> None:
     # Of what is there now nothing is garbage: looking through it again and again would take longer than the readers.
     gc.collect()
     gc.freeze()
-    data_bytes = _status_kb("VmData") * 1024
+    data_bytes = status_kb("VmData") * 1024
     if data_bytes:
         resource.setrlimit(resource.RLIMIT_DATA, (data_bytes + MOST_DATA_BYTES, resource.RLIM_INFINITY))
-    print(json.dumps({"base_mb": _status_kb("VmRSS") / 1024}), file=answers, flush=True)
+    print(json.dumps({"base_mb": status_kb("VmRSS") / 1024}), file=answers, flush=True)
     _serve(sys.stdin, answers)
 
 
@@ -75,12 +75,12 @@ def _run(name: str, data: bytes) -> dict[str, Any]:
         work = folder / "work"
         work.mkdir()
         gc.collect()
-        _forget_peak()
+        forget_peak()
         children_kb = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss
         begin_s = _cpu_s()
         answer = _outcome(name, path, work)
         answer["cpu_s"] = _cpu_s() - begin_s
-        peak_kb = _status_kb("VmHWM")
+        peak_kb = status_kb("VmHWM")
         now_kb = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss
         answer["peak_mb"] = max(peak_kb, now_kb if now_kb > children_kb else 0) / 1024
         return answer
@@ -117,15 +117,16 @@ def _cpu_s() -> float:
     return time.process_time() + children.ru_utime + children.ru_stime
 
 
-def _forget_peak() -> None:
+def forget_peak() -> None:
+    """From now on the most memory is counted anew (Linux)."""
     try:
         Path("/proc/self/clear_refs").write_text("5")
     except OSError:
         return
 
 
-def _status_kb(field: str) -> int:
-    """A line of what Linux says of this process; 0 elsewhere."""
+def status_kb(field: str) -> int:
+    """What Linux says of this process's memory; 0 elsewhere."""
     try:
         lines = Path("/proc/self/status").read_text().splitlines()
     except OSError:

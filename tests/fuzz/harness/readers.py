@@ -25,7 +25,7 @@ class Broken(AssertionError):
 
 
 class Refused(Exception):
-    """A refusal that is no `AppError`: that of the plug-in for Unreal."""
+    """A refusal that is no `AppError`, for example that of the plug-in for Unreal."""
 
 
 @contextmanager
@@ -150,6 +150,18 @@ def journal(path: Path, folder: Path) -> None:
     for id_ in ids[:2]:
         project = comp_whole(project, player, id_)
     with accepted("save the takes"):
+        _saved(project, folder)
+
+
+def clip(path: Path, folder: Path) -> None:
+    """What another program has put on the clipboard as notes is pasted and saved."""
+    from app.project.edit.notes import paste, read_clip
+
+    notes = read_clip(path.read_bytes())
+    if notes is None:
+        raise Refused("no notes")
+    project, _ = paste(_quartet(), _quartet().players[0].part_id, notes, 960)
+    with accepted("save what was pasted"):
         _saved(project, folder)
 
 
@@ -369,6 +381,7 @@ KINDS: Final[dict[str, Kind]] = {
         Kind("project", autosave, seeds.project, _JSON, ".suisou"),
         Kind("project", presence, seeds.presence, _JSON, ".json"),
         Kind("project", journal, seeds.journal, _TEXT, ".take-journal"),
+        Kind("project", clip, seeds.clip, _JSON, ".json"),
         Kind("tables", instrument_map, seeds.instrument_map, _TEXT, ".toml", 2.0),
         Kind("tables", metadata, seeds.metadata, _TEXT, ".toml"),
         Kind("tables", expression, seeds.expression, _TEXT, ".toml"),

@@ -69,6 +69,13 @@ def presence() -> list[bytes]:
     ]
 
 
+def clip() -> list[bytes]:
+    """Notes on the clipboard."""
+    notes = [{"offset_tick": tick, "duration_tick": 240, "pitch": 60, "velocity": 80} for tick in (0, 480, 960)]
+    lines = [{"part_id": "1.1.1", "notes": notes}, {"part_id": "x", "notes": notes[:1]}]
+    return [json.dumps({"ticks_per_quarter": 480, "lines": lines[:count]}).encode() for count in (1, 2)]
+
+
 def instrument_map() -> list[bytes]:
     """Small maps, and one that extends another."""
     own = b'extends = "trumpet_Bb"\nid = "trumpet_Bb"\nfingerings = [\n  [60, "0"],\n]\n[name]\nen = "Mine"\nja = "X"\n'
@@ -201,8 +208,9 @@ _ASSETS = {"mesh": "SK", "skeleton": "SKEL", "animation": "A"}
 
 def unreal_manifest() -> list[bytes]:
     """The list of the files that are ours in an Unreal project."""
-    files = {"Audio/S_Piece.wav": {"bytes": 10, "sha256": "0" * 64}}
-    return [json.dumps({"schema": 1, "creator": "Suisou", "files": files}).encode()]
+    from app.export.unreal.manifest import OwnFile, encode_manifest
+
+    return [encode_manifest({"Audio/S_Piece.wav": OwnFile(10, "0" * 64)}, "Suisou")]
 
 
 def unreal_project() -> list[bytes]:
@@ -224,18 +232,22 @@ def _nested_gltf() -> bytes:
     return json.dumps({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": nodes}).encode()
 
 
+def _huge_tick() -> bytes:
+    return project()[-1].replace(b'"start_tick": 1,', b'"start_tick": ' + b"9" * 400 + b",", 1)
+
+
 MADE: Final[dict[str, dict[str, Callable[[], bytes]]]] = {
-    "project": {"deep": lambda: b"[" * 100_000, "deep_object": lambda: b'{"a":' * 60_000},
-    "instrument_map": {"deep": lambda: b"a = " + b"[" * 50_000, "digits": lambda: b"a = " + b"9" * 6000},
-    "expression": {"deep": lambda: b"a = " + b"[" * 50_000, "digits": lambda: b"a = " + b"9" * 6000},
-    "preset": {"deep": lambda: b"a = " + b"[" * 50_000, "digits": lambda: b"a = " + b"9" * 6000},
-    "character_entry": {"deep": lambda: b"a = " + b"[" * 50_000, "digits": lambda: b"a = " + b"9" * 6000},
-    "metadata": {"deep": lambda: b"a = " + b"[" * 50_000, "digits": lambda: b"a = " + b"9" * 6000},
+    "project": {"huge_tick": _huge_tick, "deep": lambda: b"[" * 100_000, "deep_object": lambda: b'{"a":' * 60_000},
     "gltf": {"deep": lambda: b'{"a":' * 60_000, "nested_nodes": _nested_gltf},
-    "unreal_description": {"deep": lambda: b"[" * 100_000},
     "unreal_manifest": {"deep": lambda: b"[" * 100_000},
     "unreal_project": {"deep": lambda: b"[" * 100_000},
-    "presence": {"deep": lambda: b"[" * 100_000},
+    "journal": {"long_name": lambda: journal()[0].replace(b"EWI USB", b"E" * 20_000)},
+    "clip": {
+        "deep": lambda: b'{"x":' * 60_000,
+        "no_resolution": lambda: clip()[0].replace(b": 480,", b": 0,", 1),
+        "no_utf8": lambda: clip()[1].replace(b'"x"', b'"\xff"'),
+    },
+    "presence": {"no_utf8": lambda: presence()[1].replace(b"work", b"\xff"), "deep": lambda: b"[" * 100_000},
 }
 """By kind and name."""
 

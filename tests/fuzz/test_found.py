@@ -1,0 +1,36 @@
+"""Every file that ever broke a reader is read or refused now, within 5 s of CPU and 1 GB."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import pytest
+
+from tests.fuzz.harness.campaign import Child
+from tests.fuzz.harness.readers import KINDS
+from tests.fuzz.harness.seeds import HOSTILE, MADE, hostile
+
+FOUND = [(kind, name) for kind in KINDS for name, _ in hostile(kind)]
+
+
+@pytest.fixture(scope="module")
+def children() -> Iterator[dict[str, Child]]:
+    """A process for each group of readers, begun when it is first needed."""
+    started: dict[str, Child] = {}
+    yield started
+    for child in started.values():
+        child.close()
+
+
+@pytest.mark.parametrize(("kind", "name"), FOUND, ids=[f"{kind}-{name}" for kind, name in FOUND])
+def test_a_found_file(kind: str, name: str, children: dict[str, Child]) -> None:
+    group = KINDS[kind].group
+    if group not in children:
+        children[group] = Child([other for other, spec in KINDS.items() if spec.group == group]).start()
+    result = children[group].run(kind, dict(hostile(kind))[name])
+    assert not result.failure, f"{result.failure}: {result.cpu_s:.1f} s, {result.peak_mb:.0f} MB\n{result.detail}"
+
+
+def test_every_found_file_has_a_reader() -> None:
+    folders = {path.name for path in HOSTILE.iterdir()} if HOSTILE.is_dir() else set()
+    assert folders | set(MADE) <= set(KINDS)
