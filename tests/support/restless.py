@@ -1,13 +1,9 @@
-"""A restless person: clicks, drags, turns the wheel and presses keys all over the whole editor, by a seed.
-
-``python -m tests.support.restless SEED STEPS``: a long run in a process of its own, with real threads.
-"""
+"""A restless person: clicks, drags, turns the wheel and presses keys all over the whole editor, by a seed."""
 
 from __future__ import annotations
 
 import random
 import sys
-import tempfile
 import time
 import traceback
 from collections.abc import Callable
@@ -32,14 +28,10 @@ from PySide6.QtWidgets import QApplication, QDialog, QMainWindow, QMenu, QMenuBa
 
 from app.errors import Message
 from app.performance.ensemble import Performance
-from app.project.autosave import Autosave
 from app.project.edit.takes import add_takes, comp_whole
 from app.project.model import Project
-from app.project.presence import Presence
 from app.project.storage import load, save
-from app.shell.app import Program, make_application
-from app.shell.settings import Settings
-from app.shell.tasks import ThreadTasks
+from app.shell.app import Program
 from tests.support.takes import take_of
 
 QUARTET = Path(__file__).parents[2] / "resources" / "examples" / "quartet.mid"
@@ -399,50 +391,3 @@ class Complaints:
 
     def _logged(self, kind: QtMsgType, context: QMessageLogContext, text: str) -> None:
         self.found.append(f"Qt: {text}")
-
-
-def long_run(seed: int, steps: int, chatty: Callable[[str], None] = print) -> int:
-    """A long run; every complaint is printed with what was done before it."""
-    from tests.gui.shell.conftest import Answers
-
-    application = make_application()
-    complaints = Complaints()
-    complaints.install()
-    with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
-        settings = Settings(folder / "editor.toml")
-        settings.language = "en"
-        answers = Answers()
-        answers.answer = "discard"
-        answers.path = folder / "of the seed.suisou"
-        program = Program(settings, questions=answers, autosave=Autosave(Presence(folder / "recovery")), heard=False)
-        tasks = program.tasks
-        assert isinstance(tasks, ThreadTasks)
-        tasks.unexpected.connect(complaints.take)
-        program.window.resize(1600, 1000)
-        program.window.show()
-        program.editor.files.open(QUARTET, ask=False)
-        while not program.editor.files.is_open:
-            application.processEvents()
-        person = Restless(program, seed)
-        told = 0
-        for number in range(steps):
-            before = len(person.deeds)
-            person.step()
-            if len(complaints.found) > told:
-                told = len(complaints.found)
-                chatty(f"--- seed {seed} step {number}: {person.deeds[max(0, before - 4) :]}\n{complaints.found[-1]}")
-            if number % 250 == 249:
-                try:
-                    person.judge(folder)
-                except Exception:  # noqa: BLE001 - all of it is to be seen
-                    chatty(f"--- seed {seed} step {number}: judged\n{traceback.format_exc()}\n{person.deeds[-250:]}")
-        slow = sorted(person.slowest_s, reverse=True)[:12]
-        chatty(f"seed {seed}: {steps} steps, {told} complaints; slowest: {[(round(s, 2), d) for s, d in slow]}")
-        program.end()
-        program.window.hide()
-    return told
-
-
-if __name__ == "__main__":
-    sys.exit(min(long_run(int(sys.argv[1]), int(sys.argv[2])), 1))

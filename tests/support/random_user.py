@@ -1,0 +1,493 @@
+"""A random user of the whole editor, in processes that are killed: what was done by hand is there when the next begins.
+
+``python -m tests.support.random_user FOLDER SEED DEEDS [kill]``: one session. It takes up what the session before left
+(unsaved work, else the last file), does random deeds, among them opening hostile files, saving under hostile names,
+undoing, importing again, and is killed at a random moment of its last deed; without ``kill`` it ends in order, and the
+document is judged. Every value of the project is noted down in ``FOLDER/<n>.log`` when it comes to be, so that
+`lost_work` can tell what of it the next session lacks.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import random
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import IO, Any, Final
+from unittest.mock import patch
+
+import mido
+from PySide6.QtWidgets import QApplication, QDialog, QLineEdit
+
+from app.errors import AppError, Message
+from app.plan.corrections import AddExpression
+from app.project import storage
+from app.project.autosave import Autosave
+from app.project.document import Change
+from app.project.edit.corrections import put
+from app.project.edit.generation import vary_everyone
+from app.project.edit.notes import move
+from app.project.edit.piece import set_title
+from app.project.edit.players import rename, set_parameters
+from app.project.model import Project
+from app.project.presence import Presence
+from app.project.recovery import Recoverable
+from app.shell.app import Program, make_application
+from app.shell.commands.exchange import reimport_from
+from app.shell.questions import Answer
+from app.shell.settings import Settings
+from app.shell.tasks import ThreadTasks
+from tests.fuzz.harness import seeds
+from tests.fuzz.harness.mutators import mutated
+from tests.fuzz.harness.readers import KINDS
+from tests.fuzz.harness.values import TEXTS
+from tests.gui.shell.conftest import Answers
+from tests.support.restless import QUARTET, Complaints, Restless
+
+MOST_LOST_S: Final = 5.0
+"""Work of the editor's last seconds that a kill may cost."""
+PATIENCE_S: Final = 90.0
+WINDOW_PX: Final = (1280, 800)
+FIRST: Final = "duet <b>&amp; {file}.mid"
+SHORT_TICKS: Final = 8 * 480
+
+
+def digest(project: Project) -> str:
+    """Stands for everything a project's file holds; of one that no file could hold, why not."""
+    try:
+        content = storage.encode(project, Path("/nowhere/digest.suisou"))
+    except AppError as error:
+        return f"cannot be saved: {error}"
+    # A whole number of a float is read as one again.
+    return hashlib.blake2b(re.sub(rb"(?<=\d)\.0\b", b"", content), digest_size=12).hexdigest()
+
+
+class Clock:
+    """The editor's clock: it goes on between two deeds, so that no noise of the machine is taken for work.
+
+    Attributes
+    ----------
+    now_s : float
+    """
+
+    def __init__(self) -> None:
+        self.now_s = 0.0
+
+    def monotonic(self) -> float:
+        """As `time.monotonic`."""
+        return self.now_s
+
+
+class Log:
+    """What happened, line by line; what is written is the system's, and outlives the process."""
+
+    def __init__(self, stream: IO[str], clock: Clock) -> None:
+        self._stream, self._clock = stream, clock
+
+    def note(self, event: str, **what: Any) -> None:
+        """Add a line."""
+        self._stream.write(json.dumps({"event": event, "clock_s": self._clock.now_s, **what}) + "\n")
+        self._stream.flush()
+
+
+class RandomAnswers(Answers):
+    """Answers anything; file dialogs name files of the user's folder."""
+
+    def __init__(self, chance: random.Random, folder: Path, log: Log) -> None:
+        super().__init__()
+        self.chance = chance
+        self.folder = folder
+        self.log = log
+
+    def open_file(self, title: str, folder: str, filters: str) -> Path | None:
+        """One of the files there, of whatever kind."""
+        return None if self.chance.random() < 0.2 else self.chance.choice(sorted(self.folder.iterdir()))
+
+    def save_file(self, title: str, proposal: str, filters: str, suffixes: Sequence[str]) -> Path | None:
+        """A file there, or a new one with a name that nobody expects."""
+        self.path = None if self.chance.random() < 0.1 else self.folder / file_name(self.chance)
+        return super().save_file(title, proposal, filters, suffixes)
+
+    def unsaved(self, name: str) -> Answer:
+        """Most often saved; given up in the open."""
+        answer: Answer = self.chance.choice(("save", "save", "discard", "cancel"))
+        if answer == "discard":
+            self.log.note("discarded")
+        return answer
+
+
+def file_name(chance: random.Random) -> str:
+    """A name that a file can have, hostile or not, without a suffix."""
+    text = chance.choice((*TEXTS, *["work"] * 10))
+    plain = text.replace("/", "").replace("\0", "").encode()[:180].decode("utf-8", "ignore")
+    return plain if plain not in ("", ".", "..") else "work"
+
+
+class RandomUser(Restless):
+    """A restless person who opens, saves, names, undoes and imports again as well.
+
+    Parameters
+    ----------
+    program : Program
+    seed : int
+    folder : Path
+        The user's files.
+    """
+
+    def __init__(self, program: Program, seed: int, folder: Path) -> None:
+        super().__init__(program, seed)
+        self.folder = folder
+
+    def step(self) -> None:
+        """Do one thing; it is a matter of files in one of six."""
+        if self.random.random() < 0.17:
+            deed = self.random.choices((self.open, self.save, self.take_back, self.name, self.again), (3, 3, 3, 4, 2))[
+                0
+            ]
+            deed()
+            QApplication.processEvents()
+            self.look_away()
+        else:
+            super().step()
+
+    def edit(self) -> None:
+        """Change something by hand."""
+        project, chance = self.session.project, self.random
+        if not project.players:
+            return
+        player, text = chance.choice(project.players), chance.choice(TEXTS)
+        notes = [note for part in project.score.parts for note in part.notes]
+        note = chance.choice(notes) if notes else None
+        edits: list[Callable[[Project], Project]] = [
+            lambda project: set_title(project, text),
+            lambda project: rename(project, player.id, text),
+            lambda project: set_parameters(project, [player.id], amplitude=chance.choice((0.1, 0.5, 1.9))),
+            lambda project: put(project, player.id, [AddExpression(f"x{chance.randrange(9)}", "strained", 0, 960)]),
+            lambda project: vary_everyone(project),
+        ]
+        if note is not None:
+            edits.append(
+                lambda project: move(project, [note.id], chance.choice((-480, 0, 1, 9600)), chance.choice((-1, 1)))
+            )
+        place = chance.randrange(len(edits))
+        self.deeds.append(f"edit {place} {text[:20]!r}")
+        self.session.attempt(Message("edit.move_notes", {"count": 1}), edits[place])
+
+    def open(self) -> None:
+        """Open a file, good or hostile."""
+        path = self.random.choice(sorted(path for path in self.folder.iterdir() if path.is_file()))
+        self.deeds.append(f"open {path.name}")
+        self.busy(lambda: self.program.editor.files.open(path, ask=self.random.random() < 0.3))
+
+    def save(self) -> None:
+        """Save, or save elsewhere."""
+        files = self.program.editor.files
+        if files.is_open:
+            self.deeds.append("save")
+            (files.save if self.random.random() < 0.6 else files.save_as)()
+
+    def take_back(self) -> None:
+        """Undo some steps, and make some again."""
+        document = self.session.document
+        back, forth = self.random.randint(0, 6), self.random.randint(0, 6)
+        self.deeds.append(f"undo {back} redo {forth}")
+        for _ in range(back):
+            document.undo()
+            QApplication.processEvents()
+        for _ in range(forth):
+            document.redo()
+            QApplication.processEvents()
+
+    def name(self) -> None:
+        """Write a hostile text into a field."""
+        fields = [
+            field
+            for window in QApplication.topLevelWidgets()
+            if window.isVisible()
+            for field in window.findChildren(QLineEdit)
+            if field.isVisible() and field.isEnabled() and not field.isReadOnly() and self._is_harmless(field)
+        ]
+        if not fields:
+            return
+        field, text = self.random.choice(fields), self.random.choice(TEXTS)
+        self.deeds.append(f"type {text[:20]!r} into {field.objectName()}")
+        field.setFocus()
+        field.setText(text)
+        self.busy(lambda: field.editingFinished.emit())
+
+    def again(self) -> None:
+        """Import a MIDI file into the open piece once more."""
+        path = self.random.choice(sorted(self.folder.glob("*.mid")))
+        self.deeds.append(f"import again {path.name}")
+        if self.program.editor.files.is_open:
+            reimport_from(self.session, path)
+
+    def look_away(self) -> None:
+        """Dialogs that ask are agreed to or not."""
+        super().look_away()
+        for widget in QApplication.topLevelWidgets():
+            if isinstance(widget, QDialog) and widget.isVisible() and widget.objectName() == "reimport":
+                self.deeds.append("agree")
+                widget.accept() if self.random.random() < 0.7 else widget.reject()
+
+
+# One session
+
+
+class SessionRun:
+    """The editor of one session.
+
+    Parameters
+    ----------
+    folder : Path
+        Of all sessions: ``files``, ``recovery``, ``settings``, logs.
+    seed, deeds : int
+    """
+
+    def __init__(self, folder: Path, seed: int, deeds: int) -> None:
+        self.chance = random.Random(seed)
+        self.folder, self.deeds = folder, deeds
+        self.clock = Clock()
+        self.application = make_application()
+        self.complaints = Complaints()
+        self.complaints.install()
+        number = len(list(folder.glob("*.log")))
+        self.log = Log((folder / f"{number}.log").open("a", encoding="utf-8"), self.clock)
+        settings = Settings(folder / "settings" / "editor.toml")
+        if not settings.language:
+            settings.language = "en"
+        answers = RandomAnswers(self.chance, folder / "files", self.log)
+        autosave = Autosave(Presence(folder / "recovery"))
+        patch("app.shell.files.time", self.clock).start()
+        self.program = Program(settings, questions=answers, autosave=autosave, heard=False)
+        assert isinstance(self.program.tasks, ThreadTasks)
+        self.tasks = self.program.tasks
+        self.tasks.unexpected.connect(self.complaints.take)
+        self.files, self.session = self.program.editor.files, self.program.session
+        self.session.changed.connect(self._changed)
+        self.program.window.resize(*WINDOW_PX)
+        self.program.window.show()
+        self.user = RandomUser(self.program, seed, folder / "files")
+
+    def _changed(self, change: Change) -> None:
+        self.log.note("project", digest=digest(change.after), opened=change.opened)
+
+    def run(self, is_killed: bool) -> None:
+        """All of it."""
+        self._take_up()
+        for number in range(self.deeds):
+            if is_killed and number == self.deeds - 1:
+                self._be_killed()
+            before = len(self.user.deeds)
+            self.user.step()
+            self.log.note("deed", deeds=self.user.deeds[before:], path=str(self.files.path or ""))
+            self._tell_complaints()
+            self._pass_time()
+        if is_killed:
+            while True:
+                self.user.step()
+        self.user.judge(self.folder)
+        self._tell_complaints()
+        self.program.end()
+        self.files.end()
+        self.log.note("end")
+
+    def _be_killed(self) -> None:
+        """In a moment, most often while something is written."""
+        begin = self.chance.choice((self.files.write_soon, self.files.save, self.files.save_as, lambda: None))
+        most_s = self.chance.choice((0.02, 0.1, 0.6))
+        if self.files.is_open:
+            begin()
+        threading.Timer(self.chance.uniform(0.0, most_s), os.kill, (os.getpid(), signal.SIGKILL)).start()
+
+    def _pass_time(self) -> None:
+        """A moment of the editor's time; what is due is done within it."""
+        self.clock.now_s += self.chance.uniform(0.1, 0.8)
+        self.files.tick()
+        self._wait(lambda: all(task.name.id != "work.autosave" for task in self.tasks.running), "an autosave")
+
+    def _take_up(self) -> None:
+        """Go on with what the session before left."""
+        found: list[tuple[Recoverable, ...]] = []
+        self.files.find_recoverable(found.append)
+        self._wait(lambda: bool(found), "what is recoverable")
+        offers = found[0]
+        self.log.note("offers", digests=[digest(storage.load(offer.autosave)) for offer in offers])
+        if offers:
+            self.files.recover(offers[0])
+            for other in offers[1:]:
+                self.files.discard(other)
+        else:
+            recent = [Path(path) for path in self.program.editor.settings.recent]
+            projects = [path for path in recent if path.suffix == storage.SUFFIX and path.is_file()]
+            self.files.open(projects[0] if projects else self.folder / "files" / FIRST, ask=False)
+        self._wait(lambda: self.files.is_open, "something to open")
+
+    def _wait(self, ready: Callable[[], bool], what: str) -> None:
+        end_s = time.monotonic() + PATIENCE_S
+        while not ready():
+            if time.monotonic() > end_s:
+                raise TimeoutError(what)
+            self.application.processEvents()
+            time.sleep(0.001)
+
+    def _tell_complaints(self) -> None:
+        for complaint in self.complaints.found:
+            self.log.note("complaint", text=complaint, deeds=self.user.deeds[-6:])
+        self.complaints.found.clear()
+
+
+# From outside
+
+
+@dataclass
+class Journey:
+    """What came of a number of sessions.
+
+    Attributes
+    ----------
+    deeds, kills : int
+    faults : list of str
+        Complaints, and work that was lost.
+    """
+
+    deeds: int = 0
+    kills: int = 0
+    faults: list[str] = field(default_factory=list)
+
+
+def prepare(folder: Path, seed: int) -> None:
+    """The user's files: good ones, and hostile ones of every kind that can be opened."""
+    chance = random.Random(seed)
+    files = folder / "files"
+    files.mkdir(parents=True)
+    shutil.copy(QUARTET, files / "quartet.mid")
+    _write_short_piece(files / FIRST)
+    shutil.copy(seeds.DATA / "projects" / "version_5.suisou", files / "work.suisou")
+    for kind, suffix in (("midi", ".mid"), ("project", ".suisou"), ("audio", ".flac")):
+        spec = KINDS[kind]
+        good = spec.seeds()
+        for number in range(6):
+            (files / f"hostile {number}{suffix}").write_bytes(mutated(good, chance, spec.structured))
+        for name, content in seeds.hostile(kind):
+            (files / f"found {name}{suffix}").write_bytes(content)
+
+
+def travel(folder: Path, seed: int, deeds: int, kills: int) -> Journey:
+    """Sessions one after another, all but the last killed."""
+    prepare(folder, seed)
+    journey = Journey()
+    environment = {
+        **os.environ,
+        **{name: str(folder / name) for name in ("XDG_CONFIG_HOME", "XDG_DATA_HOME", "XDG_STATE_HOME")},
+    }
+    left: list[dict[str, Any]] = []
+    for number in range(kills + 1):
+        killed = number < kills
+        in_file = _digest_of_file(left)
+        arguments = [str(folder), str(seed * 1000 + number), str(max(deeds // (kills + 1), 1)), *["kill"] * killed]
+        with (folder / f"{number}.err").open("w") as errors:
+            ended = subprocess.run(
+                [sys.executable, "-X", "faulthandler", "-m", "tests.support.random_user", *arguments],
+                cwd=seeds.ROOT,
+                env=environment,
+                stderr=errors,
+                check=False,
+                timeout=900,
+            )
+        events = read_log(folder / f"{number}.log")
+        done = [event for event in events if event["event"] == "deed"]
+        journey.kills += killed
+        journey.deeds += len(done)
+        for event in events:
+            if event["event"] == "complaint":
+                journey.faults.append(f"session {number}: {event['text']}\nafter {event['deeds']}")
+            elif event["event"] == "offers" and (lost := lost_work(left, [*event["digests"], in_file])):
+                journey.faults.append(f"session {number}: {lost}")
+        if ended.returncode != (-signal.SIGKILL if killed else 0):
+            said = (folder / f"{number}.err").read_text(errors="replace")[-3000:]
+            journey.faults.append(f"session {number} ended with {ended.returncode}: {said}\nafter {done[-3:]}")
+        left = events
+    return journey
+
+
+def _write_short_piece(path: Path) -> None:
+    """The beginning of a duet: motion is made of all of it after every edit."""
+    whole = mido.MidiFile(seeds.DATA / "midi" / "ensemble" / "trumpet_duet_bach_minuet.mid")
+    for track in whole.tracks:
+        tick = 0
+        for place, message in enumerate(track):
+            tick += message.time
+            if tick > SHORT_TICKS:
+                del track[place:]
+                break
+    whole.save(path)
+
+
+def read_log(path: Path) -> list[dict[str, Any]]:
+    """The lines of a session's log; the last may be torn."""
+    found = []
+    for line in path.read_text(encoding="utf-8").splitlines() if path.exists() else ():
+        try:
+            found.append(json.loads(line))
+        except ValueError:
+            break
+    return found
+
+
+def _digest_of_file(events: list[dict[str, Any]]) -> str:
+    """Of what the file holds that the session had open last."""
+    path = next((event["path"] for event in reversed(events) if event["event"] == "deed"), "")
+    try:
+        return digest(storage.load(path)) if path else ""
+    except AppError as error:
+        return str(error)
+
+
+def lost_work(events: Sequence[dict[str, Any]], found: Sequence[str]) -> str:
+    """What of a killed session's work is nowhere, in words; empty where nothing is lost but the last seconds.
+
+    Parameters
+    ----------
+    events : sequence of dict
+        The session's log.
+    found : sequence of str
+        Digests of what there is after the kill: unsaved work that is offered, the project's file.
+    """
+    end_s = float(events[-1]["clock_s"]) if events else 0.0
+    states: list[tuple[float, str]] = []
+    discarded = False
+    for event in events:
+        if event["event"] == "project":
+            if event["opened"]:
+                states = []
+            states.append((float(event["clock_s"]), str(event["digest"])))
+            discarded = False
+        elif event["event"] == "discarded":
+            discarded = True
+    # Whoever has only opened something, or given it up, has nothing to lose.
+    if discarded or len(states) < 2:
+        return ""
+    late = [place for place in range(1, len(states)) if states[place][0] >= end_s - MOST_LOST_S]
+    least = late[0] - 1 if late else len(states) - 1
+    allowed = {state for _, state in states[least:]}
+    if least == 0 or allowed & set(found):
+        return ""
+    age_s = end_s - states[least][0]
+    known = [place for place, (_, state) in enumerate(states) if state in found]
+    newest = f"the newest is {len(states) - 1 - known[-1]} changes older" if known else "nothing of it is there"
+    return f"work {age_s:.1f} s before the kill is lost: {newest}"
+
+
+if __name__ == "__main__":
+    SessionRun(Path(sys.argv[1]), int(sys.argv[2]), int(sys.argv[3])).run("kill" in sys.argv[4:])
