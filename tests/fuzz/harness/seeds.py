@@ -236,8 +236,20 @@ def _huge_tick() -> bytes:
     return project()[-1].replace(b'"start_tick": 1,', b'"start_tick": ' + b"9" * 400 + b",", 1)
 
 
+_TABLES: dict[str, Callable[[], bytes]] = {
+    "deep": lambda: b"a = " + b"[" * 50_000,
+    "digits": lambda: b"a = " + b"9" * 6000,
+    "dotted": lambda: b"a" + b".a" * 20_000 + b" = 1",
+}
+
 MADE: Final[dict[str, dict[str, Callable[[], bytes]]]] = {
     "project": {"huge_tick": _huge_tick, "deep": lambda: b"[" * 100_000, "deep_object": lambda: b'{"a":' * 60_000},
+    "instrument_map": _TABLES,
+    "expression": _TABLES,
+    "preset": _TABLES,
+    "character_entry": _TABLES,
+    "metadata": _TABLES,
+    "settings": _TABLES,
     "gltf": {"deep": lambda: b'{"a":' * 60_000, "nested_nodes": _nested_gltf},
     "unreal_manifest": {"deep": lambda: b"[" * 100_000},
     "unreal_project": {"deep": lambda: b"[" * 100_000},
