@@ -10,6 +10,8 @@ from typing import TypeAlias
 
 import msgspec
 
+from app.encoding import shown
+
 Argument: TypeAlias = str | int | float | bool
 
 
@@ -21,11 +23,19 @@ class Message(msgspec.Struct, frozen=True, gc=False):
     id : str
         Dotted, e.g. ``"midi.track_truncated"``; names the template.
     arguments : dict of str to str, int, float or bool
-        What the template is filled with (file, track, bar, note ...).
+        What the template is filled with (file, track, bar, note ...). Texts are made readable (`app.encoding.shown`):
+        the names of files are among them, and messages are stored, printed and shown.
     """
 
     id: str
     arguments: dict[str, Argument] = {}
+
+    def __post_init__(self) -> None:
+        if not all(value.isascii() for value in self.arguments.values() if isinstance(value, str)):
+            readable = {
+                name: shown(value) if isinstance(value, str) else value for name, value in self.arguments.items()
+            }
+            msgspec.structs.force_setattr(self, "arguments", readable)
 
 
 class AppError(Exception):

@@ -2,7 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import msgspec
+
+from app.plan.model import PlayerPlan
+from app.project.edit.events import events_of, is_there
+from app.project.edit.takes import BEFORE
+from app.project.model import Project
 
 
 class EventKey(msgspec.Struct, frozen=True, order=True):
@@ -33,3 +40,30 @@ class Selection(msgspec.Struct, frozen=True):
 
     def __bool__(self) -> bool:
         return bool(self.notes or self.events or self.span or self.take is not None)
+
+    def within(self, project: Project) -> Selection:
+        """What of it a project has; the very same value where that is everything."""
+        notes = self.notes
+        if notes:
+            notes = frozenset().union(*(notes & part.note_ids for part in project.score.parts))
+        events = frozenset(key for key in self.events if is_there(project, key.player_id, key.event_id))
+        take = self.take
+        if take not in (None, BEFORE) and all(
+            take != recorded.id for played in project.takes.values() for recorded in played.takes
+        ):
+            take = None
+        kept = Selection(notes, events, self.span, take)
+        return self if kept == self else kept
+
+    def planned(self, plans: Mapping[str, PlayerPlan]) -> Selection:
+        """What of it plans have, by player; the very same value where that is everything."""
+        known = {
+            player_id: events_of(plans[player_id])
+            for player_id in {key.player_id for key in self.events} & plans.keys()
+        }
+        events = frozenset(
+            key
+            for key in self.events
+            if key.event_id in known.get(key.player_id, ()) or key.event_id.startswith("vary:")
+        )
+        return self if events == self.events else msgspec.structs.replace(self, events=events)

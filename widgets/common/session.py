@@ -169,6 +169,8 @@ class Session(QObject):
         if performance is not self._performance:
             self._performance = performance
             self.performance_changed.emit()
+            if performance.planned and performance.project is self.project:
+                self.select(self._selection.planned(performance.plans))
 
     def problems(self, player_id: str) -> tuple[Problem, ...]:
         """What is wrong with a player's plan and, as far as it was made, motion, by time; the same tuple until that
@@ -218,14 +220,16 @@ class Session(QObject):
             kept = tuple(player.id for player in change.after.players[:1])
         moved = kept != self._players
         self._players = kept
+        selected = self._selection
+        self._selection = Selection() if change.opened else selected.within(change.after)
         if change.opened:
-            self._selection = Selection()
             self._loop_s = None
         self.changed.emit(change)
         if moved:
             self.players_changed.emit()
-        if change.opened:
+        if change.opened or self._selection is not selected:
             self.selection_changed.emit()
+        if change.opened:
             self.loop_changed.emit()
 
     # Who is in front
@@ -254,11 +258,12 @@ class Session(QObject):
 
     @property
     def selection(self) -> Selection:
-        """What is selected."""
+        """What is selected; always of the project as it is."""
         return self._selection
 
     def select(self, selection: Selection) -> None:
-        """Select this instead."""
+        """Select this instead, as far as the project has it: what panels show may lag behind."""
+        selection = selection.within(self.project)
         if selection != self._selection:
             self._selection = selection
             self.selection_changed.emit()

@@ -36,10 +36,12 @@ from app.plan.corrections import (
 from app.plan.cue import LEAD_BEATS
 from app.plan.model import BreathEvent, CueEvent, ExpressionEvent, GestureEvent, PlayerPlan, PoseEvent
 from app.project.edit.corrections import put, take_back
+from app.project.edit.found_events import OWN as OWN
 from app.project.edit.found_events import Placed as Placed
 from app.project.edit.found_events import corrections_of as corrections_of
 from app.project.edit.found_events import event_id_of as event_id_of
 from app.project.edit.found_events import events_of as events_of
+from app.project.edit.found_events import is_there as is_there
 from app.project.edit.found_events import placed_events as placed_events
 from app.project.model import Project
 from app.score.model import Note
@@ -49,8 +51,6 @@ BreathKind: TypeAlias = Literal["preparation", "breath"]
 GESTURE_KINDS: tuple[GestureKind, ...] = ("sway", "weight_shift", "bell_height", "lower_instrument")
 CATCH_S = 0.3
 """A breath added where notes touch is this long."""
-OWN = "own-"
-"""How the names of added events begin."""
 
 
 class Edited(NamedTuple):
@@ -80,7 +80,7 @@ def set_amounts(project: Project, plan: PlayerPlan, amounts: Mapping[str, float]
     """How deep (breaths), how far (gestures, -1..1) or how strong (expressions) events are, by id; clipped to what
     there is."""
     corrections: list[Correction] = []
-    for event in placed_events(plan, amounts):
+    for event in _current(project, plan, amounts):
         amount = round(amounts[event.id], 4)
         if isinstance(event, BreathEvent):
             depth = min(max(amount, 0.0), 1.0)
@@ -102,7 +102,7 @@ def set_fades(
     """How long expressions and poses take to come and to go, seconds; None leaves it."""
     clock = project.score.tempo_map
     corrections: list[Correction] = []
-    for event in placed_events(plan, event_ids):
+    for event in _current(project, plan, event_ids):
         if isinstance(event, ExpressionEvent):
             fades = {"fade_in_s": fade_in_s, "fade_out_s": fade_out_s}
             given = {name: round(max(value, 0.0), 4) for name, value in fades.items() if value is not None}
@@ -124,7 +124,7 @@ def set_expression(project: Project, plan: PlayerPlan, event_ids: Iterable[str],
         plan.player_id,
         [
             _with(_expression(project, plan.player_id, event), expression=expression)
-            for event in placed_events(plan, event_ids)
+            for event in _current(project, plan, event_ids)
             if isinstance(event, ExpressionEvent)
         ],
     )
@@ -186,8 +186,8 @@ def toggle_preparation(project: Project, plan: PlayerPlan, note_id: str) -> Edit
     removed = [item for item in corrections_of(project, plan.player_id, (event_id,)) if isinstance(item, RemoveEvent)]
     if removed:
         return Edited(take_back(project, plan.player_id, removed), (event_id,))
-    note = next(note for note in _notes(project, plan.player_id) if note.id == note_id)
-    return add_breath(project, plan, note.onset_tick, "preparation")
+    note = next((note for note in _notes(project, plan.player_id) if note.id == note_id), None)
+    return Edited(project, ()) if note is None else add_breath(project, plan, note.onset_tick, "preparation")
 
 
 def add_cue(project: Project, plan: PlayerPlan, tick: int, beats: float = 1.0) -> Edited:
@@ -246,7 +246,7 @@ def remove(project: Project, plan: PlayerPlan, event_ids: Iterable[str]) -> Proj
     # Bars performed anew are no event of the plan.
     varied = [item for item in corrections_of(project, player_id, event_ids) if isinstance(item, Vary)]
     project = take_back(project, player_id, varied) if varied else project
-    for event in placed_events(plan, event_ids):
+    for event in _current(project, plan, event_ids):
         said = corrections_of(project, player_id, (event.id,))
         project = take_back(project, player_id, said)
         if any(_is_added(item) for item in said):
@@ -303,7 +303,7 @@ def _placed(project: Project, plan: PlayerPlan, event_ids: Sequence[str], start_
     new_ids: dict[str, str] = {}
     stale: list[Correction] = []
     fresh: list[Correction] = []
-    for event in placed_events(plan, event_ids):
+    for event in _current(project, plan, event_ids):
         start, end = event.start_tick + start_ticks, event.end_tick + end_ticks
         if start >= end:
             start, end = (end - 1, end) if start_ticks else (start, start + 1)
@@ -331,6 +331,11 @@ def _placed(project: Project, plan: PlayerPlan, event_ids: Sequence[str], start_
             new_ids[event.id] = event_id_of(item)
     project = put(take_back(project, player_id, stale), player_id, fresh)
     return Edited(project, tuple(new_ids.get(event_id, event_id) for event_id in event_ids))
+
+
+def _current(project: Project, plan: PlayerPlan, event_ids: Iterable[str]) -> list[Placed]:
+    """Events of a plan, without those whose notes or additions are gone: plans lag behind the project."""
+    return placed_events(plan, [event_id for event_id in event_ids if is_there(project, plan.player_id, event_id)])
 
 
 def _notes(project: Project, player_id: str) -> tuple[Note, ...]:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import TypeAlias
+from typing import Final, TypeAlias
 
 from app.plan.corrections import (
+    WITHIN,
     AddExpression,
     AddGesture,
     Correction,
@@ -21,6 +22,11 @@ from app.project.model import Project
 
 Placed: TypeAlias = BreathEvent | CueEvent | GestureEvent | ExpressionEvent | PoseEvent
 """What has a place that a person may change."""
+
+OWN: Final = "own-"
+"""How the names of added events begin."""
+_OF_NOTES: Final = ("fingering", "embouchure", "tongue", "breath", "preparation", WITHIN, "cue")
+"""Kinds of events whose id ends with that of a note."""
 
 
 def event_id_of(correction: Correction) -> str:
@@ -58,6 +64,19 @@ def events_of(plan: PlayerPlan) -> dict[str, Event]:
         plan.fingerings, plan.breaths, plan.embouchures, plan.cues, plan.gestures, plan.expressions, plan.poses,
     )  # fmt: skip
     return {event.id: event for group in groups for event in group}
+
+
+def is_there(project: Project, player_id: str, event_id: str) -> bool:
+    """Whether the project has what an event is about: its player, its note, and the correction that added it. Whether
+    the generator makes such an event only a plan knows, and plans lag behind the project."""
+    try:
+        player = project.player(player_id)
+    except KeyError:
+        return False
+    kind, _, of = event_id.partition(":")
+    if kind in ("pose", "vary") or of.startswith(OWN):
+        return bool(corrections_of(project, player_id, (event_id,)))
+    return kind not in _OF_NOTES or of.startswith("@") or of in project.part(player).note_ids
 
 
 def placed_events(plan: PlayerPlan, event_ids: Iterable[str]) -> list[Placed]:
