@@ -29,6 +29,8 @@ from widgets.common.session import Session, Severity
 MIDI_SUFFIXES: Final = (".mid", ".midi", ".smf", ".kar", ".rmi")
 AUDIO_SUFFIXES: Final = (".wav", ".flac", ".mp3", ".ogg", ".aif", ".aiff")
 EXAMPLE: Final = "quartet.mid"
+MOST_SLEEP_S: Final = 60.0
+"""After this long at the latest it is asked whether unsaved work is to be written down."""
 
 Then = Callable[[], None]
 
@@ -376,7 +378,7 @@ class Files(QObject):
         if due_s is None:
             self._timer.stop()
         elif not self._timer.isActive():
-            self._timer.start(max(math.ceil(1000.0 * (due_s - time.monotonic())), 0))
+            self._timer.start(math.ceil(1000.0 * min(max(due_s - time.monotonic(), 0.0), MOST_SLEEP_S)))
 
     def tick(self) -> None:
         """Write unsaved work down if it is due."""
