@@ -15,7 +15,6 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
     from types import FrameType
 
-NO_DISPLAY = 3
 OPENED = (".suisou", ".mid", ".midi")
 """A file that is named alone, as a desktop does, opens in the editor."""
 
@@ -43,8 +42,9 @@ def end_at_once(number: int, frame: FrameType | None) -> None:
 
 def run(arguments: Sequence[str]) -> int:
     """Run with these arguments (without the program's own name) and return the exit status."""
-    from app.cli import BAD_USE, parser
     from app.cli import main as command_line
+    from app.cli import parser
+    from app.cli.status import BAD_USE, NO_DISPLAY
 
     wanted = list(arguments)
     if not wanted or wanted[0].lower().endswith(OPENED):
@@ -68,7 +68,7 @@ def edit(parsed: Namespace) -> int:
     """Start the editor as the command line says."""
     # Which sound libraries this system lacks is nothing a person can act on.
     os.environ.setdefault("QT_LOGGING_RULES", "qt.multimedia.symbolsresolver=false;qt.multimedia.ffmpeg=false")
-    from app.cli import BAD_INPUT, STOPPED
+    from app.cli.status import BAD_INPUT, STOPPED
     from app.errors import AppError
     from app.messages import error_text
     from app.shell.app import Start

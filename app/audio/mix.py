@@ -13,7 +13,7 @@ from app.audio.synth import Phrase, Synthesiser, phrases, program_of
 from app.audio.track import RATE_HZ, Block, Mix, Piece, Track
 from app.errors import Cancelled
 from app.project.model import Player, Project
-from instrument_maps.library import find_map
+from instrument_maps.library import all_maps
 
 _LEVEL: Final = 4.5
 """The soundfont's tones are some 30 dB below full scale; an ensemble of any size comes to about -18."""
@@ -22,9 +22,9 @@ _SIDE: Final = 0.6
 
 
 def player_phrases(project: Project, player: Player) -> tuple[Phrase, ...]:
-    """What the synthesiser renders for a player. Raises MapError where there is no such instrument."""
+    """What the synthesiser renders for a player, also where the instrument's map is missing."""
     part = project.part(player)
-    return phrases(part, project.score.tempo_map, program_of(part, find_map(player.instrument_id)))
+    return phrases(part, project.score.tempo_map, program_of(part, all_maps().get(player.instrument_id)))
 
 
 def player_tracks(project: Project, pieces: Mapping[str, Iterable[Piece]]) -> tuple[Track, ...]:

@@ -132,13 +132,13 @@ def phrases(part: Part, tempo_map: TempoMap, program: int) -> tuple[Phrase, ...]
     )
 
 
-def program_of(part: Part, instrument: InstrumentMap) -> int:
+def program_of(part: Part, instrument: InstrumentMap | None) -> int:
     """The General MIDI program that sounds like what a player plays.
 
     The file's own program where it is one of the instrument's; else what the vocabulary gives the instrument, then what
-    it may stand in for; else the file's, if it is a wind.
+    it may stand in for; else, and where there is no such instrument, the file's, if it is a wind.
     """
-    names = [*instrument.plays, *instrument.substitutes_for]
+    names = [] if instrument is None else [*instrument.plays, *instrument.substitutes_for]
     table = vocabulary().instruments
     own = [program for name in names if name in table for program in table[name].programs]
     available = programs()

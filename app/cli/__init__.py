@@ -1,6 +1,6 @@
 """The command line: parses, calls the rooms below, prints. Every sub-command is a module of this folder.
 
-Exit status: 0 done, 1 bad input, 2 bad use, 130 stopped with Ctrl-C.
+Exit status: see `app.cli.status`.
 """
 
 from __future__ import annotations
@@ -22,12 +22,10 @@ import app.cli.midi
 import app.cli.ports
 import app.cli.record
 import app.cli.stream
+from app.cli.status import BAD_INPUT, BAD_USE, DONE, STOPPED
 from app.errors import AppError, UsageError
 from app.messages import error_text
 from app.version import program_version
-
-DONE, BAD_INPUT, BAD_USE = 0, 1, 2
-STOPPED = 128 + signal.SIGINT
 
 _DESCRIPTION = """\
 Turns the MIDI of a wind ensemble into the performance of its players, for animation.
@@ -80,9 +78,9 @@ def main(arguments: Sequence[str]) -> int:
         if parsed.command is None:
             parser().print_help()
             return DONE
-        run: Callable[[argparse.Namespace], None] = parsed.run
+        run: Callable[[argparse.Namespace], int | None] = parsed.run
         with _interruptible():
-            run(parsed)
+            status = run(parsed)
         sys.stdout.flush()
     except SystemExit as stop:  # argparse: --help and --version end with 0, bad use with 2
         return stop.code if isinstance(stop.code, int) else BAD_USE
@@ -96,7 +94,7 @@ def main(arguments: Sequence[str]) -> int:
         # Whoever read our output has gone (`| head`): not an error. Python would complain once more at exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return DONE
-    return DONE
+    return DONE if status is None else status
 
 
 @contextmanager

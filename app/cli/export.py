@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Final
 
 from app.cli.options import Commands, add_source_options, frame_rate, open_project, whole_number
 from app.cli.progress import Progress
+from app.cli.status import tell_left_out
 from app.cli.summary import project_summary, summary
 from app.errors import UsageError
 from app.export.formats import FILE_FORMATS, USUAL_FORMATS, Format
@@ -35,7 +36,8 @@ def add_command(commands: Commands) -> None:
         "export",
         help="write the players and their instruments as FBX, BVH, GLB or USD",
         description="Writes per player a character that plays its part and its instrument, and a report.json that says "
-        "what the files hold. Either all files appear or none.",
+        "what the files hold. Either all files appear or none. Players who cannot be exported are left out and named; "
+        "the exit status is 4 then.",
     )
     add_source_options(command)
     place = command.add_mutually_exclusive_group(required=True)
@@ -112,9 +114,9 @@ def file_formats(text: str) -> list[Format]:
     return [name for name in FILE_FORMATS if name in names]
 
 
-def export(arguments: argparse.Namespace) -> None:
-    """Write the files and print what they hold."""
-    from app.export.run import Request
+def export(arguments: argparse.Namespace) -> int:
+    """Write the files, print what they hold and name the players who are left out; the exit status."""
+    from app.export.request import Request
     from app.export.run import export as write
     from app.export.unreal.project import find_project
     from app.export.unreal.run import export_into
@@ -147,12 +149,15 @@ def export(arguments: argparse.Namespace) -> None:
     try:
         with _terminable():
             if unreal is None:
-                told = summary(write(request, text, progress=progress), arguments.to)
+                report = write(request, text, progress=progress)
+                told = summary(report, arguments.to)
             else:
-                told = project_summary(export_into(request, unreal, text, progress=progress), unreal)
+                written = export_into(request, unreal, text, progress=progress)
+                report, told = written.report, project_summary(written, unreal)
     finally:
         progress.clear()
     print(told)
+    return tell_left_out((one.player, one.reason) for one in report.left_out)
 
 
 @contextmanager

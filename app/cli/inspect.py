@@ -11,8 +11,10 @@ import numpy as np
 
 from app.cli.instruments import note_name
 from app.cli.options import Commands, add_source_options, open_project
+from app.cli.status import tell_left_out
 from app.cli.summary import columns
 from app.messages import filled, text
+from app.performance.cast import attempt
 from app.performance.ensemble import Performance
 from app.plan.model import BreathEvent, Clock, CueEvent, FingeringEvent, GestureEvent, Note, PoseEvent
 from app.project.model import Player
@@ -33,19 +35,23 @@ def add_command(commands: Commands) -> None:
     command.set_defaults(run=inspect)
 
 
-def inspect(arguments: argparse.Namespace) -> None:
-    """Print the file's plan."""
-    performance = Performance(open_project(arguments))
+def inspect(arguments: argparse.Namespace) -> int:
+    """Print the file's plan and name the players who have none; the exit status."""
+    found = inspection(Performance(open_project(arguments)))
     if arguments.json:
-        print(msgspec.json.format(msgspec.json.encode(inspection(performance)), indent=1).decode())
+        print(msgspec.json.format(msgspec.json.encode(found), indent=1).decode())
     else:
-        print(tables(arguments.file.name, inspection(performance)))
+        print(tables(arguments.file.name, found))
+    return tell_left_out((one["player"], one["reason"]) for one in found["left_out"])
 
 
 def inspection(performance: Performance) -> Table:
     """Everything ``inspect --json`` prints: seconds are the performance's, beats are quarters from tick 0."""
     project = performance.project
     score = project.score
+    # Nobody plans for an instrument that is not there.
+    playable = attempt(project.players, performance.instrument)
+    absent = {one.player.id for one in playable.left_out}
     return {
         "duration_s": score.tempo_map.seconds(float(score.sounding_end_tick)),
         "ticks_per_beat": score.ticks_per_quarter,
@@ -60,20 +66,25 @@ def inspection(performance: Performance) -> Table:
             *(
                 f"{player.name}: {text(problem.message)}"
                 for player in project.players
+                if player.id not in absent
                 for problem in performance.plan(player).problems
             ),
         ],
         "unplayed": [
             {"name": part.name, "reason": text(part.reason), "note_count": part.note_count} for part in score.unplayed
         ],
-        "players": [_player(performance, player) for player in project.players],
+        "left_out": [{"player": one.player.name, "reason": text(one.reason)} for one in playable.left_out],
+        "players": [
+            _player(performance, player, playable.made[player.id])
+            for player in project.players
+            if player.id not in absent
+        ],
     }
 
 
-def _player(performance: Performance, player: Player) -> Table:
+def _player(performance: Performance, player: Player, instrument: InstrumentMap) -> Table:
     plan = performance.plan(player)
     clock = performance.piece.clock
-    instrument = performance.instrument(player)
     part = performance.project.part(player)
     fingerings = {event.note_id: event for event in plan.fingerings}
     table = {
@@ -153,6 +164,8 @@ def tables(file: str, found: Table) -> str:
     if found["players"]:
         head = ("player", "instrument", "notes", "range", "breaths", "cues", "first fingerings")
         lines += ["", *columns([head, *(_row(player) for player in found["players"])])]
+    if found["left_out"]:
+        lines += ["", "left out:", *(f"  {one['player']}: {one['reason']}" for one in found["left_out"])]
     if found["unplayed"]:
         lines += ["", "not played:"]
         lines += [

@@ -10,7 +10,9 @@ from typing import TYPE_CHECKING, Final
 
 from app.cli.options import Commands, add_source_options, frame_rate, open_project, seconds, within
 from app.cli.progress import Progress
+from app.cli.status import tell_left_out
 from app.errors import UsageError
+from app.messages import text
 from app.project.parameters import select_players
 from app.stream.faces import FACE_NAMES
 from app.stream.sender import (
@@ -28,11 +30,11 @@ from app.stream.sender import (
 
 if TYPE_CHECKING:
     from app.motion.model import Motion
+    from app.performance.cast import Performer
     from app.performance.chunks import Pose
     from app.performance.ensemble import Performance
     from app.performance.span import FrameSpan
     from app.project.casting import StagePosition
-    from app.project.model import Player
     from app.stream.vmc import Sent
 
 _USUAL_RATE: Final = Fraction(60)
@@ -88,14 +90,15 @@ def _host(text: str) -> str:
     return text.strip()
 
 
-def stream(arguments: argparse.Namespace) -> None:
-    """Send the piece, in time.
+def stream(arguments: argparse.Namespace) -> int:
+    """Send the piece, in time, and name the players who are left out; the exit status.
 
     Raises
     ------
     AppError
         The file cannot be read, the computer cannot be reached.
     """
+    from app.performance.cast import performers_of, refuse_nobody
     from app.performance.ensemble import Performance
     from app.performance.span import whole_span
 
@@ -110,11 +113,17 @@ def stream(arguments: argparse.Namespace) -> None:
     address = find_address(arguments.host, arguments.port)
     if not arguments.broadcast and reaches_many(address):
         raise UsageError("stream.broadcast", host=arguments.host)
-    senders = [Sender(address.port(arguments.port + place), arguments.broadcast) for place in range(len(chosen))]
+    found = performers_of(performance, chosen)
+    if not found.made:
+        refuse_nobody(found.left_out, str(arguments.file), text)
+    status = tell_left_out((one.player.name, text(one.reason)) for one in found.left_out)
+    # Whoever is left out keeps the port: the others have theirs whatever happens.
+    ports = {player.id: arguments.port + place for place, player in enumerate(chosen)}
+    senders = [Sender(address.port(ports[player_id]), arguments.broadcast) for player_id in found.made]
     try:
-        cast = [_Streamed(performance, player, span, arguments, alone=len(chosen) == 1) for player in chosen]
-        for player, sender in zip(chosen, senders, strict=True):
-            print(f"{player.name}: {arguments.host}:{sender.address.at[1]}")
+        cast = [_Streamed(performance, one, span, arguments, alone=len(chosen) == 1) for one in found.made.values()]
+        for performer, sender in zip(found.made.values(), senders, strict=True):
+            print(f"{performer.player.name}: {arguments.host}:{sender.address.at[1]}")
         if not is_loopback(arguments.host):
             print(f"what is sent leaves this computer, to {arguments.host}", file=sys.stderr)
         _play(cast, senders, span, first, arguments.loop)
@@ -123,6 +132,7 @@ def stream(arguments: argparse.Namespace) -> None:
     finally:
         for sender in senders:
             sender.close()
+    return status
 
 
 def _first_frame(span: FrameSpan, from_s: float | None) -> int:
@@ -139,20 +149,25 @@ class _Streamed:
     """A player, their motion, and how they are sent."""
 
     def __init__(
-        self, performance: Performance, player: Player, span: FrameSpan, arguments: argparse.Namespace, alone: bool
+        self,
+        performance: Performance,
+        performer: Performer,
+        span: FrameSpan,
+        arguments: argparse.Namespace,
+        alone: bool,
     ) -> None:
-        from app.performance.bodies import character_of
         from app.performance.motion import player_motion
         from app.stream.vmc import IN_THE_MIDDLE, Sent
 
+        player = performer.player
         progress = Progress(sys.stderr)
         try:
             self._motion: Motion = player_motion(
-                performance, player, span, progress=lambda share: progress(share, player.name)
+                performance, performer, span, progress=lambda share: progress(share, player.name)
             )
         finally:
             progress.clear()
-        self._sent: Sent = Sent(character_of(player), player.instrument_id, arguments.faces)
+        self._sent: Sent = Sent(performer.character, player.instrument_id, arguments.faces)
         self._stage: StagePosition = IN_THE_MIDDLE if alone else player.stage
 
     def datagrams(self, frame: int, time_s: float) -> list[bytes]:

@@ -70,6 +70,8 @@ def _judgement(report: Report) -> list[str]:
             wrong = failures(player)
             if wrong:
                 lines.append(f"! {player.name}: {', '.join(wrong)}")
+    if report.left_out:
+        lines += ["", "left out:", *(f"  {one.player}: {one.reason}" for one in report.left_out)]
     if report.unplayed:
         lines += ["", "not played:"]
         lines += [

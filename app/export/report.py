@@ -67,6 +67,13 @@ class UnplayedPart(msgspec.Struct, frozen=True):
     note_count: int
 
 
+class LeftOutReport(msgspec.Struct, frozen=True):
+    """A player asked for who could not be exported, and why."""
+
+    player: str
+    reason: str
+
+
 class Report(msgspec.Struct, frozen=True):
     """``report.json``. Frame n is at ``first_frame_s + n / fps`` of the piece, so its sound starts at
     ``-first_frame_s`` of the animation. ``fps_exact`` is the rate as a fraction (``30000/1001``)."""
@@ -85,6 +92,7 @@ class Report(msgspec.Struct, frozen=True):
     unplayed: tuple[UnplayedPart, ...]
     sound: str | None = None
     """File that starts with frame 0; None where none was asked for."""
+    left_out: tuple[LeftOutReport, ...] = ()
 
     @property
     def file_count(self) -> int:

@@ -1,19 +1,17 @@
-"""A performance to files: characters, instruments, report.
+"""A performance to files: characters, instruments, report. Players who cannot be exported are left out and named.
 
-Messages: ``export.nobody`` (file): "{file}: there is nobody to export"; ``export.too_long`` (file, frames,
-most); ``work.stopped``.
+Messages: those of `app.export.request`.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 
 import msgspec
 
-from app.errors import Cancelled, FileError, Message
+from app.errors import Cancelled, Message
 from app.export.bone_names import profile_names
 from app.export.character import character_scene
 from app.export.control_judge import FloatArray
@@ -21,76 +19,37 @@ from app.export.folder import files_into
 from app.export.formats import FILE_FORMATS, Beside, Format, Held
 from app.export.instrument import instrument_scene
 from app.export.measure import Measured, contact_name, greatest_correlations, measure_player
-from app.export.report import PlayerReport, Report, SkeletonReport, StagePlace, UnplayedPart, encode_report
+from app.export.report import (
+    LeftOutReport,
+    PlayerReport,
+    Report,
+    SkeletonReport,
+    StagePlace,
+    UnplayedPart,
+    encode_report,
+)
+from app.export.request import ExportCast, Request, cast_of
 from app.export.sound import write_sound
-from app.export.target import SkeletonChoice, TargetSkeleton
-from app.export.targets import CheckedTarget, checked_targets, refuse_grave
+from app.export.target import TargetSkeleton
 from app.formats.atomic import atomic_write
 from app.formats.fbx.read import read_scene
 from app.formats.scene import Scene
 from app.motion.model import Motion
-from app.performance.bodies import body_of, character_of, hold_of, model_of
+from app.performance.cast import Performer
 from app.performance.ensemble import Performance
 from app.performance.motion import player_motion
-from app.performance.span import FrameSpan
-from app.project.model import Player
 from app.project.names import file_stems
 from app.rig.fit import INSIDE_M, missed
 from app.rig.hold import Hold
-from app.rig.read_figure import read_figure
 from metadata.load import load_skeleton
 
 Progress = Callable[[float, str], None]
 """Told the share 0..1 that is done and whose work it is."""
 
-MOST_FRAMES = 432_000
-"""Two hours at 60 frames/s: a player's motion and its file are in memory as a whole."""
-
 _MOTION_WORK, _MEASURES_WORK = 1.0, 5.0
 """Beside `FileFormat.work`."""
 _SOUND_WORK = 0.3
 """Beside a player's."""
-
-
-@dataclass(frozen=True)
-class Request:
-    """What to export.
-
-    Attributes
-    ----------
-    performance : Performance
-    players : tuple of Player
-        Those to export; names of files come from all the players, so that they do not depend on the choice.
-    folder : path
-    formats : frozenset of str
-        Of `FILE_FORMATS`.
-    span : FrameSpan
-    bars : (int, int) or None
-        First and last bar asked for, for the report.
-    source, creator : str
-        Name of the piece's file; program and version.
-    skeleton : SkeletonChoice
-        What the characters are written on; instruments have one skeleton only.
-    sound : bool
-        Whether what is heard is written as a WAV file, from the first frame to the last.
-    bvh_names : str
-        Table of bone names that BVH files have; empty: those of the skeleton.
-    asset : path or None
-        File of the asset that the animation is for: every player's skeleton is compared with its.
-    """
-
-    performance: Performance
-    players: tuple[Player, ...]
-    folder: Path
-    formats: frozenset[Format]
-    span: FrameSpan
-    bars: tuple[int, int] | None
-    source: str
-    creator: str
-    skeleton: SkeletonChoice = "own"
-    asset: Path | None = None
-    sound: bool = False
-    bvh_names: str = ""
 
 
 def export(
@@ -99,7 +58,7 @@ def export(
     stop_wanted: Callable[[], bool] = lambda: False,
     progress: Progress = lambda share, label: None,
 ) -> Report:
-    """Write the files of every player asked for, and ``report.json``: all of them, or none.
+    """Write the files of every player asked for who can be exported, and ``report.json``: all of them, or none.
 
     Parameters
     ----------
@@ -111,36 +70,42 @@ def export(
     Raises
     ------
     FileError
-        ``export.nobody``; ``export.too_long``; ``file.cannot_write``; ``skeleton.differs`` and what `read_figure`
-        says where an asset is given.
+        See `cast_of`; ``file.cannot_write``.
     UsageError
         ``usd.missing``.
     Cancelled
         ``stop_wanted`` said so.
     """
-    if request.span.count > MOST_FRAMES:
-        raise FileError("export.too_long", file=request.source, frames=request.span.count, most=MOST_FRAMES)
-    if not request.players:
-        raise FileError("export.nobody", file=request.source)
-    for name in request.formats:
-        FILE_FORMATS[name].refuse()
-    checked = _checked(request, wording)
+    return write_cast(request, cast_of(request, wording, stop_wanted), wording, stop_wanted, progress)
+
+
+def write_cast(
+    request: Request,
+    cast: ExportCast,
+    wording: Callable[[Message], str],
+    stop_wanted: Callable[[], bool] = lambda: False,
+    progress: Progress = lambda share, label: None,
+) -> Report:
+    """`export` of a request's cast."""
     stems, names = _stems(request.performance), file_names(request.performance, request.formats)
     reports: list[PlayerReport] = []
     torsos: dict[str, FloatArray] = {}
-    whole = len(request.players) + (_SOUND_WORK if request.sound else 0.0)
+    whole = len(cast.performers) + (_SOUND_WORK if request.sound else 0.0)
     with files_into(request.folder) as folder:
-        for index, player in enumerate(request.players):
+        for index, performer in enumerate(cast.performers):
+            player = performer.player
 
             def told(share: float, done: int = index, name: str = player.name) -> None:
                 if stop_wanted():
                     raise Cancelled("work.stopped")
                 progress((done + share) / whole, name)
 
-            target = checked[player.id].target
-            report, measured = _export_player(request, player, target, stems[player.id], names[player.id], folder, told)
+            checked = cast.targets[player.id]
+            report, measured = _export_player(
+                request, performer, checked.target, stems[player.id], names[player.id], folder, told
+            )
             asset = None if request.asset is None else request.asset.name
-            skeleton = SkeletonReport(target.choice, asset, checked[player.id].differences)
+            skeleton = SkeletonReport(checked.target.choice, asset, checked.differences)
             report = msgspec.structs.replace(report, skeleton=skeleton)
             reports.append(report)
             if measured is not None:
@@ -149,10 +114,10 @@ def export(
             sound = sound_name(request.source)
 
             def mixed(share: float) -> None:
-                progress((len(request.players) + _SOUND_WORK * share) / whole, sound)
+                progress((len(cast.performers) + _SOUND_WORK * share) / whole, sound)
 
             write_sound(folder / sound, request.performance.project, request.span, mixed, stop_wanted)
-        report_value = _report(request, checked, _compared(reports, request.players, torsos), wording)
+        report_value = _report(request, cast, _compared(reports, cast.player_ids, torsos), wording)
         with atomic_write(folder / REPORT) as stream:
             stream.write(encode_report(report_value))
     return report_value
@@ -185,7 +150,7 @@ REPORT = "report.json"
 
 def _export_player(
     request: Request,
-    player: Player,
+    performer: Performer,
     target: TargetSkeleton,
     stem: str,
     files: dict[str, str],
@@ -193,14 +158,17 @@ def _export_player(
     told: Callable[[float], None],
 ) -> tuple[PlayerReport, Measured | None]:
     told(0.0)
-    performance = request.performance
+    performance, character = request.performance, performer.character
     wanted = {name: kind for name, kind in FILE_FORMATS.items() if name in request.formats}
     work = _MOTION_WORK + sum(kind.work for kind in wanted.values()) + _MEASURES_WORK * ("fbx" in wanted)
-    motion = player_motion(performance, player, request.span, progress=lambda share: told(_MOTION_WORK / work * share))
-    scenes = _scenes(request, player, target, motion, stem, {held for kind in wanted.values() for held in kind.holds})
+    motion = player_motion(
+        performance, performer, request.span, progress=lambda share: told(_MOTION_WORK / work * share)
+    )
+    held_by = {held for kind in wanted.values() for held in kind.holds}
+    scenes = _scenes(request, performer, target, motion, stem, held_by)
     beside = Beside(
         sound=sound_name(request.source) if request.sound else None,
-        bone_names=profile_names(request.bvh_names, target, character_of(player).skeleton) if request.bvh_names else {},
+        bone_names=profile_names(request.bvh_names, target, character.skeleton) if request.bvh_names else {},
     )
     done = _MOTION_WORK
     for name, kind in wanted.items():
@@ -214,40 +182,29 @@ def _export_player(
         measured = measure_player(
             read_scene(folder / files["character_fbx"]),
             read_scene(folder / files["instrument_fbx"]),
-            character_of(player),
-            performance.held(player),
-            performance.plan(player),
-            body_of(player),
-            load_skeleton(body_of(player).skeleton),
+            character,
+            performer.instrument,
+            performance.plan(performer.player),
+            performer.body,
+            load_skeleton(performer.body.skeleton),
             request.span.first_frame_s,
             lambda share: told((done + _MEASURES_WORK * share) / work),
             target,
         )
     told(1.0)
-    return _player_report(request, player, files, measured), measured
+    return _player_report(request, performer, files, measured), measured
 
 
 def _scenes(
-    request: Request, player: Player, target: TargetSkeleton, motion: Motion, stem: str, held: set[Held]
+    request: Request, performer: Performer, target: TargetSkeleton, motion: Motion, stem: str, held: set[Held]
 ) -> dict[Held, Scene]:
     """The scenes that some format asked for can hold."""
-    instrument = request.performance.held(player)
     scenes: dict[Held, Scene] = {}
     if "character" in held:
-        scenes["character"] = character_scene(character_of(player), motion, stem, request.creator, target)
+        scenes["character"] = character_scene(performer.character, motion, stem, request.creator, target)
     if "instrument" in held:
-        scenes["instrument"] = instrument_scene(instrument, model_of(instrument), motion, stem, request.creator)
+        scenes["instrument"] = instrument_scene(performer.instrument, performer.model, motion, stem, request.creator)
     return scenes
-
-
-def _checked(request: Request, wording: Callable[[Message], str]) -> dict[str, CheckedTarget]:
-    """The skeleton of every player; those that the asset would not take are refused."""
-    if request.asset is None:
-        return checked_targets(request.players, request.skeleton)
-    asset = read_figure(request.asset)
-    checked = checked_targets(request.players, request.skeleton, asset)
-    refuse_grave(request.players, checked, asset, wording)
-    return checked
 
 
 def _stems(performance: Performance) -> dict[str, str]:
@@ -264,17 +221,19 @@ def _missed_mm(hold: Hold) -> dict[str, float]:
     return found | ({"penetration": round(1000.0 * deepest_m, 2)} if deepest_m > INSIDE_M else {})
 
 
-def _player_report(request: Request, player: Player, files: dict[str, str], measured: Measured | None) -> PlayerReport:
-    plan, held = request.performance.plan(player), request.performance.held(player)
-    span = request.span
+def _player_report(
+    request: Request, performer: Performer, files: dict[str, str], measured: Measured | None
+) -> PlayerReport:
+    player, span = performer.player, request.span
+    plan = request.performance.plan(player)
     place = player.stage
     return PlayerReport(
         name=player.name,
         part=request.performance.project.part(player).name,
         instrument=player.instrument_id,
         character=player.character_id,
-        size=held.size,
-        missed=_missed_mm(hold_of(player, held)),
+        size=performer.instrument.size,
+        missed=_missed_mm(performer.hold),
         posture=request.performance.instrument(player).hold.possible(player.parameters.posture),
         files=files,
         stage=StagePlace(round(place.x_m, 4), round(place.z_m, 4), round(math.degrees(place.turn_rad), 3)),
@@ -286,7 +245,7 @@ def _player_report(request: Request, player: Player, files: dict[str, str], meas
 
 
 def _compared(
-    reports: list[PlayerReport], players: tuple[Player, ...], torsos: dict[str, FloatArray]
+    reports: list[PlayerReport], player_ids: tuple[str, ...], torsos: dict[str, FloatArray]
 ) -> tuple[PlayerReport, ...]:
     """The reports with how alike the players move, where there are several to compare."""
     if len(torsos) < 2:
@@ -295,24 +254,24 @@ def _compared(
     lean = greatest_correlations({name: torso[:, 1] for name, torso in torsos.items()})
     return tuple(
         msgspec.structs.replace(
-            report, sway_correlation=round(sway[player.id], 4), lean_correlation=round(lean[player.id], 4)
+            report, sway_correlation=round(sway[player_id], 4), lean_correlation=round(lean[player_id], 4)
         )
-        for report, player in zip(reports, players, strict=True)
+        for report, player_id in zip(reports, player_ids, strict=True)
     )
 
 
 def _report(
     request: Request,
-    checked: dict[str, CheckedTarget],
+    cast: ExportCast,
     players: tuple[PlayerReport, ...],
     wording: Callable[[Message], str],
 ) -> Report:
     project, span = request.performance.project, request.span
     problems = [
         f"{player.name}: {wording(message)}"
-        for player in request.players
+        for player in (performer.player for performer in cast.performers)
         for message in (
-            *checked[player.id].messages,
+            *cast.targets[player.id].messages,
             *(problem.message for problem in request.performance.plan(player).problems),
         )
     ]
@@ -332,5 +291,6 @@ def _report(
         unplayed=tuple(
             UnplayedPart(part.name, wording(part.reason), part.note_count) for part in project.score.unplayed
         ),
+        left_out=tuple(LeftOutReport(one.player.name, wording(one.reason)) for one in cast.left_out),
         sound=sound_name(request.source) if request.sound else None,
     )

@@ -7,12 +7,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from app.errors import FileError, Message
+from app.errors import Argument, Message
 from app.export.check_skeleton import Difference, check_skeleton, told
 from app.export.mannequin import mannequin_axes, mannequin_target
 from app.export.own_skeleton import own_target
 from app.export.target import SkeletonChoice, TargetSkeleton, normalised_target
-from app.performance.bodies import character_of
+from app.performance.cast import LeftOut
 from app.project.model import Player
 from app.rig import quaternion
 from app.rig.figure import Figure
@@ -62,15 +62,14 @@ def written_meshes(character: Character, target: TargetSkeleton) -> tuple[Mesh, 
 
 
 def checked_targets(
-    players: Sequence[Player], choice: SkeletonChoice, asset: Figure | None = None
+    characters: Mapping[str, Character], choice: SkeletonChoice, asset: Figure | None = None
 ) -> dict[str, CheckedTarget]:
-    """The skeleton of every player, by id, compared with an asset's."""
+    """The skeleton of every player, compared with an asset's; all by the player's id."""
     result = {}
-    for player in players:
-        character = character_of(player)
+    for player_id, character in characters.items():
         target = target_skeleton(character, choice, asset)
         compared = () if asset is None else check_skeleton(_as_bound(character, target), asset)
-        result[player.id] = CheckedTarget(target, compared)
+        result[player_id] = CheckedTarget(target, compared)
     return result
 
 
@@ -87,21 +86,19 @@ def _as_bound(character: Character, target: TargetSkeleton) -> TargetSkeleton:
     return replace(target, offsets_m=offsets, rest=rest)
 
 
-def refuse_grave(
+def spoilt(
     players: Sequence[Player],
     checked: Mapping[str, CheckedTarget],
     asset: Figure,
     wording: Callable[[Message], str],
-) -> None:
-    """Refuse to write what an asset would lose or spoil.
-
-    Raises
-    ------
-    FileError
-        ``skeleton.differs`` (file, player, detail).
-    """
+) -> tuple[LeftOut, ...]:
+    """The players whose files an asset would lose or spoil, with the reason: ``skeleton.differs`` (file, player,
+    detail)."""
+    found = []
     for player in players:
         grave = told([difference for difference in checked[player.id].differences if difference.grave])
         if grave:
             detail = "; ".join(map(wording, grave[:MOST_TOLD])) + ("; ..." if len(grave) > MOST_TOLD else "")
-            raise FileError("skeleton.differs", file=asset.file, player=player.name, detail=detail)
+            arguments: dict[str, Argument] = {"file": asset.file, "player": player.name, "detail": detail}
+            found.append(LeftOut(player, Message("skeleton.differs", arguments)))
+    return tuple(found)

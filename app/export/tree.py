@@ -4,6 +4,9 @@ What is new is written beside its place, on the same disk; only then does it tak
 kept until all of it has. An error in between gives everything back. A process that was killed meanwhile leaves its
 folder, from which the next one restores what was there before.
 
+A tree may come from anywhere, with whatever links in it: nothing is written, moved or removed through a link that leads
+out of it. The tree itself may be reached through links, and links within it are followed.
+
 Messages
 --------
 file.cannot_write (file, reason)
@@ -11,6 +14,8 @@ tree.busy (file)
     Somebody else writes into the same tree just now.
 tree.refused (file, reason)
     The system did not let a file be replaced or removed; everything is as it was.
+tree.leads_outside (file, target)
+    A link in the tree leads out of it; nothing was touched there.
 tree.not_restored (file, reason)
     Nor did it let what was there before be given back; the next one tries again.
 """
@@ -22,9 +27,9 @@ import os
 import re
 import secrets
 import shutil
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
-from pathlib import Path, PureWindowsPath
+from pathlib import Path, PurePath, PureWindowsPath
 from typing import Final
 
 from app.errors import FileError
@@ -74,8 +79,9 @@ def tree_into(root: Path, scratch: Path) -> Iterator[TreeChange]:
     Raises
     ------
     FileError
-        ``file.cannot_write``, ``tree.busy``, ``tree.refused``, ``tree.not_restored``.
+        ``file.cannot_write``, ``tree.busy``, ``tree.leads_outside``, ``tree.refused``, ``tree.not_restored``.
     """
+    refuse_links_out(root, [scratch.relative_to(root) / _NEW])
     had_scratch = scratch.is_dir()
     try:
         scratch.mkdir(parents=True, exist_ok=True)
@@ -110,16 +116,29 @@ def recover(root: Path, scratch: Path) -> None:
     Raises
     ------
     FileError
-        ``tree.busy``: it is alive; ``tree.not_restored``: the system refuses.
+        ``tree.busy``: it is alive; ``tree.leads_outside``; ``tree.not_restored``: the system refuses.
     """
+    refuse_links_out(root, [scratch.relative_to(root) / _OLD])
     if not scratch.is_dir():
         return
-    for partial in sorted(path for path in scratch.iterdir() if _SCRATCH.fullmatch(path.name) and path.is_dir()):
+    for partial in sorted(path for path in scratch.iterdir() if _SCRATCH.fullmatch(path.name)):
+        if partial.is_symlink() or not partial.is_dir():
+            continue
         # Between making the folder and locking it, it has nothing to give back.
         if is_locked(partial / _LOCK):
             raise FileError("tree.busy", file=os.fspath(root))
         _give_back(root, partial)
         shutil.rmtree(partial, ignore_errors=True)
+
+
+def refuse_links_out(root: Path, paths: Iterable[Path | PurePath]) -> None:
+    """Raise ``tree.leads_outside`` where a path, relative to a tree, leads out of it by a link on the way."""
+    top = Path(os.path.realpath(root))
+    for folder in sorted({path.parent for path in map(Path, paths)}):
+        for step in (*reversed(folder.parents), folder):
+            target = Path(os.path.realpath(root / step))
+            if not target.is_relative_to(top):
+                raise FileError("tree.leads_outside", file=os.fspath(root / step), target=os.fspath(target))
 
 
 def files_below(folder: Path) -> list[Path]:
@@ -135,6 +154,7 @@ def stays_inside(name: str) -> bool:
 
 def _commit(root: Path, partial: Path, change: TreeChange) -> None:
     coming = [path for path in files_below(change.new) if path not in change.last] + change.last
+    refuse_links_out(root, [*coming, *change.removed])
     at = root
     try:
         for path in [*coming, *change.removed]:
@@ -177,7 +197,9 @@ def _give_back(root: Path, partial: Path) -> None:
     lines = read_file(partial / _LIST, MOST_BYTES).decode("utf-8", "replace").splitlines()
     # A project comes from anywhere, with whatever list in it.
     coming = [Path(line) for line in lines if stays_inside(line)]
+    refuse_links_out(root, [*coming, partial.relative_to(root) / _OLD / _LIST])
     old = files_below(partial / _OLD) if (partial / _OLD).is_dir() else []
+    refuse_links_out(root, old)
     at = root
     try:
         for path in coming:

@@ -10,6 +10,7 @@ import os
 import re
 import secrets
 import shutil
+import stat
 import sys
 import time
 from collections.abc import Iterator
@@ -25,7 +26,9 @@ _FRESH_S: Final = 60.0
 
 
 @contextlib.contextmanager
-def atomic_write(path: str | os.PathLike[str], backup: Path | None = None) -> Iterator[BinaryIO]:
+def atomic_write(
+    path: str | os.PathLike[str], backup: Path | None = None, follow_link: bool = True
+) -> Iterator[BinaryIO]:
     """Open a file for writing that takes its name only once it is complete and on the disk.
 
     The bytes go to a temporary file in the same folder; on leaving the block it is flushed, synced and renamed over
@@ -35,9 +38,12 @@ def atomic_write(path: str | os.PathLike[str], backup: Path | None = None) -> It
     Parameters
     ----------
     path : str or path-like
-        A symbolic link is followed, so that the link stays a link. The folder must exist.
+        The folder must exist.
     backup : path, optional
         What `path` held before is kept under this name, in the same folder; at every moment one of the two is whole.
+    follow_link : bool
+        Whether a symbolic link stays a link, and what it leads to is replaced: so for a file that the user names. A
+        file that only we name replaces the link, which somebody else has put there.
 
     Yields
     ------
@@ -48,7 +54,7 @@ def atomic_write(path: str | os.PathLike[str], backup: Path | None = None) -> It
     FileError
         ``file.cannot_write`` if the system refuses (folder missing, no permission, disk full).
     """
-    target = Path(os.path.realpath(path))
+    target = Path(os.path.realpath(path)) if follow_link else Path(path)
     try:
         partial, stream = _new_partial(target.parent)
     except OSError as error:
@@ -78,6 +84,8 @@ def sweep(folder: Path) -> None:
         return
     for path in found:
         with contextlib.suppress(OSError):
+            if not stat.S_ISREG(path.lstat().st_mode):
+                continue  # none of ours: a link, a pipe or a device is not even opened
             fresh = sys.platform == "win32" and time.time() - path.stat().st_mtime < _FRESH_S
             if not fresh and not is_locked(path):
                 path.unlink()

@@ -36,6 +36,10 @@ TEMPLATES: Final[dict[str, str]] = {
     "character.no_hand": "the {side} hand has no skin to touch with: it hangs down while the other one plays",
     "character.no_lips": "the head has no skin to find a mouth on: the instrument is held where lips would be",
     "character.lips_still": "the mouth has no morph that opens it: breaths do not show on it, and lips stay shut",
+    "character.hold_failed": (
+        "{character} cannot be made to hold {instrument} ({detail}); correct the instrument's map, or take another "
+        "character"
+    ),
     "character.hold_waiting": (
         "how the instrument is held is being found out; the player is seen as soon as that is known"
     ),

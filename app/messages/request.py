@@ -13,6 +13,10 @@ TEMPLATES: Final[dict[str, str]] = {
     "player.unknown": "there is no player {player!r}; there are: {possible}",
     "bars.none": "there are no bars {first} to {last}; the piece has {lowest} to {highest}",
     "export.nobody": "{file}: there is nobody to export; 'suisou inspect' says why each part is not played",
+    "player.left_out": "{player} is left out: {reason}",
+    "player.fault": "{player} cannot be seen because of a fault of the program: {detail}",
+    "player.not_seen": "these players cannot be seen: {players}; the list of problems says why",
+    "player.all_left_out": "{file}: none of the players can be seen: {reasons}",
     "export.too_long": (
         "{file}: {frames} frames are more than the {most} that one export holds; "
         "take some bars with --from-bar and --to-bar"

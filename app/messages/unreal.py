@@ -40,6 +40,10 @@ TEMPLATES: Final[dict[str, str]] = {
     "unreal.done": "files written into the Unreal project {project}: {count}",
     "unreal.formats": "--format is for a folder of files; an Unreal project gets what Unreal reads",
     "tree.busy": "{file}: another export into it is under way; wait until it has finished, then export again",
+    "tree.leads_outside": (
+        "{file} is a link to {target}, out of the folder that is exported into; nothing was written; put a folder in "
+        "its place, then export again"
+    ),
     "tree.not_restored": (
         "{file} was to be given back as it was before the export and cannot be: {reason}; close the program that has "
         "it open, then export again"

@@ -1,11 +1,16 @@
-"""Who plays, with what: characters, bodies, instruments as they play them, models and holds; each is made once."""
+"""Who plays, with what: characters, bodies, instruments as they play them, models and holds; each is made once.
+
+Messages: ``character.hold_failed`` (character, instrument, detail): "{character} cannot be made to hold ...".
+"""
 
 from __future__ import annotations
 
 import contextlib
+from collections.abc import Callable
 from functools import cache, lru_cache
+from typing import TypeVar
 
-from app.errors import FileError, MapError, UsageError
+from app.errors import FileError, MapError, UsageError, shortened
 from app.identity_cache import IdentityCache
 from app.project.model import Player
 from app.rig.character_library import bundled_characters, character_named, character_revision
@@ -21,6 +26,8 @@ from instrument_maps.load import bundled_maps
 from instrument_maps.model import InstrumentMap
 from metadata.load import load_body
 from metadata.model import Body
+
+T = TypeVar("T")
 
 _MODELS: IdentityCache[InstrumentModel] = IdentityCache(128)
 """More than there are instruments: in an orchestra with one more than these, each would be read again at every edit."""
@@ -60,9 +67,11 @@ def suited_to(player: Player, instrument: InstrumentMap) -> Suited:
         # Ours are grown-ups and lack nothing: plans are made before anybody is loaded.
         return Suited(instrument, ())
     character, body = character_of(player), body_of(player)
-    return _SUITED.get(
-        (character, instrument, body), lambda: suited(character, instrument, body, lambda: model_of(instrument))
-    )
+
+    def found() -> Suited:
+        return suited(character, instrument, body, lambda: model_of(instrument))
+
+    return _SUITED.get((character, instrument, body), lambda: _worked_out(player, instrument, found))
 
 
 def hold_of(player: Player, instrument: InstrumentMap, told: Told = unheard) -> Hold:
@@ -71,7 +80,30 @@ def hold_of(player: Player, instrument: InstrumentMap, told: Told = unheard) -> 
     ``told`` hears of a fit how far it is, and may stop it.
     """
     character, model, body = character_of(player), model_of(instrument), body_of(player)
-    return _HOLDS.get((character, model, instrument, body), lambda: hold_for(character, model, instrument, body, told))
+
+    def found() -> Hold:
+        return hold_for(character, model, instrument, body, told)
+
+    return _HOLDS.get((character, model, instrument, body), lambda: _worked_out(player, instrument, found))
+
+
+def _worked_out(player: Player, instrument: InstrumentMap, work_out: Callable[[], T]) -> T:
+    """What is worked out from a character and an instrument. A user's own may be of a shape that nothing can be worked
+    out from, which concerns who has it; of our own it would be a fault of the program.
+
+    Raises
+    ------
+    MapError
+        ``character.hold_failed``.
+    """
+    try:
+        return work_out()
+    except (ArithmeticError, LookupError, ValueError) as error:
+        if player.character_id in bundled_characters() and instrument.id not in library().own:
+            raise
+        detail = shortened(f"{type(error).__name__}: {error}")
+        named = {"character": player.character_id, "instrument": instrument.id}
+        raise MapError("character.hold_failed", **named, detail=detail) from error
 
 
 def is_held(player: Player, instrument: InstrumentMap) -> bool:

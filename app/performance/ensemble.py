@@ -1,7 +1,8 @@
 """What all players of a project do: plans from a snapshot of the project, made once and shared by everyone who asks.
 
 Messages: ``piece.too_long`` (hours, most_hours): "the piece lasts {hours} hours; at most {most_hours} can be played";
-``project.instrument_missing``, ``project.character_missing`` (player, id), as problems of the player's plan.
+as problems of the player's plan ``project.instrument_missing``, ``project.character_missing`` (player, id), or what is
+wrong with the file of that instrument or character.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ from app.plan.generate import BREATH_PARAMETERS, EnsemblePlan, Line, Piece, fram
 from app.plan.memo import Memo
 from app.plan.model import PlayerPlan, Problem, TimeFrame
 from app.project.model import Player, Project
-from app.rig.character_library import bundled_characters, character_library, character_revision, characters
+from app.rig.character_library import bundled_characters, character_library, character_revision
 from app.rig.fit import missed
 from instrument_maps.library import library
 from instrument_maps.model import InstrumentMap
@@ -68,6 +69,8 @@ class Performance:
         self.waiting = waiting
         self.library = library()
         self.characters = character_library()
+        self.unseen = dict[str, Message]()
+        """By player id, once there are plans: why players cannot be seen, streamed or exported."""
         # One that was never played knows nothing, but may know of one that was.
         self._before: Performance | None = before if before is None or before.planned else before._before
         self._memo: Memo = Memo(None if self._before is None else self._before._memo)
@@ -164,24 +167,21 @@ class Performance:
                 stop_wanted,
                 progress,
             )
-            known = frozenset(characters())
-            self._plans = {player.id: self._told(player, made, known) for player in self.project.players}
+            self.unseen = dict[str, Message]()
+            self._plans = {player.id: self._told(player, made) for player in self.project.players}
             self.__dict__["_ensemble"] = made
             self._memo.close()
             self._before = None
 
-    def _told(self, player: Player, made: EnsemblePlan, known: frozenset[str]) -> PlayerPlan:
+    def _told(self, player: Player, made: EnsemblePlan) -> PlayerPlan:
         """A player's plan with what is wrong about the player."""
         plan, frame = made.plans.get(player.id), self.time_frame
-        problems = [] if plan is not None else [("project.instrument_missing", player.instrument_id)]
-        if player.character_id not in known:
-            problems.append(("project.character_missing", player.character_id))
-        if plan is not None and not problems:
+        lacking = self.lacking(player)
+        if lacking:
+            self.unseen[player.id] = lacking[0]
+        if plan is not None and not lacking:
             return self._reaching(player, plan)
-        told = tuple(
-            Problem(Message(id, {"player": player.name, "id": what}), None, frame.first_frame_s, frame.end_s)
-            for id, what in problems
-        )
+        told = tuple(Problem(message, None, frame.first_frame_s, frame.end_s) for message in lacking)
         return self._memo.step(
             f"told:{player.id}", lambda: _with_problems(player, plan, frame, told), plan, frame, told
         )
@@ -200,6 +200,7 @@ class Performance:
         except AppError as error:
             # A model or character that cannot be read is this player's problem; the others play on.
             lacking = (error.message,)
+            self.unseen[player.id] = error.message
         if not unreached and not lacking:
             return plan
         frame = self.time_frame
@@ -272,8 +273,29 @@ class Performance:
         return self.plans[player.id]
 
     def instrument(self, player: Player) -> InstrumentMap:
-        """The map of what a player plays. Raises MapError where there is none of its id."""
-        return self.library.find(player.instrument_id)
+        """The map of what a player plays. Raises MapError where there is none: see `lacking`."""
+        instrument = self.library.maps.get(player.instrument_id)
+        if instrument is None:
+            message = self._no_instrument(player)
+            raise MapError(message.id, **message.arguments)
+        return instrument
+
+    def lacking(self, player: Player) -> tuple[Message, ...]:
+        """Which of instrument and character of a player there is none of, and why where a file of it is damaged."""
+        found = []
+        if player.instrument_id not in self.library.maps:
+            found.append(self._no_instrument(player))
+        if player.character_id not in self.characters.sources:
+            problems = {path.stem: problem for path, problem in self.characters.problems.items()}
+            missing = Message("project.character_missing", {"player": player.name, "id": player.character_id})
+            found.append(problems.get(player.character_id, missing))
+        return tuple(found)
+
+    def _no_instrument(self, player: Player) -> Message:
+        for path, problems in self.library.problems.items():
+            if path.stem == player.instrument_id:
+                return problems[0]
+        return Message("project.instrument_missing", {"player": player.name, "id": player.instrument_id})
 
     @property
     def unheld(self) -> tuple[Player, ...]:
@@ -310,8 +332,7 @@ class Performance:
             hold_now(player, self.instrument(player), told)
 
     def held(self, player: Player) -> InstrumentMap:
-        """That map as the player's body plays it: of its size, touched by what the body has. Raises MapError,
-        UsageError or FileError."""
+        """That map as the player's body plays it: of its size, touched by what the body has. Raises AppError."""
         return suited_to(player, self.instrument(player)).instrument
 
 

@@ -4,20 +4,21 @@ The performance is cut into chunks of frames. Whoever owns the worker thread cal
 makes something; whoever draws asks `LiveMotion.pose`, which never waits. After an edit only the chunks are made again
 whose curves changed.
 
-Messages: ``player.no_instrument`` (player, instrument), ``player.no_character`` (player, character): see
-`app.performance.ensemble`.
+Messages: those of `app.performance.ensemble`; ``character.hold_waiting``; ``player.fault`` (player, detail): "{player}
+cannot be seen because of a fault of the program: {detail}".
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from threading import Lock
 
-from app.errors import AppError, Message
+from app.errors import Message
 from app.motion.model import Motion
 from app.motion.perform import Playing
-from app.performance.bodies import character_of, model_of
+from app.performance.cast import Performer, performers_of
 from app.performance.chunks import Chunk, Grid, Pose, poses_of
 from app.performance.contacts import Break, ContactJudge, contact_problems
 from app.performance.ensemble import Performance
@@ -34,6 +35,10 @@ SEEN_S = 4.0
 """Looked at unless somebody says otherwise."""
 BEHIND_COSTS = 3
 """What lies before the playhead is wanted as much as what lies this many times as far after it."""
+
+
+class PlayerFault(Exception):
+    """A fault of the program in one player's motion, its cause: that player is made no more, the others are."""
 
 
 @dataclass(eq=False)
@@ -56,6 +61,8 @@ class _Track:
         Why the player cannot be seen.
     prepared : Playing or None
         What ``playing`` will be, once the chunks are proven.
+    performer : Performer or None
+        Whom ``prepared`` and ``playing`` are of.
     judge : ContactJudge or None
         Of ``playing``'s contacts; None until chunks are judged.
     judged : set of int
@@ -75,6 +82,7 @@ class _Track:
     outdated: dict[int, Chunk] = field(default_factory=dict)
     error: Message | None = None
     prepared: Playing | None = None
+    performer: Performer | None = None
     judge: ContactJudge | None = None
     judged: set[int] = field(default_factory=set)
     breaks: dict[int, tuple[Break, ...]] = field(default_factory=dict)
@@ -220,11 +228,12 @@ class LiveMotion:
         chunk = track.chunks.get(index)
         if chunk is not None and inner < chunk.frames:
             return poses_of([chunk], inner, share)[0]
-        playing = self._playing(shown, track)
-        if playing is None:
-            return None
-        made = Chunk.of(playing.motion(shown.grid.fps, frame, 2 if share > 0.0 else 1))
-        return poses_of([made], 0, share)[0]
+        with self._own_fault(track):
+            playing = self._playing(shown, track)
+            if playing is None or track.error is not None:
+                return None
+            made = Chunk.of(playing.motion(shown.grid.fps, frame, 2 if share > 0.0 else 1))
+            return poses_of([made], 0, share)[0]
 
     def error(self, player_id: str) -> Message | None:
         """Why a player cannot be seen; None if nothing is known against it."""
@@ -232,7 +241,7 @@ class LiveMotion:
         return None if track is None else track.error
 
     def work(self, stop_wanted: StopWanted = lambda: False) -> bool:
-        """Make the most wanted chunk that is missing; whether there was one."""
+        """Make the most wanted chunk that is missing; whether there was one. Raises PlayerFault, once for a player."""
         with self._working:
             return self._work(stop_wanted)
 
@@ -240,7 +249,7 @@ class LiveMotion:
         """Make a player's frames around a time here and now, in any thread.
 
         Not of who was never seen: figures take long to load. Nor where the thread that works is at it, for what is
-        looked at is what it makes next.
+        looked at is what it makes next. Raises PlayerFault.
         """
         if not self._working.acquire(blocking=False):
             return
@@ -261,8 +270,9 @@ class LiveMotion:
         # Not with the frames, for which a picture waits.
         unjudged, self._made = self._made, []
         for track, index, motion in unjudged:
-            if shown.tracks.get(track.player.id) is track and index in track.chunks:
-                self._judge(track, index, motion)
+            if shown.tracks.get(track.player.id) is track and index in track.chunks and track.error is None:
+                with self._own_fault(track):
+                    self._judge(track, index, motion)
         for player_id, index in todo:
             if stop_wanted():
                 return True
@@ -273,14 +283,15 @@ class LiveMotion:
 
     def _make(self, shown: _Shown, track: _Track, index: int) -> bool | None:
         """Make a chunk: None where that is not needed or not possible, False where there is no room for it."""
-        if track.playing is None or track.basis is not None:
-            self._prove(shown, track)
-        if track.playing is None or index in track.chunks:
-            return None
-        if not self._make_room(shown, track, index):
-            return False
-        motion = track.playing.motion(shown.grid.fps, *shown.grid.span(index))
-        chunk = Chunk.of(motion)
+        with self._own_fault(track):
+            if track.playing is None or track.basis is not None:
+                self._prove(shown, track)
+            if track.playing is None or track.error is not None or index in track.chunks:
+                return None
+            if not self._make_room(shown, track, index):
+                return False
+            motion = track.playing.motion(shown.grid.fps, *shown.grid.span(index))
+            chunk = Chunk.of(motion)
         with self._lock:
             track.chunks[index] = chunk
             track.outdated.pop(index, None)
@@ -293,7 +304,7 @@ class LiveMotion:
     def judge(self, stop_wanted: StopWanted = lambda: False) -> bool:
         """Judge the contacts of some frames that there is no room to keep, once `work` is done; whether there were any.
 
-        Of the same thread as `work`.
+        Of the same thread as `work`. Raises PlayerFault.
         """
         with self._working:
             return self._judge_some(stop_wanted)
@@ -310,11 +321,12 @@ class LiveMotion:
                 with self._lock:
                     self._unjudged = None
                 return True
-            if track.playing is None or track.basis is not None:
-                self._prove(shown, track)
-            if track.playing is None or index in track.judged:
-                continue
-            self._judge(track, index, track.playing.motion(shown.grid.fps, *shown.grid.span(index)))
+            with self._own_fault(track):
+                if track.playing is None or track.basis is not None:
+                    self._prove(shown, track)
+                if track.playing is None or track.error is not None or index in track.judged:
+                    continue
+                self._judge(track, index, track.playing.motion(shown.grid.fps, *shown.grid.span(index)))
             return True
         return False
 
@@ -338,11 +350,25 @@ class LiveMotion:
         """By player the contacts that the motion breaks, as far as it was made; another dict where anything is new."""
         return self._broken
 
+    @contextmanager
+    def _own_fault(self, track: _Track) -> Iterator[None]:
+        """What goes wrong in here is this player's alone."""
+        try:
+            yield
+        except Exception as fault:
+            detail = f"{type(fault).__name__}: {fault}"
+            track.error = Message("player.fault", {"player": track.player.name, "detail": detail})
+            frame = track.plan.time_frame
+            track.problems = (Problem(track.error, None, frame.first_frame_s, frame.end_s),)
+            with self._lock:
+                self._tell(self._shown)
+            raise PlayerFault(f"{track.player.name}: {detail}") from fault
+
     def _judge(self, track: _Track, index: int, motion: Motion) -> None:
         assert track.playing is not None
+        assert track.performer is not None
         if track.judge is None:
-            instrument = track.playing.instrument_map
-            track.judge = ContactJudge(track.playing, character_of(track.player), model_of(instrument))
+            track.judge = ContactJudge(track.playing, track.performer.character, track.performer.model)
         breaks = track.judge.breaks(motion)
         track.judged.add(index)
         if breaks or index in track.breaks:
@@ -399,10 +425,12 @@ class LiveMotion:
         if track.player.id in shown.performance.waiting:
             track.error = Message("character.hold_waiting", {})
         elif track.prepared is None:
-            try:
-                track.prepared = playing_of(shown.performance, track.player, track.basis)
-            except AppError as error:
-                track.error = error.message
+            found = performers_of(shown.performance, (track.player,))
+            if found.left_out:
+                track.error = found.left_out[0].reason
+            else:
+                track.performer = found.made[track.player.id]
+                track.prepared = playing_of(shown.performance, track.performer, track.basis)
         return track.prepared
 
     def _prove(self, shown: _Shown, track: _Track) -> None:

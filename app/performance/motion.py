@@ -13,10 +13,9 @@ from app.errors import Cancelled
 from app.identity_cache import IdentityCache
 from app.motion.model import Motion
 from app.motion.perform import Playing, prepare
-from app.performance.bodies import body_of, character_of, hold_of
+from app.performance.cast import Performer
 from app.performance.ensemble import Performance
 from app.performance.span import FrameSpan
-from app.project.model import Player
 
 Progress = Callable[[float], None]
 """Told the share 0..1 that is done."""
@@ -29,11 +28,10 @@ CHUNK = 16384
 _PLAYING: IdentityCache[Playing] = IdentityCache(8)
 
 
-def playing_of(performance: Performance, player: Player, before: Playing | None = None) -> Playing:
+def playing_of(performance: Performance, performer: Performer, before: Playing | None = None) -> Playing:
     """A player's plan made ready to be seen; made once for each plan, and from what is still right of ``before``."""
-    instrument = performance.held(player)
-    character, body, plan = character_of(player), body_of(player), performance.plan(player)
-    hold, beat_ticks = hold_of(player, instrument), performance.piece.beat_ticks
+    player, plan, beat_ticks = performer.player, performance.plan(performer.player), performance.piece.beat_ticks
+    instrument, character, hold, body = performer.instrument, performer.character, performer.hold, performer.body
     keys = (plan, player.parameters, instrument, character, hold, body, performance.expressions)
     return _PLAYING.get(
         keys,
@@ -53,7 +51,7 @@ def playing_of(performance: Performance, player: Player, before: Playing | None 
 
 def player_motion(
     performance: Performance,
-    player: Player,
+    performer: Performer,
     span: FrameSpan,
     stop_wanted: StopWanted = lambda: False,
     progress: Progress = lambda share: None,
@@ -65,7 +63,7 @@ def player_motion(
     Cancelled
         ``stop_wanted`` said so.
     """
-    playing = playing_of(performance, player)
+    playing = playing_of(performance, performer)
     pieces = []
     for first in range(0, span.count, CHUNK):
         if stop_wanted():

@@ -134,8 +134,10 @@ class Writing:
         return beside if beside in self.held or not os.path.lexists(beside) else None
 
     def _write(self, path: Path) -> None:
-        content = encode_autosave(self.project, Path(os.path.realpath(path)), self.facts)
-        with atomic_write(path) as stream:
+        # Where it lies, whatever a link there leads to: a folder may come from anywhere.
+        place = Path(os.path.realpath(path.parent)) / path.name
+        content = encode_autosave(self.project, place, self.facts)
+        with atomic_write(place, follow_link=False) as stream:
             stream.write(content)
 
     def _written(self, path: Path, warning: Message | None = None) -> Written:

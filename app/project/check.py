@@ -9,6 +9,7 @@ from typing import Any, TypeAlias
 
 import msgspec
 
+from app.errors import shortened
 from app.plan.corrections import Correction
 from app.project import limits
 from app.project.model import AudioTrack, Player, PlayerTakes, Project
@@ -23,6 +24,8 @@ Fault: TypeAlias = tuple[str, str]
 
 _COLOUR = re.compile(r"#[0-9a-fA-F]{6}", re.ASCII)
 _TAKE = re.compile(r"take:[1-9][0-9]{0,8}", re.ASCII)
+MOST_NAME = 60
+"""Characters of a player's name in a message."""
 _MORPHS = frozenset(ARKIT_MORPHS)
 
 
@@ -166,7 +169,7 @@ def _player_faults(project: Project) -> Iterator[Fault]:
         place = f"players[{index}]"
         if player.part_id not in parts:
             yield f"{place}.part_id", f"there is no part {player.part_id!r}"
-        yield from _one_player_faults(player, place)
+        yield from _of(player, _one_player_faults(player, place))
 
 
 def _one_player_faults(player: Player, place: str) -> Iterator[Fault]:
@@ -184,12 +187,13 @@ def _one_player_faults(player: Player, place: str) -> Iterator[Fault]:
 
 
 def _correction_faults(project: Project) -> Iterator[Fault]:
-    known = {player.id for player in project.players}
+    known = {player.id: player for player in project.players}
     for player, corrections in project.corrections.items():
         if player not in known:
             yield f"corrections[{player!r}]", "there is no player of this id"
         for index, correction in enumerate(corrections):
-            yield from _one_correction_faults(correction, f"corrections[{player!r}][{index}]")
+            found = _one_correction_faults(correction, f"corrections[{player!r}][{index}]")
+            yield from _of(known.get(player), found)
 
 
 def _one_correction_faults(correction: Correction, place: str) -> Iterator[Fault]:
@@ -221,7 +225,7 @@ def _plain_faults(place: str, value: Any) -> Iterator[Fault]:
 
 
 def _take_faults(project: Project) -> Iterator[Fault]:
-    known = {player.id for player in project.players}
+    known = {player.id: player for player in project.players}
     all_takes = [take for recorded in project.takes.values() for take in recorded.takes]
     if len(all_takes) > limits.MOST_TAKES:
         yield "takes", f"at most {limits.MOST_TAKES}"
@@ -230,12 +234,16 @@ def _take_faults(project: Project) -> Iterator[Fault]:
         place = f"takes[{player!r}]"
         if player not in known:
             yield place, "there is no player of this id"
-        for index, take in enumerate(recorded.takes):
-            yield from take_faults(take, f"{place}.takes[{index}]")
-        yield from _comp_faults(recorded, f"{place}.comp")
-        yield from _note_faults(recorded.before_notes, f"{place}.before_notes")
-        for index, curve in enumerate(recorded.before_curves):
-            yield from _curve_faults(curve, f"{place}.before_curves[{index}]")
+        yield from _of(known.get(player), _recorded_faults(recorded, place))
+
+
+def _recorded_faults(recorded: PlayerTakes, place: str) -> Iterator[Fault]:
+    for index, take in enumerate(recorded.takes):
+        yield from take_faults(take, f"{place}.takes[{index}]")
+    yield from _comp_faults(recorded, f"{place}.comp")
+    yield from _note_faults(recorded.before_notes, f"{place}.before_notes")
+    for index, curve in enumerate(recorded.before_curves):
+        yield from _curve_faults(curve, f"{place}.before_curves[{index}]")
 
 
 def take_faults(take: Take, place: str) -> Iterator[Fault]:
@@ -319,6 +327,12 @@ def expression_faults(expression: Expression, place: str) -> Iterator[Fault]:
         value = getattr(expression, field)
         if not 0.0 < value <= 60.0:
             yield f"{place}.{field}", "must be more than 0 and at most 60"
+
+
+def _of(player: Player | None, found: Iterable[Fault]) -> Iterator[Fault]:
+    """Faults that concern one player, who is named: a number in a list says little to a reader."""
+    for place, detail in found:
+        yield place, detail if player is None else f"{detail} (player {shortened(player.name, MOST_NAME)!r})"
 
 
 def _within(prefix: str, found: Iterable[Fault]) -> Iterator[Fault]:

@@ -47,6 +47,11 @@ def journals_of(document: Path | None, *stems: Path) -> tuple[Path, ...]:
         found += [
             path
             for path in entries
-            if path.name.startswith(f"{beside.name}.") and path.name.endswith(SUFFIX) and not is_locked(path)
+            if path.name.startswith(f"{beside.name}.") and path.name.endswith(SUFFIX) and _is_left(path)
         ]
     return tuple(found)
+
+
+def _is_left(path: Path) -> bool:
+    """Whether it is a file, which nobody writes any more. A link is none of ours, and where it leads is not opened."""
+    return path.is_file() and not path.is_symlink() and not is_locked(path)

@@ -5,9 +5,11 @@ from __future__ import annotations
 import platform
 import sys
 import threading
+import time
 import traceback
 from collections.abc import Callable
 from datetime import UTC, datetime
+from functools import partial
 from pathlib import Path
 from types import TracebackType
 from typing import Final
@@ -15,10 +17,14 @@ from typing import Final
 import platformdirs
 
 from app.errors import AppError, Message
+from app.shell.calls import window_calls
 from widgets.common.session import Session, Severity
 
 MOST_BYTES: Final = 1_000_000
 """A longer log begins anew."""
+QUIET_S: Final = 1.0
+"""What went wrong in a place less than this ago is not reported when it goes wrong there again: a panel that cannot be
+drawn fails as often as the screen is refreshed."""
 
 
 def log_path() -> Path:
@@ -36,21 +42,35 @@ class Faults:
     write_down : callable
         Writes unsaved work down.
     log : Path
+    clock : callable
+        Seconds.
     """
 
-    def __init__(self, session: Session, write_down: Callable[[], None], log: Path) -> None:
+    def __init__(
+        self,
+        session: Session,
+        write_down: Callable[[], None],
+        log: Path,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
         self._session = session
         self._write_down = write_down
         self._log = log
+        self._clock = clock
         self._telling = False
+        self._last_s = dict[object, float]()
+        """When something went wrong last, by its place."""
+        self._ask = window_calls().ask
 
     def install(self) -> None:
-        """Be told of every exception that nobody caught."""
+        """Be told of every exception that nobody caught. In the window's thread."""
         sys.excepthook = self._uncaught
         threading.excepthook = self._uncaught_in_thread
 
     def tell(self, error: BaseException) -> None:
-        """A fault: note it down, save what can be saved, say so."""
+        """A fault: note it down, save what can be saved, say so; but once while it happens again and again."""
+        if self._is_repeated(error):
+            return
         if isinstance(error, AppError):
             self._session.notice(error.message, Severity.ERROR)
             return
@@ -71,6 +91,18 @@ class Faults:
         finally:
             self._telling = False
 
+    def _is_repeated(self, error: BaseException) -> bool:
+        """Whether the same went wrong in the same place just now."""
+        trace = error.__traceback__
+        while trace is not None and trace.tb_next is not None:
+            trace = trace.tb_next
+        place = None if trace is None else (trace.tb_frame.f_code, trace.tb_lineno)
+        key = (type(error), str(error) if place is None else place)
+        now_s = self._clock()
+        before_s = self._last_s.get(key)
+        self._last_s[key] = now_s
+        return before_s is not None and now_s - before_s < QUIET_S
+
     def _note(self, text: str) -> None:
         head = f"{datetime.now(UTC).isoformat(timespec='seconds')} Python {platform.python_version()} {sys.platform}"
         try:
@@ -90,8 +122,6 @@ class Faults:
         self.tell(error)
 
     def _uncaught_in_thread(self, arguments: threading.ExceptHookArgs) -> None:
-        # Widgets live in the window's thread: here it is only noted down.
+        # Widgets live in the window's thread: it is told there.
         if arguments.exc_value is not None:
-            text = "".join(traceback.format_exception(arguments.exc_value))
-            sys.stderr.write(text)
-            self._note(text)
+            self._ask(partial(self.tell, arguments.exc_value))

@@ -17,7 +17,7 @@ from shiboken6 import isValid
 
 from app.errors import AppError, Cancelled, Message
 from app.performance.ensemble import Performance
-from app.performance.live import LiveMotion
+from app.performance.live import LiveMotion, PlayerFault
 from app.plan.model import Problem
 from app.project.document import Change
 from app.project.model import Project
@@ -159,8 +159,11 @@ class Generator(QObject):
                 self._session.notice(error.message, Severity.ERROR)
                 return
             self._shown = self._asked
-            self._make_now(performance)
-            self._session.set_performance(performance)
+            try:
+                self._make_now(performance)
+            finally:
+                # Also where the player in front met a fault.
+                self._session.set_performance(performance)
 
     def _make_now(self, performance: Performance) -> None:
         """What the player in front does at the playhead is there before anything is drawn: one picture, and it is
@@ -384,6 +387,10 @@ class _Worker:
         start_s, wishes, others_s = time.monotonic(), self._wishes, time.process_time() - time.thread_time()
         try:
             more = self._live.work(self._interrupted)
+        except PlayerFault as fault:
+            # The others go on.
+            self._teller.fell(fault)
+            return
         except Exception as fault:  # noqa: BLE001 - told in the window's thread
             self._met = wishes
             self._teller.fell(fault)
@@ -417,6 +424,9 @@ class _Worker:
         start_s = time.monotonic()
         try:
             self._judging = self._live.judge(lambda: not self._idle)
+        except PlayerFault as fault:
+            self._teller.fell(fault)
+            return
         except Exception as fault:  # noqa: BLE001 - told in the window's thread
             self._judging = False
             self._teller.fell(fault)

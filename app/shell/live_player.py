@@ -8,7 +8,7 @@ from typing import Final
 
 from PySide6.QtCore import QObject, QTimer
 
-from app.errors import AppError
+from app.performance.cast import performers_of
 from app.performance.motion import playing_of
 from app.performance.play_along import PlayAlong
 from app.plan.model import PoseEvent
@@ -83,12 +83,10 @@ class LivePlayer(QObject):
         if of != self._of:
             if self._play_along is not None:
                 self._session.live_players.end(self._play_along.player_id)
-            try:
-                self._play_along = PlayAlong(playing_of(performance, player))
-            except AppError:
-                # Who cannot be seen (the instrument is not there) is said where the performance is made.
-                self._play_along = None
-            else:
+            # Who cannot be seen is among the problems.
+            self._play_along = None
+            for performer in performers_of(performance, (player,)).made.values():
+                self._play_along = PlayAlong(playing_of(performance, performer))
                 self._session.live_players.begin(self._play_along)
             self._of = of
         if self._play_along is not None and poses is not self._poses:

@@ -13,7 +13,7 @@ from app.audio.mix import player_gains, player_phrases
 from app.audio.render_process import RenderProcess
 from app.audio.synth import Phrase, Synthesiser
 from app.audio.track import RATE_HZ, Track
-from app.errors import Cancelled, MapError, Message
+from app.errors import Cancelled, Message
 from app.project.model import Player, Project
 from widgets.common.tasks import Progress, StopWanted, Tasks
 
@@ -211,8 +211,4 @@ def _made(project: Project, player: Player, before: _Made | None) -> _Made:
     sources = _sources(project, player)
     if before is not None and before.is_of(sources):
         return before
-    try:
-        return _Made(sources, player_phrases(project, player))
-    except MapError:
-        # Who has no instrument is told elsewhere, and is silent.
-        return _Made(sources, ())
+    return _Made(sources, player_phrases(project, player))

@@ -20,6 +20,7 @@ from shiboken6 import isValid
 
 from app.errors import AppError, Message
 from app.performance.bodies import character_of
+from app.performance.cast import attempt
 from app.project.casting import StagePosition
 from app.project.model import Player
 from app.rig.model import Character
@@ -210,6 +211,11 @@ class Streamer(QObject):
             self._session.notice(message, Severity.ERROR)
         self._state.set(state="failed", trouble=message, sent_hz=0)
 
+    def _fell(self, fault: BaseException) -> None:
+        """A fault of the program ended the thread: nothing is sent any more."""
+        self._state.set(on=False)
+        raise fault
+
 
 @dataclass(frozen=True)
 class _Wish:
@@ -304,6 +310,9 @@ class _Thread:
         try:
             while not self._closed:
                 due_s = self._step(due_s)
+        except Exception as error:  # noqa: BLE001 - told in the window's thread
+            fault = error
+            self._teller.tell(self, lambda streamer: streamer._fell(fault))
         finally:
             self._close_senders()
 
@@ -344,11 +353,13 @@ class _Thread:
         for port in self._senders.keys() - set(wish.ports):
             self._senders.pop(port).close()
         poses = self._poses.poses([player.id for player in wish.players], time_s)
+        # Whose character is gone since the pose was made is among the problems.
+        sent = attempt(wish.players, lambda player: self._sent_of(player, wish.faces)).made
         outcomes = list[Outcome]()
         for player, port, stage, pose in zip(wish.players, wish.ports, wish.stages, poses, strict=True):
             # What is not made yet is not sent: who receives it keeps the last one.
-            if pose is not None:
-                datagrams = self._sent_of(player, wish.faces).datagrams(pose, now_s - self._began_s, stage)
+            if pose is not None and player.id in sent:
+                datagrams = sent[player.id].datagrams(pose, now_s - self._began_s, stage)
                 if port not in self._senders:
                     self._senders[port] = Sender(wish.address.port(port), wish.broadcast)
                 outcomes.append(self._senders[port].send(datagrams))

@@ -1553,6 +1553,10 @@ Unreal で「Suisou &gt; 演奏をインポート」を選んでください。�
         <translation>配信を開始</translation>
     </message>
     <message>
+        <source>{name}: not sent. {reason}</source>
+        <translation>{name}: 送信していません。{reason}</translation>
+    </message>
+    <message>
         <source>Live Stream</source>
         <translation>ライブ配信</translation>
     </message>

@@ -716,6 +716,10 @@
             <translation>口を開くモーフがありません。息継ぎは口に表れず、唇は閉じたままです</translation>
         </message>
         <message>
+            <source>{character} cannot be made to hold {instrument} ({detail}); correct the instrument's map, or take another character</source>
+            <translation>{character} に {instrument} を持たせられません（{detail}）。インストゥルメントマップを直すか、別のキャラクターを選んでください</translation>
+        </message>
+        <message>
             <source>how the instrument is held is being found out; the player is seen as soon as that is known</source>
             <translation>楽器の持ち方を計算しています。終わり次第、奏者が表示されます</translation>
         </message>
@@ -1094,6 +1098,22 @@
         <message>
             <source>{file}: there is nobody to export; 'suisou inspect' says why each part is not played</source>
             <translation>{file}: 書き出すプレイヤーがいません。演奏されない理由は「suisou inspect」で分かります</translation>
+        </message>
+        <message>
+            <source>{player} is left out: {reason}</source>
+            <translation>{player} は除外されました: {reason}</translation>
+        </message>
+        <message>
+            <source>{player} cannot be seen because of a fault of the program: {detail}</source>
+            <translation>{player} はプログラムの不具合のため表示できません: {detail}</translation>
+        </message>
+        <message>
+            <source>these players cannot be seen: {players}; the list of problems says why</source>
+            <translation>表示できないプレイヤーがいます: {players}。理由は問題の一覧にあります</translation>
+        </message>
+        <message>
+            <source>{file}: none of the players can be seen: {reasons}</source>
+            <translation>{file}: 演奏できるプレイヤーがいません: {reasons}</translation>
         </message>
         <message>
             <source>{file}: {frames} frames are more than the {most} that one export holds; take some bars with --from-bar and --to-bar</source>
@@ -1638,6 +1658,10 @@
         <message>
             <source>{file}: another export into it is under way; wait until it has finished, then export again</source>
             <translation>{file} には別の書き出しが進行中です。終わってから、もう一度書き出してください</translation>
+        </message>
+        <message>
+            <source>{file} is a link to {target}, out of the folder that is exported into; nothing was written; put a folder in its place, then export again</source>
+            <translation>{file} は書き出し先の外にある {target} へのリンクです。何も書き込んでいません。リンクをフォルダーに置き換えてから、もう一度書き出してください</translation>
         </message>
         <message>
             <source>{file} was to be given back as it was before the export and cannot be: {reason}; close the program that has it open, then export again</source>

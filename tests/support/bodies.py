@@ -190,19 +190,14 @@ def playing() -> Iterator[None]:
     """While it lasts, the bodies here can be chosen for players by their ids."""
     from app.rig import character_library as characters
 
-    known = {**characters.characters(), **{id: Path(f"{id}.glb") for id in BODIES}}
-    one = characters.character_named
+    library, one = characters.character_library(), characters.character_named
+    sources = {**library.sources, **{id: characters.Source(Path(f"{id}.glb")) for id in BODIES}}
 
     def either(id: str) -> Character:
         return odd_body(id) if id in BODIES else one(id)
 
-    places = ("app.performance.ensemble", "app.project.storage", "app.cli.options")
-    with patch("app.performance.bodies.character_named", either):
-        patches = [patch(f"{place}.characters", lambda: known) for place in places]
-        for each in patches:
-            each.start()
-        try:
-            yield
-        finally:
-            for each in patches:
-                each.stop()
+    with (
+        patch.object(characters, "_library", replace(library, sources=sources)),
+        patch("app.performance.bodies.character_named", either),
+    ):
+        yield

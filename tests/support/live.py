@@ -14,7 +14,6 @@ from app.motion.model import Motion
 from app.motion.perform import Playing
 from app.performance.chunks import Pose
 from app.performance.ensemble import Performance
-from app.performance.motion import playing_of
 from app.performance.play_along import PlayAlong
 from app.plan.model import PlayerPlan
 from app.project.model import project_from_score
@@ -22,6 +21,7 @@ from app.rig.hold import Placed
 from app.score.model import Note, Part, Score
 from app.score.tempo import TempoMap
 from instrument_maps.load import bundled_maps
+from tests.support.performed import playing_of
 
 QUARTER = 480
 FPS = 60

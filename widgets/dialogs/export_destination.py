@@ -9,7 +9,9 @@ from typing import Literal
 
 from app.errors import Message
 from app.export.formats import Format
-from app.export.run import REPORT, Request, export, file_names, sound_name
+from app.export.report import Report
+from app.export.request import Request
+from app.export.run import REPORT, export, file_names, sound_name
 from app.export.unreal.project import UnrealProject, find_project
 from app.export.unreal.run import export_into, plan_export
 from app.performance.ensemble import Performance
@@ -41,11 +43,12 @@ class Foreseen:
 
 @dataclass(frozen=True)
 class Done:
-    """What an export has done: how many files, the folder to show, what to look at; whether Unreal has a plug-in now
-    that it loads when its editor starts."""
+    """What an export has done: how many files, the folder to show, who is left out, what to look at; whether Unreal
+    has a plug-in now that it loads when its editor starts."""
 
     count: int
     folder: Path
+    left_out: tuple[Message, ...]
     warnings: tuple[str, ...]
     project: UnrealProject | None = None
     new_plugin: bool = False
@@ -105,8 +108,13 @@ def write(
         written = export_into(request, project, message_text, stop_wanted, progress)
         kept = tuple(message_text(message) for message in written.plan.kept)
         folder = project.folder / written.plan.layout.sources
+        warnings = kept + written.report.warnings
         return Done(
-            len(written.plan.written), folder, kept + written.report.warnings, project, bool(written.plan.plugin)
+            len(written.plan.written), folder, _left_out(written.report), warnings, project, bool(written.plan.plugin)
         )
     report = export(request, message_text, stop_wanted, progress)
-    return Done(report.file_count, request.folder, report.warnings)
+    return Done(report.file_count, request.folder, _left_out(report), report.warnings)
+
+
+def _left_out(report: Report) -> tuple[Message, ...]:
+    return tuple(Message("player.left_out", {"player": one.player, "reason": one.reason}) for one in report.left_out)

@@ -19,20 +19,21 @@ from PySide6.QtWidgets import (
     QListWidgetItem,
     QProgressBar,
     QPushButton,
+    QScrollArea,
     QVBoxLayout,
     QWidget,
 )
 
 from app.errors import AppError, Message
-from app.export.run import Request
+from app.export.request import Request
 from app.performance.ensemble import Performance
 from app.performance.span import bars_span, whole_span
 from app.project.model import Player
 from metadata.load import load_bone_names
 from widgets.common.plain import ComboBox, Label
-from widgets.common.session import Session
+from widgets.common.session import Session, Severity
 from widgets.common.tasks import Progress, StopWanted
-from widgets.common.text import message_text
+from widgets.common.text import message_text, sentence
 from widgets.common.tokens import LEAST_TARGET_PX
 from widgets.dialogs.export_destination import Destination, Done, foresee, write
 from widgets.dialogs.export_formats import FormatChooser
@@ -43,6 +44,8 @@ from widgets.dialogs.export_skeleton import SkeletonChooser
 RATES = tuple(map(Fraction, ("24", "25", "30000/1001", "30", "48", "50", "60000/1001", "60", "120")))
 SHOW_MS = 50
 """Progress is shown this often."""
+OUTCOME_PX = 84
+"""Room for some lines of what comes of an export; more are scrolled to."""
 _NAMES = 6
 """Of the files that are replaced or removed, so many are named."""
 
@@ -130,8 +133,13 @@ class ExportDialog(QDialog):
         self._files = Label()
         self._files.setObjectName("export_outcome")
         self._files.setWordWrap(True)
-        self._files.setMinimumHeight(60)
         self._files.setAlignment(Qt.AlignmentFlag.AlignTop | Qt.AlignmentFlag.AlignLeft)
+        # Whoever is left out of an orchestra may take more lines than there is room for.
+        self._outcome = QScrollArea()
+        self._outcome.setFrameShape(QScrollArea.Shape.NoFrame)
+        self._outcome.setWidgetResizable(True)
+        self._outcome.setWidget(self._files)
+        self._outcome.setMinimumHeight(OUTCOME_PX)
         self._progress = QProgressBar()
         self._progress.setRange(0, 1000)
         self._progress.hide()
@@ -179,7 +187,7 @@ class ExportDialog(QDialog):
         form.addRow(self._labels["range"], self._range)
         form.addRow(self._labels["preroll"], self._preroll)
         form.addRow(self._labels["rate"], self._rate)
-        form.addRow(self._labels["outcome"], self._files)
+        form.addRow(self._labels["outcome"], self._outcome)
         columns = QHBoxLayout()
         columns.setSpacing(18)
         columns.addLayout(left, 1)
@@ -270,10 +278,14 @@ class ExportDialog(QDialog):
             if done.new_plugin:
                 text += "\n" + self.tr("If Unreal has the project open, start it again: the menu is new.")
             told = Message("unreal.done", {"count": done.count, "project": done.project.name})
-        self._files.setText(text + "".join(f"\n⚠ {warning}" for warning in done.warnings[:6]))
+        # Whoever is left out comes first, all of them.
+        lines = [sentence(message) for message in done.left_out] + list(done.warnings[:6])
+        self._files.setText(text + "".join(f"\n⚠ {line}" for line in lines))
         self._shown_folder = done.folder
         self._show.show()
         self._session.notice(told)
+        for message in done.left_out[:1]:
+            self._session.notice(message, Severity.WARNING)
         self.exported.emit(self._place.destination, self._place.path)
 
     def _failed(self, error: AppError) -> None:

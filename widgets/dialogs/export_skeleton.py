@@ -21,6 +21,8 @@ from app.errors import AppError, Message
 from app.export.check_skeleton import told
 from app.export.target import SkeletonChoice
 from app.export.targets import CheckedTarget, checked_targets
+from app.performance.bodies import character_of
+from app.performance.cast import attempt
 from app.project.model import Player
 from app.rig.read_figure import SUFFIXES, read_figure
 from widgets.common.plain import ComboBox, Label
@@ -104,7 +106,7 @@ class SkeletonChooser(QWidget):
             return sentence(self._error.message)
         if self.asset is not None and not self.asset.is_file():
             return self.tr("There is no file of this name to compare with.")
-        if any(difference.grave for checked in self._checked.values() for difference in checked.differences):
+        if self._checked and not any(map(_fits, self._checked.values())):
             return self.tr("The asset has another skeleton: its animation would be lost or spoilt.")
         return ""
 
@@ -160,7 +162,7 @@ class SkeletonChooser(QWidget):
         """One line per difference; players of the same character differ alike."""
         names = {player.id: player.name for player in self._players()}
         said: dict[str, list[str]] = {}
-        spoilt = any(difference.grave for checked in self._checked.values() for difference in checked.differences)
+        spoilt = not all(map(_fits, self._checked.values()))
         for player, checked in self._checked.items():
             # What has to be put right comes alone.
             grave = told([difference for difference in checked.differences if difference.grave])
@@ -200,6 +202,11 @@ class SkeletonChooser(QWidget):
         super().changeEvent(event)
 
 
+def _fits(checked: CheckedTarget) -> bool:
+    """Whether a player is exported for the asset; one whose animation it would lose or spoil is left out."""
+    return not any(difference.grave for difference in checked.differences)
+
+
 def _comparison(
     wanted: Wanted, players: tuple[Player, ...], choice: SkeletonChoice, asset: Path
 ) -> Callable[[Progress, StopWanted], Found]:
@@ -207,7 +214,9 @@ def _comparison(
 
     def work(progress: Progress, stop_wanted: StopWanted) -> Found:
         try:
-            return wanted, checked_targets(players, choice, read_figure(asset)), None
+            # Who has no character is left out of the export, and among the problems.
+            characters = attempt(players, character_of).made
+            return wanted, checked_targets(characters, choice, read_figure(asset)), None
         except AppError as error:
             return wanted, {}, error
 

@@ -194,10 +194,12 @@ class PlayblastDialog(QDialog):
         width, height = self._size.currentData()
         try:
             picture = self._render(width, height, time_s, self._view.currentData())
-        except AppError as error:
+        except Exception as error:
             # The encoder stops and takes back what it has written.
             self._stop.set()
             self._timer.stop()
+            if not isinstance(error, AppError):
+                raise
             self._trouble = error
             return
         self._pictures.put(picture)

@@ -66,6 +66,7 @@ class StreamDialog(QDialog):
         self._state.changed.connect(self._show)
         session.changed.connect(self._show)
         session.players_changed.connect(self._show)
+        session.performance_changed.connect(self._show)
         session.theme_changed.connect(self._show)
         self.retranslate()
         self.resize(620, 560)
@@ -152,8 +153,8 @@ class StreamDialog(QDialog):
         """Who is sent where, or would be."""
         state, project = self._state, self._session.project
         lines = state.lines or state.planned(project, self._session.players)
-        names = {player.id: player.name for player in project.players}
-        shown = (lines, tuple(names.items()), bool(state.lines), self._session.tokens.name)
+        names, unseen = {player.id: player.name for player in project.players}, self._session.performance.unseen
+        shown = (lines, tuple(names.items()), bool(state.lines), self._session.tokens.name, dict(unseen))
         if shown == self._listed:
             return
         self._listed = shown
@@ -162,7 +163,14 @@ class StreamDialog(QDialog):
             if line.player_id in names:
                 item = QTreeWidgetItem([names[line.player_id], str(line.port)])
                 item.setTextAlignment(1, Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
-                if not state.lines:
+                reason = unseen.get(line.player_id)
+                if reason is not None:
+                    text = sentence(reason, self._session, line.player_id)
+                    item.setText(0, self.tr("{name}: not sent. {reason}").format(name=item.text(0), reason=text))
+                    for column in (0, 1):
+                        item.setToolTip(column, item.text(0))
+                        item.setForeground(column, QColor(self._session.tokens.warning))
+                elif not state.lines:
                     for column in (0, 1):
                         item.setForeground(column, QColor(self._session.tokens.text_dim))
                 self._list.addTopLevelItem(item)

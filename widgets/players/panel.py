@@ -25,6 +25,7 @@ from widgets.common.number_slider import NumberSlider
 from widgets.common.plain import Label, verbatim
 from widgets.common.section import Section
 from widgets.common.session import Session
+from widgets.common.text import sentence
 from widgets.players.newcomers import add_player, duplicate_players
 from widgets.players.parameters import ParameterSections
 from widgets.players.player_list import PlayerList, Row
@@ -198,7 +199,7 @@ class PlayersPanel(QWidget):
         maps = all_maps()
         rows = []
         for player in project.players:
-            instrument = maps.get(player.instrument_id)
+            instrument, unseen = maps.get(player.instrument_id), performance.unseen.get(player.id)
             rows.append(
                 Row(
                     player,
@@ -206,6 +207,7 @@ class PlayersPanel(QWidget):
                     instrument_name(instrument) if instrument is not None else player.instrument_id,
                     len(self._session.problems(player.id)),
                     player.id == leader,
+                    "" if unseen is None else sentence(unseen, self._session, player.id),
                 )
             )
         self.list.show_rows(tuple(rows))

@@ -68,6 +68,8 @@ class Row:
         How many the plan has; 0 while there is no plan.
     leads : bool
         Whether the player gives the ensemble's entries.
+    unseen : str
+        Why the player cannot be seen or exported; empty: nothing is known against it.
     """
 
     player: Player
@@ -75,6 +77,7 @@ class Row:
     instrument: str
     problems: int = 0
     leads: bool = False
+    unseen: str = ""
 
 
 class PlayerModel(QAbstractListModel):
@@ -223,10 +226,12 @@ class _RowDelegate(QStyledItemDelegate):
             icon("crown", tokens, tokens.by_hand).paint(painter, QRect(at, upper.center().y() - 7, 16, 16))
         painter.setFont(small)
         # Dim text would be lost upon the selection.
-        painter.setPen(QColor(tokens.text if in_front else tokens.text_dim))
+        dim = tokens.text if in_front else tokens.text_dim
+        painter.setPen(QColor(tokens.warning if row.unseen else dim))
         lower = QRect(room.left(), room.top() + half, right - room.left(), room.height() - half)
-        instrument = QFontMetricsF(small).elidedText(row.instrument, Qt.TextElideMode.ElideRight, lower.width())
-        painter.drawText(lower, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft, instrument)
+        text = row.unseen or row.instrument
+        text = QFontMetricsF(small).elidedText(text, Qt.TextElideMode.ElideRight, lower.width())
+        painter.drawText(lower, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft, text)
 
     def _paint_arm(self, painter: QPainter, box: QRect, player_id: str, in_front: bool) -> None:
         """Full: always recorded; a red ring: recorded while in front; a dim one: not recorded."""
@@ -280,6 +285,8 @@ class _RowDelegate(QStyledItemDelegate):
             lines = [row.player.name, row.instrument]
             if row.leads:
                 lines.append(self.tr("Gives the entries"))
+            if row.unseen:
+                lines.append(row.unseen)
             if row.problems:
                 lines.append(self.tr("Problems: {count}").format(count=row.problems))
             text = "\n".join(lines)

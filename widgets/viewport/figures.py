@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from app.errors import AppError, Message
+from app.errors import Cancelled
+from app.performance.cast import LeftOut, attempt
 from app.project.model import Player, Project
 from app.rig.character_library import character_revision
 from instrument_maps.library import library
 from widgets.common.tasks import Progress, StopWanted
-from widgets.viewport.cast import Kit, Stage, kit_of, member_of
+from widgets.viewport.cast import Kit, Member, Stage, kit_of, member_of
 from widgets.viewport.geometry import Crowd
 from widgets.viewport.renderer import Shapes, crowd_of, shapes_of
 
@@ -27,7 +27,7 @@ class Loaded:
     key: CastKey
     stage: Stage
     shapes: Shapes
-    absent: Mapping[str, Message]
+    left_out: tuple[LeftOut, ...]
     crowd: Crowd | None
 
 
@@ -55,27 +55,30 @@ def same_figures(one: CastKey, other: CastKey) -> bool:
     return [row[:6] for row in one] == [row[:6] for row in other]
 
 
-def load(project: Project, before: Shapes | None, progress: Progress, stop_wanted: StopWanted) -> Loaded | None:
-    """Load everybody; None where a stop was wanted. A player of whom something is missing is left out."""
+def load(project: Project, before: Shapes | None, progress: Progress, stop_wanted: StopWanted) -> Loaded:
+    """Load everybody. A player of whom something is missing is left out. Raises Cancelled."""
     kits: dict[tuple[str, str], Kit] = {}
-    members, absent = [], dict[str, Message]()
-    for index, player in enumerate(project.players):
+    done = 0
+
+    def make(player: Player) -> Member:
+        nonlocal done
         if stop_wanted():
-            return None
+            raise Cancelled("work.stopped")
+        progress(0.5 * done / len(project.players))
+        done += 1
         pair = (player.character_id, player.instrument_id)
-        try:
-            if pair not in kits:
-                kits[pair] = kit_of(player)
-            members.append(member_of(player, kits[pair]))
-        except AppError as error:
-            absent[player.id] = error.message
-        progress(0.5 * (index + 1) / len(project.players))
+        if pair not in kits:
+            kits[pair] = kit_of(player)
+        return member_of(player, kits[pair])
+
+    found = attempt(project.players, make)
+    members = list(found.made.values())
     stage = Stage(members)
     shapes = shapes_of(stage, before)
     progress(0.9)
     everyone = crowd_of(stage, shapes) if members else None
     progress(1.0)
-    return Loaded(cast_key(project), stage, shapes, absent, everyone)
+    return Loaded(cast_key(project), stage, shapes, found.left_out, everyone)
 
 
 def moved(project: Project, loaded: Loaded) -> Loaded:

@@ -10,6 +10,7 @@ import numpy.typing as npt
 from PySide6.QtCore import QObject, Signal
 
 from app.errors import Message
+from app.performance.cast import LeftOut
 from widgets.common.session import Session, Severity
 from widgets.common.text import message_text
 from widgets.viewport.camera import Camera
@@ -93,15 +94,19 @@ class Scene(QObject):
         if self._loaded is not None and self._loaded.shapes is shapes:
             self._loaded = replace(self._loaded, crowd=None)
 
-    def _arrived(self, loaded: Loaded | None) -> None:
-        if loaded is None:
-            return
+    def _arrived(self, loaded: Loaded) -> None:
         if same_figures(loaded.key, cast_key(self._session.project)):
             self._set(loaded)
-            for reason in loaded.absent.values():
-                self._session.notice(reason, Severity.WARNING)
+            self._tell_left_out(loaded.left_out)
         # Players or places may have changed meanwhile.
         self.load()
+
+    def _tell_left_out(self, left_out: tuple[LeftOut, ...]) -> None:
+        if len(left_out) == 1:
+            self._session.notice(left_out[0].message(message_text), Severity.WARNING)
+        elif left_out:
+            names = ", ".join(one.player.name for one in left_out)
+            self._session.notice(Message("player.not_seen", {"players": names}), Severity.WARNING)
 
     def _set(self, loaded: Loaded) -> None:
         self._loaded = loaded
@@ -226,10 +231,8 @@ class Scene(QObject):
             return self.tr("Loading the players …")
         if loaded.stage.shown.any():
             return ""
-        if loaded.absent and not loaded.stage.members:
-            return "\n".join(
-                message_text(reason, self._session, player_id) for player_id, reason in loaded.absent.items()
-            )
+        if loaded.left_out and not loaded.stage.members:
+            return "\n".join(message_text(one.message(message_text)) for one in loaded.left_out)
         return self.tr("Making the first motion …")
 
     def _reading(self) -> str:

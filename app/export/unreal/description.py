@@ -126,6 +126,15 @@ class Cue(msgspec.Struct, frozen=True):
     frame: int
 
 
+class LeftOutFigures(msgspec.Struct, frozen=True):
+    """A player who was to be exported but could not be, and why. ``assets`` are those that an earlier export may have
+    made: they stay."""
+
+    name: str
+    reason: str
+    assets: tuple[str, ...]
+
+
 class Description(msgspec.Struct, frozen=True):
     """The whole file. ``first_frame_s`` is the performance's second, counted from tick 0, that frame 0 shows; ``files``
     are what the assets come from, by their path beside this file."""
@@ -150,11 +159,13 @@ class Description(msgspec.Struct, frozen=True):
     markers: tuple[Marker, ...]
     cues: tuple[Cue, ...]
     files: dict[str, OwnFile]
+    left_out: tuple[LeftOutFigures, ...]
 
 
 def describe(
     performance: Performance,
     players: tuple[Player, ...],
+    left_out: Mapping[str, str],
     layout: Layout,
     span: FrameSpan,
     bars: tuple[int, int] | None,
@@ -168,6 +179,8 @@ def describe(
 
     Parameters
     ----------
+    left_out : mapping of str to str
+        Why players could not be exported, by their ids.
     bones : mapping of str to tuple of str
         By the file that has them.
     """
@@ -218,7 +231,14 @@ def describe(
         markers=_markers(score, bars, time),
         cues=_cues(performance, players, time),
         files=dict(files),
+        left_out=tuple(_left_out(project.player(player_id), reason, layout) for player_id, reason in left_out.items()),
     )
+
+
+def _left_out(player: Player, reason: str, layout: Layout) -> LeftOutFigures:
+    places = (layout.characters[player.id], layout.instruments[player.id])
+    assets = tuple(path for place in places for path in (place.mesh, place.skeleton, place.animation))
+    return LeftOutFigures(player.name, reason, assets)
 
 
 @dataclass(frozen=True)

@@ -69,9 +69,12 @@ class Layout:
 
     def files(self, player_ids: tuple[str, ...]) -> tuple[PurePosixPath, ...]:
         """Everything that an export of some players writes, relative to the piece's sources, in order."""
-        figures = [place[player_id].file for player_id in player_ids for place in (self.characters, self.instruments)]
         own = (PurePosixPath(name) for name in (DESCRIPTION, REPORT, MANIFEST))
-        return tuple(sorted([*figures, self.sound_file, *own]))
+        return tuple(sorted([*self.figures(player_ids), self.sound_file, *own]))
+
+    def figures(self, player_ids: tuple[str, ...]) -> tuple[PurePosixPath, ...]:
+        """The files of some players and their instruments."""
+        return tuple(place[player_id].file for player_id in player_ids for place in (self.characters, self.instruments))
 
 
 def piece_name(source: str, folder: Path) -> str:

@@ -52,11 +52,14 @@ class Changes:
         In the folder.
     kept : tuple of Message
         Leftovers that somebody has changed.
+    staying : dict of path to OwnFile
+        In the folder: what was asked to stay, as it was when we wrote it.
     """
 
     replaced: tuple[PurePosixPath, ...]
     removed: tuple[PurePosixPath, ...]
     kept: tuple[Message, ...]
+    staying: dict[PurePosixPath, OwnFile]
 
 
 def own_text(data: bytes) -> OwnFile:
@@ -80,7 +83,12 @@ def is_as_left(path: Path, known: OwnFile, by_length: bool = False) -> bool:
     return own_file(path) == known
 
 
-def changes(folder: Path, coming: Collection[PurePosixPath], by_length: bool = False) -> Changes:
+def changes(
+    folder: Path,
+    coming: Collection[PurePosixPath],
+    by_length: bool = False,
+    stays: Collection[PurePosixPath] = (),
+) -> Changes:
     """What becomes of a folder when some files are written into it.
 
     Parameters
@@ -90,6 +98,8 @@ def changes(folder: Path, coming: Collection[PurePosixPath], by_length: bool = F
         In it.
     by_length : bool
         See `is_as_left`.
+    stays : collection of path
+        In it: what is not removed although it is not written.
 
     Raises
     ------
@@ -113,12 +123,13 @@ def changes(folder: Path, coming: Collection[PurePosixPath], by_length: bool = F
     removed, kept = [], []
     for path, known in sorted(own.items()):
         there = folder / path
-        if path not in coming and there.is_file():
+        if path not in coming and path not in stays and there.is_file():
             if is_as_left(there, known, by_length):
                 removed.append(path)
             else:
                 kept.append(Message("unreal.kept", {"file": os.fspath(there)}))
-    return Changes(tuple(replaced), tuple(removed), tuple(kept))
+    staying = {path: known for path, known in own.items() if path in stays and path not in coming}
+    return Changes(tuple(replaced), tuple(removed), tuple(kept), staying)
 
 
 def read_manifest(folder: Path) -> dict[PurePosixPath, OwnFile]:

@@ -4,7 +4,9 @@ Sources of the piece (FBX, sound, description, report, manifest) go to ``SuisouS
 imports them to ``Plugins/Suisou``. Exporting again updates in place and takes away what of ours is not needed any more;
 what somebody else made or changed is never touched.
 
-Messages: those of `app.export.run`, `app.export.tree` and the other modules here.
+Who cannot be exported is left out; what an earlier export holds of them stays, in the sources and in Unreal.
+
+Messages: those of `app.export.request`, `app.export.tree` and the other modules here.
 """
 
 from __future__ import annotations
@@ -22,11 +24,12 @@ from app.errors import Cancelled, FileError, Message
 from app.export.character import CENTIMETRES
 from app.export.instrument import instrument_bones
 from app.export.report import Report, encode_report
+from app.export.request import ExportCast, Request, cast_of
 from app.export.run import REPORT as EXPORTED_REPORT
-from app.export.run import Progress, Request, export
+from app.export.run import Progress, write_cast
 from app.export.sound import write_sound
-from app.export.targets import target_skeleton, written_meshes
-from app.export.tree import TreeChange, files_below, recover, tree_into
+from app.export.targets import written_meshes
+from app.export.tree import TreeChange, files_below, recover, refuse_links_out, tree_into
 from app.export.unreal.check import Expected, check_fbx, check_wave
 from app.export.unreal.description import Sound, describe, encode_description
 from app.export.unreal.layout import (
@@ -39,10 +42,9 @@ from app.export.unreal.layout import (
     layout_of,
     piece_name,
 )
-from app.export.unreal.manifest import Changes, changes, encode_manifest, own_file
+from app.export.unreal.manifest import Changes, OwnFile, changes, encode_manifest, own_file
 from app.export.unreal.plugin import wanted_plugin
 from app.export.unreal.project import UnrealProject, require_writable
-from app.performance.bodies import character_of, model_of
 from app.performance.ensemble import Performance
 from app.performance.span import FrameSpan
 from app.rig.mesh import Mesh
@@ -65,6 +67,8 @@ class Plan:
         Leftovers that somebody has changed.
     plugin : mapping of path to bytes
         The plug-in's files, by path in its folder; none if the project has it.
+    staying : mapping of path to OwnFile
+        Files of the piece, by path in its folder, of players who are left out: they stay as they are, and ours.
     """
 
     layout: Layout
@@ -73,6 +77,7 @@ class Plan:
     removed: tuple[PurePosixPath, ...]
     kept: tuple[Message, ...]
     plugin: dict[PurePosixPath, bytes]
+    staying: dict[PurePosixPath, OwnFile]
 
 
 @dataclass(frozen=True)
@@ -89,15 +94,20 @@ def plan_export(
     source: str,
     project: UnrealProject,
     by_length: bool = False,
+    left_out: tuple[str, ...] = (),
 ) -> Plan:
     """What an export of some players would do in a project; nothing is written.
 
     Parameters
     ----------
+    player_ids : tuple of str
+        Who is exported.
     source : str
         Name of the piece's file, after which its folders are called.
     by_length : bool
         Whether what is there is told from what we wrote by its length alone, which takes no time.
+    left_out : tuple of str
+        Ids of players who were to be exported but cannot be: their files of an earlier export stay.
 
     Raises
     ------
@@ -111,8 +121,10 @@ def plan_export(
         done = [(layout.sources, layout.files(player_ids))]
         if plugin:
             done.append((PurePosixPath(PLUGIN), (*plugin, PurePosixPath(MANIFEST))))
+        stays = frozenset(layout.figures(left_out))
         found: list[tuple[PurePosixPath, Changes]] = [
-            (folder, changes(project.folder / folder, coming, by_length)) for folder, coming in done
+            (folder, changes(project.folder / folder, coming, by_length, stays if folder == layout.sources else ()))
+            for folder, coming in done
         ]
     except OSError as error:
         reason = error.strerror or str(error)
@@ -124,7 +136,9 @@ def plan_export(
         removed=tuple(sorted(folder / path for folder, change in found for path in change.removed)),
         kept=tuple(message for _, change in found for message in change.kept),
         plugin=plugin,
+        staying=found[0][1].staying,
     )
+    refuse_links_out(project.folder, (*plan.written, *plan.removed))
     require_writable(project, (*plan.replaced, *plan.removed))
     return plan
 
@@ -154,17 +168,20 @@ def export_into(
     Cancelled
     """
     recover(project.folder, project.folder / SOURCES)
-    player_ids = tuple(player.id for player in request.players)
-    plan = plan_export(request.performance, player_ids, request.source, project)
+    request = replace(request, formats=frozenset(("fbx",)), sound=False)
+    cast = cast_of(request, wording, stop_wanted)
+    left_out = tuple(one.player.id for one in cast.left_out)
+    plan = plan_export(request.performance, cast.player_ids, request.source, project, left_out=left_out)
     with tree_into(project.folder, project.folder / SOURCES) as change:
         sources = change.new / plan.layout.sources
-        report = _figures(request, plan.layout, sources, wording, stop_wanted, progress)
+        report = _figures(request, cast, plan.layout, sources, wording, stop_wanted, progress)
         sound = _sound(request, plan.layout, sources, stop_wanted, progress)
-        bones = _checked(request, plan.layout, sources, sound, stop_wanted, progress)
+        bones = _checked(request, cast, plan.layout, sources, sound, stop_wanted, progress)
         with_files = {path.as_posix(): own_file(sources / path) for path in files_below(sources)}
         description = describe(
             request.performance,
-            request.players,
+            tuple(performer.player for performer in cast.performers),
+            {one.player.id: wording(one.reason) for one in cast.left_out},
             plan.layout,
             request.span,
             request.bars,
@@ -176,28 +193,36 @@ def export_into(
         )
         (sources / REPORT).write_bytes(encode_report(report))
         (sources / DESCRIPTION).write_bytes(encode_description(description))
-        _vouch(change, plan.layout.sources, request.creator, {})
+        _vouch(change, plan.layout.sources, request.creator, {}, plan.staying)
         change.last.insert(0, Path(plan.layout.sources / DESCRIPTION))
         if plan.plugin:
-            _vouch(change, PurePosixPath(PLUGIN), request.creator, plan.plugin)
+            _vouch(change, PurePosixPath(PLUGIN), request.creator, plan.plugin, {})
         change.removed += [Path(path) for path in plan.removed]
     progress(1.0, "")
     return Written(plan, report)
 
 
-def _vouch(change: TreeChange, folder: PurePosixPath, creator: str, content: dict[PurePosixPath, bytes]) -> None:
-    """Write a folder's remaining files and the list of all of them."""
+def _vouch(
+    change: TreeChange,
+    folder: PurePosixPath,
+    creator: str,
+    content: dict[PurePosixPath, bytes],
+    staying: dict[PurePosixPath, OwnFile],
+) -> None:
+    """Write a folder's remaining files and the list of all of them, those that stay as they are among them."""
     place = change.new / folder
     for path, data in content.items():
         (place / path).parent.mkdir(parents=True, exist_ok=True)
         (place / path).write_bytes(data)
-    files = {path.as_posix(): own_file(place / path) for path in files_below(place)}
+    files = {path.as_posix(): own for path, own in staying.items()}
+    files |= {path.as_posix(): own_file(place / path) for path in files_below(place)}
     (place / MANIFEST).write_bytes(encode_manifest(files, creator))
     change.last.append(Path(folder / MANIFEST))
 
 
 def _figures(
     request: Request,
+    cast: ExportCast,
     layout: Layout,
     sources: Path,
     wording: Callable[[Message], str],
@@ -206,17 +231,18 @@ def _figures(
 ) -> Report:
     """Write the FBX files under their names in the project; the report knows them by these."""
     draft = sources / "draft"
-    report = export(
-        replace(request, folder=draft, formats=frozenset(("fbx",)), sound=False),
+    report = write_cast(
+        replace(request, folder=draft),
+        cast,
         wording,
         stop_wanted,
         lambda share, label: progress(_SHARES["files"] * share, label),
     )
     told = []
-    for player, written in zip(request.players, report.players, strict=True):
+    for player_id, written in zip(cast.player_ids, report.players, strict=True):
         names = {}
         for what, place in (("character_fbx", layout.characters), ("instrument_fbx", layout.instruments)):
-            names[what] = place[player.id].file.as_posix()
+            names[what] = place[player_id].file.as_posix()
             (sources / names[what]).parent.mkdir(parents=True, exist_ok=True)
             (draft / written.files[what]).replace(sources / names[what])
         told.append(msgspec.structs.replace(written, files=names))
@@ -252,6 +278,7 @@ def _sound(
 
 def _checked(
     request: Request,
+    cast: ExportCast,
     layout: Layout,
     sources: Path,
     sound: Sound,
@@ -261,11 +288,10 @@ def _checked(
     """Read every file that was written and hold it against what it must be; the bones of each."""
     check_wave(sources / sound.file, RATE_HZ, sound.channels, round(sound.duration_s * RATE_HZ))
     bones: dict[str, tuple[str, ...]] = {}
-    for index, player in enumerate(request.players):
-        instrument = request.performance.held(player)
-        character, model = character_of(player), model_of(instrument)
-        target = target_skeleton(character, request.skeleton)
-        parts = tuple(bone.name for bone in instrument_bones(instrument, model))
+    for index, performer in enumerate(cast.performers):
+        player, character, model = performer.player, performer.character, performer.model
+        target = cast.targets[player.id].target
+        parts = tuple(bone.name for bone in instrument_bones(performer.instrument, model))
         for place, named, meshes in (
             (layout.characters[player.id], target.names, written_meshes(character, target)),
             (layout.instruments[player.id], parts, model.meshes),
@@ -275,7 +301,7 @@ def _checked(
             file = place.file.as_posix()
             bones[file] = tuple(named)
             check_fbx(sources / file, _expected(request.span, bones[file], meshes))
-        done = (index + 1) / len(request.players)
+        done = (index + 1) / len(cast.performers)
         progress(_SHARES["files"] + _SHARES["sound"] + _SHARES["checks"] * done, player.name)
     return bones
 

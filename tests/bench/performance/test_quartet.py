@@ -9,11 +9,11 @@ from pathlib import Path
 import pytest
 
 from app.performance.ensemble import Performance
-from app.performance.motion import player_motion
 from app.performance.span import whole_span
 from app.project.model import map_choices, project_from_score
 from app.score.read import read_midi
 from instrument_maps.load import bundled_maps
+from tests.support.performed import player_motion
 
 QUARTET = Path(__file__).parents[3] / "resources" / "examples" / "quartet.mid"
 REAL_TIME_RATIO = 300.0

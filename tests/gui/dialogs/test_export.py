@@ -11,7 +11,8 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QCheckBox, QComboBox, QLabel, QPushButton, QSpinBox
 from pytestqt.qtbot import QtBot
 
-from app.export.run import Request, export
+from app.export.request import Request
+from app.export.run import export
 from app.formats import usd
 from app.formats.bvh import read_bvh
 from app.messages import text
@@ -19,6 +20,8 @@ from app.performance.ensemble import Performance
 from app.performance.span import bars_span
 from app.shell.tasks import ThreadTasks
 from tests.gui.conftest import quartet_project
+from tests.support.bad_players import own_folders, with_character, with_instrument
+from tests.support.tasks import ImmediateTasks
 from widgets.common.session import Session
 from widgets.dialogs.export_files import ExportDialog
 
@@ -180,3 +183,34 @@ def test_bvh_files_get_the_bone_names_of_another_program(dialog: ExportDialog, t
     assert box is not None
     QTest.mouseClick(box, Qt.MouseButton.LeftButton)
     assert not names.isVisible()
+
+
+def test_who_is_left_out_is_named_with_the_reason(
+    qt_app: object, qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    own = own_folders(tmp_path, monkeypatch)
+    project = with_character(quartet_project(), 0, own.add_character(b"damaged"))
+    session = Session(with_instrument(project, 1, "ophicleide"), ImmediateTasks())
+    noticed: list[str] = []
+    session.noticed.connect(lambda message, severity: noticed.append(f"{severity.value}: {text(message)}"))
+    dialog = ExportDialog(session, tmp_path / "out", "quartet.mid", "Suisou test")
+    dialog.show()
+    one_player_two_bars(dialog)
+    outcome = dialog.findChild(QLabel, "export_outcome")
+    assert outcome is not None
+    # The bad one alone is an error, and nothing is written.
+    start(dialog)
+    assert "Trumpet 1" in outcome.text()
+    assert "mori.glb" in outcome.text()
+    assert not (tmp_path / "out").exists()
+    for row in (1, 2):
+        dialog._players.item(row).setCheckState(Qt.CheckState.Checked)
+    start(dialog)
+    told = outcome.text()
+    assert "Trumpet 1 is left out: " in told
+    assert "mori.glb" in told
+    assert "Trumpet 2 is left out: " in told
+    assert "'ophicleide', which is not installed" in told
+    assert {path.name for path in (tmp_path / "out").iterdir()} == {"Trombone 1.bvh", "report.json"}
+    assert any(line.startswith("warning: Trumpet 1 is left out: ") for line in noticed)
+    session.deleteLater()

@@ -15,9 +15,12 @@ from app.export.targets import target_skeleton
 from app.formats.fbx.write import write_scene
 from app.performance.bodies import character_of
 from app.performance.ensemble import Performance
-from app.performance.motion import player_motion
 from app.performance.span import cut_span
+from tests.gui.conftest import quartet_project
 from tests.gui.japanese import FromFiles
+from tests.support.bad_players import with_character
+from tests.support.performed import player_motion
+from tests.support.tasks import ImmediateTasks
 from widgets.common.session import Session
 from widgets.dialogs.export_files import ExportDialog
 
@@ -83,6 +86,19 @@ def test_an_asset_that_fits_is_said_to_fit(dialog: ExportDialog, mannequin: Path
     name(dialog, mannequin)
     qtbot.waitUntil(lambda: "✓" in told(dialog))
     assert can_start(dialog)
+
+
+def test_one_without_a_character_does_not_keep_the_others_from_an_asset(
+    qt_app: QApplication, qtbot: QtBot, tmp_path: Path, mannequin: Path
+) -> None:
+    session = Session(with_character(quartet_project(), 0, "nobody"), ImmediateTasks())
+    dialog = ExportDialog(session, tmp_path / "out", "quartet.mid", "Suisou test")
+    dialog.show()
+    choose(dialog, Qt.Key.Key_Down)
+    name(dialog, mannequin)
+    qtbot.waitUntil(lambda: "bones" in told(dialog) or "✓" in told(dialog))
+    assert can_start(dialog)
+    session.deleteLater()
 
 
 def test_an_asset_that_would_lose_the_animation_is_refused(dialog: ExportDialog, mannequin: Path, qtbot: QtBot) -> None:

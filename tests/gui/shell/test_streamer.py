@@ -12,8 +12,8 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLabel, QLineEdit, QPushButton
 from pytestqt.qtbot import QtBot
 
+from app.errors import Message
 from app.performance.bodies import character_of
-from app.performance.motion import playing_of
 from app.performance.play_along import PlayAlong
 from app.score.take import Wiring
 from app.shell.app import Program
@@ -21,8 +21,11 @@ from app.shell.settings import Settings
 from app.shell.sound import sound_of
 from app.stream.sender import Sender
 from tests.gui.shell.conftest import Start, trigger
+from tests.support.bad_players import with_instrument
 from tests.support.osc import Frame, Receiver
+from tests.support.performed import playing_of
 from widgets.dialogs.stream import StreamDialog
+from widgets.players.player_list import PlayerList
 
 ARM = "RightLowerArm"
 
@@ -273,3 +276,45 @@ def test_where_to_is_remembered_but_not_that_it_was_on(start: Start, settings: S
     settings.stream_faces = "nonsense"
     third = start().session.streaming
     assert (third.port, third.faces) == (39539, "arkit")
+
+
+def test_a_fault_of_sending_is_told_and_the_stream_is_off(
+    program: Program, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    ready(program, qtbot)
+
+    def fail(*_: object) -> list[bytes]:
+        raise ValueError("a bug")
+
+    with Receiver() as receiver, qtbot.captureExceptions() as caught:
+        stream_to(program, receiver.port)
+        heard(receiver, qtbot)
+        monkeypatch.setattr("app.stream.vmc.Sent.datagrams", fail)
+        program.session.set_playhead(2.0)
+        qtbot.waitUntil(lambda: program.session.streaming.state == "off")
+        assert [str(fault) for _, fault, _ in caught] == ["a bug"]
+        assert not program.session.actions["stream.toggle"].isChecked()
+        # Asked again, it sends again.
+        monkeypatch.undo()
+        trigger(program, "stream.toggle")
+        heard(receiver, qtbot)
+
+
+def test_who_cannot_be_seen_is_named_and_everyone_else_is_sent(program: Program, qtbot: QtBot) -> None:
+    session = program.session
+    session.attempt(Message("edit.set_tempo"), lambda project: with_instrument(project, 0, "ophicleide"))
+    session.streaming.set(everyone=True)
+    first_id = session.project.players[0].id
+    qtbot.waitUntil(lambda: program.generator.live.pose(first_id, session.playhead_s) is None)
+    with Receiver(39821) as first, Receiver(39822) as second:
+        stream_to(program, 39821)
+        heard(second, qtbot)
+        assert not first.frames
+        dialog = StreamDialog(session)
+        named = [dialog._list.topLevelItem(row).text(0) for row in range(4)]
+        assert "not sent" in named[0]
+        assert "'ophicleide', which is not installed" in named[0]
+        assert named[1] == session.project.players[1].name
+    players = program.window.findChild(PlayerList)
+    assert players is not None
+    assert ["which is not installed" in row.unseen for row in players.rows.rows] == [True, False, False, False]

@@ -11,11 +11,11 @@ from pytestqt.qtbot import QtBot
 
 from app.performance.chunks import Pose
 from app.performance.ensemble import Performance
-from app.performance.motion import playing_of
 from app.performance.play_along import PlayAlong
 from app.plan.corrections import PoseCorrection
 from app.project.edit.corrections import put
 from app.score.take import Wiring
+from tests.support.performed import playing_of
 from widgets.common.session import Session
 from widgets.viewport.panel import ViewportPanel
 from widgets.viewport.poses import Posed

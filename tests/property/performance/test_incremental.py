@@ -12,10 +12,10 @@ from hypothesis import strategies as st
 from app.errors import AppError
 from app.performance.ensemble import Performance
 from app.performance.live import LiveMotion
-from app.performance.motion import player_motion
 from app.performance.span import FrameSpan
 from app.project.model import Project
 from tests.property.performance.edits import edits, piece
+from tests.support.performed import player_motion
 
 CALM = settings(deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large])
 

@@ -148,7 +148,8 @@ def test_inspect_has_exactly_these_keys(run: Run) -> None:
     assert status == 0
     found = json.loads(out)
     assert set(found) == {
-        "duration_s", "ticks_per_beat", "tempo", "markers", "first_frame_s", "warnings", "unplayed", "players",
+        "duration_s", "ticks_per_beat", "tempo", "markers", "first_frame_s", "warnings", "unplayed", "left_out",
+        "players",
     }  # fmt: skip
     assert set(found["tempo"][0]) == {"tick", "bpm"}
     for player in found["players"]:

@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from app.cli import BAD_INPUT, DONE, main
+from app.cli import main
+from app.cli.status import BAD_INPUT, DONE
 from app.project.model import map_choices
 from app.score.read import read_midi
 from instrument_maps.load import bundled_maps

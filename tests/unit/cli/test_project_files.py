@@ -105,6 +105,6 @@ def test_an_instrument_that_is_not_installed_is_named(run: Run, tmp_path: Path) 
     ghost = msgspec.structs.replace(project.players[0], instrument_id="ophicleide")
     save(replace(project, players=(ghost, project.players[1])), tmp_path / "piece.suisou")
     status, _, complaint = run("inspect", tmp_path / "piece.suisou")
-    assert status == 1
+    assert status == 4
     assert "ophicleide" in complaint
     assert run("inspect", tmp_path / "piece.suisou", "--set", "trumpet.instrument=trumpet_Bb")[0] == 0

@@ -8,7 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from app.cli import BAD_INPUT, BAD_USE, DONE, main
+from app.cli import main
+from app.cli.status import BAD_INPUT, BAD_USE, DONE
 from tests.support.osc import Receiver
 
 

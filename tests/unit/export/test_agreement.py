@@ -23,11 +23,11 @@ from app.formats.usd import usd_installed, write_usd
 from app.motion.model import Motion
 from app.performance.bodies import character_of, model_of
 from app.performance.ensemble import Performance
-from app.performance.motion import player_motion
 from app.performance.span import bars_span
 from app.rig.character import load_character
 from tests.gui.conftest import quartet_project
 from tests.support import readers
+from tests.support.performed import player_motion
 from tests.support.skinned import GlbFile, Shown, UsdFile
 from tests.unit.formats import scenes
 

@@ -22,7 +22,6 @@ from app.export.proxy import signed_distance
 from app.formats.scene import Scene
 from app.performance.bodies import body_of, character_of, model_of
 from app.performance.ensemble import Performance
-from app.performance.motion import player_motion
 from app.performance.span import cut_span
 from app.plan.model import FingeringEvent
 from app.project.model import map_choices, project_from_score
@@ -30,6 +29,7 @@ from app.score.read import read_midi
 from instrument_maps.load import bundled_maps
 from instrument_maps.model import Control, Motion
 from metadata.load import load_skeleton
+from tests.support.performed import player_motion
 
 QUARTET = Path(__file__).parents[3] / "resources" / "examples" / "quartet.mid"
 FPS = Fraction(30)

@@ -17,7 +17,8 @@ from app.export.mannequin import mannequin_target
 from app.export.measure import PlayerMeasures, measure_player
 from app.export.own_skeleton import own_target
 from app.export.playback import Playback
-from app.export.run import Request, export
+from app.export.request import Request
+from app.export.run import export
 from app.export.target import SkeletonChoice, TargetSkeleton, normalised_target
 from app.formats.fbx.read import read_scene
 from app.formats.fbx.write import write_scene
@@ -25,7 +26,6 @@ from app.formats.scene import Scene
 from app.messages import text
 from app.performance.bodies import body_of, character_of, model_of
 from app.performance.ensemble import Performance
-from app.performance.motion import player_motion
 from app.performance.span import cut_span
 from app.project.model import map_choices, project_from_score
 from app.rig import quaternion
@@ -36,6 +36,7 @@ from instrument_maps.load import bundled_maps
 from metadata.load import load_skeleton
 from tests.support import readers
 from tests.support.foreign import foreign
+from tests.support.performed import player_motion
 
 QUARTET = Path(__file__).parents[3] / "resources" / "examples" / "quartet.mid"
 FPS = Fraction(30)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -15,6 +16,9 @@ from app.formats.locks import lock
 
 BEFORE = {"src/a/one": "old one", "src/a/two": "old two", "src/gone/three": "old three", "src/theirs": "theirs"}
 AFTER = {"src/a/one": "new one", "src/a/two": "new two", "src/b/four": "new four", "src/theirs": "theirs"}
+
+
+posix = pytest.mark.skipif(os.name != "posix", reason="links need a privilege elsewhere")
 
 
 def contents(root: Path) -> dict[str, str]:
@@ -168,3 +172,74 @@ def test_a_list_that_came_with_a_project_leads_nowhere_else(tmp_path: Path, root
     recover(root, root / "src")
     assert outside.read_text() == "kept"
     assert contents(root) == BEFORE
+
+
+# A project comes from anywhere, with whatever links in it.
+
+
+@pytest.fixture
+def outside(tmp_path: Path) -> Path:
+    """A folder beside the project, of somebody who does not want it touched."""
+    folder = tmp_path / "home"
+    folder.mkdir()
+    for name in ("one", "two", "three", "precious"):
+        (folder / name).write_text("kept")
+    return folder
+
+
+def linked(root: Path, name: str, target: Path) -> None:
+    """Put a link in the place of a folder of the project."""
+    folder = root / name
+    if folder.is_dir():
+        shutil.rmtree(folder)
+    folder.symlink_to(target, target_is_directory=True)
+
+
+@posix
+@pytest.mark.parametrize("name", ["src/a", "src/gone", "src"])
+def test_nothing_is_written_or_removed_through_a_link_out_of_the_tree(root: Path, outside: Path, name: str) -> None:
+    before = contents(outside)
+    linked(root, name, outside)
+    with pytest.raises(FileError) as caught:
+        change(root)
+    assert caught.value.message.id == "tree.leads_outside"
+    assert caught.value.message.arguments == {"file": str(root / name), "target": str(outside)}
+    assert contents(outside) == before
+    assert (root / name).is_symlink()
+
+
+@posix
+@pytest.mark.parametrize("what", ["removes", "replaces"])
+def test_what_a_killed_process_is_said_to_have_left_leads_nowhere_else(root: Path, outside: Path, what: str) -> None:
+    before = contents(outside)
+    linked(root, "src/a", outside)
+    partial = root / "src" / ".0123456789abcdef.partial"
+    (partial / "old/src/a").mkdir(parents=True)
+    (partial / "coming.txt").write_text("src/a/precious" if what == "removes" else "src/b")
+    if what == "replaces":
+        (partial / "old/src/a/precious").write_text("of a stranger")
+    with pytest.raises(FileError) as caught:
+        recover(root, root / "src")
+    assert caught.value.message.id == "tree.leads_outside"
+    assert contents(outside) == before
+
+
+@posix
+def test_a_link_is_no_leftover_of_ours(root: Path, outside: Path) -> None:
+    """Neither what it leads to nor what is said there counts."""
+    (outside / "coming.txt").write_text("src/a/one")
+    before = contents(outside)
+    linked(root, "src/.0123456789abcdef.partial", outside)
+    recover(root, root / "src")
+    assert contents(outside) == before
+    assert contents(root) == BEFORE
+
+
+@posix
+def test_links_within_the_tree_and_a_linked_tree_work(tmp_path: Path, root: Path) -> None:
+    (root / "src/b").symlink_to(root / "src/a", target_is_directory=True)
+    (tmp_path / "link").symlink_to(root, target_is_directory=True)
+    change(tmp_path / "link")
+    assert (root / "src/a/one").read_text() == "new one"
+    assert (root / "src/a/four").read_text() == "new four"
+    assert not (root / "src/gone/three").exists()

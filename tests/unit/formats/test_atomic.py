@@ -128,3 +128,30 @@ def test_without_second_names_or_locks_it_writes_all_the_same(
         sweep(tmp_path)
     assert (target.read_bytes(), backup.read_bytes()) == (b"new", b"old")
     assert sorted(tmp_path.iterdir()) == [target, backup]
+
+
+@pytest.mark.skipif(os.name != "posix", reason="links of POSIX")
+@pytest.mark.parametrize("target", ["there", "not_there"])
+def test_a_link_in_the_place_of_a_file_of_ours_is_replaced(tmp_path: Path, target: str) -> None:
+    (tmp_path / "there").write_bytes(b"of the user")
+    link = tmp_path / "piece.autosave"
+    link.symlink_to(tmp_path / target)
+    with atomic_write(link, follow_link=False) as stream:
+        stream.write(b"new")
+    assert not link.is_symlink()
+    assert link.read_bytes() == b"new"
+    assert (tmp_path / "there").read_bytes() == b"of the user"
+    assert not (tmp_path / "not_there").exists()
+
+
+@pytest.mark.skipif(os.name != "posix", reason="links and pipes of POSIX")
+def test_only_files_are_swept(tmp_path: Path) -> None:
+    (tmp_path / "outside").write_bytes(b"of the user")
+    names = [tmp_path / f".{digit * 16}.partial" for digit in "0123"]
+    names[0].write_bytes(b"half")
+    names[1].symlink_to(tmp_path / "outside")
+    os.mkfifo(names[2])
+    names[3].mkdir()
+    sweep(tmp_path)
+    assert [os.path.lexists(name) for name in names] == [False, True, True, True]
+    assert (tmp_path / "outside").read_bytes() == b"of the user"

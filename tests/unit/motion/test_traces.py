@@ -17,7 +17,6 @@ from app.motion.solve import padding
 from app.performance.bodies import character_of, model_of
 from app.performance.contacts import ContactJudge, joined
 from app.performance.ensemble import Performance
-from app.performance.motion import player_motion, playing_of
 from app.performance.span import whole_span
 from app.plan.corrections import Correction, SetEmbouchure
 from app.plan.model import PlayerPlan
@@ -25,6 +24,7 @@ from app.project.model import Project, project_from_score
 from app.score.model import ControllerCurve, Score
 from instrument_maps.load import bundled_maps
 from tests.support.blown import TEMPO, Blow, breath_curve, take, vibrato_curve
+from tests.support.performed import player_motion, playing_of
 
 FPS = Fraction(60)
 SWELL = Blow(0.99, 5.0, lambda s: 0.25 + 0.7 * np.minimum(s / 4.0, 1.0))

@@ -8,10 +8,10 @@ import msgspec
 import pytest
 
 from app.performance.ensemble import Performance
-from app.performance.motion import playing_of
 from app.plan import lungs
 from app.project.model import Project
 from tests.bench.performance.large import large_project
+from tests.support.performed import playing_of
 
 
 @pytest.fixture(scope="module")

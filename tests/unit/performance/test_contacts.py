@@ -16,7 +16,6 @@ from app.performance.bodies import character_of, model_of
 from app.performance.contacts import LIPS_MM, Break, ContactJudge, contact_problems, joined
 from app.performance.ensemble import Performance
 from app.performance.live import LiveMotion
-from app.performance.motion import player_motion, playing_of
 from app.performance.span import whole_span
 from app.plan.corrections import AddGesture, Correction, PoseCorrection
 from app.plan.model import Problem
@@ -28,6 +27,7 @@ from app.rig.skeleton import forward
 from app.rig.skinning import deform, mesh_named, patch
 from app.score.read import read_midi
 from instrument_maps.load import bundled_maps
+from tests.support.performed import player_motion, playing_of
 
 ENSEMBLES = Path(__file__).parents[2] / "data" / "midi" / "ensemble"
 AIR = ENSEMBLES / "trombone_quartet_bach_air.mid"

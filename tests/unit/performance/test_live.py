@@ -5,20 +5,23 @@ from __future__ import annotations
 import threading
 from dataclasses import replace
 from fractions import Fraction
+from typing import Any
 
 import msgspec
 import numpy as np
 import pytest
 
+from app.motion.model import Motion
+from app.motion.perform import Playing
 from app.performance.bodies import character_of
 from app.performance.ensemble import Performance
-from app.performance.live import LiveMotion
-from app.performance.motion import player_motion
+from app.performance.live import LiveMotion, PlayerFault
 from app.performance.span import whole_span
 from app.plan.corrections import AddExpression
 from app.project.edit.corrections import put
 from app.rig.character_library import character_named
 from tests.property.performance.edits import piece
+from tests.support.performed import player_motion
 
 
 @pytest.fixture(scope="module")
@@ -313,3 +316,41 @@ def test_who_is_another_character_under_the_same_name_is_made_anew(
     assert live.ready_share == pytest.approx(others / len(performance.project.players))
     assert all_made(live) > 0
     assert live.ready_share == 1.0
+
+
+def test_a_fault_in_one_players_motion_is_told_once_and_the_others_are_made(
+    performance: Performance, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    first, *others = performance.project.players
+    motion = Playing.motion
+
+    def failing(playing: Playing, *arguments: Any) -> Motion:
+        if playing.player_id == first.id:
+            raise ValueError("a bug")
+        return motion(playing, *arguments)
+
+    monkeypatch.setattr(Playing, "motion", failing)
+    live = LiveMotion(performance)
+    live.want(8.0, 1.0, (first.id,))
+    with pytest.raises(PlayerFault, match="ValueError: a bug") as caught:
+        live.work()
+    assert isinstance(caught.value.__cause__, ValueError)
+    all_made(live)
+    assert all(live.pose(player.id, 8.0) is not None for player in others)
+    assert live.pose(first.id, 8.0) is None
+    assert live.pose_now(first.id, 8.0) is None
+    live.make_now(first.id, 8.0)
+    error = live.error(first.id)
+    assert error is not None
+    assert error.id == "player.fault"
+    assert [problem.message for problem in live.broken[first.id]] == [error]
+    assert live.is_seen
+    while live.judge():
+        pass
+    monkeypatch.undo()
+    # What is edited is tried again.
+    project = put(performance.project, first.id, [AddExpression("x", "smile", 0, 480)])
+    live.show(Performance(project, performance))
+    all_made(live)
+    assert live.pose(first.id, 8.0) is not None
+    assert first.id not in live.broken

@@ -14,7 +14,6 @@ from app.errors import FileError
 from app.performance import reach
 from app.performance.bodies import character_of, hold_of
 from app.performance.ensemble import Performance
-from app.performance.motion import player_motion
 from app.performance.span import whole_span
 from app.plan.corrections import PinFingering
 from app.project.edit.corrections import put
@@ -24,6 +23,7 @@ from app.rig.skeleton import forward
 from app.score.read import read_midi
 from instrument_maps.load import bundled_maps
 from instrument_maps.model import InstrumentMap
+from tests.support.performed import player_motion
 
 AIR = Path(__file__).parents[2] / "data" / "midi" / "ensemble" / "trombone_quartet_bach_air.mid"
 FPS = Fraction(25)

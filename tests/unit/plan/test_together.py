@@ -9,7 +9,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.performance.ensemble import Performance
-from app.performance.motion import player_motion
 from app.performance.span import whole_span
 from app.plan.line import Line
 from app.plan.together import one_at_a_time
@@ -17,6 +16,7 @@ from app.project.model import project_from_score
 from app.score.model import Note, Part, Score
 from app.score.tempo import TempoMap
 from instrument_maps.load import bundled_maps
+from tests.support.performed import player_motion
 
 CLOCK = TempoMap(480)
 MAP = bundled_maps()["trumpet_Bb"]

@@ -622,3 +622,23 @@ def test_work_whose_lock_is_gone_is_still_offered(editor: Editor, folder: Path) 
     assert recover(item, mine) == small_project()
     assert write(mine, 4.0) == mine.presence.own_path
     assert not item.autosave.exists()
+
+
+@pytest.mark.skipif(os.name != "posix", reason="links of POSIX")
+def test_a_link_beside_a_file_leads_nowhere(editor: Editor, document: Path, tmp_path: Path) -> None:
+    """A folder may come from anywhere: what lies there under the name of unsaved work may lead to the user's own."""
+    own, link = tmp_path / "own.suisou", autosave_path(document)
+    save(small_project(), own)
+    before = own.read_bytes()
+    link.symlink_to(own)
+    autosave = editor()
+    changed = later(open_in(autosave, document))
+    autosave.changed(changed, 0.0)
+    assert write(autosave, 4.0) == autosave.presence.own_path
+    # Taken over as unsaved work, it is written again.
+    autosave.opened(document, held=link)
+    autosave.changed(changed, 0.0)
+    assert write(autosave, 4.0) == link
+    assert not link.is_symlink()
+    assert load(link) == changed
+    assert own.read_bytes() == before

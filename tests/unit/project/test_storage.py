@@ -174,6 +174,16 @@ def test_what_is_wrong_is_named_by_its_place(path: str, value: object, place: st
     assert message.arguments["file"] == "/music/piece.suisou"
 
 
+@pytest.mark.parametrize(
+    ("path", "value"),
+    [("players__0__stage__x_m", 1e9), ("corrections__1.1.1__2__depth", 1e300), ("takes__1.1.1__takes__0__id", "x")],
+)
+def test_whose_value_is_wrong_is_named(path: str, value: object) -> None:
+    project = full_project()
+    name = project.players[0].name
+    assert f"(player {name!r})" in str(refused(changed(project, **{path: value})).arguments["detail"])
+
+
 def test_bars_without_number_are_refused() -> None:
     project = small_project()
     content = changed(

@@ -11,7 +11,7 @@ from pathlib import Path
 import msgspec
 import pytest
 
-from app.export.run import Request
+from app.export.request import Request
 from app.export.unreal.project import UnrealProject, find_project
 from app.export.unreal.run import Written, export_into
 from app.messages import text

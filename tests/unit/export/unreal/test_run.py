@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -411,3 +412,36 @@ def test_the_command_line(unreal: UnrealProject, capsys: pytest.CaptureFixture[s
     assert main([*arguments, "--to", "x"]) == 2
     assert "--to" in capsys.readouterr().err
     assert find_project(unreal.folder).engine == "5.6"
+
+
+@pytest.mark.skipif(os.name != "posix", reason="links need a privilege elsewhere")
+@pytest.mark.parametrize(
+    "place", ["SuisouSource", "SuisouSource/quartet", "SuisouSource/quartet/Characters", "Plugins"]
+)
+def test_nothing_is_written_through_a_link_out_of_the_project(
+    unreal: UnrealProject, export: Export, tmp_path: Path, place: str
+) -> None:
+    outside, link = tmp_path / "home", unreal.folder / place
+    outside.mkdir()
+    if link.is_dir():
+        shutil.rmtree(link)
+    link.symlink_to(outside, target_is_directory=True)
+    request = request_of(quartet())
+    for attempt in (
+        lambda: plan_export(request.performance, (request.players[0].id,), "quartet.mid", unreal),
+        lambda: export(request),
+    ):
+        with pytest.raises(FileError) as caught:
+            attempt()
+        assert caught.value.message.id == "tree.leads_outside"
+        assert caught.value.message.arguments["file"] == str(link)
+    assert list(outside.iterdir()) == []
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="pipes with names")
+def test_a_manifest_that_is_no_file_is_named(unreal: UnrealProject, export: Export) -> None:
+    """A pipe would be waited for without end."""
+    os.mkfifo(unreal.folder / "SuisouSource/quartet/manifest.json")
+    with pytest.raises(FileError) as caught:
+        export(request_of(quartet()))
+    assert caught.value.message.id == "unreal.manifest"

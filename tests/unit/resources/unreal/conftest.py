@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 
-from app.export.run import Request
+from app.export.request import Request
 from app.export.unreal.project import UnrealProject, find_project
 from app.export.unreal.run import export_into
 from app.messages import text

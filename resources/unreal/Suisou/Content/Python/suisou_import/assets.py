@@ -90,7 +90,7 @@ def import_sound(performance: Performance) -> unreal.SoundWave:
 
 def remove_leftovers(performance: Performance) -> list[str]:
     """Remove what is ours and belongs to nobody any more; what is told of it."""
-    wanted = set(performance.assets)
+    wanted = set(performance.assets) | performance.staying
     gone: list[str] = []
     for path in _listed(performance.content):
         asset = existing(path)

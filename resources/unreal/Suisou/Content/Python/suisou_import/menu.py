@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import traceback
 from collections.abc import Callable
 from pathlib import Path
@@ -55,21 +56,35 @@ def _update() -> None:
 
 
 def _everything() -> list[Performance]:
+    """Every performance that can be read; the others are named."""
     checks.check_engine()
     project = unreal.Paths.convert_relative_path_to_full(unreal.Paths.project_dir())
     folder = Path(project) / SOURCES
-    everything = [read(path) for path in found(folder)]
+    everything: list[Performance] = []
+    problems: list[str] = []
+    for path in found(folder):
+        try:
+            everything.append(read(path))
+        except Problem as error:
+            problems.append(str(error))
     if not everything:
-        raise problem("nothing_exported", folder=folder)
+        raise Problem("\n\n".join(problems)) if problems else problem("nothing_exported", folder=folder)
+    if problems:
+        _show("\n\n".join([text("others_go_on"), *problems]))
     return everything
 
 
 def _bring_in(performances: list[Performance], question: str, done: str) -> None:
     for performance in _chosen(performances, question):
-        told = run.bring_in(performance)
-        run.show(performance)
-        first = text(done, name=performance.title, count=len(performance.assets), folder=performance.content)
-        _show("\n".join([first, *([""] if told else []), *told]))
+        if not _guarded(functools.partial(_bring_in_one, performance, done)):
+            return
+
+
+def _bring_in_one(performance: Performance, done: str) -> None:
+    told = run.bring_in(performance)
+    run.show(performance)
+    first = text(done, name=performance.title, count=len(performance.assets), folder=performance.content)
+    _show("\n".join([first, *([""] if told else []), *told]))
 
 
 def _chosen(performances: list[Performance], question: str) -> list[Performance]:
@@ -92,17 +107,19 @@ def _chosen(performances: list[Performance], question: str) -> list[Performance]
     return chosen
 
 
-def _guarded(action: Callable[[], None]) -> None:
-    """Do something; whatever is wrong becomes a dialog."""
+def _guarded(action: Callable[[], None]) -> bool:
+    """Do something; whatever is wrong becomes a dialog. False where the user pressed Cancel."""
     try:
         action()
     except Problem as error:
         _show(str(error))
     except Cancelled:
         _show(text("cancelled"))
+        return False
     except Exception as error:
         unreal.log_error(traceback.format_exc())
         _show(text("fault", detail=f"{type(error).__name__}: {error}"))
+    return True
 
 
 def _show(message: str) -> None:

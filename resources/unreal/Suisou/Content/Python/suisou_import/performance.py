@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import math
 import re
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -14,6 +15,7 @@ SCHEMA = 1
 DESCRIPTION = "performance.json"
 ROOT = "/Game/Suisou/"
 _ASSET = re.compile(r"/Game/Suisou(/[A-Za-z0-9_]+)+")
+_MOST_BYTES = 256 << 20
 _FILE = re.compile(r"[A-Za-z0-9_]+/[A-Za-z0-9_]+\.(fbx|wav)")
 
 
@@ -47,6 +49,14 @@ class Sound(NamedTuple):
     duration_s: float
 
 
+class LeftOut(NamedTuple):
+    """A player who could not be exported, and why. ``assets`` are paths of what an earlier export may have brought."""
+
+    name: str
+    reason: str
+    assets: tuple[str, ...]
+
+
 class Performance(NamedTuple):
     """A piece, played. ``bars`` are numbers and frames, ``markers`` texts, bars and frames, ``files`` lengths and
     hashes."""
@@ -63,6 +73,12 @@ class Performance(NamedTuple):
     bars: tuple[tuple[int, int], ...]
     markers: tuple[tuple[str, int, int], ...]
     files: dict[str, tuple[int, str]]
+    left_out: tuple[LeftOut, ...]
+
+    @property
+    def staying(self) -> set[str]:
+        """Paths of assets of players who are left out: an update leaves them as they are."""
+        return {path for one in self.left_out for path in one.assets}
 
     @property
     def assets(self) -> list[str]:
@@ -76,22 +92,33 @@ class Performance(NamedTuple):
 
 
 def found(sources: Path) -> list[Path]:
-    """Folders of performances in the folder of sources, in order."""
-    if not sources.is_dir():
-        return []
-    return sorted(folder for folder in sources.iterdir() if (folder / DESCRIPTION).is_file())
+    """Folders of performances in the folder of sources, in order. Raises `Problem` where that cannot be listed."""
+    try:
+        return sorted(filter(_has_description, sources.iterdir())) if sources.is_dir() else []
+    except OSError as error:
+        raise problem("unreadable", file=sources, detail=error) from error
+
+
+def _has_description(folder: Path) -> bool:
+    try:
+        return (folder / DESCRIPTION).is_file()
+    except OSError:
+        return True  # `read` says what is wrong
 
 
 def read(folder: Path) -> Performance:
     """The performance of a folder. Raises `Problem` where its description cannot be understood."""
     file = folder / DESCRIPTION
     try:
-        with file.open(encoding="utf-8") as stream:
-            content = json.load(stream)
+        with file.open("rb") as stream:
+            data = stream.read(_MOST_BYTES + 1)
+        if len(data) > _MOST_BYTES:
+            raise ValueError("it is too large")
+        content = json.loads(data.decode("utf-8"))
         if content["schema"] > SCHEMA:
             raise problem("newer", file=file)
         return _performance(folder, content)
-    except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
+    except (OSError, ValueError, LookupError, TypeError, AttributeError, ArithmeticError, RecursionError) as error:
         detail = f"{type(error).__name__}: {error}"
         raise problem("unreadable", file=file, detail=detail) from error
 
@@ -132,8 +159,8 @@ def _performance(folder: Path, content: dict[str, Any]) -> Performance:
         sound=Sound(
             _matching(_FILE, sound["file"]),
             _matching(_ASSET, sound["asset"]),
-            max(float(sound["offset_s"]), 0.0),
-            float(sound["duration_s"]),
+            max(_finite(sound["offset_s"]), 0.0),
+            _finite(sound["duration_s"]),
         ),
         figures=tuple(figures),
         bars=tuple((int(bar["number"]), int(bar["frame"])) for bar in content["bars"]),
@@ -142,12 +169,17 @@ def _performance(folder: Path, content: dict[str, Any]) -> Performance:
             (str(marker["text"]), int(marker["bar"]), int(marker["frame"])) for marker in content.get("markers", ())
         ),
         files={_matching(_FILE, name): (int(of["bytes"]), str(of["sha256"])) for name, of in content["files"].items()},
+        left_out=tuple(
+            LeftOut(str(one["name"]), str(one["reason"]), tuple(_matching(_ASSET, path) for path in one["assets"]))
+            for one in content.get("left_out", ())
+        ),
     )
     if read_performance.content != ROOT + piece:
         raise ValueError("its assets are not in its own folder")
     inside = read_performance.content + "/"
     assets = read_performance.assets
-    if len({path.lower() for path in assets}) != len(assets) or not all(path.startswith(inside) for path in assets):
+    apart = len({path.lower() for path in assets}) == len(assets)
+    if not apart or not all(path.startswith(inside) for path in [*assets, *read_performance.staying]):
         raise ValueError("its assets are not apart, or not in its own folder")
     if not {figure.file for figure in figures} | {read_performance.sound.file} <= set(read_performance.files):
         raise ValueError("it does not say what all of its files hold")
@@ -158,7 +190,7 @@ def _figure(name: str, content: dict[str, Any], place: dict[str, Any]) -> Figure
     return Figure(
         name=name,
         file=_matching(_FILE, content["file"]),
-        place=Place(*(float(place[field]) for field in Place._fields)),
+        place=Place(*(_finite(place[field]) for field in Place._fields)),
         bones=tuple(str(bone) for bone in content["bones"]),
         mesh=_matching(_ASSET, content["mesh"]),
         skeleton=_matching(_ASSET, content["skeleton"]),
@@ -170,6 +202,13 @@ def _matching(pattern: re.Pattern[str], value: Any) -> str:
     if not isinstance(value, str) or not pattern.fullmatch(value):
         raise ValueError(f"{value!r} is no name that Suisou gives")
     return value
+
+
+def _finite(value: Any) -> float:
+    number = float(value)
+    if not math.isfinite(number):
+        raise ValueError(f"{value!r} is not a finite number")
+    return number
 
 
 def _at_least(least: int, value: Any) -> int:

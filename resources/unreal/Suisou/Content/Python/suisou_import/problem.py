@@ -41,6 +41,14 @@ TEXTS = {
         "プラグイン「{name}」が無効です。「編集 > プラグイン」で有効にし、"
         "エディターを再起動してからやり直してください。",
     ),
+    "others_go_on": (
+        "The following cannot be imported; everything else can.",
+        "以下はインポートできません。ほかの演奏はインポートできます。",
+    ),
+    "left_out": (
+        "Left out of the export; what was imported before stays as it was: {name}. {reason}",
+        "書き出しから除外されています。以前にインポートしたものはそのまま残ります: {name}。{reason}",
+    ),
     "unreadable": (
         "{file} cannot be read: {detail}\n\nExport again from Suisou.",
         "{file} を読み込めません: {detail}\n\nSuisou からもう一度書き出してください。",

@@ -36,7 +36,7 @@ def bring_in(performance: Performance) -> list[str]:
         step("step_check")
         checks.check_performance(performance)
         _assets(performance, step, told)
-    return told
+    return told + [text("left_out", name=one.name, reason=one.reason) for one in performance.left_out]
 
 
 def _assets(performance: Performance, step: Callable[..., None], told: list[str]) -> None:

@@ -49,7 +49,9 @@ def build(performance: Performance, anew: set[str]) -> list[str]:
         _play(binding, figure, performance)
         figures[figure.mesh] = {"id": binding.get_id().to_string(), "place": list(figure.place)}
     for mesh, before in known.items():
-        if mesh not in figures:
+        if mesh in performance.staying:
+            figures.setdefault(mesh, before)
+        elif mesh not in figures:
             _remove(sequence, before)
     _sound(sequence, performance)
     marks = _mark(sequence, performance, set(state["marks"]))

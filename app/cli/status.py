@@ -1,0 +1,31 @@
+"""Exit statuses, and what is said of players who are left out."""
+
+from __future__ import annotations
+
+import signal
+import sys
+from collections.abc import Iterable
+from typing import Final
+
+from app.errors import Message
+from app.messages import text
+
+DONE: Final = 0
+BAD_INPUT: Final = 1
+"""A file is wrong or cannot be written: nothing was done."""
+BAD_USE: Final = 2
+NO_DISPLAY: Final = 3
+"""The editor has nowhere to open."""
+PARTIAL: Final = 4
+"""Done, but players were left out."""
+STOPPED: Final = 128 + signal.SIGINT
+"""With Ctrl-C."""
+
+
+def tell_left_out(left_out: Iterable[tuple[str, str]]) -> int:
+    """Name the players who are left out with the reasons, a line for each on stderr; the exit status."""
+    status = DONE
+    for player, reason in left_out:
+        print(f"suisou: {text(Message('player.left_out', {'player': player, 'reason': reason}))}", file=sys.stderr)
+        status = PARTIAL
+    return status

@@ -1,0 +1,126 @@
+"""What to export, and who of the players asked for can be exported: the others are left out with the reason.
+
+Messages: ``export.nobody`` (file): "{file}: there is nobody to export"; ``export.too_long`` (file, frames,
+most); ``work.stopped``; those of `app.performance.cast`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from app.errors import Cancelled, FileError, Message
+from app.export.formats import FILE_FORMATS, Format
+from app.export.target import SkeletonChoice
+from app.export.targets import CheckedTarget, checked_targets, spoilt
+from app.performance.cast import LeftOut, Performer, attempt, performer_of, refuse_nobody
+from app.performance.ensemble import Performance
+from app.performance.span import FrameSpan
+from app.project.model import Player
+from app.rig.read_figure import read_figure
+
+MOST_FRAMES = 432_000
+"""Two hours at 60 frames/s: a player's motion and its file are in memory as a whole."""
+
+
+@dataclass(frozen=True)
+class Request:
+    """What to export.
+
+    Attributes
+    ----------
+    performance : Performance
+    players : tuple of Player
+        Those to export; names of files come from all the players, so that they do not depend on the choice.
+    folder : path
+    formats : frozenset of str
+        Of `FILE_FORMATS`.
+    span : FrameSpan
+    bars : (int, int) or None
+        First and last bar asked for, for the report.
+    source, creator : str
+        Name of the piece's file; program and version.
+    skeleton : SkeletonChoice
+        What the characters are written on; instruments have one skeleton only.
+    sound : bool
+        Whether what is heard is written as a WAV file, from the first frame to the last.
+    bvh_names : str
+        Table of bone names that BVH files have; empty: those of the skeleton.
+    asset : path or None
+        File of the asset that the animation is for: every player's skeleton is compared with its.
+    """
+
+    performance: Performance
+    players: tuple[Player, ...]
+    folder: Path
+    formats: frozenset[Format]
+    span: FrameSpan
+    bars: tuple[int, int] | None
+    source: str
+    creator: str
+    skeleton: SkeletonChoice = "own"
+    asset: Path | None = None
+    sound: bool = False
+    bvh_names: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class ExportCast:
+    """Who of a request is exported.
+
+    Attributes
+    ----------
+    performers : tuple of Performer
+    targets : dict of str to CheckedTarget
+        What each is written on, by player id.
+    left_out : tuple of LeftOut
+    """
+
+    performers: tuple[Performer, ...]
+    targets: dict[str, CheckedTarget]
+    left_out: tuple[LeftOut, ...]
+
+    @property
+    def player_ids(self) -> tuple[str, ...]:
+        """Of those who are exported."""
+        return tuple(performer.player.id for performer in self.performers)
+
+
+def cast_of(
+    request: Request, wording: Callable[[Message], str], stop_wanted: Callable[[], bool] = lambda: False
+) -> ExportCast:
+    """Who of a request can be exported. Nothing is written.
+
+    Raises
+    ------
+    FileError
+        ``export.nobody``; ``export.too_long``; ``player.all_left_out``; what `read_figure` says of the asset.
+    UsageError
+        ``usd.missing``.
+    Cancelled
+        ``stop_wanted`` said so.
+    """
+    if request.span.count > MOST_FRAMES:
+        raise FileError("export.too_long", file=request.source, frames=request.span.count, most=MOST_FRAMES)
+    if not request.players:
+        raise FileError("export.nobody", file=request.source)
+    for name in request.formats:
+        FILE_FORMATS[name].refuse()
+    asset = None if request.asset is None else read_figure(request.asset)
+
+    def make(player: Player) -> Performer:
+        if stop_wanted():
+            raise Cancelled("work.stopped")
+        return performer_of(request.performance, player)
+
+    found = attempt(request.players, make)
+    characters = {id: performer.character for id, performer in found.made.items()}
+    targets = checked_targets(characters, request.skeleton, asset)
+    left_out = found.left_out
+    if asset is not None:
+        left_out += spoilt([performer.player for performer in found.made.values()], targets, asset, wording)
+    absent = {one.player.id for one in left_out}
+    if absent.issuperset(player.id for player in request.players):
+        refuse_nobody(left_out, request.source, wording)
+    return ExportCast(tuple(made for id, made in found.made.items() if id not in absent), targets, left_out)

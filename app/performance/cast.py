@@ -1,0 +1,132 @@
+"""Who of some players can be seen: what each needs is found player by player, and whoever lacks something is left out
+with the reason, so that the others go on.
+
+Messages
+--------
+player.left_out : player, reason
+    "{player} is left out: {reason}"
+player.not_seen : players
+    "these players cannot be seen: {players}; the list of problems says why"
+player.all_left_out : file, reasons
+    "{file}: none of the players can be seen: {reasons}"
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from typing import Generic, TypeVar
+
+import msgspec
+
+from app.errors import AppError, Cancelled, FileError, Message
+from app.performance.bodies import body_of, character_of, hold_of, model_of
+from app.performance.ensemble import Performance
+from app.project.model import Player
+from app.rig.hold import Hold
+from app.rig.model import Character, InstrumentModel
+from instrument_maps.model import InstrumentMap
+from metadata.model import Body
+
+T = TypeVar("T")
+Wording = Callable[[Message], str]
+
+
+class LeftOut(msgspec.Struct, frozen=True):
+    """A player who cannot be seen, and why."""
+
+    player: Player
+    reason: Message
+
+    def message(self, wording: Wording) -> Message:
+        """What the user is told."""
+        return Message("player.left_out", {"player": self.player.name, "reason": wording(self.reason)})
+
+
+@dataclass(frozen=True)
+class Attempt(Generic[T]):
+    """What was made of some players.
+
+    Attributes
+    ----------
+    made : dict of str to T
+        By player id, in the order of the players.
+    left_out : tuple of LeftOut
+        Those of whom it could not be made, in the same order.
+    """
+
+    made: dict[str, T]
+    left_out: tuple[LeftOut, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Performer:
+    """A player with everything that the motion is made from.
+
+    Attributes
+    ----------
+    player : Player
+    character : Character
+    body : Body
+    instrument : InstrumentMap
+        As the body plays it (`app.performance.bodies.suited_to`).
+    model : InstrumentModel
+    hold : Hold
+    """
+
+    player: Player
+    character: Character
+    body: Body
+    instrument: InstrumentMap
+    model: InstrumentModel
+    hold: Hold
+
+
+def attempt(players: Iterable[Player], make: Callable[[Player], T]) -> Attempt[T]:
+    """Make something of every player; those for whom that raises an `AppError` are left out with its message.
+
+    Raises
+    ------
+    Cancelled
+    """
+    made, left_out = dict[str, T](), list[LeftOut]()
+    for player in players:
+        try:
+            made[player.id] = make(player)
+        except Cancelled:
+            raise
+        except AppError as error:
+            left_out.append(LeftOut(player, error.message))
+    return Attempt(made, tuple(left_out))
+
+
+def performer_of(performance: Performance, player: Player) -> Performer:
+    """A player with everything that the motion is made from; finding out how the instrument is held may take seconds.
+
+    Raises
+    ------
+    AppError
+        The instrument or the character is missing or damaged.
+    """
+    for message in performance.lacking(player):
+        raise AppError(message.id, **message.arguments)
+    instrument = performance.held(player)
+    return Performer(
+        player=player,
+        character=character_of(player),
+        body=body_of(player),
+        instrument=instrument,
+        model=model_of(instrument),
+        hold=hold_of(player, instrument),
+    )
+
+
+def performers_of(performance: Performance, players: Iterable[Player]) -> Attempt[Performer]:
+    """`performer_of` each player."""
+    return attempt(players, lambda player: performer_of(performance, player))
+
+
+def refuse_nobody(left_out: Sequence[LeftOut], file: str, wording: Wording) -> None:
+    """Raise ``player.all_left_out``: nobody is left."""
+    reasons = "; ".join(f"{one.player.name}: {wording(one.reason)}" for one in left_out)
+    raise FileError("player.all_left_out", file=file, reasons=reasons)
