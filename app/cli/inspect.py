@@ -13,6 +13,7 @@ from app.cli.instruments import note_name
 from app.cli.options import Commands, add_source_options, open_project
 from app.cli.status import tell_left_out
 from app.cli.summary import columns
+from app.errors import Message
 from app.messages import filled, text
 from app.performance.cast import attempt
 from app.performance.ensemble import Performance
@@ -82,7 +83,21 @@ def inspection(performance: Performance) -> Table:
     }
 
 
+class _Reasons:
+    """Reasons as sentences; many events have the very same one."""
+
+    def __init__(self) -> None:
+        self._known: dict[int, tuple[Message, str]] = {}
+
+    def __call__(self, message: Message) -> str:
+        known = self._known.get(id(message))
+        if known is None:
+            known = self._known[id(message)] = (message, text(message))
+        return known[1]
+
+
 def _player(performance: Performance, player: Player, instrument: InstrumentMap) -> Table:
+    reason = _Reasons()
     plan = performance.plan(player)
     clock = performance.piece.clock
     part = performance.project.part(player)
@@ -94,15 +109,15 @@ def _player(performance: Performance, player: Player, instrument: InstrumentMap)
         # Of notes struck together only one is played; the others are among what to look at.
         "notes": [_note(note, fingerings[note.id], instrument, clock) for note in part.notes if note.id in fingerings],
         "breaths": [
-            {"kind": event.kind, **span, "reason": text(event.reason)}
+            {"kind": event.kind, **span, "reason": reason(event.reason)}
             for event, span in zip(plan.breaths, _spans(plan.breaths, clock), strict=True)
         ],
         "cues": [
-            {**span, "peak_s": event.peak_s, "beat_s": event.beat_s, "reason": text(event.reason)}
+            {**span, "peak_s": event.peak_s, "beat_s": event.beat_s, "reason": reason(event.reason)}
             for event, span in zip(plan.cues, _spans(plan.cues, clock), strict=True)
         ],
         "gestures": [
-            {"kind": event.kind, **span, "amount": event.amount, "reason": text(event.reason)}
+            {"kind": event.kind, **span, "amount": event.amount, "reason": reason(event.reason)}
             for event, span in zip(plan.gestures, _spans(plan.gestures, clock), strict=True)
         ],
     }
@@ -117,7 +132,7 @@ def _player(performance: Performance, player: Player, instrument: InstrumentMap)
                 "roll_deg": event.roll_deg,
                 "fade_in_s": event.fade_in_s,
                 "fade_out_s": event.fade_out_s,
-                "reason": text(event.reason),
+                "reason": reason(event.reason),
             }
             for event, span in zip(plan.poses, _spans(plan.poses, clock), strict=True)
         ]

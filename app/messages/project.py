@@ -57,7 +57,6 @@ TEMPLATES: Final[dict[str, str]] = {
     "tempo.first_stays": "what holds from the beginning can be changed, but neither moved nor removed",
     "tempo.none_here": "no tempo begins at tick {tick}",
     "tempo.place_outside": "tick {tick} lies outside every piece",
-    "tempo.too_many_bars": "the piece would have more than {most} bars; choose a longer metre",
     "metre.none_here": "no metre begins at tick {tick}",
     "metre.impossible": "{numerator}/{denominator} is no metre; the lower number must be 1, 2, 4, 8, 16, 32 or 64",
     "metre.pickup_too_long": "a pickup is shorter than a whole bar: at most {most} ticks",

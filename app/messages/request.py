@@ -21,7 +21,10 @@ TEMPLATES: Final[dict[str, str]] = {
         "{file}: {frames} frames are more than the {most} that one export holds; "
         "take some bars with --from-bar and --to-bar"
     ),
-    "piece.too_long": "the piece lasts {hours:g} hours; at most {most_hours} can be played",
+    "piece.too_long": (
+        "the piece would last {hours:g} hours, with {quarters} quarter notes and {bars} bars; at most {most_hours} "
+        "hours, {most_quarters} quarter notes and {most_bars} bars can be played; shorten it"
+    ),
     "open.audio_alone": "{file} is a recording; open the piece that it belongs to first, then drop it again",
     "program.fault": (
         "something went wrong in the program: {detail}; your work was written down; please report this with the file "

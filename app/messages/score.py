@@ -13,6 +13,15 @@ TEMPLATES: Final[dict[str, str]] = {
     "midi.no_tracks": "{file} has no track: byte {byte} has {found} where a track MTrk belongs",
     "midi.unknown_encoding": "{file}: there is no text encoding {encoding!r}",
     "midi.track_unreadable": "{file}: track {track}, which begins at byte {byte}, cannot be read: {detail}",
+    "midi.too_many_parts": (
+        "{file}: {count} parts (channels of tracks) have notes; at most {most} can be read; delete those that no wind "
+        "player plays, in the program that the file comes from"
+    ),
+    "midi.too_long": (
+        "{file}: the last note of track {track} ends after {hours:g} hours, {quarters} quarter notes and {bars} bars; "
+        "at most {most_hours} hours, {most_quarters} quarter notes and {most_bars} bars can be played; delete what "
+        "lies far behind the music, or correct the tempo, in the program that the file comes from"
+    ),
     # MIDI files that can be read in part, or in an own way
     "midi.header_length": (
         "the header says that it is {length} bytes long and is not (byte {byte}); its first 6 bytes were taken"
@@ -35,13 +44,24 @@ TEMPLATES: Final[dict[str, str]] = {
     "midi.smpte_rate": ("the file counts time in frames of 1/{rate} s, which is no SMPTE rate; it was taken literally"),
     "midi.patterns": "the file has {patterns} independent patterns (format 2); they follow one another",
     "midi.hanging_notes": (
-        "{count} {count:note|notes} of track {track} never {count:ends; it ends|end; they end} with the track"
+        "{count} {count:note|notes} of track {track} never {count:ends; it ends|end; they end} where the next note of "
+        "the channel begins, and after four quarters at the latest"
     ),
     "midi.zero_length_notes": (
         "{count} {count:note|notes} of track {track} {count:has no length; it lasts|have no length; they last} one tick"
     ),
-    "midi.impossible_metre": "track {track} has an impossible time signature at tick {tick}; it was left out",
-    "midi.impossible_tempo": "track {track} has an impossible tempo at tick {tick}; it was left out",
+    "midi.beyond_all_music": (
+        "{count} {count:event|events} of track {track} {count:lies|lie} beyond the last possible tick and "
+        "{count:was|were} left out"
+    ),
+    "midi.impossible_metre": (
+        "track {track} has {count} impossible time {count:signature|signatures}, the first at tick {tick}; "
+        "{count:it was|they were} left out"
+    ),
+    "midi.impossible_tempo": (
+        "track {track} has {count} impossible {count:tempo|tempos}, the first at tick {tick}; {count:it was|they were} "
+        "left out"
+    ),
     # MIDI files that were written, and what they cannot hold
     "midi.written": "{file} is written: {count} {count:track|tracks}",
     "midi.written_but": "{file} is written, but: {first} ({count} {count:remark|remarks} in all)",
@@ -85,6 +105,11 @@ TEMPLATES: Final[dict[str, str]] = {
     "score.looks_written": (
         "{part}: {outside} of {total} notes lie outside the range of {map}, but all fit as written pitches: the part "
         "looks untransposed; import its pitches as written"
+    ),
+    "score.too_many_players": "the piece has {most} players already, and more cannot play",
+    "score.notes_left_out": (
+        "{part}: more than {most} notes sound together; {most} players share it, and {count} {count:note is|notes are} "
+        "left out"
     ),
     "score.voices": "{part}: up to {voices} notes sound together, so {voices} players share it",
 }

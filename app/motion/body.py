@@ -30,6 +30,8 @@ EYES_BACK = 0.6
 """Share of the head's turn to the instrument that the eyes turn back, to the music and to the others."""
 QUICK_S = 0.6
 """Gestures shorter than this are smaller in proportion: nobody leans as far in half the time."""
+UPRIGHT_S = 1.0
+"""A body that bobs no more comes up within this time, and goes down again in as much before it does."""
 EXHALE_S = 3.0
 FULLEST = 1.4
 LEAST_DRAWN = 0.4
@@ -211,8 +213,15 @@ class Bobbing:
         beats = np.maximum(1.0, np.round([(event.end_tick - event.start_tick) / beat_ticks for event in swings]))
         size = np.square(np.minimum(1.0, length_s / beats / QUICK_S))
         size *= 0.4 + 0.6 * np.abs([event.amount for event in swings])
-        ends = np.append(start_s, start_s[-1] + length_s[-1])
-        return cls(start_s, length_s, beats, through(ends, np.append(size, 0.0)))
+        end_s = start_s + length_s
+        # Between swings far apart the body stands upright.
+        far = np.flatnonzero(start_s[1:] - end_s[:-1] > 2.0 * UPRIGHT_S)
+        knots_s = np.concatenate(
+            (start_s, end_s[-1:], end_s[far], end_s[far] + UPRIGHT_S, start_s[far + 1] - UPRIGHT_S)
+        )
+        sizes = np.concatenate((size, [0.0], size[far], np.zeros(2 * len(far))))
+        order = np.argsort(knots_s, kind="stable")
+        return cls(start_s, length_s, beats, through(knots_s[order], sizes[order]))
 
     def sample(self, times_s: FloatArray) -> FloatArray:
         """Values at ascending times, (F,) float64."""

@@ -1,6 +1,6 @@
 """What all players of a project do: plans from a snapshot of the project, made once and shared by everyone who asks.
 
-Messages: ``piece.too_long`` (hours, most_hours): "the piece lasts {hours} hours; at most {most_hours} can be played";
+Messages: ``piece.too_long`` (as `app.score.limits.too_long` says it): "the piece would last {hours} hours, ...";
 as problems of the player's plan ``project.instrument_missing``, ``project.character_missing`` (player, id), or what is
 wrong with the file of that instrument or character.
 """
@@ -24,13 +24,12 @@ from app.plan.model import PlayerPlan, Problem, TimeFrame
 from app.project.model import Player, Project
 from app.rig.character_library import bundled_characters, character_library, character_revision
 from app.rig.fit import missed
+from app.score.limits import too_long
 from instrument_maps.library import library
 from instrument_maps.model import InstrumentMap
 from metadata.load import load_expressions
 from metadata.model import Expression
 
-MOST_HOURS = 12
-"""Longer than any concert."""
 LIGHT = 8
 """Where neither breaths nor cues are looked for, planning costs this many times less."""
 
@@ -62,9 +61,9 @@ class Performance:
     def __init__(
         self, project: Project, before: Performance | None = None, waiting: frozenset[str] = frozenset()
     ) -> None:
-        hours = project.score.tempo_map.seconds(float(project.score.end_tick)) / 3600.0
-        if hours > MOST_HOURS:
-            raise AppError("piece.too_long", hours=round(hours, 1), most_hours=MOST_HOURS)
+        long = too_long(project.score)
+        if long is not None:
+            raise AppError("piece.too_long", **long)
         self.project = project
         self.waiting = waiting
         self.library = library()

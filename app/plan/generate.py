@@ -33,7 +33,7 @@ from app.plan.cue import common_entries, cue_inputs, plan_cues
 from app.plan.embouchure import plan_embouchures, plan_tongues
 from app.plan.expression import plan_expressions
 from app.plan.fingering import plan_fingerings
-from app.plan.gesture import plan_gestures
+from app.plan.gesture import Pulse, plan_gestures, pulse
 from app.plan.heard import blown
 from app.plan.line import Line, LineTimes, Piece, Seeds, line_times
 from app.plan.memo import Memo
@@ -164,6 +164,7 @@ def plan_ensemble(
         frame,
     )
     first_s = min((float(times.onset_s[0]) for times in all_times if len(times.onset_s)), default=0.0)
+    beat = shared.step("pulse", lambda: pulse(piece, frame, first_s), piece, frame, first_s)
     taken: dict[bytes, frozenset[tuple[int, int]]] = {}
     plans = {}
     for done, (line, times, problems) in enumerate(playable):
@@ -172,7 +173,7 @@ def plan_ensemble(
         places = taken.get(times.part, frozenset())
         memo = own[line.player_id]
         own_cues = memo.step("cues", lambda line=line: _cues_of(cues, line.player_id), cues)  # type: ignore[misc]
-        given = _Given(piece, line, times, frame, own_cues, cue_ids, places, seed, first_s, problems, faces)
+        given = _Given(piece, line, times, frame, own_cues, cue_ids, places, seed, beat, problems, faces)
         plan, caught = memo.step("plan", lambda given=given, memo=memo: _plan_line(given, memo), *given)  # type: ignore[misc]
         plans[line.player_id] = plan
         taken[times.part] = places | caught
@@ -224,7 +225,7 @@ class _Given(NamedTuple):
     cue_ids: frozenset[str]
     taken: frozenset[tuple[int, int]]
     seed: int
-    swing_at_s: float
+    pulse: Pulse
     told: tuple[Problem, ...]
     faces: Mapping[str, Expression]
 
@@ -285,7 +286,7 @@ def _plan_line(given: _Given, memo: Memo) -> tuple[PlayerPlan, frozenset[tuple[i
         heard,
         of(SetEmbouchure),
     )
-    made_gestures = plan_gestures(notes, times, piece, frame, events, given.cues, seeds, given.swing_at_s, memo)
+    made_gestures = plan_gestures(notes, times, piece, frame, events, given.cues, seeds, given.pulse, memo)
     moved = of(ChangeGesture, AddGesture, RemoveEvent, SetBreath, SetCue)
     gestures = memo.step(
         "corrected gestures",

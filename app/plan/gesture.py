@@ -5,6 +5,9 @@ body goes: at the end of a sway (a half swing from beat to beat), and for as lon
 ``lower_instrument`` spans from leaving the lips to being back at them; one that reaches beyond the time frame begins
 (or stays) lowered. Sizes belong to the motion, which scales by the player's amplitude.
 
+In a rest longer than twice `STIR_S` the body is still but at its edges: what is made is in proportion to the notes,
+however long the silence between them.
+
 Everything random is drawn from player and score position (tick), so the same place repeats in every run, however the
 rest of the piece is edited (Wanderley: players repeat the same bell movement at the same place).
 
@@ -21,17 +24,22 @@ gesture.lower_at_start(rest_s): "The entry is {rest_s} s away: the instrument is
 from __future__ import annotations
 
 import itertools
+import math
+from bisect import bisect_right
 from collections.abc import Mapping
+from dataclasses import dataclass
 
 import numpy as np
 
 from app.errors import Message
-from app.plan.line import LineTimes, Piece, Seeds
+from app.plan.line import IntArray, LineTimes, Piece, Seeds
 from app.plan.memo import Memo
-from app.plan.model import BreathEvent, CueEvent, FloatArray, GestureEvent, Note, TimeFrame
+from app.plan.model import BreathEvent, Clock, CueEvent, FloatArray, GestureEvent, Note, TimeFrame
 
 SWING_S = 1.1
-"""A body's half swing takes about this long, whatever the tempo: 1, 2, 4 or 8 beats of it."""
+"""A body's half swing takes about this long, whatever the tempo: 1, 2, 4 ... beats of it."""
+STIR_S = 10.0
+"""So long before and after a note's beginning and its end the body moves with the beat."""
 SHIFT_MEAN_S = 9.0
 SHIFT_LEAST_S = 3.0
 CONTOUR_SEMITONES = 10.0
@@ -58,7 +66,7 @@ def plan_gestures(
     breaths: tuple[BreathEvent, ...],
     cues: tuple[CueEvent, ...],
     seeds: Seeds,
-    swing_at_s: float,
+    pulse: Pulse,
     memo: Memo,
 ) -> tuple[GestureEvent, ...]:
     """All gestures of one player, ordered by start.
@@ -67,22 +75,28 @@ def plan_gestures(
     ----------
     seeds : Seeds
         The player's.
-    swing_at_s : float
-        Where the piece's tempo is taken to choose how many beats a swing has: the same for all players.
+    pulse : Pulse
+        The same for all players.
     memo : Memo
         Each kind is a step of its own: a pitch that changes moves the bell, and no swing.
     """
     kinds = (
         memo.step(
             "sways",
-            lambda: tuple(sways(times, piece, frame, seeds, swing_at_s)),
+            lambda: tuple(sways(times, pulse, frame, seeds)),
             times.rhythm,
-            piece,
+            pulse,
             frame,
             seeds,
-            swing_at_s,
         ),
-        memo.step("weight shifts", lambda: tuple(weight_shifts(piece, frame, seeds)), piece, frame, seeds),
+        memo.step(
+            "weight shifts",
+            lambda: tuple(weight_shifts(times, pulse, frame, seeds, piece.clock)),
+            times.rhythm,
+            pulse,
+            frame,
+            seeds,
+        ),
         memo.step("bell heights", lambda: tuple(bell_heights(notes, times, piece)), notes, times, piece),
         memo.step(
             "lowered",
@@ -102,72 +116,118 @@ def _in_order(*kinds: tuple[GestureEvent, ...]) -> tuple[GestureEvent, ...]:
     return tuple(sorted(itertools.chain(*kinds), key=lambda event: (event.start_s, event.id)))
 
 
-def sways(times: LineTimes, piece: Piece, frame: TimeFrame, seeds: Seeds, swing_at_s: float) -> list[GestureEvent]:
-    """Half swings from beat to beat, left and right in turn, each of its own size; small where the player rests."""
+@dataclass(frozen=True, eq=False)
+class Pulse:
+    """Beats and bars of a performance, which all players share.
+
+    Attributes
+    ----------
+    swing_beats : int
+        Beats of a half swing.
+    beat_s : float
+        Where the piece's tempo was taken.
+    beat_ticks, bar_ticks : (N,) int64
+        Where they begin; some before the performance and after it. The last of the bars is where the performance ends.
+    beats_s, bars_s : (N,) float64
+        The same in seconds.
+    """
+
+    swing_beats: int
+    beat_s: float
+    beat_ticks: IntArray
+    beats_s: FloatArray
+    bar_ticks: IntArray
+    bars_s: FloatArray
+
+
+def pulse(piece: Piece, frame: TimeFrame, swing_at_s: float) -> Pulse:
+    """The pulse of a performance; how many beats a swing has is chosen by the tempo at ``swing_at_s``."""
     clock, beat = piece.clock, piece.beat_ticks
     at_tick = clock.ticks(swing_at_s)
     beat_s = clock.seconds(at_tick + beat) - clock.seconds(at_tick)
-    beats = min((1, 2, 4, 8), key=lambda count: abs(np.log(count * beat_s / SWING_S)))
+    swing_beats = 2 ** max(round(math.log2(SWING_S / beat_s)), 0)
+    first_tick, last_tick = int(clock.ticks(frame.first_frame_s)), int(np.ceil(clock.ticks(frame.end_s)))
+    # Players whose swings are twice as long have whole ones too.
+    margin = 4 * swing_beats * beat
+    beats = piece.beats(first_tick - margin, last_tick + margin)
+    bars = np.append(piece.bars(first_tick, last_tick), last_tick)
+    in_s = clock.seconds
+    return Pulse(swing_beats, beat_s, beats, in_s(beats.astype(np.float64)), bars, in_s(bars.astype(np.float64)))
+
+
+def sways(times: LineTimes, pulse: Pulse, frame: TimeFrame, seeds: Seeds) -> list[GestureEvent]:
+    """Half swings from beat to beat, left and right in turn, each of its own size; small where the player rests."""
+    beats, beat_s = pulse.swing_beats, pulse.beat_s
     if seeds.chance("swing") < 0.3 and beats * beat_s < 1.5 * SWING_S:
         # Some players take the tempo in longer swings than others.
         beats *= 2
-    first_tick, last_tick = int(clock.ticks(frame.first_frame_s)), int(np.ceil(clock.ticks(frame.end_s)))
-    margin = 2 * beats * beat
-    every = piece.beats(first_tick - margin, last_tick + margin)
     # Counted from the piece's beginning, so that a longer pre-roll or a note added at the end changes nothing.
-    phase = (int(np.searchsorted(every, 0)) + int(seeds.chance("phase") * beats)) % beats
-    ticks = every[phase::beats]
-    origin = int(np.searchsorted(ticks, 0))
-    seconds = clock.seconds(ticks.astype(np.float64))
-    playing = _sounding_share(times, seconds)
+    phase = (int(np.searchsorted(pulse.beat_ticks, 0)) + int(seeds.chance("phase") * beats)) % beats
+    every_tick, every_s = pulse.beat_ticks[phase::beats], pulse.beats_s[phase::beats]
+    origin = int(np.searchsorted(every_tick, 0))
+    places = _stirring(times, frame, every_s)
+    places = places[(every_s[places + 1] > frame.first_frame_s) & (every_s[places] < frame.end_s)]
+    ticks, ends, starts_s, ends_s = every_tick[places], every_tick[places + 1], every_s[places], every_s[places + 1]
+    playing = _sounding_share(times, starts_s, ends_s)
     flip = 1.0 if seeds.chance("side") < 0.5 else -1.0
+    sides = np.where((places - origin) % 2 == 0, flip, -flip)
+    sizes = 0.3 + 0.7 * seeds.chances_at("sway", ticks)
+    held = seeds.chances_at("sway held", ticks) < 0.12
+    sides, sizes = np.where(held, -sides, sides), np.where(held, 0.5 * sizes, sizes)
+    amounts = sides * sizes * (_RESTING + (1.0 - _RESTING) * playing)
     reason = Message("gesture.sway", {"beats": beats, "beat_s": round(beat_s, 3)})
-    events = []
-    for index in range(len(ticks) - 1):
-        start_s, end_s = float(seconds[index]), float(seconds[index + 1])
-        if end_s <= frame.first_frame_s or start_s >= frame.end_s:
-            continue
-        tick = int(ticks[index])
-        side = flip if (index - origin) % 2 == 0 else -flip
-        size = 0.3 + 0.7 * seeds.chance_at("sway", tick)
-        if seeds.chance_at("sway held", tick) < 0.12:
-            side, size = -side, 0.5 * size
-        amount = side * size * (_RESTING + (1.0 - _RESTING) * float(playing[index]))
-        events.append(
-            GestureEvent(f"sway:@{tick}", "sway", tick, int(ticks[index + 1]), start_s, end_s, round(amount, 4), reason)
-        )
-    return events
+    rows = zip(ticks.tolist(), ends.tolist(), starts_s.tolist(), ends_s.tolist(), amounts.tolist(), strict=True)
+    return [
+        GestureEvent(f"sway:@{tick}", "sway", tick, end, start_s, end_s, round(amount, 4), reason)
+        for tick, end, start_s, end_s, amount in rows
+    ]
 
 
-def _sounding_share(times: LineTimes, edges_s: FloatArray) -> FloatArray:
-    """Part of each span between neighbouring edges in which the line sounds."""
+def _sounding_share(times: LineTimes, starts_s: FloatArray, ends_s: FloatArray) -> FloatArray:
+    """Part of each span in which the line sounds."""
     if len(times.onset_s) == 0:
-        return np.zeros(len(edges_s) - 1)
+        return np.zeros(len(starts_s))
     sounded = np.concatenate(([0.0], np.cumsum(times.duration_s)))
     knots = np.stack((times.onset_s, times.played_end_s), axis=1).ravel()
     values = np.stack((sounded[:-1], sounded[1:]), axis=1).ravel()
-    share: FloatArray = np.diff(np.interp(edges_s, knots, values)) / np.maximum(np.diff(edges_s), 1e-6)
-    return np.clip(share, 0.0, 1.0)
+    lasts_s = np.interp(ends_s, knots, values) - np.interp(starts_s, knots, values)
+    share: FloatArray = np.clip(lasts_s / np.maximum(ends_s - starts_s, 1e-6), 0.0, 1.0)
+    return share
 
 
-def weight_shifts(piece: Piece, frame: TimeFrame, seeds: Seeds) -> list[GestureEvent]:
+def _stirring(times: LineTimes, frame: TimeFrame, edges_s: FloatArray) -> IntArray:
+    """Which spans between neighbouring edges lie near the begin or end of a note, or near the frame's ends; ascending.
+
+    What it costs depends on how many these are, not on how many spans there are.
+    """
+    near_s = np.concatenate(([frame.first_frame_s], times.onset_s, times.played_end_s, [frame.end_s]))
+    near_s.sort()
+    last = len(edges_s) - 1
+    lows = np.maximum(np.searchsorted(edges_s, near_s - STIR_S, side="right") - 1, 0)
+    highs = np.clip(np.searchsorted(edges_s, near_s + STIR_S, side="left"), lows, last)
+    # Each begins where the one before has ended.
+    lows = np.minimum(np.maximum(lows, np.concatenate(([0], np.maximum.accumulate(highs)[:-1]))), highs)
+    counts = highs - lows
+    before = np.cumsum(counts) - counts
+    places: IntArray = np.repeat(lows - before, counts) + np.arange(counts.sum())
+    return places
+
+
+def weight_shifts(times: LineTimes, pulse: Pulse, frame: TimeFrame, seeds: Seeds, clock: Clock) -> list[GestureEvent]:
     """Shifts of weight at arbitrary times (T7), about every `SHIFT_MEAN_S`: bar by bar a player shifts or not."""
-    clock = piece.clock
-    first_tick, last_tick = int(clock.ticks(frame.first_frame_s)), int(np.ceil(clock.ticks(frame.end_s)))
-    bars = piece.bars(first_tick, last_tick)
-    edges = np.append(bars, last_tick)
-    seconds = clock.seconds(edges.astype(np.float64))
+    places = _stirring(times, frame, pulse.bars_s)
+    ticks, ends = pulse.bar_ticks[places], pulse.bar_ticks[places + 1]
+    chances = np.minimum((pulse.bars_s[places + 1] - pulse.bars_s[places]) / SHIFT_MEAN_S, 0.9)
+    shifts = seeds.chances_at("shift", ticks) < chances
+    ticks, ends = ticks[shifts], ends[shifts]
+    at_ticks = ticks + (seeds.chances_at("shift at", ticks) * (ends - ticks)).astype(np.int64)
     starts: list[tuple[int, float]] = []
-    for index in range(len(bars)):
-        tick, length_s = int(bars[index]), float(seconds[index + 1] - seconds[index])
-        if seeds.chance_at("shift", tick) >= min(length_s / SHIFT_MEAN_S, 0.9):
-            continue
-        at = tick + int(seeds.chance_at("shift at", tick) * (int(edges[index + 1]) - tick))
-        at_s = clock.seconds(float(at))
+    for at, at_s in zip(at_ticks.tolist(), clock.seconds(at_ticks.astype(np.float64)).tolist(), strict=True):
         if at_s >= frame.first_frame_s and (not starts or at_s - starts[-1][1] >= SHIFT_LEAST_S):
             starts.append((at, at_s))
     events = []
-    for (tick, start_s), (end_tick, end_s) in zip(starts, [*starts, (last_tick, frame.end_s)][1:], strict=True):
+    last = (int(pulse.bar_ticks[-1]), frame.end_s)
+    for (tick, start_s), (end_tick, end_s) in zip(starts, [*starts, last][1:], strict=True):
         if end_s <= start_s:
             continue
         amount = 2.0 * seeds.chance_at("shift to", tick) - 1.0
@@ -188,8 +248,10 @@ def bell_heights(notes: tuple[Note, ...], times: LineTimes, piece: Piece) -> lis
         return []
     weight = np.maximum(times.duration_s, 1e-3)
     mean = float(np.average(times.pitch, weights=weight))
-    beats = np.searchsorted(piece.beats(int(times.onset_tick[0]), int(times.onset_tick[-1])), times.onset_tick, "right")
-    starts = np.flatnonzero(np.insert(np.diff(beats) > 0, 0, True))
+    bars = piece.bars(int(times.onset_tick[0]), int(times.onset_tick[-1]) + 1)
+    bar = np.searchsorted(bars, times.onset_tick, "right") - 1
+    beat = (times.onset_tick - bars[bar]) // piece.beat_ticks
+    starts = np.flatnonzero(np.insert((np.diff(bar) > 0) | (np.diff(beat) > 0), 0, True))
     sums = np.add.reduceat(times.pitch * weight, starts) / np.add.reduceat(weight, starts)
     heights = np.clip((sums - mean) / CONTOUR_SEMITONES, -1.0, 1.0)
     ends = np.append(starts[1:], len(notes))
@@ -228,9 +290,10 @@ def lowered_spans(
     if not notes:
         return [_lowered("all", frame.first_frame_s - LOWER_S, frame.end_s + RAISE_S, piece, "gesture.lower_at_start",
                          {"rest_s": round(frame.end_s - frame.first_frame_s, 2)})]  # fmt: skip
-    busy = [(event.start_s, event.end_s) for event in breaths] + [(event.start_s, event.end_s) for event in cues]
+    spans_s = [(event.start_s, event.end_s) for event in breaths] + [(event.start_s, event.end_s) for event in cues]
+    busy = _Busy(sorted(spans_s))
     events = []
-    first_s = _free_until(busy, frame.first_frame_s, float(times.onset_s[0])) - BEFORE_BREATH_S
+    first_s = busy.free_until(frame.first_frame_s, float(times.onset_s[0])) - BEFORE_BREATH_S
     if first_s - RAISE_S - LOWERED_LEAST_S >= frame.first_frame_s:
         rest_s = {"rest_s": round(float(times.onset_s[0]) - frame.first_frame_s, 2)}
         start_s = frame.first_frame_s - LOWER_S
@@ -238,20 +301,29 @@ def lowered_spans(
     rests_s = times.onset_s[1:] - times.played_end_s[:-1]
     for index in np.flatnonzero(rests_s >= LOWER_REST_S).tolist():
         start_s = float(times.played_end_s[index]) + AFTER_NOTE_S
-        end_s = _free_until(busy, start_s, float(times.onset_s[index + 1])) - BEFORE_BREATH_S
+        end_s = busy.free_until(start_s, float(times.onset_s[index + 1])) - BEFORE_BREATH_S
         if end_s - start_s >= LOWER_S + LOWERED_LEAST_S + RAISE_S:
             rest = {"rest_s": round(float(rests_s[index]), 2)}
             events.append(_lowered(notes[index + 1].id, start_s, end_s, piece, "gesture.lower_instrument", rest))
     start_s = float(times.played_end_s.max()) + AFTER_NOTE_S
-    if start_s + LOWER_S <= frame.end_s and _free_until(busy, start_s, frame.end_s) >= frame.end_s:
+    if start_s + LOWER_S <= frame.end_s and busy.free_until(start_s, frame.end_s) >= frame.end_s:
         after = {"after_s": AFTER_NOTE_S}
         events.append(_lowered("end", start_s, frame.end_s + RAISE_S, piece, "gesture.lower_at_end", after))
     return events
 
 
-def _free_until(busy: list[tuple[float, float]], start_s: float, end_s: float) -> float:
-    """Start of the first event that ends after ``start_s`` and begins before ``end_s``, else ``end_s``."""
-    return min((begin for begin, finish in busy if finish > start_s and begin < end_s), default=end_s)
+class _Busy:
+    """Spans in which a player does something, (start, end) ordered by start."""
+
+    def __init__(self, spans_s: list[tuple[float, float]]) -> None:
+        self._starts_s = [start_s for start_s, _ in spans_s]
+        # A span that ends later than all before it is the first that ends after a time.
+        self._last_ends_s = list(itertools.accumulate((end_s for _, end_s in spans_s), max))
+
+    def free_until(self, start_s: float, end_s: float) -> float:
+        """Start of the first span that ends after ``start_s`` and begins before ``end_s``, else ``end_s``."""
+        index = bisect_right(self._last_ends_s, start_s)
+        return min(self._starts_s[index], end_s) if index < len(self._starts_s) else end_s
 
 
 def _lowered(

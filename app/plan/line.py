@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-import itertools
+from bisect import bisect_right
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
@@ -85,7 +85,7 @@ class Line(msgspec.Struct, frozen=True):
     heard: Heard | None = None
 
 
-class Piece(msgspec.Struct, frozen=True):
+class Piece(msgspec.Struct, frozen=True, dict=True):
     """What all players share.
 
     Attributes
@@ -108,10 +108,20 @@ class Piece(msgspec.Struct, frozen=True):
         """Ticks of the felt beat; a quarter unless the piece sets one."""
         return self.felt_beat_ticks or self.clock.ticks_per_quarter
 
+    @cached_property
+    def _metre_ticks(self) -> tuple[int, ...]:
+        return tuple(metre.tick for metre in self.metres)
+
+    @cached_property
+    def _bar_ticks(self) -> IntArray:
+        return np.asarray(self.bar_ticks, np.int64)
+
     def bar_length_tick(self, tick: int) -> int:
         """Length of a whole bar in the metre that holds at a tick; a bar cut short is not meant."""
-        metre = next((metre for metre in reversed(self.metres) if metre.tick <= tick), None)
-        numerator, denominator = (4, 4) if metre is None else (metre.numerator, metre.denominator)
+        index = bisect_right(self._metre_ticks, tick) - 1
+        numerator, denominator = (
+            (self.metres[index].numerator, self.metres[index].denominator) if index >= 0 else (4, 4)
+        )
         return max(4 * self.clock.ticks_per_quarter * numerator // denominator, 1)
 
     def bars(self, first_tick: int, last_tick: int) -> IntArray:
@@ -124,7 +134,7 @@ class Piece(msgspec.Struct, frozen=True):
         if not spans or spans[0][0] > 0:
             spans.insert(0, (0, quarter * 4))
         if self.bar_ticks:
-            known = np.asarray(self.bar_ticks, dtype=np.int64)
+            known = self._bar_ticks
             before = np.arange(known[0] - spans[0][1], first_tick - spans[0][1], -spans[0][1], dtype=np.int64)[::-1]
             after = np.arange(known[-1] + spans[-1][1], last_tick, spans[-1][1], dtype=np.int64)
             ticks = np.concatenate((before, known, after))
@@ -145,10 +155,11 @@ class Piece(msgspec.Struct, frozen=True):
     def beats(self, first_tick: int, last_tick: int) -> IntArray:
         """Ticks of the felt beats, counted anew in every bar, from before ``first_tick`` to after ``last_tick``."""
         bars = self.bars(first_tick, last_tick + 1)
-        bars = np.append(bars, max(int(bars[-1]) + 1, last_tick + self.beat_ticks))
-        return np.concatenate(
-            [np.arange(low, high, self.beat_ticks, dtype=np.int64) for low, high in itertools.pairwise(bars.tolist())]
-        )
+        lengths = np.diff(bars, append=max(int(bars[-1]) + 1, last_tick + self.beat_ticks))
+        counts = -(-lengths // self.beat_ticks)
+        before = np.cumsum(counts) - counts
+        ticks: IntArray = np.repeat(bars - before * self.beat_ticks, counts) + np.arange(counts.sum()) * self.beat_ticks
+        return ticks
 
 
 @dataclass(frozen=True, eq=False)
@@ -271,6 +282,20 @@ class Seeds(msgspec.Struct, frozen=True):
         digest = _begun((*self.names, purpose)).copy()
         digest.update(b"%d" % tick)
         return _share(digest.digest())
+
+    def chances_at(self, purpose: str, ticks: IntArray) -> FloatArray:
+        """The same at many places, (N,) float64."""
+        begun = _begun((*self.names, purpose))
+        digests = bytearray()
+        for tick in ticks.tolist():
+            digest = begun.copy()
+            digest.update(b"%d" % tick)
+            digests += digest.digest()
+        shares: FloatArray = np.frombuffer(digests, ">u8") / 2.0**64
+        for start_tick, end_tick, _ in self.varied:
+            for place in np.flatnonzero((ticks >= start_tick) & (ticks < end_tick)).tolist():
+                shares[place] = self.chance_at(purpose, int(ticks[place]))
+        return shares
 
 
 def chance(*parts: str | int) -> float:

@@ -14,6 +14,7 @@ from app.plan.corrections import Correction
 from app.project import limits
 from app.project.model import AudioTrack, Player, PlayerTakes, Project
 from app.project.parameters import is_possible, range_text
+from app.score.limits import too_long
 from app.score.model import ControllerCurve, Marker, Metre, Note, Part, Score
 from app.score.take import Take, is_message
 from app.score.tempo import TempoChange
@@ -73,8 +74,9 @@ def _score_faults(score: Score) -> Iterator[Fault]:
         yield from _text(f"unplayed[{index}].name", unplayed.name)
         yield from _between(f"unplayed[{index}].end_tick", unplayed.end_tick, (0, limits.LAST_TICK))
         yield from _between(f"unplayed[{index}].note_count", unplayed.note_count, (0, limits.LAST_TICK))
-    if score.bar_of_tick(score.sounding_end_tick) > limits.MOST_BARS:
-        yield "metres", f"more than {limits.MOST_BARS} bars"
+    long = too_long(score)
+    if long is not None:
+        yield "parts", "longer than {most_hours} hours, {most_quarters} quarters or {most_bars} bars".format_map(long)
 
 
 def _tempo_faults(changes: Sequence[TempoChange]) -> Iterator[Fault]:

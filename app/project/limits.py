@@ -1,7 +1,7 @@
 """How far a project's numbers may go: what an edit refuses, and what a file may not hold.
 
-The bounds lie far beyond music, and near enough that no hostile file can make the program run for hours or out of
-memory.
+How long a piece may be is in `app.score.limits`. The bounds lie far beyond music, and near enough that no hostile file
+can make the program run for hours or out of memory.
 """
 
 from __future__ import annotations
@@ -10,10 +10,12 @@ from collections.abc import Mapping
 from fractions import Fraction
 from typing import Final, TypeAlias
 
+from app.score import limits as of_score
+
 Bounds: TypeAlias = tuple[float, float]
 """Lowest and highest, both allowed."""
 
-LAST_TICK: Final = 2**31 - 1
+LAST_TICK: Final = of_score.LAST_TICK
 TICKS_PER_QUARTER: Final = (1, 32767)
 """The 15 bits of a MIDI file's division."""
 MICROSECONDS_PER_QUARTER: Final = (5_000.0, 120_000_000.0)
@@ -23,7 +25,6 @@ BPM: Final = (5.0, 1000.0)
 TEMPO_RATIO: Final = (0.25, 4.0)
 METRE_NUMERATOR: Final = (1, 255)
 METRE_DENOMINATORS: Final = (1, 2, 4, 8, 16, 32, 64)
-MOST_BARS: Final = 200_000
 PREROLL_BEATS: Final = (0.0, 64.0)
 FELT_BEAT_QUARTERS: Final = (1 / 16, 16.0)
 FPS: Final = (Fraction(1), Fraction(240))
@@ -31,10 +32,10 @@ SEED: Final = (0, 2**63 - 1)
 OFFSET_S: Final = (-86_400.0, 86_400.0)
 STAGE_M: Final = (-1000.0, 1000.0)
 TURN_RAD: Final = (-1000.0, 1000.0)
-MOST_TEXT: Final = 10_000
+MOST_TEXT: Final = of_score.MOST_TEXT
 """Characters of any one text."""
 MOST_ID: Final = 500
-MOST_NAME: Final = 200
+MOST_NAME: Final = of_score.MOST_NAME
 """Characters of a name that a person gives."""
 MOST_PLAYERS: Final = 1000
 MOST_TAKES: Final = 2000

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from functools import cached_property
 from typing import Literal, TypeAlias
 
@@ -188,21 +189,29 @@ class Score(msgspec.Struct, frozen=True, dict=True):
             numbers.append(numbers[-1] + bars)
         return tuple(numbers)
 
+    @cached_property
+    def _metre_ticks(self) -> tuple[int, ...]:
+        return tuple(metre.tick for metre in self.metres)
+
     @property
     def bar_starts(self) -> npt.NDArray[np.int64]:
         """Ticks at which the bars begin, to the bar in which the last note ends; int64.
 
         The first is the pickup (bar 0) if there is one, else bar 1.
         """
-        first = self._first_bars[0]
         last = self.bar_of_tick(max(self.end_tick - 1, 0))
-        return np.array([self.tick_of_bar(bar) for bar in range(first, last + 1)], np.int64)
+        stops = (*self._first_bars[1:], last + 1)
+        starts = []
+        for metre, first, stop in zip(self.metres, self._first_bars, stops, strict=True):
+            whole = 4 * self.ticks_per_quarter * metre.numerator
+            starts.append(
+                metre.tick + np.arange(min(stop, last + 1) - first, dtype=np.int64) * whole // metre.denominator
+            )
+        return np.concatenate(starts)
 
     def tick_of_bar(self, bar: int) -> int:
         """The tick at which a bar begins. Bars count from 1, a pickup is bar 0; before and after, the metre goes on."""
-        index = 0
-        while index + 1 < len(self.metres) and self._first_bars[index + 1] <= bar:
-            index += 1
+        index = max(bisect_right(self._first_bars, bar) - 1, 0)
         metre = self.metres[index]
         # The bar line after a pickup does not come a whole bar later: it is the second metre's own tick.
         return metre.tick + (bar - self._first_bars[index]) * 4 * self.ticks_per_quarter * metre.numerator // (
@@ -211,9 +220,7 @@ class Score(msgspec.Struct, frozen=True, dict=True):
 
     def bar_of_tick(self, tick: int) -> int:
         """The bar in which a tick lies; numbers as in `tick_of_bar`."""
-        index = 0
-        while index + 1 < len(self.metres) and self.metres[index + 1].tick <= tick:
-            index += 1
+        index = max(bisect_right(self._metre_ticks, tick) - 1, 0)
         metre = self.metres[index]
         # The largest k with floor(k * bar) <= tick - start, where a bar need not be a whole number of ticks.
         whole = 4 * self.ticks_per_quarter * metre.numerator

@@ -30,8 +30,12 @@ score.looks_written : part, map, outside, total
     untransposed; import its pitches as written"
 score.left_out : (a reason)
     "left out on import"
+score.too_many_players : most (a reason)
+    "the piece has {most} players already, and more cannot play"
 score.voices : part, voices
     "{part}: up to {voices} notes sound together, so {voices} players share it"
+score.notes_left_out : part, most, count
+    "{part}: more than {most} notes sound together; {most} players share it, and {count} notes are left out"
 """
 
 from __future__ import annotations
@@ -40,11 +44,12 @@ from collections.abc import Sequence
 
 import msgspec
 
-from app.errors import Message
+from app.errors import Argument, Message
 from app.score.choose import Candidates, How, MapChoice, Stream, candidates, plays, recognised, refusal
+from app.score.limits import MOST_PARTS
 from app.score.model import Note, Part, UnplayedPart
 from app.score.tempo import TempoMap
-from app.score.voices import split_voices
+from app.score.voices import MOST_VOICES, split_voices
 from instrument_maps.vocabulary import Instrument, vocabulary
 
 LEAST_OUTSIDE = 0.01
@@ -110,20 +115,28 @@ def wished_parts(
     """
     parts: list[Part] = []
     warnings: list[Message] = []
+    asked: set[int] = set()
     for wish in wishes:
+        room = MOST_PARTS - len(parts)
+        if not room:
+            break
+        asked.update(wish.streams)
         chosen = [streams[index] for index in wish.streams]
         found = _found(chosen, wish.map_id, maps)
         instrument = found.instrument
         notes = [note for stream in chosen for note in stream.notes()]
-        if len(chosen) > 1:
-            notes.sort(key=lambda note: (note.onset_tick, note.pitch))
-        voices = split_voices(notes, tempo_map) if wish.split else [tuple(notes)]
+        notes.sort(key=lambda note: (note.onset_tick, note.pitch))
+        voices = split_voices(notes, tempo_map, min(MOST_VOICES, room)) if wish.split else [tuple(notes)]
         curves = next((stream.curves for stream in chosen if stream.curves), ())
         name = wish.name or chosen[0].name or chosen[0].instrument_name
         lead = msgspec.structs.replace(chosen[0], curves=curves)
         mine = _parts(lead, name, instrument, voices, found, wish.written)
         parts += mine
-        if len(mine) > 1:
+        left_out = len(notes) - sum(map(len, voices))
+        if left_out:
+            arguments: dict[str, Argument] = {"part": mine[0].name, "most": len(mine), "count": left_out}
+            warnings.append(Message("score.notes_left_out", arguments))
+        elif len(mine) > 1:
             warnings.append(Message("score.voices", {"part": mine[0].name, "voices": len(mine)}))
         if found.how is not How.RANGE and not wish.written:
             warnings += _written_warnings(mine, maps)
@@ -136,11 +149,13 @@ def wished_parts(
             warnings.append(Message("score.told_by_file", {"part": mine[0].name, "map": mine[0].map_id}))
         if instrument is not None:
             warnings += _substitutions(mine, instrument, maps)
-    asked = {index for wish in wishes for index in wish.streams}
+    crowded = {index for wish in wishes for index in wish.streams} - asked
     unplayed = tuple(
         UnplayedPart(
             stream_name(stream),
-            refusal(stream, maps) or Message("score.left_out"),
+            Message("score.too_many_players", {"most": MOST_PARTS})
+            if index in crowded
+            else refusal(stream, maps) or Message("score.left_out"),
             len(stream.pitches),
             max(stream.end_ticks),
         )

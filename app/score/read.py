@@ -6,8 +6,13 @@ where the one before ends, with the tempo it left.
 
 What a note is: a note-on with velocity 0 is a note-off. A note-off ends the *oldest* note of its pitch and channel
 that still sounds (first in, first out), so notes of one pitch may overlap. A note-off and a note-on at one tick are two
-notes in a row. "All notes off" and "all sound off" end what sounds on the channel, the end of the track ends the rest.
-A note of no length lasts one tick.
+notes in a row. A note of no length lasts one tick.
+
+A note that no note-off ends lasts until the next note of its channel begins, and four quarters at most: a lost note-off
+must neither make a second player of a line nor a drone of hours, and the end of the track, where a synthesiser would
+stop, may be far away. "All notes off" and "all sound off" end it before that. Where a pitch has lost a note-off, the
+first one after a note ends it unless the pitch is struck again before; first in, first out would give every note the
+end of the one after it. Two notes of such a pitch at one tick are one.
 
 Markers and cue points are markers of the piece, whichever track holds them; one that several tracks repeat is one, and
 one without a text is none.
@@ -18,6 +23,10 @@ midi.unknown_encoding : file, encoding
     "{file}: there is no text encoding '{encoding}'"
 midi.track_unreadable : file, track, byte, detail
     "{file}: track {track}, which begins at byte {byte}, cannot be read: {detail}"
+midi.too_many_parts : file, count, most
+    "{file}: {count} parts (channels of tracks) have notes; at most {most} can be taken in"
+midi.too_long : file, track, and as `app.score.limits.too_long` says it
+    "{file}: the last note of track {track} ends after {hours} hours, {quarters} quarter notes and {bars} bars ..."
 
 The warnings are those of `app.score.chunks`, `app.score.repair` and `app.score.parts`, and:
 
@@ -26,13 +35,16 @@ midi.smpte_rate : rate
 midi.patterns : patterns
     "The file has {patterns} independent patterns (format 2); they follow one another"
 midi.hanging_notes : track, count
-    "{count} notes of track {track} never end; they end with the track"
+    "{count} notes of track {track} never end; they end where the next note of the channel begins, and after four
+    quarters at the latest"
+midi.beyond_all_music : track, count
+    "{count} events of track {track} lie beyond the last possible tick and were left out"
 midi.zero_length_notes : track, count
     "{count} notes of track {track} have no length; they last one tick"
-midi.impossible_metre : track, tick
-    "Track {track} has an impossible time signature at tick {tick}; it was left out"
-midi.impossible_tempo : track, tick
-    "Track {track} has an impossible tempo at tick {tick}; it was left out"
+midi.impossible_metre : track, tick, count
+    "Track {track} has {count} impossible time signatures, the first at tick {tick}; they were left out"
+midi.impossible_tempo : track, tick, count
+    "Track {track} has {count} impossible tempos, the first at tick {tick}; they were left out"
 """
 
 from __future__ import annotations
@@ -40,9 +52,10 @@ from __future__ import annotations
 import codecs
 import io
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence, Set
 from fractions import Fraction
 from pathlib import Path
+from typing import Final
 
 import mido
 import msgspec
@@ -50,9 +63,10 @@ import msgspec
 from app.errors import FileError, Message
 from app.score.choose import PERCUSSION_CHANNEL, MapChoice, Stream, told_by_file
 from app.score.chunks import Container, Track, read_container
+from app.score.limits import MOST_NAME, MOST_STREAMS, too_long
 from app.score.model import Marker, Metre, Part, Score, UnplayedPart
 from app.score.parts import PartWish, parts_of, wished_parts
-from app.score.repair import Repaired, last_system_message, repaired
+from app.score.repair import Repaired, last_suspicious, repaired
 from app.score.tempo import TempoChange, TempoMap
 from app.score.texts import decoded
 from app.score.tracks import LEAST_TEMPO, TrackEvents, gather
@@ -66,6 +80,8 @@ _LILYPOND_NAME = re.compile(r"^([^:]*):([^:]*)$")
 
 _SMPTE_RATES = {24: Fraction(24), 25: Fraction(25), 29: Fraction(30000, 1001), 30: Fraction(30)}
 _LARGEST_DENOMINATOR = 64
+UNENDED_QUARTERS: Final = 4
+"""The longest a note lasts that nothing ends."""
 _LONGEST_MARKER = 1000
 """Characters; whatever is longer is no name of a place, and is cut."""
 
@@ -149,26 +165,31 @@ def read_contents(path: Path, *, encoding: str | None = None) -> MidiContents:
         except LookupError as error:
             raise FileError("midi.unknown_encoding", file=str(path), encoding=encoding) from error
     container = read_container(path)
+    ticks_per_quarter = _ticks_per_quarter(container.division)
     warnings = list(container.warnings)
     tracks: list[TrackEvents] = []
     begin = 0
     for index, track in enumerate(container.tracks):
         messages, problems = _messages(track, index, str(path))
         warnings += problems
-        events = gather(messages, begin if container.format == 2 else 0)
+        events = gather(messages, begin if container.format == 2 else 0, UNENDED_QUARTERS * ticks_per_quarter)
         begin = events.end_tick
-        warnings += _note_warnings(events, index)
+        warnings += _track_warnings(events, index)
         tracks.append(events)
     if container.format == 2 and len(tracks) > 1:
         warnings.append(Message("midi.patterns", {"patterns": len(tracks)}))
     tempo_map, tempo_warnings = _tempo_map(container, tracks)
-    metres, pickup_ticks, metre_warnings = _metres(tracks, tempo_map.ticks_per_quarter)
+    metres, pickup_ticks, metre_warnings = _metres(tracks, ticks_per_quarter)
+    _require_length(Score("", ticks_per_quarter, tempo_map, metres, pickup_ticks), tracks, str(path))
+    streams = _streams(tracks, encoding)
+    if len(streams) > MOST_STREAMS:
+        raise FileError("midi.too_many_parts", file=str(path), count=len(streams), most=MOST_STREAMS)
     return MidiContents(
         title=_title(tracks, encoding) or path.stem,
         tempo_map=tempo_map,
         metres=metres,
         pickup_ticks=pickup_ticks,
-        streams=tuple(told_by_file(_streams(tracks, encoding), path.stem)),
+        streams=tuple(told_by_file(streams, path.stem)),
         warnings=(*warnings, *tempo_warnings, *metre_warnings),
         markers=_markers(tracks, encoding),
     )
@@ -176,7 +197,7 @@ def read_contents(path: Path, *, encoding: str | None = None) -> MidiContents:
 
 def _messages(track: Track, index: int, file: str) -> tuple[mido.MidiTrack, list[Message]]:
     """The messages of one track, repaired as far as needed."""
-    until = last_system_message(track.data)
+    until = last_suspicious(track.data)
     repair = repaired(track.data, until) if until else None
     try:
         messages = _parsed(repair.data if repair else track.data)
@@ -213,27 +234,56 @@ def _repair_warnings(repair: Repaired, track: Track, index: int) -> list[Message
     return warnings
 
 
-def _note_warnings(events: TrackEvents, index: int) -> list[Message]:
-    counts = (("midi.hanging_notes", events.hanging), ("midi.zero_length_notes", events.zero_length))
+def _track_warnings(events: TrackEvents, index: int) -> list[Message]:
+    counts = (
+        ("midi.hanging_notes", events.hanging),
+        ("midi.zero_length_notes", events.zero_length),
+        ("midi.beyond_all_music", events.beyond),
+    )
     return [Message(id_, {"track": index + 1, "count": count}) for id_, count in counts if count]
+
+
+def _require_length(empty: Score, tracks: Sequence[TrackEvents], file: str) -> None:
+    """Refuse a piece that is longer than any music; silence behind the last note is none of it."""
+    last = max(range(len(tracks)), key=lambda index: tracks[index].last_tick)
+    long = too_long(empty, tracks[last].last_tick)
+    if long is not None:
+        raise FileError("midi.too_long", file=file, track=last + 1, **long)
 
 
 def _tempo_map(container: Container, tracks: Sequence[TrackEvents]) -> tuple[TempoMap, list[Message]]:
     division = container.division
     if division < 0:
-        rate, ticks_per_frame = 256 - (division >> 8 & 0xFF), division & 0xFF
-        frames_per_second = _SMPTE_RATES.get(rate, Fraction(rate))
+        rate = _smpte_rate(division)
         warnings = [] if rate in _SMPTE_RATES else [Message("midi.smpte_rate", {"rate": rate})]
-        return TempoMap.of_smpte(float(frames_per_second * max(ticks_per_frame, 1))), warnings
+        return TempoMap.of_smpte(_ticks_per_second(division)), warnings
     changes: list[TempoChange] = []
     warnings = []
     for index, events in enumerate(tracks):
-        for tick, tempo in events.tempos:
-            if tempo >= LEAST_TEMPO:
-                changes.append(TempoChange(tick, tempo))
-            else:
-                warnings.append(Message("midi.impossible_tempo", {"track": index + 1, "tick": tick}))
+        possible = [TempoChange(tick, tempo) for tick, tempo in events.tempos if tempo >= LEAST_TEMPO]
+        impossible = [tick for tick, tempo in events.tempos if tempo < LEAST_TEMPO]
+        changes += possible
+        warnings += _left_out("midi.impossible_tempo", index, impossible)
     return TempoMap.of_changes(division, changes), warnings
+
+
+def _left_out(id_: str, index: int, ticks: Sequence[int]) -> list[Message]:
+    return [Message(id_, {"track": index + 1, "tick": ticks[0], "count": len(ticks)})] if ticks else []
+
+
+def _smpte_rate(division: int) -> int:
+    """Frames per second as the file says it, 29 for 29.97."""
+    return 256 - (division >> 8 & 0xFF)
+
+
+def _ticks_per_second(division: int) -> float:
+    """Of a file that counts in SMPTE frames."""
+    rate = _smpte_rate(division)
+    return float(_SMPTE_RATES.get(rate, Fraction(rate)) * max(division & 0xFF, 1))
+
+
+def _ticks_per_quarter(division: int) -> int:
+    return division if division > 0 else TempoMap.of_smpte(_ticks_per_second(division)).ticks_per_quarter
 
 
 def _metres(tracks: Sequence[TrackEvents], ticks_per_quarter: int) -> tuple[tuple[Metre, ...], int, list[Message]]:
@@ -242,13 +292,15 @@ def _metres(tracks: Sequence[TrackEvents], ticks_per_quarter: int) -> tuple[tupl
     A metre restated at a bar line says nothing and falls away; restated within a bar it begins a new one.
     """
     latest = {0: Metre(0, 4, 4)}
-    warnings = []
+    warnings: list[Message] = []
     for index, events in enumerate(tracks):
+        impossible = []
         for tick, numerator, denominator in events.metres:
             if numerator > 0 and 0 < denominator <= _LARGEST_DENOMINATOR:
                 latest[tick] = Metre(tick, numerator, denominator)
             else:
-                warnings.append(Message("midi.impossible_metre", {"track": index + 1, "tick": tick}))
+                impossible.append(tick)
+        warnings += _left_out("midi.impossible_metre", index, impossible)
     kept: list[Metre] = []
     for tick in sorted(latest):
         metre = latest[tick]
@@ -284,14 +336,18 @@ def _title(tracks: Sequence[TrackEvents], encoding: str | None) -> str:
     first = tracks[0]
     if first.channels and len(tracks) > 1:
         return ""
-    return decoded(first.name, encoding)
+    return decoded(first.name, encoding)[:MOST_NAME]
 
 
 def _streams(tracks: Sequence[TrackEvents], encoding: str | None) -> list[Stream]:
     lilypond = any(b"LilyPond" in text for text in tracks[0].texts)
+    given: dict[int, set[int]] = {}
+    for events in tracks:
+        for channel, changes in events.programs.items():
+            given.setdefault(channel, set()).update(program for _, program in changes)
     streams = []
     for index, events in enumerate(tracks):
-        name = decoded(events.name, encoding)
+        name = decoded(events.name, encoding)[:MOST_NAME]
         if lilypond and (match := _LILYPOND_NAME.match(name)):
             name = "" if match[1].startswith("\\") else match[1].strip()
         if len(tracks) == 1:
@@ -304,8 +360,8 @@ def _streams(tracks: Sequence[TrackEvents], encoding: str | None) -> list[Stream
                     track=index,
                     channel=first,
                     name=name,
-                    instrument_name=decoded(events.instrument_name, encoding),
-                    program=_program(tracks, index, first, notes.onset_ticks[0]),
+                    instrument_name=decoded(events.instrument_name, encoding)[:MOST_NAME],
+                    program=_program(events, first, notes.onset_ticks[0], given),
                     onset_ticks=notes.onset_ticks,
                     end_ticks=notes.end_ticks,
                     pitches=notes.pitches,
@@ -327,15 +383,15 @@ def _players_channels(events: TrackEvents, name: str) -> list[tuple[int, ...]]:
     return [tuple(channels)]
 
 
-def _program(tracks: Sequence[TrackEvents], index: int, channel: int, first_onset: int) -> int | None:
+def _program(events: TrackEvents, channel: int, first_onset: int, given: Mapping[int, Set[int]]) -> int | None:
     """The program with which a track's first note on a channel sounds.
 
     It is the track's own if it gives any, for the channels of large scores are shared by tracks. Else it is
-    what the other tracks give the channel, if they agree.
+    what the other tracks give the channel, if they agree; ``given`` has the programs that the tracks give each.
     """
-    own = tracks[index].programs.get(channel)
+    own = events.programs.get(channel)
     if own:
         before = [program for tick, program in own if tick <= first_onset]
         return before[-1] if before else own[0][1]
-    others = {program for events in tracks for _, program in events.programs.get(channel, ())}
-    return others.pop() if len(others) == 1 else None
+    others = given.get(channel, frozenset[int]())
+    return next(iter(others)) if len(others) == 1 else None

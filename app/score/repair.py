@@ -1,6 +1,7 @@
 """Makes the bytes of a track such that mido can read them, losing only what cannot be understood.
 
-What mido refuses or misreads: system messages other than exclusive ones, running status after them or after an
+What mido refuses or misreads: variable-length quantities of more than four bytes, which it makes numbers of any size
+of; system messages other than exclusive ones, running status after them or after an
 exclusive message, meta events with impossible contents, an event cut off by the end of the track. A value above 127 is
 taken for 127, as mido does when it is asked to clip.
 
@@ -14,6 +15,8 @@ midi.bytes_not_understood : track, byte, count
 
 from __future__ import annotations
 
+import re
+
 import msgspec
 
 # Bytes of data after each status; 0xF1..0xFE have no place in a file, but sequencers have written them.
@@ -26,6 +29,7 @@ _LENGTHS = {_SET_TEMPO: 3, _TIME_SIGNATURE: 4}
 _TEXTS = frozenset((1, 2, 3, 4, 6, 7))
 
 _SUSPICIOUS = tuple(bytes([status]) for status in range(0xF0, 0xFF))
+_OVERLONG = re.compile(rb"[\x80-\xff]{4}")
 
 
 class Repaired(msgspec.Struct, frozen=True):
@@ -52,13 +56,15 @@ class _TruncatedError(Exception):
     """The track ends within an event."""
 
 
-def last_system_message(data: bytes) -> int:
-    """Offset after the last byte that may be a system message's status; 0 if there is none.
+def last_suspicious(data: bytes) -> int:
+    """Offset after the last byte that may be a system message's status, or part of a quantity that is too long; 0 if
+    there is none.
 
     Up to there mido may misread the track without noticing; the search is for bytes, so a text or a long delta may
     look like one.
     """
-    return 1 + max(data.rfind(status) for status in _SUSPICIOUS)
+    after_status = 1 + max(data.rfind(status) for status in _SUSPICIOUS)
+    return max([after_status, *(match.end() for match in _OVERLONG.finditer(data))])
 
 
 def repaired(data: bytes, until: int | None = None) -> Repaired:

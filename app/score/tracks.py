@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+from bisect import bisect_right
+from collections import deque
+from collections.abc import Collection, Iterable, Mapping
 from operator import itemgetter
 from typing import Any, Final
 
 import msgspec
 
+from app.score.limits import LAST_TICK
 from app.score.model import ControllerCurve, CurveKind
 
 CONTROLLERS: Final[dict[CurveKind, int]] = {"breath": 2, "volume": 7, "expression": 11, "bite": 16}
@@ -50,6 +53,8 @@ class TrackEvents(msgspec.Struct):
         The last value of each tick.
     hanging, zero_length : int
         Notes without an end, notes without a length.
+    beyond : int
+        Events behind the last tick that a score has; they were left out.
     end_tick : int
         Where the track ends.
     """
@@ -65,7 +70,13 @@ class TrackEvents(msgspec.Struct):
     controls: dict[tuple[int, CurveKind], dict[int, float]] = {}
     hanging: int = 0
     zero_length: int = 0
+    beyond: int = 0
     end_tick: int = 0
+
+    @property
+    def last_tick(self) -> int:
+        """Where the last note ends; 0 without notes."""
+        return max((max(notes.end_ticks) for notes in self.channels.values()), default=0)
 
     def notes(self, channels: Collection[int]) -> ChannelNotes:
         """The notes of some channels together, in the order of the track."""
@@ -104,7 +115,7 @@ class TrackEvents(msgspec.Struct):
         )
 
 
-def gather(messages: Iterable[Any], begin_tick: int) -> TrackEvents:
+def gather(messages: Iterable[Any], begin_tick: int, most_unended_ticks: int) -> TrackEvents:
     """Gather the messages of one track.
 
     Parameters
@@ -113,9 +124,12 @@ def gather(messages: Iterable[Any], begin_tick: int) -> TrackEvents:
         With delta times.
     begin_tick : int
         Where the track begins.
+    most_unended_ticks : int
+        The longest that a note lasts which nothing ends.
     """
     events = TrackEvents()
-    sounding: dict[int, list[int]] = {}
+    sounding: dict[int, dict[int, deque[int]]] = {}
+    silenced: dict[int, dict[int, int]] = {}
     channels = events.channels
     tick = begin_tick
     number = 0
@@ -128,7 +142,8 @@ def gather(messages: Iterable[Any], begin_tick: int) -> TrackEvents:
             notes = channels.get(channel)
             if notes is None:
                 notes = channels[channel] = ChannelNotes()
-            sounding.setdefault(channel << 7 | pitch, []).append(len(notes.pitches))
+                sounding[channel], silenced[channel] = {}, {}
+            sounding[channel].setdefault(pitch, deque()).append(len(notes.pitches))
             notes.onset_ticks.append(tick)
             notes.end_ticks.append(-1)
             notes.pitches.append(pitch)
@@ -136,16 +151,23 @@ def gather(messages: Iterable[Any], begin_tick: int) -> TrackEvents:
             notes.numbers.append(number)
         elif kind == "note_off" or kind == "note_on":
             channel = message.channel
-            open_notes = sounding.get(channel << 7 | message.note)
+            open_notes = sounding[channel].get(message.note) if channel in channels else None
             if open_notes:
-                channels[channel].end_ticks[open_notes.pop(0)] = tick
+                channels[channel].end_ticks[open_notes.popleft()] = tick
         elif kind == "end_of_track":
             break
         elif kind == "control_change" and message.control in _NOTES_OFF:
-            _end_notes(channels, sounding, message.channel, tick)
+            for open_notes in sounding.pop(message.channel, {}).values():
+                silenced[message.channel].update(dict.fromkeys(open_notes, tick))
+            sounding[message.channel] = {}
+        elif tick > LAST_TICK:
+            events.beyond += 1
         else:
             _note_other(events, message, kind, tick)
     events.end_tick = tick
+    for channel, notes in channels.items():
+        if min(notes.end_ticks) < 0:
+            events.hanging += _end_unended(notes, silenced[channel], most_unended_ticks, tick)
     _close(events)
     return events
 
@@ -176,22 +198,57 @@ def _note_other(events: TrackEvents, message: Any, kind: str, tick: int) -> None
         events.markers.append((tick, message.text.encode("latin-1")))
 
 
-def _end_notes(channels: dict[int, ChannelNotes], sounding: dict[int, list[int]], channel: int, tick: int) -> None:
-    for key, open_notes in sounding.items():
-        if key >> 7 == channel:
-            for index in open_notes:
-                channels[channel].end_ticks[index] = tick
-            open_notes.clear()
+def _end_unended(notes: ChannelNotes, silenced: Mapping[int, int], most_ticks: int, track_end: int) -> int:
+    """End every note of the pitches that have lost a note-off, and leave out notes struck twice at once; how many
+    notes had no end.
+
+    The note-offs that there were are those that ended notes first in, first out; now the first one after a note ends
+    it, if the pitch is not struck again before.
+
+    Parameters
+    ----------
+    notes : ChannelNotes
+        With a negative end where there was none.
+    silenced : mapping of int to int
+        Where all notes were ended at once, by place of the note.
+    """
+    onsets, ends = notes.onset_ticks, notes.end_ticks
+    count = 0
+    doubled: set[int] = set()
+    of_pitch: dict[int, list[int]] = {pitch: [] for pitch, end in zip(notes.pitches, ends, strict=True) if end < 0}
+    for index, pitch in enumerate(notes.pitches):
+        if pitch in of_pitch:
+            of_pitch[pitch].append(index)
+    for places in of_pitch.values():
+        offs = sorted(ends[index] for index in places if ends[index] >= 0)
+        struck: dict[int, int] = {}
+        for index in places:
+            if struck.setdefault(onsets[index], index) != index:
+                doubled.add(index)
+        count += len(places) - len(struck)
+        again = [*list(struck)[1:], track_end + 1]
+        for (onset, index), following in zip(struck.items(), again, strict=True):
+            at = bisect_right(offs, onset)
+            if at < len(offs) and offs[at] <= following:
+                ends[index] = offs[at]
+                continue
+            later = bisect_right(onsets, onset)
+            next_onset = onsets[later] if later < len(onsets) else track_end
+            silence = silenced.get(index, track_end)
+            ends[index] = min(next_onset, onset + most_ticks, silence)
+            count += index not in silenced or ends[index] < silence
+    if doubled:
+        for name in notes.__struct_fields__:
+            values = getattr(notes, name)
+            values[:] = [value for index, value in enumerate(values) if index not in doubled]
+    return count
 
 
 def _close(events: TrackEvents) -> None:
-    """End what still sounds with the track, and give notes without length a tick."""
+    """Give notes without length a tick."""
     for notes in events.channels.values():
         ends = notes.end_ticks
         for index, (onset, end) in enumerate(zip(notes.onset_ticks, ends, strict=True)):
-            if end < 0:
-                events.hanging += 1
-                end = events.end_tick
-            elif end == onset:
+            if end == onset:
                 events.zero_length += 1
-            ends[index] = max(end, onset + 1)
+                ends[index] = onset + 1

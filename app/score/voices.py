@@ -6,23 +6,29 @@ voices in their order, so player 1 has the upper note of a chord of two. Where o
 MIDI does not say whether it is meant for one player or for both: it goes to *one* voice, so that no note is lost or
 doubled, namely to the one that makes the least movement in all: a line stays with its player until a chord forces
 otherwise, and the other rests.
+
+At most `MOST_VOICES` players share a track. Where more notes sound at once, those struck first stay, of those struck
+together the highest, and the rest is left out: no section divides further, so the track is none.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cache
+from heapq import heappop, heappush
 from itertools import chain, combinations, pairwise
 from math import comb
 from operator import getitem
-from typing import NamedTuple, TypeAlias
+from typing import Final, NamedTuple, TypeAlias
 
 import numpy as np
+import numpy.typing as npt
 
 from app.score.model import Note
 from app.score.tempo import TempoMap
 
 LEGATO_OVERLAP_S = 0.030
+MOST_VOICES: Final = 16
 _ROUNDING_TICKS = 1e-6
 
 # In semitones of movement: for a voice that comes in while another could have gone on, and for one that crosses a held
@@ -39,6 +45,7 @@ _BEAM = 2
 _HOPELESS_COST = 16.0
 _CHOICES = 24
 
+Floats: TypeAlias = npt.NDArray[np.float64]
 _History: TypeAlias = "tuple[_History, tuple[int, ...]] | None"
 
 
@@ -58,7 +65,32 @@ class _Hypothesis(NamedTuple):
     history: _History
 
 
-def split_voices(notes: Sequence[Note], tempo_map: TempoMap) -> list[tuple[Note, ...]]:
+class _Spans(NamedTuple):
+    """When notes sound, in ticks: a note's release is where another one may begin in its voice."""
+
+    onsets: Floats
+    ends: Floats
+    releases: Floats
+
+    def together(self) -> int:
+        """How many notes sound at once at most."""
+        started = np.searchsorted(self.onsets, self.onsets, side="right")
+        return int((started - np.searchsorted(np.sort(self.releases), self.onsets, side="right")).max())
+
+
+def _spans(notes: Sequence[Note], tempo_map: TempoMap) -> _Spans:
+    onsets = np.array([note.onset_tick for note in notes], np.float64)
+    ends = onsets + np.array([note.duration_tick for note in notes], np.float64)
+    releases = tempo_map.ticks(tempo_map.seconds(ends) - LEGATO_OVERLAP_S) - _ROUNDING_TICKS
+    return _Spans(onsets, ends, np.maximum(releases, onsets + 0.5))
+
+
+def is_one_voice(notes: Sequence[Note], tempo_map: TempoMap) -> bool:
+    """Whether one player can play the notes, which are by onset."""
+    return not notes or _spans(notes, tempo_map).together() == 1
+
+
+def split_voices(notes: Sequence[Note], tempo_map: TempoMap, most: int = MOST_VOICES) -> list[tuple[Note, ...]]:
     """Share the notes of one track among as few players as can play them.
 
     Parameters
@@ -66,28 +98,29 @@ def split_voices(notes: Sequence[Note], tempo_map: TempoMap) -> list[tuple[Note,
     notes : sequence of Note
         By onset.
     tempo_map : TempoMap
+    most : int
+        Voices.
 
     Returns
     -------
     list of tuple of Note
-        Voice 0, the highest, first; every note in exactly one voice, none empty. Within a voice by onset.
+        Voice 0, the highest, first; every note in exactly one voice (in none where more than ``most`` sound at once),
+        no voice empty. Within a voice by onset.
     """
     if not notes:
         return []
-    onsets = np.array([note.onset_tick for note in notes], np.float64)
-    ends = onsets + np.array([note.duration_tick for note in notes], np.float64)
-    if (onsets[1:] >= ends[:-1]).all():
-        return [tuple(notes)]
-    releases = np.maximum(tempo_map.ticks(tempo_map.seconds(ends) - LEGATO_OVERLAP_S) - _ROUNDING_TICKS, onsets + 0.5)
-    started = np.searchsorted(onsets, onsets, side="right")
-    count = int((started - np.searchsorted(np.sort(releases), onsets, side="right")).max())
+    spans = _spans(notes, tempo_map)
+    count = spans.together()
     if count == 1:
         return [tuple(notes)]
+    onsets, ends, releases = spans
     pitches = np.array([note.pitch for note in notes])
     order = np.lexsort((-pitches, onsets))
+    if count > most:
+        order, count = order[_first(onsets[order], releases[order], most)], most
     begins = np.flatnonzero(np.diff(onsets[order], prepend=-1.0))
     played = list(map(_Voice, pitches[order].tolist(), releases[order].tolist(), ends[order].tolist()))
-    groups = [played[begin:end] for begin, end in pairwise([*begins.tolist(), len(notes)])]
+    groups = [played[begin:end] for begin, end in pairwise([*begins.tolist(), len(order)])]
     struck = onsets[order][begins].tolist()
     rest_ticks = _REST_QUARTERS * tempo_map.ticks_per_quarter
     voices: list[list[Note]] = [[] for _ in range(count)]
@@ -95,6 +128,19 @@ def split_voices(notes: Sequence[Note], tempo_map: TempoMap) -> list[tuple[Note,
     for index, voice in zip(order.tolist(), players, strict=True):
         voices[voice].append(notes[index])
     return [tuple(voice) for voice in voices if voice]
+
+
+def _first(onsets: Floats, releases: Floats, most: int) -> list[int]:
+    """The notes, by onset, that find a free voice if each takes one until its release."""
+    sounding: list[float] = []
+    kept = []
+    for index, (onset, release) in enumerate(zip(onsets.tolist(), releases.tolist(), strict=True)):
+        while sounding and sounding[0] <= onset:
+            heappop(sounding)
+        if len(sounding) < most:
+            heappush(sounding, release)
+            kept.append(index)
+    return kept
 
 
 def _assign(

@@ -53,7 +53,7 @@ from app.score.choose import PERCUSSION_CHANNEL, MapChoice, plays
 from app.score.model import ControllerCurve, CurveKind, Metre, Note, Part, Score
 from app.score.tempo import TempoChange
 from app.score.tracks import CONTROLLERS, LEAST_TEMPO
-from app.score.voices import split_voices
+from app.score.voices import is_one_voice
 from instrument_maps.vocabulary import Instrument, vocabulary
 
 MOST_TEMPO: Final = 0xFFFFFF
@@ -171,7 +171,7 @@ def _warnings(part: Part, name: str, performer: Performer | None, score: Score) 
     nested = _nested(part.notes)
     if nested:
         yield Message("midi.nested_notes", {"part": name, "count": nested})
-    if len(split_voices(part.notes, score.tempo_map)) > 1:
+    if not is_one_voice(part.notes, score.tempo_map):
         yield Message("midi.shared_again", {"part": name})
     said = vocabulary().by_name(name)
     if performer is not None and said is not None and not said.vague and not _may_play(performer.choice, said):

@@ -960,10 +960,6 @@
             <translation>ティック {tick} は曲の範囲外です</translation>
         </message>
         <message>
-            <source>the piece would have more than {most} bars; choose a longer metre</source>
-            <translation>曲が {most} 小節を超えてしまいます。より長い拍子を選んでください</translation>
-        </message>
-        <message>
             <source>no metre begins at tick {tick}</source>
             <translation>ティック {tick} から始まる拍子はありません</translation>
         </message>
@@ -1120,8 +1116,8 @@
             <translation>{file}: {frames} フレームは一度に書き出せる {most} を超えています。--from-bar と --to-bar で小節を絞ってください</translation>
         </message>
         <message>
-            <source>the piece lasts {hours:g} hours; at most {most_hours} can be played</source>
-            <translation>曲の長さが {hours:g} 時間あります。扱えるのは {most_hours} 時間までです</translation>
+            <source>the piece would last {hours:g} hours, with {quarters} quarter notes and {bars} bars; at most {most_hours} hours, {most_quarters} quarter notes and {most_bars} bars can be played; shorten it</source>
+            <translation>曲の長さが {hours:g} 時間（四分音符 {quarters} 個、{bars} 小節）になります。演奏できるのは {most_hours} 時間、四分音符 {most_quarters} 個、{most_bars} 小節までです。短くしてください</translation>
         </message>
         <message>
             <source>{file} is a recording; open the piece that it belongs to first, then drop it again</source>
@@ -1164,6 +1160,14 @@
             <translation>{file}: バイト {byte} から始まるトラック {track} を読み込めません: {detail}</translation>
         </message>
         <message>
+            <source>{file}: {count} parts (channels of tracks) have notes; at most {most} can be read; delete those that no wind player plays, in the program that the file comes from</source>
+            <translation>{file}: ノートのあるパート（トラックごとのチャンネル）が {count} あります。読み込めるのは {most} までです。元のソフトで、管楽器が演奏しないパートを削除してください</translation>
+        </message>
+        <message>
+            <source>{file}: the last note of track {track} ends after {hours:g} hours, {quarters} quarter notes and {bars} bars; at most {most_hours} hours, {most_quarters} quarter notes and {most_bars} bars can be played; delete what lies far behind the music, or correct the tempo, in the program that the file comes from</source>
+            <translation>{file}: トラック {track} の最後のノートが {hours:g} 時間後（四分音符 {quarters} 個、{bars} 小節）に終わります。演奏できるのは {most_hours} 時間、四分音符 {most_quarters} 個、{most_bars} 小節までです。元のソフトで、曲から遠く離れたノートを削除するか、テンポを直してください</translation>
+        </message>
+        <message>
             <source>the header says that it is {length} bytes long and is not (byte {byte}); its first 6 bytes were taken</source>
             <translation>ヘッダーの長さが {length} バイトとありますが、違います（バイト {byte}）。先頭の 6 バイトを使いました</translation>
         </message>
@@ -1204,20 +1208,24 @@
             <translation>独立した {patterns} 個のパターン（フォーマット 2）です。続けて並べました</translation>
         </message>
         <message>
-            <source>{count} {count:note|notes} of track {track} never {count:ends; it ends|end; they end} with the track</source>
-            <translation>トラック {track} の {count} 音には終わりがないため、トラックの終わりまでとしました</translation>
+            <source>{count} {count:note|notes} of track {track} never {count:ends; it ends|end; they end} where the next note of the channel begins, and after four quarters at the latest</source>
+            <translation>トラック {track} の {count} 音にノートオフがないため、同じチャンネルの次のノートの始まりまで、長くても四分音符 4 個分としました</translation>
         </message>
         <message>
             <source>{count} {count:note|notes} of track {track} {count:has no length; it lasts|have no length; they last} one tick</source>
             <translation>トラック {track} の {count} 音には長さがないため、1 ティックとしました</translation>
         </message>
         <message>
-            <source>track {track} has an impossible time signature at tick {tick}; it was left out</source>
-            <translation>トラック {track} のティック {tick} の拍子はあり得ない値のため省きました</translation>
+            <source>{count} {count:event|events} of track {track} {count:lies|lie} beyond the last possible tick and {count:was|were} left out</source>
+            <translation>トラック {track} の {count} 個のイベントは最大のティックを超えているため、省きました</translation>
         </message>
         <message>
-            <source>track {track} has an impossible tempo at tick {tick}; it was left out</source>
-            <translation>トラック {track} のティック {tick} のテンポはあり得ない値のため省きました</translation>
+            <source>track {track} has {count} impossible time {count:signature|signatures}, the first at tick {tick}; {count:it was|they were} left out</source>
+            <translation>トラック {track} に不正な拍子記号が {count} 個あるため（最初はティック {tick}）、省きました</translation>
+        </message>
+        <message>
+            <source>track {track} has {count} impossible {count:tempo|tempos}, the first at tick {tick}; {count:it was|they were} left out</source>
+            <translation>トラック {track} に不正なテンポが {count} 個あるため（最初はティック {tick}）、省きました</translation>
         </message>
         <message>
             <source>{file} is written: {count} {count:track|tracks}</source>
@@ -1290,6 +1298,14 @@
         <message>
             <source>{part}: {outside} of {total} notes lie outside the range of {map}, but all fit as written pitches: the part looks untransposed; import its pitches as written</source>
             <translation>{part}: {total} 音のうち {outside} 音が{map}の音域から外れていますが、記譜音と見なすとすべて収まります。記譜音のまま書き出されたパートのようです。「記譜音」として読み込んでください</translation>
+        </message>
+        <message>
+            <source>the piece has {most} players already, and more cannot play</source>
+            <translation>奏者がすでに {most} 人いて、これ以上は演奏できません</translation>
+        </message>
+        <message>
+            <source>{part}: more than {most} notes sound together; {most} players share it, and {count} {count:note is|notes are} left out</source>
+            <translation>{part}: 同時に {most} 音を超えて鳴ります。{most} 人で分担し、{count} 音を省きました</translation>
         </message>
         <message>
             <source>{part}: up to {voices} notes sound together, so {voices} players share it</source>

@@ -2,7 +2,7 @@
 
 Messages (`UsageError`)
 --------
-tempo.too_many_bars : most
+piece.too_long : hours, quarters, bars, most_hours, most_quarters, most_bars
 """
 
 from __future__ import annotations
@@ -10,13 +10,14 @@ from __future__ import annotations
 from dataclasses import replace
 
 from app.errors import UsageError
-from app.project import limits
 from app.project.model import Project
+from app.score.limits import too_long
 from app.score.model import Score
 
 
 def with_score(project: Project, score: Score) -> Project:
-    """The project with another score. Raises UsageError where it would have too many bars."""
-    if score.bar_of_tick(score.sounding_end_tick) > limits.MOST_BARS:
-        raise UsageError("tempo.too_many_bars", most=limits.MOST_BARS)
+    """The project with another score. Raises UsageError where it would be too long."""
+    long = too_long(score)
+    if long is not None:
+        raise UsageError("piece.too_long", **long)
     return replace(project, score=score)

@@ -12,7 +12,7 @@ note.velocity_outside(velocity, low, high): there is no such velocity.
 note.too_short(): a note would have no length.
 note.nothing_to_split(): no chosen note sounds across that place.
 note.nothing_to_join(): no two chosen notes follow one another at one pitch.
-tempo.too_many_bars(most): a note would lie in a bar later than a project can hold.
+piece.too_long(hours, quarters, bars, most_hours, most_quarters, most_bars): a note would lie too late.
 """
 
 from __future__ import annotations

@@ -10,7 +10,7 @@ take.none(take) : there is no such take.
 take.too_many(most) : a project has no room for more takes.
 take.invalid(place, detail) : what was recorded cannot be kept, for example because its journal is damaged.
 take.not_free(part) : other parts have notes, so the tempo is not one take's to say.
-tempo.too_many_bars(most) : a note of a take would lie in a bar later than a project can hold.
+piece.too_long(hours, quarters, bars, most_hours, most_quarters, most_bars) : a note of a take would lie too late.
 take.too_few_notes(count, least), take.no_beats() : no beat is found (`app.score.beats`).
 """
 
@@ -248,7 +248,7 @@ def follow_beats(project: Project, player_id: str, take_id: str, beats_s: Floats
         times_us=tuple(time_us - shift_us for time_us in take.times_us),
     )
     takes = tuple(take if one.id == take_id else one for one in recorded.takes)
-    project = replace(project, score=msgspec.structs.replace(project.score, tempo_map=tempo_map))
+    project = with_score(project, msgspec.structs.replace(project.score, tempo_map=tempo_map))
     project = _with(project, player_id, msgspec.structs.replace(recorded, takes=takes))
     return comp(project, player_id, take_id, 0, LAST_TICK)
 

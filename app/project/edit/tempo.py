@@ -13,13 +13,12 @@ metre.pickup_too_long : most
 metre.inside_pickup
 tempo.place_outside : tick
     A place before the piece, or beyond what a project can hold.
-tempo.too_many_bars : most
+piece.too_long : hours, quarters, bars, and how much of each there may be at most
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import replace
 
 import msgspec
 
@@ -172,7 +171,7 @@ def _with_tempi(project: Project, changes: Iterable[TempoChange]) -> Project:
     if ordered == before.changes:
         return project
     tempo_map = TempoMap(before.ticks_per_quarter, ordered)
-    return replace(project, score=msgspec.structs.replace(project.score, tempo_map=tempo_map))
+    return with_score(project, msgspec.structs.replace(project.score, tempo_map=tempo_map))
 
 
 def _with_metres(project: Project, metres: Iterable[Metre], pickup_ticks: int) -> Project:

@@ -10,12 +10,14 @@ import io
 import json
 from collections.abc import Callable, Sequence
 from fractions import Fraction
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
 import soundfile
+
+from tests.fuzz.harness.costly_midi import COSTLY, WORST
 
 ROOT: Final = Path(__file__).parents[3]
 DATA: Final = ROOT / "tests" / "data"
@@ -243,6 +245,7 @@ _TABLES: dict[str, Callable[[], bytes]] = {
 }
 
 MADE: Final[dict[str, dict[str, Callable[[], bytes]]]] = {
+    "midi": {name: partial(make, WORST.get(name, 3000)) for name, make in COSTLY.items()},
     "project": {"huge_tick": _huge_tick, "deep": lambda: b"[" * 100_000, "deep_object": lambda: b'{"a":' * 60_000},
     "instrument_map": _TABLES,
     "expression": _TABLES,

@@ -13,6 +13,7 @@ import msgspec
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from app.score.limits import MOST_HOURS
 from app.score.model import ControllerCurve, CurveKind, Marker, Metre, Note, Part, Score
 from app.score.read import read_midi
 from app.score.tempo import TempoChange, TempoMap
@@ -20,22 +21,25 @@ from app.score.write import midi_file
 from tests.unit.score.midi_bytes import MAPS, TROMBONE, TRUMPET
 
 LAST_TICK = 200_000
+MOST_NOTES, LONGEST_TICK = 8, 4000
 KINDS: Sequence[CurveKind] = ("aftertouch", "bite", "breath", "expression", "pitch_bend", "volume")
 # What a person may call a part; the reader drops control characters and spaces around, as it does of any file.
 WORDS = st.text(st.characters(exclude_categories=("C", "Z")), min_size=1, max_size=20)
 
 
 @st.composite
-def lines(draw: st.DrawFn, track: int, overlap_tick: int) -> tuple[Note, ...]:
+def lines(draw: st.DrawFn, track: int, overlap_tick: int, rest_tick: int) -> tuple[Note, ...]:
     """A line of one player: a note begins when the one before has ended, or in its last ticks."""
     notes: list[Note] = []
     at = draw(st.integers(0, 3000))
-    for number in range(draw(st.integers(1, 8))):
-        duration = draw(st.integers(1 + overlap_tick, 4000))
+    for number in range(draw(st.integers(1, MOST_NOTES))):
+        duration = draw(st.integers(1 + overlap_tick, LONGEST_TICK))
         notes.append(
             Note(f"{track + 1}:{number + 1}", at, duration, draw(st.integers(55, 69)), draw(st.integers(1, 127)))
         )
-        at += max(duration - draw(st.sampled_from((0, overlap_tick))), 1) + draw(st.sampled_from((0, 0, 480, 100_000)))
+        at += max(duration - draw(st.sampled_from((0, overlap_tick))), 1) + draw(
+            st.sampled_from((0, 0, 480, rest_tick))
+        )
     return tuple(notes)
 
 
@@ -54,8 +58,11 @@ def curves(draw: st.DrawFn, kind: CurveKind) -> ControllerCurve:
 def scores(draw: st.DrawFn) -> Score:
     """Scores as the reader makes them, of up to twenty players."""
     division = draw(st.sampled_from((1, 24, 96, 480, 960, 32767)))
-    tempi = draw(st.dictionaries(st.integers(1, LAST_TICK), st.integers(10_000, 0xFFFFFF), max_size=6))
-    tempi[0] = draw(st.integers(10_000, 0xFFFFFF))
+    rest_tick = min(20_000 * division, 100_000)
+    # No piece lasts longer than may be.
+    slowest = min(MOST_HOURS * 3_600_000_000 * division // (3000 + MOST_NOTES * (LONGEST_TICK + rest_tick)), 0xFFFFFF)
+    tempi = draw(st.dictionaries(st.integers(1, LAST_TICK), st.integers(10_000, slowest), max_size=6))
+    tempi[0] = draw(st.integers(10_000, slowest))
     tempo_map = TempoMap.of_changes(division, [TempoChange(*row) for row in tempi.items()])
     # Notes overlap by less than makes two voices of them.
     overlap_tick = int(max(tempi.values()) / division < 30_000)
@@ -76,7 +83,7 @@ def scores(draw: st.DrawFn) -> Score:
                 program=56 if trumpet else 57,
                 instrument="trumpet" if trumpet else "trombone",
                 map_id="trumpet" if trumpet else "trombone",
-                notes=draw(lines(track, overlap_tick)),
+                notes=draw(lines(track, overlap_tick, rest_tick)),
                 curves=tuple(draw(curves(kind)) for kind in sorted(kinds)),
             )
         )

@@ -13,9 +13,10 @@ import pytest
 from app.errors import AppError, UsageError
 from app.performance.ensemble import Performance
 from app.plan.corrections import AddExpression, ChangeExpression
+from app.project import storage
 from app.project.check import faults
+from app.project.edit import notes, tempo
 from app.project.edit import piece as edit
-from app.project.edit import tempo
 from app.project.edit.corrections import put
 from app.project.model import Project
 from app.score.model import Metre
@@ -116,12 +117,19 @@ def test_pickups(project: Project) -> None:
     assert tempo.set_metre(replace(project, score=score), 480, 3, 4).score.metres == (Metre(0, 1, 4), Metre(480, 3, 4))
 
 
-def test_too_many_bars(project: Project) -> None:
-    note = msgspec.structs.replace(project.score.parts[0].notes[3], onset_tick=2**30)
-    part = msgspec.structs.replace(project.score.parts[0], notes=(*project.score.parts[0].notes[:3], note))
-    long = replace(project, score=msgspec.structs.replace(project.score, parts=(part, project.score.parts[1])))
-    with pytest.raises(UsageError, match=r"tempo\.too_many_bars"):
-        tempo.set_metre(long, 0, 1, 64)
+def test_no_edit_makes_a_piece_longer_than_can_be_saved(project: Project) -> None:
+    part, quarter = project.score.parts[0], project.score.ticks_per_quarter
+    ids = [part.notes[-1].id]
+    far = 80_000 * quarter
+    long = notes.move(project, ids, far, 0)
+    for longer in (
+        lambda: tempo.set_metre(long, 0, 1, 64),
+        lambda: tempo.set_tempo(long, 0, 5.0),
+        lambda: notes.move(long, ids, 2 * far, 0),
+    ):
+        with pytest.raises(UsageError, match=r"piece\.too_long"):
+            longer()
+    storage.decode(storage.encode(long, Path("long.suisou")), Path("long.suisou"))
 
 
 def test_a_new_piece() -> None:

@@ -7,8 +7,10 @@ from pathlib import Path
 import pytest
 
 from app.errors import FileError
+from app.score.limits import LAST_TICK, MOST_NAME, MOST_PARTS, MOST_STREAMS
 from app.score.model import Marker, Metre
 from app.score.read import read_midi
+from app.score.voices import MOST_VOICES
 from tests.unit.score.midi_bytes import END, MAPS, chunk, header, heard, ids, meta, note, one_track, score_of
 
 SCALE = [60, 62, 64, 65]
@@ -108,7 +110,10 @@ def test_impossible_tempi_and_metres_are_left_out_with_a_warning() -> None:
     score = one_track(
         meta(0x51, bytes(3)) + meta(0x58, bytes([0, 2, 24, 8])) + meta(0x58, bytes([4, 200, 24, 8])) + SCALE_BYTES
     )
-    assert ids(score)[:3] == ["midi.impossible_tempo", "midi.impossible_metre", "midi.impossible_metre"]
+    assert [(warning.id, warning.arguments["count"]) for warning in score.warnings[:2]] == [
+        ("midi.impossible_tempo", 1),
+        ("midi.impossible_metre", 2),
+    ]
     assert score.metres == (Metre(0, 4, 4),)
     assert score.tempo_map.bpm == ((0, 120.0),)
 
@@ -326,3 +331,119 @@ def test_the_encoding_that_is_given_holds_for_markers_and_a_text_without_end_is_
     assert score_of(data, encoding="koi8-r").markers == (Marker(0, "Б"),)
     long = bytes([0, 0xFF, 0x06, 0x81, 0xDD, 0x00]) + b"x" * 28288
     assert score_of(header() + chunk(b"MTrk", long + SCALE_BYTES + END)).markers == (Marker(0, 1000 * "x"),)
+
+
+# --- lost note-offs ---------------------------------------------------------------------------------------------------
+
+
+def test_a_lost_note_off_makes_neither_a_second_player_nor_a_drone() -> None:
+    # 62 is never ended; the end of the track is hours away.
+    events = note(60) + bytes([0, 0x90, 62, 64]) + note(64, delta=48) + meta(1, b"", 48) + b"\xbf\xff\xff\x7f"
+    score = score_of(header() + chunk(b"MTrk", events + b"\xff\x2f\x00"))
+    assert heard(score) == [(0, 48, 60), (48, 48, 62), (96, 48, 64)]
+    assert len(score.parts) == 1
+    assert [warning.arguments["count"] for warning in score.warnings if warning.id == "midi.hanging_notes"] == [1]
+
+
+def test_the_last_note_of_a_track_that_never_ends_lasts_four_quarters() -> None:
+    score = one_track(note(60) + bytes([0, 0x90, 62, 64]) + meta(1, b"", 0) + b"\x90\x00\xff\x01\x00")
+    assert heard(score) == [(0, 48, 60), (48, 4 * 96, 62)]
+
+
+def test_a_pitch_that_has_lost_a_note_off_is_struck_again_and_not_held() -> None:
+    # First in, first out would give each note the end of the next.
+    repeated = b"".join(bytes([0, 0x90, 60, 64, 48, *([60, 0] if number != 1 else [61, 0])]) for number in range(4))
+    score = one_track(repeated)
+    assert heard(score) == [(48 * number, 48, 60) for number in range(4)]
+    assert len(score.parts) == 1
+
+
+def test_a_note_struck_twice_at_once_and_ended_once_is_one() -> None:
+    score = one_track(bytes([0, 0x90, 60, 64, 0, 60, 64, 48, 60, 0]) + note(62))
+    assert heard(score) == [(0, 48, 60), (48, 48, 62)]
+    # Ended twice, they are two players in unison.
+    assert len(one_track(bytes([0, 0x90, 60, 64, 0, 60, 64, 48, 60, 0, 0, 60, 0]) + note(62)).parts) == 2
+
+
+def test_all_notes_off_does_not_hold_notes_until_then() -> None:
+    line = b"".join(bytes([48, 0x90, pitch, 64]) for pitch in range(60, 70))
+    score = one_track(line + bytes([96, 0xB0, 123, 0]))
+    assert heard(score) == [(48 * number, 48, 59 + number) for number in range(1, 10)] + [(480, 96, 69)]
+    assert len(score.parts) == 1
+
+
+# --- bounds -----------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("events", "division", "most"),
+    [
+        (note(60) + meta(0x51, b"\x00\x27\x10") + b"\x8c\x80\x80\x00" + note(60)[1:], 1, "quarters"),
+        (note(60) + meta(0x51, b"\xff\xff\xff") + b"\x81\xff\xff\x7f" + note(60)[1:], 96, "hours"),
+        (meta(0x58, bytes([1, 6, 24, 8])) + note(60) + b"\x83\xff\x7f" + note(60)[1:], 4, "bars"),
+    ],
+)
+def test_a_piece_that_is_too_long_is_refused_with_what_it_has_and_may_have(
+    events: bytes, division: int, most: str
+) -> None:
+    other = chunk(b"MTrk", note(60) + END)
+    error = error_of(header(1, 2, division) + other + chunk(b"MTrk", events + END))
+    arguments = error.message.arguments
+    assert error.message.id == "midi.too_long"
+    assert arguments["track"] == 2
+    long = [kind for kind in ("hours", "quarters", "bars") if arguments[kind] > arguments[f"most_{kind}"]]  # type: ignore[operator]
+    assert most in long
+
+
+def test_silence_behind_the_music_costs_nothing() -> None:
+    late = b"\xff\xff\xff\x7f"
+    score = one_track(
+        note(60) + b"".join(late + b"\xff\x06\x01a" for _ in range(9)) + late + b"\xff\x58\x04\x01\x06\x18\x08"
+    )
+    assert score.sounding_end_tick == 48
+    assert [warning.arguments["count"] for warning in score.warnings if warning.id == "midi.beyond_all_music"] == [3]
+    assert all(marker.tick <= LAST_TICK for marker in score.markers)
+    assert len(score.markers) == 7
+    assert len(score.metres) == 1
+
+
+def test_a_delta_of_many_bytes_is_no_huge_number() -> None:
+    # 2 ** 60 and more: such ticks have no fractions, so two notes at one tick shared no voice (IndexError).
+    far = bytes([0x90, *[0x80] * 6, 0])
+    events = far + bytes([0x90, 60, 64, 0, 62, 64, 0, 64, 64, 1, 60, 0]) + far + bytes([62, 0])
+    assert error_of(header() + chunk(b"MTrk", events + END)).message.id == "midi.too_long"
+    # Beyond any float (OverflowError).
+    score = one_track(note(60) + b"\xff" * 160 + bytes([0x7F, 0x90, 60, 64, 1, 60, 0]))
+    assert "midi.track_truncated" in ids(score)
+    assert heard(score) == [(0, 48, 60)]
+
+
+def test_more_parts_than_any_score_has_are_refused() -> None:
+    track = chunk(b"MTrk", note(60) + END)
+    assert len(score_of(header(1, MOST_PARTS) + track * MOST_PARTS).parts) == MOST_PARTS
+    error = error_of(header(1, MOST_STREAMS + 1) + track * (MOST_STREAMS + 1))
+    assert error.message.id == "midi.too_many_parts"
+
+
+def test_more_players_than_any_band_has_are_left_out() -> None:
+    track = chunk(b"MTrk", note(60) + END)
+    score = score_of(header(1, MOST_PARTS + 2) + track * (MOST_PARTS + 2))
+    assert len(score.parts) == MOST_PARTS
+    assert [part.reason.id for part in score.unplayed] == ["score.too_many_players"] * 2
+
+
+def test_more_notes_at_once_than_any_section_plays_are_left_out() -> None:
+    cluster = b"".join(bytes([0, 0x90, 50 + number, 64]) for number in range(MOST_VOICES + 4))
+    ends = b"".join(bytes([48 if not number else 0, 0x80, 50 + number, 0]) for number in range(MOST_VOICES + 4))
+    score = one_track(cluster + ends + note(60))
+    assert len(score.parts) == MOST_VOICES
+    # The highest stay.
+    assert sorted(note.pitch for part in score.parts for note in part.notes) == sorted([*range(54, 70), 60])
+    (warning,) = [warning for warning in score.warnings if warning.id == "score.notes_left_out"]
+    assert warning.arguments == {"part": score.parts[0].name, "most": MOST_VOICES, "count": 4}
+
+
+def test_names_are_cut_to_what_can_be_shown() -> None:
+    long = b"\0\xff\x03" + bytes([0x90, 0x00]) + b"T" * 2048
+    score = score_of(header(1, 2) + chunk(b"MTrk", long + END) + chunk(b"MTrk", long + note(60) + END))
+    assert len(score.title) == len(score.parts[0].name) == MOST_NAME

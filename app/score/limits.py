@@ -1,0 +1,56 @@
+"""How far a score may go: beyond it a file is refused or cut, and an edit refused.
+
+The bounds lie far beyond music, and near enough that no file can make the program run for hours or out of memory.
+Everything that a piece asks for by time (bars, beats, frames) is bounded by its length; everything else by its notes.
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+from app.errors import Argument
+from app.score.model import Score
+
+LAST_TICK: Final = 2**31 - 1
+MOST_HOURS: Final = 12
+"""Longer than any concert."""
+MOST_QUARTERS: Final = 200_000
+"""Twelve hours at 277 a minute."""
+MOST_BARS: Final = 200_000
+MOST_TEXT: Final = 10_000
+"""Characters of any one text."""
+MOST_NAME: Final = 200
+"""Characters of a name."""
+MOST_STREAMS: Final = 256
+"""Parts of a file, played or not: sixteen ports of sixteen channels."""
+MOST_PARTS: Final = 128
+"""That a file's players may play: more than any band has."""
+
+
+def too_long(score: Score, end_tick: int | None = None) -> dict[str, Argument] | None:
+    """What to say of a piece that is too long, in seconds or in music; None: it is not.
+
+    Parameters
+    ----------
+    score : Score
+    end_tick : int, optional
+        Where it ends, by default where its last note does, whether anybody plays it or not.
+
+    Returns
+    -------
+    dict of str to Argument, or None
+        How long it is (``hours``, ``quarters``, ``bars``) and how long it may be (``most_hours`` ...).
+    """
+    end = score.sounding_end_tick if end_tick is None else end_tick
+    hours = score.tempo_map.seconds(float(end)) / 3600.0
+    quarters, bars = end // score.ticks_per_quarter, score.bar_of_tick(end)
+    if end <= LAST_TICK and hours <= MOST_HOURS and quarters <= MOST_QUARTERS and bars <= MOST_BARS:
+        return None
+    return {
+        "hours": round(hours, 1),
+        "quarters": quarters,
+        "bars": bars,
+        "most_hours": MOST_HOURS,
+        "most_quarters": MOST_QUARTERS,
+        "most_bars": MOST_BARS,
+    }
