@@ -13,8 +13,10 @@ from __future__ import annotations
 
 import re
 import unicodedata
+from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
+from types import MappingProxyType
 from typing import Literal
 
 import msgspec
@@ -25,10 +27,14 @@ from app.formats.toml import read_toml, shaped
 PATH = Path(__file__).with_name("vocabulary.toml")
 
 # A token is a word, one kana or kanji (Japanese has no spaces), a number or an accidental.
-_WIDE = re.compile(r"[\u3040-\u30ff\u3400-\u9fff]")
-_TOKEN = re.compile(r"[\u3040-\u30ff\u3400-\u9fff]|[^\W\d_\u3040-\u30ff\u3400-\u9fff]+|\d+|[♭♯#]")
+_WIDE = re.compile(r"[\u3040-\u30fa\u30fc-\u30ff\u3400-\u9fff]")
+_TOKEN = re.compile(r"[\u3040-\u30fa\u30fc-\u30ff\u3400-\u9fff]|[^\W\d_\u3040-\u30ff\u3400-\u9fff]+|\d+|[♭♯#]")
 _NAME_LETTERS = 4
 """In a running text "Ob" or "Tr" may be anything; "Oboe" is not."""
+_MOST_WORDS = 64
+"""Of a text that names a part; more is no name."""
+_IN = frozenset({"in", "en", "em"})
+"""Before a key."""
 _CAMEL = re.compile(r"(?<=[a-z])(?=[A-Z])")
 
 
@@ -54,7 +60,13 @@ class Instrument(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         A wind section without a range of its own ("brass"): the range of its notes decides who plays, among
         ``families`` where they are named.
     vague : bool
-        Its names may mean a part of any instrument ("Voice 1"): the program of a wind says more.
+        Its names may mean a part of any instrument ("Voice 1"): a program other than 0 says more.
+    vague_names : tuple of str
+        Names that mean a part of this instrument in some ensembles only ("Tenor 1"); found by one of them, it is vague.
+    form_of : str
+        Id of the instrument whose name, beside one of the ``marks``, names this one ("Clarinet" and "bass").
+    marks : tuple of str
+        Sizes or keys of the table.
     """
 
     id: str
@@ -67,10 +79,15 @@ class Instrument(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     families: tuple[str, ...] = ()
     any_pitch: bool = False
     vague: bool = False
+    vague_names: tuple[str, ...] = ()
+    form_of: str = ""
+    marks: tuple[str, ...] = ()
 
 
 class _Table(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     seating: tuple[tuple[str, ...], ...]
+    sizes: dict[str, tuple[str, ...]]
+    keys: dict[str, tuple[str, ...]]
     instruments: tuple[Instrument, ...]
 
 
@@ -85,15 +102,22 @@ class Vocabulary:
         The table's name for messages.
     seating : tuple of tuple of str
         Families of winds, by row from the audience's side, each row from the audience's left.
+    sizes, keys : dict of str to tuple of str
+        The marks that tell the forms of an instrument apart, and the words for each.
 
     Raises
     ------
     MapError
-        If a name or a program belongs to two, or a kind or a family is not in the table.
+        If a name or a program belongs to two, or a family, a form or a mark is not in the table.
     """
 
     def __init__(
-        self, instruments: tuple[Instrument, ...], file: str, seating: tuple[tuple[str, ...], ...] = ()
+        self,
+        instruments: tuple[Instrument, ...],
+        file: str,
+        seating: tuple[tuple[str, ...], ...] = (),
+        sizes: Mapping[str, tuple[str, ...]] = MappingProxyType({}),
+        keys: Mapping[str, tuple[str, ...]] = MappingProxyType({}),
     ) -> None:
         self.seating = seating
         self.instruments = {instrument.id: instrument for instrument in instruments}
@@ -105,11 +129,23 @@ class Vocabulary:
                     raise MapError(
                         "vocabulary.invalid", file=file, detail=f"program {program} belongs to two instruments"
                     )
-            for name in instrument.names:
-                tokens = _tokens(name)
-                if not tokens or self._by_tokens.setdefault(tokens, instrument) is not instrument:
+            vague = msgspec.structs.replace(instrument, vague=True)
+            for name in (*instrument.names, *instrument.vague_names):
+                tokens, found = _tokens(name), instrument if name in instrument.names else vague
+                if not tokens or self._by_tokens.setdefault(tokens, found) is not found:
                     raise MapError("vocabulary.invalid", file=file, detail=f"'{name}' belongs to two instruments")
         self._longest = max(map(len, self._by_tokens), default=0)
+        self._marks = {
+            _tokens(word): mark for table in (sizes, keys) for mark, words in table.items() for word in words
+        }
+        self._keys = frozenset(keys)
+        self._longest_mark = max(map(len, self._marks), default=0)
+        self._forms: dict[str, list[Instrument]] = {}
+        for instrument in instruments:
+            if instrument.form_of not in {"", *self.instruments} or not {*sizes, *keys}.issuperset(instrument.marks):
+                detail = f"'{instrument.id}' is a form that the table does not have"
+                raise MapError("vocabulary.invalid", file=file, detail=detail)
+            self._forms.setdefault(instrument.form_of, []).append(instrument)
         families = {"", *(family for row in seating for family in row)}
         for instrument in instruments:
             for family in (instrument.family, *instrument.families):
@@ -163,16 +199,59 @@ class Vocabulary:
     def by_name(self, text: str) -> Instrument | None:
         """The instrument that a text names.
 
-        Whole words only; of several names the longest counts ("bass trombone" before "trombone"), then the first.
-        Japanese is written without spaces, so its names are found anywhere within a run of kana and kanji.
+        Whole words only. Of several names the one counts that explains most words, sizes and keys beside it included
+        ("bass trombone" before "trombone", "Contrabass Cl." before "Contrabass"); among equals one that is more than
+        an abbreviation, then the first. Japanese is written without spaces, so its names are found anywhere within a
+        run of kana and kanji.
         """
-        tokens = _tokens(text)
-        for length in range(min(self._longest, len(tokens)), 0, -1):
-            for start in range(len(tokens) - length + 1):
-                found = self._by_tokens.get(tokens[start : start + length])
-                if found is not None:
-                    return found
-        return None
+        tokens = _tokens(text)[:_MOST_WORDS]
+        best: tuple[tuple[bool, int, int, bool, int], Instrument] | None = None
+        for start in range(len(tokens)):
+            for length in range(1, min(self._longest, len(tokens) - start) + 1):
+                named = self._by_tokens.get(tokens[start : start + length])
+                if named is None:
+                    continue
+                marks = self._marks_beside(tokens, start, start + length)
+                if all(self._keys.issuperset(form.marks) for form in self._forms.get(named.id, ())):
+                    marks = {mark: words for mark, words in marks.items() if mark in self._keys}
+                written_out = len("".join(tokens[start : start + length])) >= _NAME_LETTERS or _is_wide(tokens[start])
+                words = length - len(_IN.intersection(tokens[start : start + length]))
+                # A name of the table goes before one that is put together.
+                total = 2 * (words + sum(marks.values())) - bool(marks)
+                rank = not named.vague, total, words, written_out, -start
+                if best is None or rank > best[0]:
+                    best = rank, self._form(named, frozenset(marks))
+        return None if best is None else best[1]
+
+    def _form(self, instrument: Instrument, marks: frozenset[str]) -> Instrument:
+        """The form of an instrument that the marks name: by its size, else by its key; itself where there is none."""
+        forms = [form for form in self._forms.get(instrument.id, ()) if not marks.isdisjoint(form.marks)]
+        return min(forms, key=lambda form: self._keys.issuperset(form.marks), default=instrument)
+
+    def _marks_beside(self, tokens: tuple[str, ...], begin: int, end: int) -> dict[str, int]:
+        """The sizes and keys among the words before and after a name, and how many words each is."""
+        found: dict[str, int] = {}
+        place = 0
+        while place < len(tokens):
+            if begin <= place < end:
+                place = end
+                continue
+            room = (begin if place < begin else len(tokens)) - place
+            for length in range(min(self._longest_mark, room), 0, -1):
+                mark = self._marks.get(tokens[place : place + length])
+                if mark is None:
+                    continue
+                beside = place + length == begin or place == end or (place > 0 and tokens[place - 1] in _IN)
+                if length > 1 or len(tokens[place]) > 1 or beside:
+                    found[mark] = length
+                    place += length - 1
+                    break
+            place += 1
+        return found
+
+
+def _is_wide(token: str) -> bool:
+    return _WIDE.match(token) is not None
 
 
 def _tokens(text: str) -> tuple[str, ...]:
@@ -203,7 +282,7 @@ def vocabulary() -> Vocabulary:
         If the table is not valid.
     """
     table = shaped(read_toml(PATH, PATH.name), _Table, PATH.name)
-    return Vocabulary(table.instruments, PATH.name, table.seating)
+    return Vocabulary(table.instruments, PATH.name, table.seating, table.sizes, table.keys)
 
 
 # Worked out here, under the import's lock: two threads that use a type for the first time at once crash msgspec.

@@ -157,7 +157,11 @@ def _said(stream: Stream) -> Instrument | None:
     if stream.channel == PERCUSSION_CHANNEL:
         return vague or words.instruments["drums"]
     numbered = None if stream.program is None else words.by_program(stream.program)
-    return numbered if vague is None or (numbered is not None and numbered.kind == "wind") else vague
+    if vague is None or numbered is None:
+        return numbered or vague
+    # Many programs write 0, the piano, for no program at all.
+    says_more = numbered.kind == "wind" or (vague.kind == "wind" and stream.program != 0)
+    return numbered if says_more else vague
 
 
 def told_by_file(streams: Sequence[Stream], title: str) -> list[Stream]:
