@@ -204,7 +204,7 @@ class Vocabulary:
         an abbreviation, then the first. Japanese is written without spaces, so its names are found anywhere within a
         run of kana and kanji.
         """
-        tokens = _tokens(text)[:_MOST_WORDS]
+        tokens = tuple(part for token in _tokens(text)[:_MOST_WORDS] for part in self._parts(token))
         best: tuple[tuple[bool, int, int, bool, int], Instrument] | None = None
         for start in range(len(tokens)):
             for length in range(1, min(self._longest, len(tokens) - start) + 1):
@@ -222,6 +222,15 @@ class Vocabulary:
                 if best is None or rank > best[0]:
                     best = rank, self._form(named, frozenset(marks))
         return None if best is None else best[1]
+
+    def _parts(self, token: str) -> tuple[str, ...]:
+        """A word that is joined of a size, or "solo", and a name: both ("Altklar", "Soloflöte"); any other as it is."""
+        if (token,) not in self._by_tokens and (token,) not in self._marks and not _is_wide(token):
+            for cut in range(len(token) - 2, 2, -1):
+                before, name = token[:cut], token[cut:]
+                if (name,) in self._by_tokens and (before == "solo" or (before,) in self._marks):
+                    return before, name
+        return (token,)
 
     def _form(self, instrument: Instrument, marks: frozenset[str]) -> Instrument:
         """The form of an instrument that the marks name: by its size, else by its key; itself where there is none."""
