@@ -63,8 +63,12 @@ class OutputSink:
         rate_hz = self._device.rate_hz
         self._resampler = soxr.ResampleStream(RATE_HZ, rate_hz, 2, dtype="float32") if rate_hz != RATE_HZ else None
         self._queue = Queue(rate_hz, _PERIOD_MS / 1000)
+        try:
+            self._device.start(self._queue.frames())
+        except miniaudio.MiniaudioError:
+            self._device.close()
+            raise
         _playing.add(self)
-        self._device.start(self._queue.frames())
 
     def free(self) -> int:
         """Samples that may be written now, at `RATE_HZ`."""

@@ -142,6 +142,21 @@ def test_scrubbing_without_a_device_says_nothing(playback: Playback, devices: Fa
     assert not told
 
 
+def test_scrubbing_goes_on_with_another_device(playback: Playback, devices: FakeDevices, time: Time) -> None:
+    playback.scrub(3.0)
+    devices.sink.broken, devices.there = True, False
+    playback.scrub(4.0)
+    assert devices.sinks[0].stopped
+    devices.there = True
+    # A missing one is not looked for at every step of the hand.
+    playback.scrub(5.0)
+    assert len(devices.sinks) == 1
+    time.now_s += 3.0
+    playback.scrub(6.0)
+    assert len(devices.sinks) == 2
+    assert devices.sink.written
+
+
 def test_without_a_device_it_plays_silently_in_time(playback: Playback, devices: FakeDevices, elapse: Elapse) -> None:
     told: list[bool] = []
     playback.silent_changed.connect(told.append)

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from miniaudio import Backend, MiniaudioError
+from miniaudio import Backend, MiniaudioError, PlaybackDevice
 
 from app.audio import output
 from app.audio.output import OutputSink, Queue, open_output
@@ -93,9 +93,19 @@ def test_a_device_plays_in_time(monkeypatch: pytest.MonkeyPatch) -> None:
     assert sink.failed()
 
 
-def test_a_device_that_cannot_be_opened() -> None:
+def test_a_device_that_cannot_be_opened_or_started_is_given_back(monkeypatch: pytest.MonkeyPatch) -> None:
     with pytest.raises(MiniaudioError):
         OutputSink((Backend.AAUDIO,))
+
+    def refuse(device: PlaybackDevice, generator: object) -> None:
+        refused.append(device)
+        raise MiniaudioError("busy")
+
+    refused: list[PlaybackDevice] = []
+    monkeypatch.setattr(PlaybackDevice, "start", refuse)
+    with pytest.raises(MiniaudioError):
+        OutputSink((Backend.NULL,))
+    assert [device._device for device in refused] == [None]
 
 
 def test_the_program_ends_though_sound_plays() -> None:
