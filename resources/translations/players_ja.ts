@@ -321,6 +321,10 @@
 <context>
     <name>_RowDelegate</name>
     <message>
+        <source>Cannot be seen</source>
+        <translation>表示できません</translation>
+    </message>
+    <message>
         <source>Mute: not heard, but still seen and exported</source>
         <translation>ミュート: 音は出ませんが、画面と書き出しには残ります</translation>
     </message>

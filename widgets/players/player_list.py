@@ -229,7 +229,7 @@ class _RowDelegate(QStyledItemDelegate):
         dim = tokens.text if in_front else tokens.text_dim
         painter.setPen(QColor(tokens.warning if row.unseen else dim))
         lower = QRect(room.left(), room.top() + half, right - room.left(), room.height() - half)
-        text = row.unseen or row.instrument
+        text = self.tr("Cannot be seen") if row.unseen else row.instrument
         text = QFontMetricsF(small).elidedText(text, Qt.TextElideMode.ElideRight, lower.width())
         painter.drawText(lower, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft, text)
 
