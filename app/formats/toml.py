@@ -19,6 +19,7 @@ import os
 import re
 import tomllib
 from collections.abc import Iterator, Mapping
+from datetime import date, time
 from typing import Any, Final, TypeVar
 
 import msgspec
@@ -177,4 +178,9 @@ def _value(value: Any) -> str:
         return "true" if value else "false"
     if isinstance(value, list | tuple):
         return f"[{', '.join(map(_value, value))}]"
+    if isinstance(value, Mapping):
+        # Within a list.
+        return f"{{{', '.join(f'{_key(key)} = {_value(item)}' for key, item in value.items())}}}"
+    if isinstance(value, date | time):
+        return value.isoformat()
     return repr(float(value)) if isinstance(value, float) else str(int(value))

@@ -22,7 +22,7 @@ from app.formats.atomic import atomic_write, sweep
 from app.formats.files import read_file
 from app.formats.json_data import decode_json
 from app.formats.locks import is_locked, is_same_file, lock
-from app.project.storage import SUFFIX
+from app.project.storage import SUFFIX, file_named
 
 LOCK: Final = ".lock"
 NOTE: Final = ".json"
@@ -151,9 +151,10 @@ def note_of(folder: Path, token: str) -> Note:
     """What an editor works on; an empty note where it left none."""
     path = folder / f"{token}{NOTE}"
     try:
-        return decode_json(read_file(path, MOST_NOTE_BYTES), Note, str(path))
+        note = decode_json(read_file(path, MOST_NOTE_BYTES), Note, str(path))
     except FileError:
         return Note()
+    return Note(note.pid, file_named(note.document), file_named(note.autosave))
 
 
 def forget(folder: Path, token: str) -> None:

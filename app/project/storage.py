@@ -263,9 +263,16 @@ def decode(content: bytes, path: Path, name: str | None = None) -> Project:
 def autosave_facts(content: bytes) -> Autosaved | None:
     """What the bytes of an autosave say of it; None where they say nothing, as those of older versions."""
     try:
-        return _FACTS.decode(content).autosave
+        facts = _FACTS.decode(content).autosave
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError):
         return None
+    return None if facts is None else msgspec.structs.replace(facts, document=file_named(facts.document))
+
+
+def file_named(text: str) -> str:
+    """The absolute path of a file, as a note or an autosave names it; empty where it can be no file's."""
+    path = Path(text)
+    return text if path.is_absolute() and path.name and "\0" not in text else ""
 
 
 def is_project_file(path: Path) -> bool:

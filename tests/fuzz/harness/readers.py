@@ -378,7 +378,7 @@ KINDS: Final[dict[str, Kind]] = {
     for kind in (
         Kind("midi", midi, seeds.midi, tuple(mutators.MIDI), ".mid"),
         Kind("project", project, seeds.project, _JSON, ".suisou", 3.0),
-        Kind("project", autosave, seeds.project, _JSON, ".suisou"),
+        Kind("project", autosave, seeds.autosave, _JSON, ".suisou"),
         Kind("project", presence, seeds.presence, _JSON, ".json"),
         Kind("project", journal, seeds.journal, _TEXT, ".take-journal"),
         Kind("project", clip, seeds.clip, _JSON, ".json"),

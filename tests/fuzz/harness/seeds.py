@@ -46,6 +46,15 @@ def project() -> list[bytes]:
     return _files("tests/data/projects/*.suisou")
 
 
+def autosave() -> list[bytes]:
+    """Unsaved work as it is written now, and as it was."""
+    from app.project import storage
+
+    path = DATA / "projects" / "version_5.suisou"
+    facts = storage.Autosaved("work", 3, "0123456789abcdef", "/music/work.suisou", "0" * 64)
+    return [storage.encode_autosave(storage.load(path), path, facts), *project()]
+
+
 def journal() -> list[bytes]:
     """A take of two passes, with a gap; one torn off."""
     header = {
@@ -252,7 +261,7 @@ MADE: Final[dict[str, dict[str, Callable[[], bytes]]]] = {
     "preset": _TABLES,
     "character_entry": _TABLES,
     "metadata": _TABLES,
-    "settings": _TABLES,
+    "settings": {**_TABLES, "time": lambda: b"a = 07:32:00\nb = 1979-05-27\nc = 1979-05-27T07:32:00Z\nd = [{e = 1}]\n"},
     "gltf": {"deep": lambda: b'{"a":' * 60_000, "nested_nodes": _nested_gltf},
     "unreal_manifest": {"deep": lambda: b"[" * 100_000},
     "unreal_project": {"deep": lambda: b"[" * 100_000},
@@ -262,7 +271,12 @@ MADE: Final[dict[str, dict[str, Callable[[], bytes]]]] = {
         "no_resolution": lambda: clip()[0].replace(b": 480,", b": 0,", 1),
         "no_utf8": lambda: clip()[1].replace(b'"x"', b'"\xff"'),
     },
-    "presence": {"no_utf8": lambda: presence()[1].replace(b"work", b"\xff"), "deep": lambda: b"[" * 100_000},
+    "presence": {
+        "no_file": lambda: presence()[1].replace(b"@/work.suisou", b"/"),
+        "nul": lambda: presence()[1].replace(b"work", b"\\u0000"),
+        "no_utf8": lambda: presence()[1].replace(b"work", b"\xff"),
+        "deep": lambda: b"[" * 100_000,
+    },
 }
 """By kind and name."""
 

@@ -42,6 +42,12 @@ REFUSED = {
 }
 
 
+def test_what_settings_of_another_version_may_hold_is_written_again() -> None:
+    text = 'a = 07:32:00\nb = 1979-05-27\nc = 1979-05-27T07:32:00Z\nd = [{e = 1, "x y" = [1979-05-27T07:32:00]}, {}]\n'
+    table = parse_toml(text, "x.toml")
+    assert parse_toml(toml(table), "x.toml") == table
+
+
 @pytest.mark.parametrize("name", REFUSED)
 def test_syntax_that_nobody_writes_is_refused_with_its_line(name: str) -> None:
     text, line = REFUSED[name]
