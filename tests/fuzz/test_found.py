@@ -1,4 +1,4 @@
-"""Every file that ever broke a reader is read or refused now, within 5 s of CPU and 1 GB."""
+"""Every file that ever broke a reader is read or refused now, within the bounds on CPU and memory."""
 
 from __future__ import annotations
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from PySide6.QtCore import QCoreApplication
+from PySide6.QtCore import QCoreApplication, Qt
 
 from app.errors import AppError, Message
 from app.project.midi_out import export_midi as write_piece
@@ -68,6 +68,7 @@ def reimport_from(session: Session, path: Path) -> None:
             session.tokens,
             window,
         )
+        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         dialog.accepted.connect(lambda: _take(session, project, outcome))
         dialog.open()
 
