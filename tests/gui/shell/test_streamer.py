@@ -272,10 +272,8 @@ def test_where_to_is_remembered_but_not_that_it_was_on(start: Start, settings: S
     second = start().session.streaming
     assert (second.host, second.port, second.everyone) == ("studio-pc", 39539, True)
     assert (second.faces, second.rate_hz, second.on, second.state) == ("vrm", 30, False, "off")
-    settings.stream_port = 5
     settings.stream_faces = "nonsense"
-    third = start().session.streaming
-    assert (third.port, third.faces) == (39539, "arkit")
+    assert start().session.streaming.faces == "arkit"
 
 
 def test_a_fault_of_sending_is_told_and_the_stream_is_off(
