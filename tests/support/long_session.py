@@ -25,10 +25,12 @@ from app.project.autosave import Autosave
 from app.project.presence import Presence
 from app.project.storage import save
 from app.shell.app import Program, make_application
+from app.shell.commands.exchange import reimport_from
 from app.shell.garbage import Garbage
 from app.shell.settings import Settings
 from app.shell.tasks import ThreadTasks
 from tests.bench.performance.large import large_project
+from widgets.dialogs.reimport_midi import ReimportDialog
 
 QUARTET = Path(__file__).parents[2] / "resources" / "examples" / "quartet.mid"
 OURS = ("app.", "widgets.")
@@ -134,6 +136,7 @@ class LongDay:
             self.play()
             self.edit()
             self.open_dialogs()
+            self.read_again()
             self.program.editor.files.close()
             self.until(lambda: not self.program.editor.files.is_open)
         # Without a piece the plans are of nothing, and the motion of what was open is let go of.
@@ -183,6 +186,15 @@ class LongDay:
         self.trigger("notes.up")
         self.trigger("edit.undo")
         self.wait(0.05)
+
+    def read_again(self) -> None:
+        """What another MIDI file would change is shown, and not taken."""
+        window = self.program.window
+        reimport_from(self.session, QUARTET)
+        self.until(lambda: window.findChild(ReimportDialog) is not None)
+        dialog = window.findChild(ReimportDialog)
+        assert dialog is not None
+        dialog.reject()
 
     def open_dialogs(self) -> None:
         """Every dialog that stands beside the window, closed at once."""
