@@ -118,6 +118,7 @@ def export(arguments: argparse.Namespace) -> int:
     """Write the files, print what they hold and name the players who are left out; the exit status."""
     from app.export.request import Request
     from app.export.run import export as write
+    from app.export.tree import clean_up
     from app.export.unreal.project import find_project
     from app.export.unreal.run import export_into
     from app.performance.ensemble import Performance
@@ -126,6 +127,7 @@ def export(arguments: argparse.Namespace) -> int:
         raise UsageError("unreal.formats")
     # What is wrong with it is told before anything is read.
     unreal = None if arguments.unreal is None else find_project(arguments.unreal)
+    clean_up()
     project = open_project(arguments)
     performance = Performance(project)
     # Before the plans, which say what a body does not reach.

@@ -35,10 +35,14 @@ from typing import Final
 from app.errors import FileError
 from app.formats.files import read_file
 from app.formats.locks import is_locked, lock
+from app.formats.scratch import abandoned_folders, scratch_folder
 
 _SCRATCH: Final = re.compile(r"\.[0-9a-f]{16}\.partial")
 MOST_BYTES = 2**24
 _NEW, _OLD, _LOCK, _LIST = "new", "old", "lock", "coming.txt"
+_NOTE: Final = "tree"
+"""In a temporary folder of the process: the tree that it changes, and where it writes meanwhile."""
+_MOST_NOTE: Final = 2**20
 
 
 @dataclass
@@ -88,8 +92,12 @@ def tree_into(root: Path, scratch: Path) -> Iterator[TreeChange]:
     except OSError as error:
         raise FileError("file.cannot_write", file=os.fspath(scratch), reason=_reason(error)) from error
     partial = scratch / f".{secrets.token_hex(8)}.partial"
+    noted = contextlib.ExitStack()
     try:
         recover(root, scratch)
+        with contextlib.suppress(OSError, FileError):  # without it the next one that writes here cleans up
+            note = noted.enter_context(scratch_folder()) / _NOTE
+            note.write_bytes(b"\0".join(os.fsencode(path.absolute()) for path in (root, scratch)))
         try:
             (partial / _NEW).mkdir(parents=True)
             stream = (partial / _LOCK).open("xb")
@@ -107,6 +115,19 @@ def tree_into(root: Path, scratch: Path) -> Iterator[TreeChange]:
             shutil.rmtree(partial, ignore_errors=True)
         if not had_scratch:
             with contextlib.suppress(OSError):  # it is in use now
+                scratch.rmdir()
+        noted.close()
+
+
+def clean_up() -> None:
+    """Remove the temporary files of processes that were killed, wherever they are, and give back what those had taken
+    out of a tree."""
+    for folder in abandoned_folders():
+        # What cannot be done now is left to the next one that writes there.
+        with contextlib.suppress(OSError, ValueError, FileError):
+            root, scratch = (Path(os.fsdecode(path)) for path in read_file(folder / _NOTE, _MOST_NOTE).split(b"\0"))
+            recover(root, scratch)
+            if scratch != root:
                 scratch.rmdir()
 
 

@@ -8,10 +8,10 @@ video.failed(file, detail): the encoder refused.
 from __future__ import annotations
 
 import contextlib
+import errno
+import hashlib
 import os
-import secrets
 import subprocess
-import tempfile
 from collections.abc import Iterator
 from fractions import Fraction
 from pathlib import Path
@@ -23,6 +23,8 @@ import numpy.typing as npt
 import soundfile
 
 from app.errors import FileError
+from app.export.tree import tree_into
+from app.formats.scratch import scratch_folder
 
 QUALITY_CRF = 18
 """x264's constant rate factor at which most people see no loss."""
@@ -80,15 +82,19 @@ def video_into(
     Raises
     ------
     FileError
-        ``video.failed``, ``file.cannot_write``.
+        ``video.failed``, ``file.cannot_write``; see `app.export.tree.tree_into`.
     """
     if any(length % 2 or length <= 0 for length in size):
         raise ValueError(f"a film's width and height are even: {size}")
-    partial = path.with_name(f".{secrets.token_hex(8)}.partial.mp4")
-    try:
+    if not path.parent.is_dir():
+        raise FileError("file.cannot_write", file=os.fspath(path), reason=os.strerror(errno.ENOENT))
+    # In a folder of the film's own: others may write beside it meanwhile.
+    making = path.with_name(f".{hashlib.sha256(os.fsencode(path.name)).hexdigest()[:16]}.making")
+    with tree_into(path.parent, making) as change:
+        partial = change.new / path.name
         with contextlib.ExitStack() as stack:
             try:
-                folder = Path(stack.enter_context(tempfile.TemporaryDirectory()))
+                folder = stack.enter_context(scratch_folder())
                 wave = folder / "sound.wav"
                 if sound is not None:
                     soundfile.write(wave, sound, sound_rate, subtype="PCM_16")
@@ -120,12 +126,6 @@ def video_into(
                 complaint.seek(0)
                 detail = complaint.read().decode(errors="replace").strip()[-_TOLD:]
                 raise FileError("video.failed", file=str(path), detail=detail or f"status {status}")
-        try:
-            partial.replace(path)
-        except OSError as error:
-            raise FileError("file.cannot_write", file=os.fspath(path), reason=error.strerror or str(error)) from error
-    finally:
-        partial.unlink(missing_ok=True)
 
 
 def _command(path: Path, size: tuple[int, int], fps: Fraction, wave: Path | None) -> list[str]:
@@ -135,5 +135,5 @@ def _command(path: Path, size: tuple[int, int], fps: Fraction, wave: Path | None
     # The index at the front: a browser plays it while it loads.
     return [
         *(imageio_ffmpeg.get_ffmpeg_exe(), "-hide_banner", "-loglevel", "error", "-y"),
-        *(*pictures, *listened, *coded, "-movflags", "+faststart", f"file:{path}"),
+        *(*pictures, *listened, *coded, "-movflags", "+faststart", "-f", "mp4", f"file:{path}"),
     ]

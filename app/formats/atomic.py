@@ -21,6 +21,8 @@ from app.errors import FileError
 from app.formats.locks import is_locked, is_same_file, lock
 
 _PARTIAL: Final = re.compile(r"\.[0-9a-f]{16}\.partial")
+_swept: set[Path] = set()
+"""Folders that this process has written into."""
 _FRESH_S: Final = 60.0
 """On Windows an open file cannot be renamed: between the two it is nobody's, and too young to be swept."""
 
@@ -55,6 +57,9 @@ def atomic_write(
         ``file.cannot_write`` if the system refuses (folder missing, no permission, disk full).
     """
     target = Path(os.path.realpath(path)) if follow_link else Path(path)
+    if target.parent not in _swept:
+        _swept.add(target.parent)
+        sweep(target.parent)
     try:
         partial, stream = _new_partial(target.parent)
     except OSError as error:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import contextlib
 import errno
 import os
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 from typing import IO, Any, Final
 
@@ -36,11 +38,18 @@ def lock(stream: IO[Any]) -> bool:
     return True
 
 
+@contextlib.contextmanager
+def locked_here(path: Path) -> Iterator[bool]:
+    """Lock an existing file for the time of the block; whether nobody else has. Raises OSError."""
+    with path.open("r+b") as stream:
+        yield lock(stream)
+
+
 def is_locked(path: Path) -> bool:
     """Whether a living process has locked a file, or may have."""
     try:
-        with path.open("r+b") as stream:
-            return not lock(stream)
+        with locked_here(path) as is_ours:
+            return not is_ours
     except FileNotFoundError:
         return False
     except OSError:

@@ -14,7 +14,6 @@ from __future__ import annotations
 import importlib.util
 import os
 import shutil
-import tempfile
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
@@ -28,6 +27,7 @@ from app.formats.atomic import atomic_write
 from app.formats.continuous import continuous
 from app.formats.euler import matrices
 from app.formats.scene import Clip, Material, MorphTarget, Scene, SkinnedMesh, check_scene
+from app.formats.scratch import scratch_folder
 from app.formats.skin import influences
 
 METERS_PER_UNIT = 0.01
@@ -87,8 +87,8 @@ def write_usd(path: str | os.PathLike[str], scene: Scene, sound: Sound | None = 
     layer = _Writer(scene).layer(sound)
     try:
         # USD writes files of its own only.
-        with tempfile.TemporaryDirectory() as folder:
-            made = Path(folder) / f"scene{Path(path).suffix}"
+        with scratch_folder() as folder:
+            made = folder / f"scene{Path(path).suffix}"
             # Without a listener USD tells the terminal that a sound's time needs a version of its binary files newer
             # than the oldest; errors are raised all the same.
             listener = UsdUtils.CoalescingDiagnosticDelegate()

@@ -9,6 +9,7 @@ TEMPLATES: Final[dict[str, str]] = {
     "work.save": "saving",
     "work.autosave": "writing unsaved work down",
     "work.recoverable": "looking for unsaved work",
+    "work.clean_up": "removing temporary files of earlier runs",
     "work.plan": "planning what {players} players do",
     "work.hold": "finding out how {players} players hold their instruments",
     "work.instruments": "reading your instruments",

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import signal
-import tempfile
 import threading
 import time
 from collections.abc import Callable
@@ -18,6 +17,8 @@ from PySide6.QtWidgets import QApplication
 
 from app.audio.playback import Playback
 from app.errors import AppError, Message
+from app.export.tree import clean_up
+from app.formats.scratch import scratch_folder
 from app.project.autosave import Autosave
 from app.project.edit.piece import new_piece
 from app.project.presence import Presence, recovery_folder
@@ -183,10 +184,14 @@ def run(start: Start) -> int:
     QTimer.singleShot(0, program.recorder, program.recorder.begin_where_remembered)
     if presence.refusal is not None:
         program.editor.files.warn_once(presence.refusal.message)
+    program.tasks.run(Message("work.clean_up"), lambda progress, stop_wanted: clean_up(), lambda nothing: None)
     if start.file is not None:
         program.editor.files.open(start.file, ask=False)
     try:
-        return application.exec()
+        status = application.exec()
+        # Nothing where the window was closed; a signal ends the program with what is open.
+        program.editor.files.write_now()
+        return status
     finally:
         program.end()
         garbage.stop()
@@ -229,8 +234,8 @@ def picture(start: Start, target: Path) -> int:
             time.sleep(0.005)
 
     garbage = Garbage()
-    with tempfile.TemporaryDirectory() as folder:
-        settings = Settings(Path(folder) / "editor.toml")
+    with scratch_folder() as folder:
+        settings = Settings(folder / "editor.toml")
         settings.language = start.language or "en"
         settings.theme = start.theme or "dark"
         program = Program(settings, heard=False)

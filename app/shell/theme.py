@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import atexit
 import sys
-import tempfile
+from contextlib import ExitStack
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -12,6 +12,7 @@ from pathlib import Path
 from PySide6.QtGui import QColor, QFont, QFontDatabase, QPalette
 from PySide6.QtWidgets import QApplication, QStyleFactory
 
+from app.formats.scratch import scratch_folder
 from widgets.common.icons import source
 from widgets.common.tokens import LEAST_TARGET_PX, LEAST_TEXT_PT, Tokens
 
@@ -108,9 +109,9 @@ class Marks:
 
 @cache
 def _folder() -> Path:
-    folder = tempfile.TemporaryDirectory(prefix="suisou-")
-    atexit.register(folder.cleanup)
-    return Path(folder.name)
+    kept = ExitStack()
+    atexit.register(kept.close)
+    return kept.enter_context(scratch_folder())
 
 
 @cache

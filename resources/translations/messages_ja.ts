@@ -1704,6 +1704,10 @@
             <translation>未保存の作業を探しています</translation>
         </message>
         <message>
+            <source>removing temporary files of earlier runs</source>
+            <translation>以前の実行で残った一時ファイルを削除しています</translation>
+        </message>
+        <message>
             <source>planning what {players} players do</source>
             <translation>{players} 人の演奏を組み立てています</translation>
         </message>

@@ -11,7 +11,8 @@ from pathlib import Path
 import pytest
 
 from app.errors import FileError
-from app.export.tree import recover, tree_into
+from app.export.tree import clean_up, recover, tree_into
+from app.formats.cache import CACHE_VARIABLE
 from app.formats.locks import lock
 
 BEFORE = {"src/a/one": "old one", "src/a/two": "old two", "src/gone/three": "old three", "src/theirs": "theirs"}
@@ -27,6 +28,11 @@ def contents(root: Path) -> dict[str, str]:
 
 def folders(root: Path) -> set[str]:
     return {path.relative_to(root).as_posix() for path in root.rglob("*") if path.is_dir()}
+
+
+@pytest.fixture(autouse=True)
+def _own_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv(CACHE_VARIABLE, str(tmp_path / "cache"))
 
 
 @pytest.fixture
@@ -143,11 +149,20 @@ def test_what_a_killed_process_had_begun_is_given_back(root: Path, moment: int) 
     done = subprocess.run([sys.executable, "-c", KILLED, str(root), str(moment), str(here)], check=False)
     assert done.returncode == 9
     assert contents(root) != AFTER
-    recover(root, root / "src")
+    # As the next start of the program does, which knows nothing of this tree.
+    clean_up()
     assert contents(root) == BEFORE
     assert folders(root) == {"src", "src/a", "src/gone"}
     change(root)
     assert contents(root) == AFTER
+
+
+def test_cleaning_up_leaves_what_is_under_way_alone(root: Path) -> None:
+    with tree_into(root, root / "src") as tree:
+        (tree.new / "src").mkdir()
+        (tree.new / "src" / "theirs").write_text("new")
+        clean_up()
+    assert contents(root)["src/theirs"] == "new"
 
 
 @pytest.mark.skipif(os.name != "posix", reason="a second handle of one process shares the lock elsewhere")

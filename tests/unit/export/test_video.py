@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
+import sys
 from fractions import Fraction
 from pathlib import Path
 
@@ -11,7 +13,11 @@ import numpy as np
 import pytest
 
 from app.errors import FileError
+from app.export import video
+from app.export.tree import clean_up
 from app.export.video import video_into
+from app.formats.cache import CACHE_VARIABLE
+from app.formats.scratch import scratch_places
 
 SIZE = (64, 48)
 
@@ -65,9 +71,58 @@ def test_a_film_that_was_stopped_is_not_there_and_the_old_one_stays(tmp_path: Pa
     assert [entry.name for entry in tmp_path.iterdir()] == ["film.mp4"]
 
 
-def test_an_encoder_that_refuses_is_told(tmp_path: Path) -> None:
-    path = tmp_path / "missing" / "film.mp4"
+def test_an_encoder_that_refuses_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(video, "_command", lambda *given: [sys.executable, "-c", "import sys; sys.exit('no room')"])
     with pytest.raises(FileError) as refused:
-        film(path, 2000)
+        film(tmp_path / "film.mp4", 2000)
     assert refused.value.message.id == "video.failed"
-    assert "missing" in str(refused.value.message.arguments["file"])
+    assert refused.value.message.arguments == {"file": str(tmp_path / "film.mp4"), "detail": "no room"}
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_folder_that_is_missing_is_told_and_not_made(tmp_path: Path) -> None:
+    with pytest.raises(FileError, match=r"file\.cannot_write.*missing"):
+        film(tmp_path / "missing" / "film.mp4", 1)
+    assert list(tmp_path.iterdir()) == []
+
+
+KILLED = """
+import sys
+from fractions import Fraction
+from pathlib import Path
+import numpy as np
+from app.export.video import video_into
+with video_into(Path(sys.argv[1]), (64, 48), Fraction(24), np.zeros((48_000, 2), np.float32)) as film:
+    for _ in range(12):
+        film.write(np.zeros((48, 64, 3), np.uint8))
+    print("making", flush=True)
+    input()
+"""
+
+
+@pytest.mark.skipif(os.name != "posix", reason="SIGKILL")
+def test_what_is_left_of_a_film_whose_maker_was_killed_goes_with_the_next_start(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv(CACHE_VARIABLE, str(tmp_path / "cache"))
+    folder = tmp_path / "films"
+    folder.mkdir()
+    (folder / "film.mp4").write_bytes(b"old")
+    process = subprocess.Popen(
+        [sys.executable, "-c", KILLED, str(folder / "film.mp4")],
+        cwd=Path(__file__).parents[3],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+    )
+    assert process.stdin is not None
+    assert process.stdout is not None
+    with process.stdin, process.stdout as stdout:
+        assert stdout.readline() == b"making\n"
+        clean_up()
+        assert len(list(folder.iterdir())) == 2, "one that is being made stays"
+        process.kill()
+        process.wait()
+    clean_up()
+    assert [path.name for path in folder.iterdir()] == ["film.mp4"]
+    assert (folder / "film.mp4").read_bytes() == b"old"
+    assert not [path for place in scratch_places() if place.is_relative_to(tmp_path) for path in place.iterdir()]

@@ -1,0 +1,111 @@
+"""Temporary folders in known places: what a killed process leaves there, the next start removes.
+
+Each has a locked file in it for as long as its process lives; the system takes the lock away, however that ends.
+
+Messages: ``file.cannot_write`` (file, reason).
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import re
+import secrets
+import shutil
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+from typing import BinaryIO, Final
+
+from app.errors import FileError
+from app.formats.cache import cache_folder
+from app.formats.locks import is_same_file, lock, locked_here
+
+_NAME: Final = re.compile(r"[0-9a-f]{16}")
+_LOCK: Final = "lock"
+
+
+def scratch_places() -> tuple[Path, ...]:
+    """Where the folders are: the second where the first refuses."""
+    user = os.getuid() if os.name == "posix" else ""
+    return cache_folder("scratch"), Path(tempfile.gettempdir()) / f"suisou-{user}"
+
+
+@contextlib.contextmanager
+def scratch_folder() -> Iterator[Path]:
+    """A new folder that is gone when the block is done.
+
+    Raises
+    ------
+    FileError
+        ``file.cannot_write``: no place takes it.
+    """
+    folder, stream = _new_folder()
+    try:
+        yield folder
+    finally:
+        # On Windows an open file cannot be removed.
+        stream.close()
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+def abandoned_folders() -> Iterator[Path]:
+    """The folders of processes that were killed. Each is removed when the next one is asked for; until then nobody else
+    is given it."""
+    for place in scratch_places():
+        try:
+            found = [path for path in place.iterdir() if _NAME.fullmatch(path.name)] if _is_ours(place) else []
+        except OSError:
+            # There is none yet.
+            continue
+        for folder in found:
+            try:
+                with locked_here(folder / _LOCK) as is_abandoned:
+                    if is_abandoned:
+                        yield folder
+            except FileNotFoundError:
+                # Killed between making the folder and its lock.
+                with contextlib.suppress(OSError):
+                    folder.rmdir()
+            except OSError:
+                # No locks here: whoever may be behind it is left alone.
+                continue
+            else:
+                if is_abandoned:
+                    shutil.rmtree(folder, ignore_errors=True)
+
+
+def _is_ours(place: Path) -> bool:
+    """Whether a place is no other user's, who could have made it first where everybody may."""
+    found = place.stat(follow_symlinks=os.name != "posix")
+    return os.name != "posix" or found.st_uid == os.getuid()
+
+
+def _new_folder() -> tuple[Path, BinaryIO]:
+    places, refusals = scratch_places(), []
+    for place in places:
+        try:
+            place.mkdir(mode=0o700, parents=True, exist_ok=True)
+            if _is_ours(place):
+                return _new_folder_in(place)
+        except OSError as error:
+            refusals.append(error.strerror or str(error))
+    raise FileError("file.cannot_write", file=os.fspath(places[0]), reason=refusals[0])
+
+
+def _new_folder_in(place: Path) -> tuple[Path, BinaryIO]:
+    while True:
+        folder = place / secrets.token_hex(8)
+        folder.mkdir(mode=0o700)
+        try:
+            stream = (folder / _LOCK).open("xb")
+        except FileNotFoundError:
+            # Another process has taken it for an abandoned one.
+            continue
+        try:
+            if lock(stream) and is_same_file(folder / _LOCK, stream):
+                return folder, stream
+        except OSError:
+            # No locks here: it is never taken for an abandoned one either.
+            return folder, stream
+        stream.close()
