@@ -14,7 +14,7 @@ TEMPLATES: Final[dict[str, str]] = {
     "midi.unknown_encoding": "{file}: there is no text encoding {encoding!r}",
     "midi.track_unreadable": "{file}: track {track}, which begins at byte {byte}, cannot be read: {detail}",
     "midi.too_many_parts": (
-        "{file}: {count} parts (channels of tracks) have notes; at most {most} can be read; delete those that no wind "
+        "{file}: {parts} parts (channels of tracks) have notes; at most {most} can be read; delete those that no wind "
         "player plays, in the program that the file comes from"
     ),
     "midi.too_long": (

@@ -23,8 +23,8 @@ midi.unknown_encoding : file, encoding
     "{file}: there is no text encoding '{encoding}'"
 midi.track_unreadable : file, track, byte, detail
     "{file}: track {track}, which begins at byte {byte}, cannot be read: {detail}"
-midi.too_many_parts : file, count, most
-    "{file}: {count} parts (channels of tracks) have notes; at most {most} can be taken in"
+midi.too_many_parts : file, parts, most
+    "{file}: {parts} parts (channels of tracks) have notes; at most {most} can be taken in"
 midi.too_long : file, track, and as `app.score.limits.too_long` says it
     "{file}: the last note of track {track} ends after {hours} hours, {quarters} quarter notes and {bars} bars ..."
 
@@ -183,7 +183,7 @@ def read_contents(path: Path, *, encoding: str | None = None) -> MidiContents:
     _require_length(Score("", ticks_per_quarter, tempo_map, metres, pickup_ticks), tracks, str(path))
     streams = _streams(tracks, encoding)
     if len(streams) > MOST_STREAMS:
-        raise FileError("midi.too_many_parts", file=str(path), count=len(streams), most=MOST_STREAMS)
+        raise FileError("midi.too_many_parts", file=str(path), parts=len(streams), most=MOST_STREAMS)
     return MidiContents(
         title=_title(tracks, encoding) or path.stem,
         tempo_map=tempo_map,

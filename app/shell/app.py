@@ -17,7 +17,6 @@ from PySide6.QtWidgets import QApplication
 
 from app.audio.playback import Playback
 from app.errors import AppError, Message
-from app.export.tree import clean_up
 from app.formats.scratch import scratch_folder
 from app.project.autosave import Autosave
 from app.project.edit.piece import new_piece
@@ -162,6 +161,14 @@ class Program(QObject):
             self.tasks.cancel_all(STOP_S)
 
 
+def _clean_up() -> None:
+    """Remove what killed processes left behind."""
+    # What exports is not needed for the first picture.
+    from app.export.tree import clean_up
+
+    clean_up()
+
+
 def run(start: Start) -> int:
     """Run the editor; returns the exit status."""
     if start.screenshot is not None:
@@ -184,7 +191,7 @@ def run(start: Start) -> int:
     QTimer.singleShot(0, program.recorder, program.recorder.begin_where_remembered)
     if presence.refusal is not None:
         program.editor.files.warn_once(presence.refusal.message)
-    program.tasks.run(Message("work.clean_up"), lambda progress, stop_wanted: clean_up(), lambda nothing: None)
+    program.tasks.run(Message("work.clean_up"), lambda progress, stop_wanted: _clean_up(), lambda nothing: None)
     if start.file is not None:
         program.editor.files.open(start.file, ask=False)
     try:

@@ -1160,8 +1160,8 @@
             <translation>{file}: バイト {byte} から始まるトラック {track} を読み込めません: {detail}</translation>
         </message>
         <message>
-            <source>{file}: {count} parts (channels of tracks) have notes; at most {most} can be read; delete those that no wind player plays, in the program that the file comes from</source>
-            <translation>{file}: ノートのあるパート（トラックごとのチャンネル）が {count} あります。読み込めるのは {most} までです。元のソフトで、管楽器が演奏しないパートを削除してください</translation>
+            <source>{file}: {parts} parts (channels of tracks) have notes; at most {most} can be read; delete those that no wind player plays, in the program that the file comes from</source>
+            <translation>{file}: ノートのあるパート（トラックごとのチャンネル）が {parts} あります。読み込めるのは {most} までです。元のソフトで、管楽器が演奏しないパートを削除してください</translation>
         </message>
         <message>
             <source>{file}: the last note of track {track} ends after {hours:g} hours, {quarters} quarter notes and {bars} bars; at most {most_hours} hours, {most_quarters} quarter notes and {most_bars} bars can be played; delete what lies far behind the music, or correct the tempo, in the program that the file comes from</source>
