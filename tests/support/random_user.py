@@ -380,7 +380,7 @@ def prepare(folder: Path, seed: int) -> None:
         for number in range(6):
             (files / f"hostile {number}{suffix}").write_bytes(mutated(good, chance, spec.structured))
         for name, content in seeds.hostile(kind):
-            (files / f"found {name}{suffix}").write_bytes(content)
+            (files / f"found {name.replace('/', ' ')}{suffix}").write_bytes(content)
 
 
 def travel(folder: Path, seed: int, deeds: int, kills: int) -> Journey:

@@ -52,7 +52,7 @@ PLAYED_ON = {
     ],
     "euphonium_Bb_bassclef": ["Euphonium", "ユーフォニアム"],
     "euphonium_baritone_Bb_treble": ["Baritone (T.C.)", "Euphonium T.C."],
-    "baritone_Bb": ["Baritone", "Bariton"],
+    "baritone_Bb": ["Baritone", "Bariton", "Tenorhorn"],
     "sousaphone_BBb": ["Sousaphone"],
     "flute": ["Flute", "Flöte", "Flûte", "Flauto", "フルート"],
     "piccolo": ["Piccolo"],
@@ -76,7 +76,7 @@ PLAYED_BY_NOBODY = [
     "ピアノ", "Organ", "Orgel", "Timpani", "Pauken", "Timbales", "Timpani in C-G",
     "ティンパニ", "Drums", "Schlagzeug", "Batterie", "ドラム",
     "Snare Drum", "Percussion", "Glockenspiel", "Harp", "Harfe",
-    "Guitar", "Strings", "Choir", "Tenorhorn", "Tenor Horn", "Alto Horn", "Vibraphone", "Xylophone", "Bass Drum",
+    "Guitar", "Strings", "Choir", "Tenor Horn", "Alto Horn", "Vibraphone", "Xylophone", "Bass Drum",
     "Cymbals", "Cornetto", "Zink", "Harmonica", "Voice", "Bass Guitar", "Double Bass", "Synth Bass",
 ]
 # fmt: on

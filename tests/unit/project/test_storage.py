@@ -184,14 +184,16 @@ def test_whose_value_is_wrong_is_named(path: str, value: object) -> None:
     assert f"(player {name!r})" in str(refused(changed(project, **{path: value})).arguments["detail"])
 
 
-def test_bars_without_number_are_refused() -> None:
+def test_more_bars_than_any_piece_has_are_refused() -> None:
     project = small_project()
     content = changed(
         project, score__ticks_per_quarter=1, score__tempo_map__ticks_per_quarter=1, score__metres=[
             {"tick": 0, "numerator": 1, "denominator": 64}
         ], score__parts__0__notes__3__onset_tick=2**30
     )  # fmt: skip
-    assert refused(content).arguments["place"] == "score.metres"
+    arguments = refused(content).arguments
+    assert arguments["place"] == "score.parts"
+    assert "200000 bars" in str(arguments["detail"])
 
 
 def test_names_are_only_data(tmp_path: Path) -> None:

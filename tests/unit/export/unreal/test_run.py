@@ -264,7 +264,7 @@ def test_names_do_not_depend_on_who_is_exported() -> None:
     assert len({name.casefold() for name in files}) == 8
 
 
-@pytest.mark.parametrize("stage", ["export", "write_sound", "check_fbx", "encode_description"])
+@pytest.mark.parametrize("stage", ["write_cast", "write_sound", "check_fbx", "encode_description"])
 def test_an_error_in_the_middle_leaves_the_old_tree(
     unreal: UnrealProject, export: Export, monkeypatch: pytest.MonkeyPatch, stage: str
 ) -> None:
