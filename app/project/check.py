@@ -56,7 +56,8 @@ def _score_faults(score: Score) -> Iterator[Fault]:
     yield from _tempo_faults(score.tempo_map.changes)
     yield from _metre_faults(score.metres)
     yield from _marker_faults(score.markers)
-    if not score.metres or score.metres[0].tick != 0:
+    if not score.metres or score.metres[0].tick != 0 or not score.tempo_map.changes or score.ticks_per_quarter < 1:
+        # How long anything is cannot be said.
         return
     yield from _between("pickup_ticks", score.pickup_ticks, (0, limits.LAST_TICK))
     if score.pickup_ticks and (len(score.metres) < 2 or score.metres[1].tick != score.pickup_ticks):

@@ -17,6 +17,8 @@ reimport.no_note : kind
     "A correction of this kind (pose, gesture ...) belongs to no note."
 reimport.not_played : note
     "The player does not play this note."
+piece.too_long : hours, quarters, bars, most_hours, most_quarters, most_bars
+    A note drawn here would lie too late in the new piece.
 """
 
 from __future__ import annotations
@@ -36,6 +38,7 @@ from app.project.alignment import Floats, Line, align
 from app.project.anchors import moved, note_of
 from app.project.casting import StagePosition
 from app.project.edit.corrections import put, take_back
+from app.project.edit.length import with_score
 from app.project.edit.players import cast_parameters, free_name, with_newcomers
 from app.project.ids import (
     MADE_PART,
@@ -266,7 +269,7 @@ def _matched_parts(
         return []
     old_turns = [_turns(part, old_quarter) for part in old]
     new_turns = [_turns(part, new_quarter) for part in new]
-    content = np.array([[_likeness(one, other) for other in new_turns] for one in old_turns])
+    content = _likeness(old_turns, new_turns)
     named = np.array([[_kinship(one, other) for other in new] for one in old])
     from scipy.optimize import linear_sum_assignment  # heavy, and seldom needed
 
@@ -299,14 +302,29 @@ def _turns(part: Part, quarter: int) -> Floats:
     return np.sort(single[:count] * 1e6 + single[len(single) - count :])
 
 
-def _likeness(one: Floats, other: Floats) -> float:
-    """The share of turns that both have, 0..1."""
-    if not len(one) or not len(other):
-        return 0.0
-    values, counts = np.unique(one, return_counts=True)
-    more, more_counts = np.unique(other, return_counts=True)
-    _, here, there = np.intersect1d(values, more, assume_unique=True, return_indices=True)
-    return 2.0 * float(np.minimum(counts[here], more_counts[there]).sum()) / (len(one) + len(other))
+def _likeness(old: Sequence[Floats], new: Sequence[Floats]) -> Floats:
+    """The share of turns that two parts both have, 0..1, (old, new): turn by turn, for of many parts most pairs have
+    nothing in common."""
+    both: Floats = np.zeros((len(old), len(new)))
+    here, there = _owners(old), _owners(new)
+    for turn, (parts, counts) in here.items():
+        if turn in there:
+            others, more = there[turn]
+            both[np.ix_(parts, others)] += np.minimum.outer(counts, more)
+    lengths = np.add.outer([len(turns) for turns in old], [len(turns) for turns in new])
+    return 2.0 * both / np.maximum(lengths, 1)
+
+
+def _owners(parts: Sequence[Floats]) -> dict[float, tuple[list[int], list[int]]]:
+    """Which parts have each turn, and how often."""
+    owners: dict[float, tuple[list[int], list[int]]] = {}
+    for index, turns in enumerate(parts):
+        values, counts = np.unique(turns, return_counts=True)
+        for value, count in zip(values.tolist(), counts.tolist(), strict=True):
+            found = owners.setdefault(value, ([], []))
+            found[0].append(index)
+            found[1].append(count)
+    return owners
 
 
 def _kinship(one: Part, other: Part) -> float:
@@ -454,7 +472,8 @@ def _with_players(
     whole = msgspec.structs.replace(score, title=project.score.title, parts=(*parts, *idle))
     ids = {player.id for player in staying}
     takes = {id: recorded for id, recorded in project.takes.items() if id in ids}
-    result = replace(project, score=whole, players=tuple(staying), corrections=corrections, takes=takes)
+    scored = with_score(project, whole)
+    result = replace(scored, players=tuple(staying), corrections=corrections, takes=takes)
     former = {part.id for part in project.score.parts}
     fresh = [part for part in parts if part.id not in former]
     return _with_new_players(result, fresh, maps) if fresh else result

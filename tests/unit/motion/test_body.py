@@ -44,6 +44,16 @@ def test_a_bob_is_lowest_and_accelerates_most_on_every_beat(beats) -> None:
         assert times_s[near][down[near].argmax()] == pytest.approx(beat * beat_s, abs=0.02)
 
 
+def test_between_swings_far_apart_the_body_stands_upright() -> None:
+    swings = [gesture("sway", float(i), float(i + 1)) for i in (0, 1, 2, 100, 101)]
+    times_s = np.arange(-1.0, 104.0, 1e-3)
+    down = Bobbing.of(swings, TICKS).sample(times_s)
+    assert not down[(times_s > 4.0) & (times_s < 99.0)].any()
+    assert down[(times_s > 99.9) & (times_s < 100.9)].max() > 0.5
+    # It comes up and goes down in a second each, without a jump.
+    assert np.abs(np.diff(down)).max() < 0.02
+
+
 def test_the_instrument_is_up_again_when_the_gesture_ends() -> None:
     curve = lowering([gesture("lower_instrument", 2.0, 8.0), gesture("lower_instrument", 10.0, 11.0)], 1.1, 1.2)
     values = curve.sample(np.array([2.0, 3.1, 5.0, 6.8, 8.0, 9.0, 10.0, 10.47, 11.0]))

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import itertools
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from app.plan.generate import Line, Piece, make_plans, time_frame
-from app.plan.gesture import LOWER_S, LOWERED_LEAST_S, RAISE_S
+from app.plan.gesture import LOWER_S, LOWERED_LEAST_S, RAISE_S, STIR_S
 from app.plan.model import GestureEvent, PlayerParameters, PlayerPlan
 from tests.support.plan import PlainClock, PlainMetre, PlainNote, even, line_of, valves
 
@@ -39,13 +40,28 @@ def test_sway_goes_from_beat_to_beat_without_gaps() -> None:
 
 
 def test_a_swing_takes_a_bodys_time_at_every_tempo() -> None:
-    for bpm in (40.0, 60.0, 90.0, 132.0, 200.0):
+    for bpm in (40.0, 60.0, 90.0, 132.0, 200.0, 6000.0):
         clock = PlainClock(((0, bpm),))
         line = Line("p", tune(), valves())
         plan = make_plans(Piece(clock), (line,), time_frame((line,), clock))["p"]
         lengths = {round(event.end_s - event.start_s, 3) for event in of_kind(plan, "sway")}
         assert len(lengths) == 1
         assert 0.7 <= lengths.pop() <= 3.2
+
+
+def test_silence_between_notes_costs_nothing_however_long_it_is() -> None:
+    notes = tune(bars=4)
+    counts = []
+    for hours in (1, 11):
+        later = tuple(replace(note, id=f"{note.id}x", onset_tick=note.onset_tick + hours * 7200 * Q) for note in notes)
+        gestures = plans(Line("p", notes + later, valves()))["p"].gestures
+        counts.append(len(gestures))
+        near = [event for event in gestures if event.kind == "sway" and event.end_s < 8.0 + STIR_S]
+        alone = [event for event in of_kind(plans(Line("p", notes, valves()))["p"], "sway") if event.end_s < 8.0]
+        # Near the music nothing is different, and some time after it everybody is still.
+        assert near[: len(alone)] == alone
+        assert not any(60.0 < event.start_s < 3600.0 * hours - 60.0 for event in gestures if event.kind == "sway")
+    assert counts[0] == pytest.approx(counts[1], abs=6)
 
 
 def test_two_players_of_one_part_never_sway_alike() -> None:

@@ -32,7 +32,7 @@ from app.project.storage import load, save
 from app.score.model import Marker, Note, Part, Score
 from app.score.parts import usual_wishes
 from app.score.read import read_contents, read_midi, wished_score
-from app.score.tempo import TempoMap
+from app.score.tempo import TempoChange, TempoMap
 from instrument_maps.load import bundled_maps
 from tests.unit.project.pieces import small_project
 
@@ -298,7 +298,9 @@ def test_what_was_drawn_here_stays_where_there_is_room() -> None:
 
 def test_title_source_and_tempo() -> None:
     project = small_project()
-    score = from_file(msgspec.structs.replace(project.score, title="other", tempo_map=TempoMap(480, ())))
+    score = from_file(
+        msgspec.structs.replace(project.score, title="other", tempo_map=TempoMap(480, (TempoChange(0, 400_000),)))
+    )
     result = reimport(project, score, MAPS, source="/music/new.mid")
     assert result.project.score.title == project.score.title
     assert result.project.source == "/music/new.mid"
