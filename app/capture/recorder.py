@@ -303,7 +303,7 @@ class JournalKeeper:
         try:
             writer.close()
         except OSError as error:
-            self._tell_failure(error)
+            self._refuse("capture.cut_short", writer, error)
         self._writer = None
         self._failed = False
         if word is not None:
@@ -313,8 +313,10 @@ class JournalKeeper:
         """Say that the disk takes nothing, once; it is tried again with what comes next."""
         if not self._failed and self._writer is not None:
             self._failed = True
-            reason = {"file": self._writer.path, "reason": error.strerror or str(error)}
-            self._news.put(Refused(Message("capture.not_written", {**reason})))
+            self._refuse("capture.not_written", self._writer, error)
+
+    def _refuse(self, id: str, writer: JournalWriter, error: OSError) -> None:
+        self._news.put(Refused(Message(id, {"file": writer.path, "reason": error.strerror or str(error)})))
 
 
 def send_news(queue: SimpleQueue[News | Heard | None], stream: IO[bytes]) -> None:

@@ -166,6 +166,8 @@ def _tell_until(listening: Listening, end_s: float) -> None:
 
 def _finished(listening: Listening) -> None:
     for told in listening.until(time.monotonic() + _WITHIN_S):
+        if isinstance(told, Refused):
+            _say(text(told.reason))
         if isinstance(told, Finished):
             return
 
@@ -180,14 +182,18 @@ def _write(target: Path, path: Path, tempo: float) -> None:
         raise RecordError("record.nothing_heard", port=journal.header.port)
     take = taken[0]
     end_us = _end_us(journal)
-    notes = write_take(
-        target,
-        take.times_us,
-        take.messages,
-        name=journal.header.port,
-        beats_per_minute=tempo,
-        end_us=end_us,
-    )
+    try:
+        notes = write_take(
+            target,
+            take.times_us,
+            take.messages,
+            name=journal.header.port,
+            beats_per_minute=tempo,
+            end_us=end_us,
+        )
+    except FileError as error:
+        reason = error.message.arguments.get("reason", text(error.message))
+        raise RecordError("record.not_written", file=str(target), reason=reason, journal=path.name) from error
     path.unlink()
     print(f"{target}: {notes} {'note' if notes == 1 else 'notes'} in {max(end_us, take.times_us[-1], 0) / 1e6:.1f} s")
 

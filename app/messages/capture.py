@@ -21,6 +21,7 @@ TEMPLATES: Final[dict[str, str]] = {
     "capture.not_written": (
         "{file} cannot be written: {reason}; recording goes on and is written as soon as there is room"
     ),
+    "capture.cut_short": "{file} cannot be written: {reason}; the end of the recording is missing in it",
     "capture.recorder_ended": "the recorder ended unexpectedly and was started again; what it had heard is kept",
     "capture.recorder_fails": "the recorder cannot be started ({detail})",
     "record.no_port": "say with --port which device to record from; 'suisou ports' lists them",
@@ -28,6 +29,10 @@ TEMPLATES: Final[dict[str, str]] = {
     "record.running": "another recording into {file} is running; choose another name",
     "record.journal_left": (
         "{journal} is there already: a recording was not finished; write it with 'suisou record --rescue --to {file}'"
+    ),
+    "record.not_written": (
+        "{file} cannot be written: {reason}; the recording is kept in {journal}: make room, then write it with "
+        "'suisou record --rescue --to {file}'"
     ),
     "record.nothing_heard": "nothing was heard from {port}: no file was written",
     "journal.exists": "{file} is there already: another recording is running, or one was not finished",

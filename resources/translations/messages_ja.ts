@@ -80,6 +80,10 @@
             <translation>{file} に書き込めません: {reason}。録音は続いており、空きができしだい書き込みます</translation>
         </message>
         <message>
+            <source>{file} cannot be written: {reason}; the end of the recording is missing in it</source>
+            <translation>{file} に書き込めません: {reason}。録音の終わりの部分は保存されていません</translation>
+        </message>
+        <message>
             <source>the recorder ended unexpectedly and was started again; what it had heard is kept</source>
             <translation>録音プロセスが予期せず終了したため、再起動しました。それまでに録音した内容は残っています</translation>
         </message>
@@ -102,6 +106,10 @@
         <message>
             <source>{journal} is there already: a recording was not finished; write it with 'suisou record --rescue --to {file}'</source>
             <translation>{journal} がすでにあります。終了していない録音です。「suisou record --rescue --to {file}」で書き出してください</translation>
+        </message>
+        <message>
+            <source>{file} cannot be written: {reason}; the recording is kept in {journal}: make room, then write it with 'suisou record --rescue --to {file}'</source>
+            <translation>{file} に書き込めません: {reason}。録音は {journal} に残っています。空き容量を作ってから「suisou record --rescue --to {file}」で書き出してください</translation>
         </message>
         <message>
             <source>nothing was heard from {port}: no file was written</source>

@@ -2,28 +2,34 @@
 
 from __future__ import annotations
 
+import errno
 import io
+from pathlib import Path
 from queue import SimpleQueue
 from typing import Any
 
 import pytest
 
 from app.capture import recorder as recording
+from app.capture.journal import Header
 from app.capture.ports import Port, PortError
 from app.capture.protocol import (
     NEWS,
     Back,
     Events,
+    Finished,
     Lost,
     News,
     Open,
     Opened,
     Ports,
     Refused,
+    Start,
+    Stop,
     SystemEnded,
     read_framed,
 )
-from app.capture.recorder import Recorder, send_news
+from app.capture.recorder import JournalKeeper, Recorder, send_news
 
 
 class Device:
@@ -232,3 +238,22 @@ def test_events_that_gathered_are_sent_together_and_in_order() -> None:
         Lost("EWI", 4),
         Events((5,), (b"\xb0\x02\x01",)),
     ]
+
+
+def test_a_disk_that_stays_full_is_reported_once_and_again_at_the_end(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    queue: SimpleQueue[Any] = SimpleQueue()
+    news: SimpleQueue[Any] = SimpleQueue()
+    journal = tmp_path / "take"
+
+    def full(file: int) -> None:
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr("app.capture.journal.os.fsync", full)
+    for item in (Start(str(journal), Header("", "", "EWI", "ewi_usb", 0.0, "")), (1, b"\x90\x3c\x50"), Stop(), None):
+        queue.put(item)
+    JournalKeeper(queue, news).run()
+    heard = [news.get_nowait() for _ in range(news.qsize())]
+    assert [one.reason.id for one in heard if isinstance(one, Refused)] == ["capture.not_written", "capture.cut_short"]
+    assert heard[-1] == Finished(str(journal), 1)

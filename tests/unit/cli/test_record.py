@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import errno
 import signal
 import subprocess
 import sys
@@ -176,6 +177,25 @@ def test_what_a_crash_left_is_written(run: Run, tmp_path: Path) -> None:
     assert run("record", "--rescue", "--to", path) == (0, f"{path}: 1 note in 1.0 s\n", "")
     assert pitches(path) == [60]
     assert list(tmp_path.iterdir()) == [path]
+
+
+def test_a_full_disk_keeps_the_journal_and_names_the_remedy(
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    journal = left(tmp_path)
+    path = tmp_path / "take.mid"
+
+    def full(file: int) -> None:
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    with monkeypatch.context() as patched:
+        patched.setattr("app.formats.atomic.os.fsync", full)
+        status, _, errors = run("record", "--rescue", "--to", path)
+    assert status == 1
+    assert "No space left on device; the recording is kept in take.mid.take-journal" in errors
+    assert f"'suisou record --rescue --to {path}'" in errors
+    assert list(tmp_path.iterdir()) == [journal]
+    assert run("record", "--rescue", "--to", path)[0] == 0
 
 
 def test_a_running_recording_is_left_alone(run: Run, tmp_path: Path) -> None:
