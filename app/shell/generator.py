@@ -11,6 +11,7 @@ import threading
 import time
 import weakref
 from collections.abc import Callable, Mapping
+from typing import Protocol
 
 from PySide6.QtCore import QObject, QTimer, Signal
 from shiboken6 import isValid
@@ -284,11 +285,23 @@ class _Teller:
         self._ask(call)
 
 
+class _Clock(Protocol):
+    """What the module `time` has of clocks."""
+
+    def monotonic(self) -> float: ...
+
+    def process_time(self) -> float: ...
+
+    def thread_time(self) -> float: ...
+
+    def sleep(self, seconds: float, /) -> None: ...
+
+
 class _Worker:
     """The thread: plans first, then motion. Holds nothing of the window, so that it may end without a goodbye."""
 
-    def __init__(self, live: LiveMotion, teller: _Teller) -> None:
-        self._live, self._teller = live, teller
+    def __init__(self, live: LiveMotion, teller: _Teller, clock: _Clock = time) -> None:
+        self._live, self._teller, self._clock = live, teller, clock
         self._changed = threading.Condition()
         self._pending: tuple[Performance, int] | None = None
         self._planning = False
@@ -384,7 +397,8 @@ class _Worker:
         self._teller.planned(performance, number, failed)
 
     def _make_motion(self) -> None:
-        start_s, wishes, others_s = time.monotonic(), self._wishes, time.process_time() - time.thread_time()
+        clock, wishes = self._clock, self._wishes
+        start_s, others_s = clock.monotonic(), clock.process_time() - clock.thread_time()
         try:
             more = self._live.work(self._interrupted)
         except PlayerFault as fault:
@@ -395,8 +409,8 @@ class _Worker:
             self._met = wishes
             self._teller.fell(fault)
             return
-        now_s = time.monotonic()
-        others_s = time.process_time() - time.thread_time() - others_s
+        now_s = clock.monotonic()
+        others_s = clock.process_time() - clock.thread_time() - others_s
         if not more:
             self._met = wishes
             self._judging = True
@@ -409,7 +423,7 @@ class _Worker:
             self._told_s = now_s
             self._teller.worked(self._live.ready_share)
         if self._playing:
-            time.sleep(REST_WHILE_PLAYING * (now_s - start_s))
+            clock.sleep(REST_WHILE_PLAYING * (now_s - start_s))
         elif not awaited and others_s > OTHERS_S:
             self._rest(min(GIVE_WAY * (now_s - start_s), MOST_REST_S), wishes)
 
@@ -421,7 +435,7 @@ class _Worker:
             )
 
     def _judge(self) -> None:
-        start_s = time.monotonic()
+        start_s = self._clock.monotonic()
         try:
             self._judging = self._live.judge(lambda: not self._idle)
         except PlayerFault as fault:
@@ -431,7 +445,7 @@ class _Worker:
             self._judging = False
             self._teller.fell(fault)
             return
-        now_s = time.monotonic()
+        now_s = self._clock.monotonic()
         self._tell_broken(now_s, not self._judging)
         with self._changed:
             if self._judging and self._idle:

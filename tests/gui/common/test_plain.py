@@ -26,6 +26,7 @@ from pytestqt.qtbot import QtBot
 
 from tests.gui.conftest import delete_now
 from tests.support.canary import WATCHES, Canary, canary
+from tests.support.windows import show
 from widgets.common.plain import ComboBox, Label, MessageBox, verbatim, verbatim_title
 
 pytestmark = pytest.mark.skipif(not WATCHES, reason="only Linux reports which files are opened")
@@ -114,8 +115,7 @@ def test_boxes_are_plain(watched: Canary, qtbot: QtBot) -> None:
     box.setInformativeText(watched.eager)
     shown = [label for label in box.findChildren(QLabel) if label.text()]
     assert {label.textFormat() for label in shown} == {Qt.TextFormat.PlainText}
-    box.show()
-    qtbot.waitExposed(box)
+    show(box)
     assert watched.opened() == []
 
 
@@ -124,8 +124,7 @@ def test_labels_that_qt_makes_are_plain(watched: Canary, qtbot: QtBot) -> None:
     asking = QInputDialog()
     qtbot.addWidget(asking)
     asking.setLabelText(watched.html)
-    asking.show()
-    qtbot.waitExposed(asking)
+    show(asking)
     assert watched.opened() == []
 
 
@@ -142,8 +141,7 @@ def test_a_name_does_not_mark_a_window_as_changed(qt_app: QApplication, qtbot: Q
     window = QWidget()
     qtbot.addWidget(window)
     window.setWindowTitle(f"{verbatim_title('a[*]b')}[*]")
-    window.show()
-    qtbot.waitExposed(window)
+    show(window)
     assert window.windowHandle().title().startswith("a[*]b")
     window.setWindowModified(True)
     assert window.windowHandle().title().startswith("a[*]b*")

@@ -18,6 +18,7 @@ from app.shell.instruments import InstrumentWatch
 from instrument_maps.load import bundled_maps
 from tests.gui.conftest import delete_now
 from tests.support.pipe import add
+from tests.support.windows import show_in_front
 from widgets.common.fingering_diagram import FingeringDiagram
 from widgets.common.session import Session
 from widgets.dialogs.instrument_map import CENTS, LABEL, TAGS, InstrumentsDialog
@@ -32,9 +33,7 @@ class Page:
     def __init__(self, session: Session, qtbot: QtBot) -> None:
         self.dialog = InstrumentsDialog(session)
         self.qtbot = qtbot
-        self.dialog.show()
-        self.dialog.activateWindow()
-        qtbot.waitUntil(self.dialog.isActiveWindow)
+        show_in_front(self.dialog)
         self.table = self.dialog.findChild(QTableWidget, "instruments_fingerings")
         self.list = self.dialog.findChild(QListWidget, "instruments_list")
         self.diagram = self.dialog.findChild(FingeringDiagram, "instruments_diagram")

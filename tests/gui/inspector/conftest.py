@@ -10,6 +10,7 @@ from pytestqt.qtbot import QtBot
 from app.performance.ensemble import Performance
 from app.project import presets
 from app.project.document import Change
+from tests.support.windows import show_in_front
 from widgets.common.session import Session
 from widgets.inspector.panel import InspectorPanel
 
@@ -32,7 +33,5 @@ def panel(planned: Session, qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.Mo
     made = InspectorPanel(planned)
     qtbot.addWidget(made)
     made.resize(320, 1000)
-    made.show()
-    qtbot.waitExposed(made)
-    made.activateWindow()
+    show_in_front(made)
     return made

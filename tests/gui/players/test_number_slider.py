@@ -9,6 +9,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QLineEdit, QVBoxLayout, QWidget
 from pytestqt.qtbot import QtBot
 
+from tests.support.windows import show_in_front
 from widgets.common.number_slider import NumberSlider
 from widgets.common.session import Session
 
@@ -39,9 +40,7 @@ def window(session: Session, qtbot: QtBot) -> QWidget:
     layout.addWidget(QLineEdit())
     made.resize(240, 120)
     qtbot.addWidget(made)
-    made.show()
-    qtbot.waitExposed(made)
-    made.activateWindow()
+    show_in_front(made)
     return made
 
 

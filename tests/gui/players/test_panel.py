@@ -18,6 +18,7 @@ from app.project.edit.players import cast_parameters, duplicate_players
 from app.project.model import Player
 from app.shell.commands.players import toggle_posture
 from instrument_maps.library import find_map
+from tests.support.windows import show_in_front
 from widgets.common.combo import Combo
 from widgets.common.number_slider import NumberSlider
 from widgets.common.session import Session
@@ -32,9 +33,7 @@ def panel(session: Session, qtbot: QtBot) -> PlayersPanel:
     made = PlayersPanel(session)
     qtbot.addWidget(made)
     made.resize(320, 1200)
-    made.show()
-    qtbot.waitExposed(made)
-    made.activateWindow()
+    show_in_front(made)
     return made
 
 

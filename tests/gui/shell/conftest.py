@@ -26,6 +26,7 @@ from tests.gui.conftest import QUARTET, delete_now
 from tests.support.recorder import EWI, Clock, SpokenFor
 from tests.support.studio import Studio
 from tests.support.tasks import ImmediateTasks
+from tests.support.windows import show_in_front
 from widgets.common.session import Session
 from widgets.common.tokens import Tokens
 
@@ -93,9 +94,7 @@ def start(qtbot: QtBot, qt_app: QApplication, settings: Settings, answers: Answe
 
     def begin() -> Program:
         program = Program(settings, ImmediateTasks(), answers, Autosave(Presence(tmp_path / "recovery")), heard=False)
-        program.window.show()
-        program.window.activateWindow()
-        qtbot.waitUntil(program.window.isActiveWindow)
+        show_in_front(program.window)
         started.append(program)
         return program
 

@@ -14,6 +14,7 @@ from app.shell.actions import CONTEXTS, ActionTable, menu_with_keys, rows, seque
 from app.shell.app import Program
 from app.shell.settings import Settings
 from app.shell.window import Window
+from tests.support.windows import show_in_front
 
 
 def test_the_table_is_sound() -> None:
@@ -187,7 +188,7 @@ def test_a_panel_has_its_shortcut_before_the_window(program: Program, qtbot: QtB
 
 def focus(window: Window, panel: str, qtbot: QtBot) -> None:
     """Bring the keyboard into a panel."""
-    window.activateWindow()
+    show_in_front(window)
     widget = window.panels[panel]
     for candidate in (widget, *widget.findChildren(QPushButton), *widget.findChildren(object)):
         if getattr(candidate, "focusPolicy", lambda: Qt.FocusPolicy.NoFocus)() != Qt.FocusPolicy.NoFocus:

@@ -34,6 +34,7 @@ from tests.gui.shell.test_recovery import click, crash, edit, later
 from tests.support.canary import WATCHES, Canary, canary
 from tests.support.foreign_text import CHARACTER, Judge, Spoken, hostile_score, with_more, write_library
 from tests.support.tasks import ImmediateTasks
+from tests.support.windows import show
 from widgets.common.section import SectionHeader
 from widgets.common.selection import EventKey, Selection
 from widgets.common.session import Severity
@@ -91,8 +92,7 @@ def walked(
     )
     program.recorder.begin_where_remembered()
     program.window.resize(1600, 1000)
-    program.window.show()
-    qtbot.waitExposed(program.window)
+    show(program.window)
     yield program
     program.window.hide()
     program.end()
@@ -168,12 +168,12 @@ def menus(program: Program, judge: Judge) -> None:
     judge.open_menus("menus")
     add = program.window.findChild(QToolButton, "players_add_button")
     assert add is not None
-    for name, show in (
+    for name, begin in (
         ("expressions", lambda: choose_expression(program.session)),
         ("instruments", add.click),
         ("palette", program.window.show_palette),
     ):
-        show()
+        begin()
         judge.look(name, program.window)
         close_others(program)
     program.window.palette_popup.hide()

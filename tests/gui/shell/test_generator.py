@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import threading
-import time
 from collections.abc import Iterator
 from dataclasses import replace
 
@@ -116,39 +115,54 @@ def test_the_viewport_is_told_only_of_poses_at_the_playhead(
         assert len(told) == expected, at_s
 
 
-class Work:
-    """Motion during whose making others work."""
+class Clock:
+    """Clocks that stand still until they are moved."""
 
-    def __init__(self, others_s: float, is_seen: bool) -> None:
-        self.others_s, self.is_seen, self.seen, self.ready_share, self.broken = others_s, is_seen, 0, 0.5, {}
+    def __init__(self) -> None:
+        self.now_s, self.this_thread_s, self.others_s = 100.0, 3.0, 5.0
+
+    def monotonic(self) -> float:
+        return self.now_s
+
+    def thread_time(self) -> float:
+        return self.this_thread_s
+
+    def process_time(self) -> float:
+        return self.this_thread_s + self.others_s
+
+    def sleep(self, seconds: float) -> None:
+        self.now_s += seconds
+
+
+class Work:
+    """Motion that takes 20 ms, 10 ms of this thread, while other threads work too."""
+
+    def __init__(self, clock: Clock, others_s: float, is_seen: bool) -> None:
+        self.clock, self.others_s, self.is_seen = clock, others_s, is_seen
+        self.seen, self.ready_share, self.broken = 0, 0.5, {}
 
     def work(self, stop_wanted: object) -> bool:
-        def busy() -> None:
-            until_s = time.thread_time() + self.others_s
-            while time.thread_time() < until_s:
-                pass
-
-        other = threading.Thread(target=busy)
-        other.start()
-        other.join()
-        time.sleep(0.02)
+        self.clock.now_s += 0.02
+        self.clock.this_thread_s += 0.01
+        self.clock.others_s += self.others_s
         return True
 
 
 @pytest.mark.parametrize(
-    ("others_s", "is_seen", "rests"), [(0.02, True, True), (0.0, True, False), (0.02, False, False)]
+    ("others_s", "is_seen", "rests"), [(0.01, True, True), (0.0001, True, False), (0.01, False, False)]
 )
 def test_motion_that_nobody_waits_for_gives_way(
-    session: Session, generator: Generator, monkeypatch: pytest.MonkeyPatch, others_s: float, is_seen: bool, rests: bool
+    generator: Generator, monkeypatch: pytest.MonkeyPatch, others_s: float, is_seen: bool, rests: bool
 ) -> None:
     """Where others had the processor the worker rests longer than they did, unless somebody waits for what it makes."""
     generator.close()
-    worker = module._Worker(Work(others_s, is_seen), generator._worker._teller)  # type: ignore[arg-type]
+    clock = Clock()
+    worker = module._Worker(Work(clock, others_s, is_seen), generator._worker._teller, clock)  # type: ignore[arg-type]
     rested: list[float] = []
     monkeypatch.setattr(worker, "_rest", lambda rest_s, wishes: rested.append(rest_s))
-    for _ in range(7):
+    for _ in range(3):
         worker._make_motion()
-    assert (min(rested, default=0.0) > 1.5 * max(others_s, 0.01)) == rests
+    assert rested == pytest.approx([3 * 0.02] * 3 if rests else [])
 
 
 def test_what_is_wanted_ends_the_rest(generator: Generator) -> None:

@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QApplication, QToolButton, QWidget
 from pytestqt.qtbot import QtBot
 
 from app.shell.app import Program
+from tests.support.windows import show_in_front
 from widgets.timeline.panel import TimelinePanel
 
 Buttons = tuple[QToolButton, QToolButton]
@@ -20,8 +21,7 @@ def buttons(program: Program, qtbot: QtBot) -> Buttons:
     """Two neighbours."""
     panel = program.window.findChild(TimelinePanel)
     assert isinstance(panel, TimelinePanel)
-    program.window.activateWindow()
-    qtbot.waitUntil(program.window.isActiveWindow)
+    show_in_front(program.window)
     found = panel.zoom_buttons["zoom_out"], panel.zoom_buttons["zoom_in"]
     for button in found:
         button.setFocusPolicy(Qt.FocusPolicy.StrongFocus)

@@ -15,6 +15,7 @@ from app.shell.app import Program
 from tests.gui.conftest import QUARTET
 from tests.gui.shell.conftest import Start
 from tests.support.looks import faults
+from tests.support.windows import show
 
 ROOT = Path(__file__).parents[3]
 SCREENS = ((1.0, "dark", 1366, 768), (1.25, "light", 1093, 614), (1.5, "light", 1280, 720), (2.0, "dark", 1280, 800))
@@ -56,8 +57,7 @@ def test_the_judge_sees_what_does_not_fit(qt_app: QApplication, qtbot: QtBot) ->
     tabs.setUsesScrollButtons(False)
     for widget in (cut, squeezed, small, mute, box, tabs):
         line.addWidget(widget)
-    window.show()
-    qtbot.waitExposed(window)
+    show(window)
     found = "\n".join(fault for fault in faults(qt_app))
     for expected in ("'much more", "'just as much'", "16 x 16", "nobody says", "the tab"):
         assert expected in found, found

@@ -42,6 +42,7 @@ from tests.gui.shell.conftest import Answers
 from tests.support.recorder import EWI, RunningClock, SpokenFor
 from tests.support.takes import take_of
 from tests.support.tasks import ImmediateTasks
+from tests.support.windows import show_in_front
 from widgets.common.listening import HeardTake
 from widgets.common.selection import EventKey, Selection
 from widgets.common.tokens import DARK
@@ -835,9 +836,7 @@ def desk(qtbot: QtBot, qt_app: QApplication, settings: Settings, answers: Answer
     assert sound is not None
     # It plays in time, but no synthesiser works for it.
     program.session.playback = sound.playback
-    program.window.show()
-    program.window.activateWindow()
-    qtbot.waitUntil(program.window.isActiveWindow)
+    show_in_front(program.window)
     yield Desk(program, answers, tmp_path)
     program.window.hide()
     program.end()
@@ -892,9 +891,8 @@ def afresh(desk: Desk, opened: Project | None) -> Project:
 def focus(desk: Desk, context: str) -> QWidget:
     """Bring the keyboard to where the shortcut holds."""
     window = desk.program.window
-    window.activateWindow()
     # After a dialog was closed the display may take its time, and shortcuts belong to the active window.
-    assert QTest.qWaitForWindowActive(window, 10_000)
+    show_in_front(window)
     if context == "timeline":
         target: QWidget = desk.timeline.roll.plot
     elif context == "viewport":

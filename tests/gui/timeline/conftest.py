@@ -22,6 +22,7 @@ from app.shell.commands import edit, events, notes, timeline
 from app.shell.settings import Settings
 from tests.gui.timeline.hand import Hand, Place
 from tests.support.tasks import ImmediateTasks
+from tests.support.windows import show_in_front
 from widgets.common.session import Session
 from widgets.timeline.panel import TimelinePanel
 from widgets.timeline.roll import PianoRoll
@@ -111,13 +112,10 @@ def stage(qt_app: QApplication, qtbot: QtBot, tmp_path: Path) -> Iterator[Stage]
     qtbot.addWidget(panel)
     table.attach("timeline", panel)
     panel.resize(1200, 700)
-    panel.show()
-    qtbot.waitExposed(panel)
+    show_in_front(panel)
     panel.axis.show(-0.5, 6.0)
     session.set_grid(Grid(Fraction(1, 4)))
-    panel.activateWindow()
     panel.setFocus()
-    qtbot.waitUntil(panel.isActiveWindow)
     yield Stage(session, panel, table)
     session.timeline_view = None
     session.deleteLater()

@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QApplication, QWidget
 from app.performance.ensemble import Performance
 from app.plan.model import PlayerPlan
 from app.project.document import Change
+from tests.support.windows import show
 from widgets.common.session import Session
 from widgets.timeline.lane import Lane
 from widgets.timeline.lanes.region import Region
@@ -40,8 +41,7 @@ def shown_panel(session: Session, width: int = 1400, height: int = 1000) -> Time
     planned(session)
     panel = TimelinePanel(session)
     panel.resize(width, height)
-    panel.show()
-    QTest.qWaitForWindowExposed(panel)
+    show(panel)
     return panel
 
 

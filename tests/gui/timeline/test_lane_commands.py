@@ -21,6 +21,7 @@ from app.shell.commands import edit as undoing
 from app.shell.commands import events, fingerings, problems
 from app.shell.settings import Settings
 from tests.gui.timeline.lane_hands import front_plan, shown_panel
+from tests.support.windows import show_in_front
 from widgets.common.selection import EventKey, Selection
 from widgets.common.session import Session
 from widgets.timeline.panel import TimelinePanel
@@ -34,8 +35,7 @@ def panel(session: Session, qtbot: QtBot, tmp_path: Path) -> Iterator[TimelinePa
     table = ActionTable(session, Settings(tmp_path / "editor.toml"), all_rows)
     table.attach("timeline", result)
     table.refresh()
-    result.activateWindow()
-    qtbot.waitUntil(result.isActiveWindow)
+    show_in_front(result)
     result.lanes["fingering"].plot.setFocus()
     yield result
     table.deleteLater()

@@ -23,6 +23,7 @@ from tests.gui.timeline.conftest import TPQ, scale_project
 from tests.gui.timeline.lane_hands import ALT, click, double_click, drag, move_to
 from tests.support.takes import PlayedNote, take_of
 from tests.support.tasks import ImmediateTasks
+from tests.support.windows import show_in_front
 from widgets.common.selection import Selection
 from widgets.common.session import Session
 from widgets.timeline.lanes.takes import TakesLane
@@ -52,12 +53,9 @@ def lane(qt_app: QApplication, qtbot: QtBot, tmp_path: Path) -> Iterator[TakesLa
     table.attach("timeline", panel)
     panel.resize(1200, 900)
     panel.takes.set_folded(False)
-    panel.show()
-    qtbot.waitExposed(panel)
+    show_in_front(panel)
     panel.axis.show(-0.5, 6.0)
     session.set_grid(Grid(Fraction(1)))
-    panel.activateWindow()
-    qtbot.waitUntil(panel.isActiveWindow)
     yield panel.takes
     session.timeline_view = None
     session.deleteLater()

@@ -19,6 +19,7 @@ from app.shell.actions import ActionTable
 from app.shell.commands import edit, events, generate
 from app.shell.settings import Settings
 from tests.gui.timeline.lane_hands import click, drag, middle, region_of, shown_panel
+from tests.support.windows import show_in_front
 from widgets.common.selection import EventKey, Selection
 from widgets.common.session import Session
 from widgets.inspector.correction_list import CorrectionList
@@ -42,8 +43,7 @@ def panel(session: Session, qtbot: QtBot, tmp_path: Path) -> Iterator[TimelinePa
     table.refresh()
     session.actions["generate.bars"].trigger()
     session.select(Selection())
-    result.activateWindow()
-    qtbot.waitUntil(result.isActiveWindow)
+    show_in_front(result)
     yield result
     table.deleteLater()
 

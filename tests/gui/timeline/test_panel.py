@@ -21,6 +21,7 @@ from app.score.tempo import TempoMap
 from tests.gui.timeline.conftest import TPQ, Stage
 from tests.gui.timeline.hand import Hand
 from tests.support.tasks import ImmediateTasks
+from tests.support.windows import show
 from widgets.common.selection import Selection
 from widgets.common.session import Session
 from widgets.common.timeline_view import Ghosts, Tool
@@ -234,8 +235,7 @@ def test_a_piece_without_players_and_notes_says_what_to_do(qtbot: QtBot, qt_app:
     panel = TimelinePanel(session)
     qtbot.addWidget(panel)
     panel.resize(900, 400)
-    panel.show()
-    qtbot.waitExposed(panel)
+    show(panel)
     assert panel.roll.hint()
     panel.set_tool(Tool.DRAW)
     hand = Hand(panel.roll.plot)

@@ -20,6 +20,7 @@ from app.shell.settings import Settings
 from app.shell.sound import Sound
 from tests.gui.transport.conftest import Elapse
 from tests.gui.transport.devices import FakeDevices
+from tests.support.windows import show
 from widgets.common.grids import GRIDS
 from widgets.common.number_slider import NumberSlider
 from widgets.common.session import Session
@@ -37,8 +38,7 @@ def bar(session: Session, sound: Sound, tmp_path: Path, qtbot: QtBot) -> Transpo
     result = TransportBar(session)
     qtbot.addWidget(result)
     result.resize(1400, result.sizeHint().height())
-    with qtbot.waitExposed(result):
-        result.show()
+    show(result)
     return result
 
 

@@ -14,6 +14,7 @@ from app.performance.chunks import Pose
 from app.performance.ensemble import Performance
 from app.performance.live import LiveMotion
 from app.project.model import Project
+from tests.support.windows import show
 from widgets.common.session import Session
 from widgets.viewport.panel import ViewportPanel
 
@@ -62,8 +63,7 @@ def viewport(qtbot: QtBot, session: Session, poses: MadeNow) -> ViewportPanel:
     panel = ViewportPanel(session, poses)
     qtbot.addWidget(panel)
     panel.resize(*SIZE)
-    panel.show()
-    qtbot.waitExposed(panel)
+    show(panel)
     assert panel.has_gl, panel.message()
     QApplication.processEvents()
     return panel

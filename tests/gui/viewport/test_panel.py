@@ -21,6 +21,7 @@ from pytestqt.qtbot import QtBot
 from app.errors import AppError, Message
 from app.plan.corrections import PoseCorrection
 from tests.gui.viewport.conftest import AT_S, SIZE, MadeNow
+from tests.support.windows import show
 from widgets.common.session import Session
 from widgets.common.tokens import LIGHT
 from widgets.common.viewport_state import VIEWS
@@ -227,8 +228,7 @@ def test_the_windows_thread_copies_no_figures(
     made = []
     monkeypatch.setattr("widgets.viewport.renderer.crowd", lambda parts: made.append(parts))
     panel.resize(*SIZE)
-    panel.show()
-    qtbot.waitExposed(panel)
+    show(panel)
     panel.render_image(64, 36, AT_S)
     player = session.project.players[0]
     place = msgspec.structs.replace(player.stage, x_m=player.stage.x_m + 0.4)
