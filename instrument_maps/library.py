@@ -26,7 +26,7 @@ FOLDER_VARIABLE = "SUISOU_INSTRUMENTS"
 """Environment variable that names another folder for a person's own maps."""
 
 Stamp: TypeAlias = frozenset[tuple[str, int, int]]
-"""Names, times and sizes of the files of a folder."""
+"""Names, times and sizes of the files of a folder; and why it could not be listed."""
 
 
 def own_folder() -> Path:
@@ -97,7 +97,7 @@ def read_library(folder: Path, before: Library | None = None) -> Library:
     """
     problems: dict[Path, tuple[Message, ...]] = {}
     listed = _listed(folder, problems)
-    stamp = _stamp(listed)
+    stamp = _stamp(listed) | {(problem.id, 0, 0) for told in problems.values() for problem in told}
     if before is not None and before.folder == folder and before.stamp == stamp:
         return before
     maps, own = dict(bundled_maps()), dict[str, Path]()
@@ -162,6 +162,15 @@ def _model_stamp(stamp: Stamp, instrument: InstrumentMap) -> Stamp:
 
 _lock = RLock()
 _library: Library | None = None
+
+
+def begin() -> Library:
+    """Have the bundled maps alone, unless the folder was read already: for a program that reads it beside its window
+    (`reload`)."""
+    global _library
+    with _lock:
+        _library = _library or Library(own_folder(), dict(sorted(bundled_maps().items())))
+        return _library
 
 
 def library() -> Library:

@@ -5,6 +5,7 @@ Messages
 audio.not_readable : file, detail
 audio.empty : file
 audio.too_long : file, most_hours
+audio.too_dense : file, minutes
 audio.unusable : file, rate_hz, channels
 audio.breaks_off : file, seconds
     A warning: what came before was read.
@@ -12,6 +13,7 @@ audio.breaks_off : file, seconds
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Final
@@ -26,6 +28,10 @@ from app.formats.files import open_file
 
 MOST_HOURS: Final = 4
 """Longer recordings would fill the memory: an hour takes 0.7 GB."""
+FREE_S: Final = 600.0
+LEAST_BYTES_PER_S: Final = 100.0
+"""A file may hold `FREE_S`, and a second more for so many of its bytes: the least that speech takes is ten times that,
+but silence can be packed into a thousandth of it, and a small file fill the memory."""
 MOST_CHANNELS: Final = 64
 LEAST_RATE_HZ, MOST_RATE_HZ = 1000, 768_000
 _BLOCK: Final = 1 << 16
@@ -76,13 +82,18 @@ def decode(
     """
     try:
         with open_file(path) as stream, soundfile.SoundFile(stream) as file:
-            return _read(path, file, progress, stop_wanted)
+            most_s = FREE_S + os.fstat(stream.fileno()).st_size / LEAST_BYTES_PER_S
+            return _read(path, file, most_s, progress, stop_wanted)
     except (soundfile.SoundFileError, RuntimeError, TypeError) as error:
         raise FileError("audio.not_readable", file=path, detail=_detail(error)) from error
 
 
 def _read(
-    path: str, file: soundfile.SoundFile, progress: Callable[[float], None], stop_wanted: Callable[[], bool]
+    path: str,
+    file: soundfile.SoundFile,
+    most_s: float,
+    progress: Callable[[float], None],
+    stop_wanted: Callable[[], bool],
 ) -> Recording:
     rate_hz, channels = file.samplerate, file.channels
     if not (LEAST_RATE_HZ <= rate_hz <= MOST_RATE_HZ and 1 <= channels <= MOST_CHANNELS):
@@ -106,6 +117,8 @@ def _read(
         frames += len(raw)
         if frames > most:
             raise FileError("audio.too_long", file=path, most_hours=MOST_HOURS)
+        if frames > most_s * rate_hz:
+            raise FileError("audio.too_dense", file=path, minutes=int(most_s // 60))
         block = _stereo(np.nan_to_num(raw, nan=0.0, posinf=1.0, neginf=-1.0))
         if resampler is not None:
             block = resampler.resample_chunk(block, last=not len(raw))

@@ -9,6 +9,7 @@ Messages (with ``file``): ``file.cannot_read`` (reason);
 ``bvh.syntax`` (line, found): "{file}, line {line}: {found} does not belong here";
 ``bvh.truncated``: "{file} ends too early";
 ``bvh.motion`` (detail): "{file}: the motion does not fit the skeleton ({detail})";
+``bvh.too_large``: "{file} describes far more data than a file of its size holds";
 ``bvh.unsupported`` (line, what): "{file}, line {line}: {what} is not supported".
 """
 
@@ -34,6 +35,7 @@ FloatArray = npt.NDArray[np.floating]
 _ORDER = "ZXY"
 _POSITIONS = ["Xposition", "Yposition", "Zposition"]
 _DEEPEST = 512
+_FREE_ROTATIONS = 2**20
 MOST_BYTES = 2**29
 
 
@@ -297,10 +299,13 @@ def _motion(motion: str, hierarchy: _Hierarchy, file: str) -> BvhClip:
     except (IndexError, ValueError) as error:
         raise FileError("bvh.motion", file=file, detail="a number is missing or damaged") from error
     width = sum(len(channels) for channels in hierarchy.channels)
-    if not 1e-6 < frame_time < 1e6 or frames < 1 or not np.isfinite(values).all():
+    if not 1e-6 < frame_time < 1e6 or not 1 <= frames < 2**31 or not np.isfinite(values).all():
         raise FileError("bvh.motion", file=file, detail="a number is out of range")
     if len(values) != frames * width:
         raise FileError("bvh.motion", file=file, detail=f"{len(values)} numbers for {frames} frames of {width}")
+    if frames * len(hierarchy.names) > _FREE_ROTATIONS + 4 * len(values):
+        # Joints need not have channels, and then cost the file nothing in a frame.
+        raise FileError("bvh.too_large", file=file)
     table = values.reshape(frames, width)
     root_translation = np.zeros((frames, 3))
     rotations = np.zeros((frames, len(hierarchy.names), 4))

@@ -12,6 +12,10 @@ TEMPLATES: Final[dict[str, str]] = {
         "{file} has {channels} channels at {rate_hz} Hz, which is no recording; export it as stereo at 48000 Hz"
     ),
     "audio.empty": "{file} holds no sound; choose another recording",
+    "audio.too_dense": (
+        "{file} holds more than {minutes} minutes of silence, far more than a file of its size has of sound; "
+        "cut it to the piece"
+    ),
     "audio.too_long": "{file} is longer than {most_hours} hours; cut it to the piece",
     "audio.breaks_off": "{file} breaks off after {seconds} s: the file is damaged or was not copied whole",
     "audio.no_device": "there is no device for sound: it plays silently, in time",

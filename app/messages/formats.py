@@ -15,11 +15,12 @@ TEMPLATES: Final[dict[str, str]] = {
     "fbx.unsupported": "{file}: {what} is not supported",
     "fbx.not_fbx": "{file} is not an FBX file",
     "fbx.foreign_damaged": "{file} is damaged ({detail}); export it again",
-    "fbx.too_large": "{file} describes more data than any character has; export the character alone",
+    "fbx.too_large": "{file} describes far more data than a file of its size holds; export the character alone",
     "fbx.contradiction": "{file} contradicts itself: {detail}",
     "bvh.syntax": "{file}, line {line}: {found} does not belong here",
     "bvh.truncated": "{file} ends too early",
     "bvh.motion": "{file}: the motion does not fit the skeleton ({detail})",
+    "bvh.too_large": "{file} describes far more data than a file of its size holds; export the motion alone",
     "bvh.unsupported": "{file}, line {line}: {what} is not supported",
     "usd.missing": "USD files need the package usd-core, which is not installed: pip install usd-core",
 }

@@ -5,6 +5,7 @@ Everything found here is a guess from a usual figure's proportions and must be t
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -48,6 +49,8 @@ class Tree:
     children : tuple of tuple of int
     above : tuple of frozenset of int
         All bones above each.
+    below : tuple of int
+        How many bones hang from each.
     positions_m : (B, 3) float64
     skinned : frozenset of int
         Bones that carry skin; all, where none does.
@@ -56,6 +59,7 @@ class Tree:
     parents: tuple[int, ...]
     children: tuple[tuple[int, ...], ...]
     above: tuple[frozenset[int], ...]
+    below: tuple[int, ...]
     positions_m: FloatArray
     skinned: frozenset[int]
 
@@ -83,10 +87,15 @@ def tree_of(parents: Sequence[int], positions_m: FloatArray, skinned: frozenset[
         above.append(above[parent] | {parent} if parent >= 0 else frozenset())
         if parent >= 0:
             children[parent].append(bone)
+    below = [0] * len(parents)
+    for bone in range(len(parents) - 1, -1, -1):
+        if parents[bone] >= 0:
+            below[parents[bone]] += below[bone] + 1
     return Tree(
         tuple(parents),
         tuple(map(tuple, children)),
         tuple(above),
+        tuple(below),
         positions_m,
         skinned or frozenset(range(len(parents))),
     )
@@ -105,20 +114,17 @@ class _Halves:
         self.used = used
         mirrored = points * (-1.0, 1.0, 1.0) + (2.0 * self.centre, 0.0, 0.0)
         self.partner: dict[int, int] = {}
-        for bone in used:
-            far = np.linalg.norm(points[used] - mirrored[bone], axis=1)
+        places, depths = points[used], np.array([tree.depth(bone) for bone in used])
+        for at, bone in enumerate(used):
+            far = np.linalg.norm(places - mirrored[bone], axis=1)
             # Of several at about one place, the one as deep in the tree; the bone itself before others.
-            order = sorted(
-                range(len(used)),
-                key=lambda i: (
-                    round(far[i] / self.height, 2),
-                    abs(tree.depth(used[i]) - tree.depth(bone)),
-                    used[i] != bone,
-                    far[i],
-                ),
-            )
-            if far[order[0]] < MIRROR_TOLERANCE * self.height:
-                self.partner[bone] = used[order[0]]
+            steps = np.round(far / self.height, 2)
+            near = np.flatnonzero(steps == steps.min())
+            unlike = np.abs(depths[near] - depths[at])
+            near = near[unlike == unlike.min()]
+            partner = at if at in near else int(near[np.argmin(far[near])])
+            if far[partner] < MIRROR_TOLERANCE * self.height:
+                self.partner[bone] = used[partner]
 
     def side(self, bone: int) -> int:
         """1: left (+X), -1: right, 0: in the middle."""
@@ -151,7 +157,7 @@ def joints_by_shape(tree: Tree) -> dict[str, int]:
     roots = [bone for bone in halves.used if tree.parents[bone] < 0]
     if not roots:
         return {}
-    root = max(roots, key=lambda bone: sum(bone in above for above in tree.above))
+    root = max(roots, key=lambda bone: tree.below[bone])
     ends = halves.left_ends(root)
     if not ends:
         return {}
@@ -243,9 +249,10 @@ def _fingers(tree: Tree, side: str, hand: int) -> dict[str, int]:
     """Chains from the hand: the one that leads away most is the thumb, the others follow by their distance from it."""
     tips = [bone for bone, above in enumerate(tree.above) if hand in above and not tree.children[bone]]
     paths = [tree.path(hand, tip) for tip in tips]
+    shared = Counter(bone for path in paths for bone in path)
     chains = []
     for path in paths:
-        chain = [bone for bone in path if bone in tree.skinned and sum(bone in other for other in paths) == 1]
+        chain = [bone for bone in path if bone in tree.skinned and shared[bone] == 1]
         if len(chain) > 3:
             # Of more than three the first is a metacarpal, the longest; or the last is no more than the fingertip.
             lengths = [tree.distance(one, other) for one, other in pairwise(chain)]
@@ -279,16 +286,16 @@ def spread_spine(tree: Tree, chain: Sequence[int]) -> dict[str, int]:
 
 
 def _head(halves: _Halves, chest: int) -> dict[str, int]:
-    tree = halves.tree
+    tree, used = halves.tree, frozenset(halves.used)
     chain: list[int] = []
     bone = chest
     while True:
-        central = [child for child in tree.children[bone] if halves.side(child) == 0 and child in halves.used]
+        central = [child for child in tree.children[bone] if halves.side(child) == 0 and child in used]
         higher = [child for child in central if tree.positions_m[child, 1] > tree.positions_m[bone, 1]]
         if not higher or len(chain) == 4:
             break
         # The way to the head is the one that most hangs on.
-        bone = max(higher, key=lambda child: (sum(child in above for above in tree.above), -child))
+        bone = max(higher, key=lambda child: (tree.below[child], -child))
         chain.append(bone)
     while len(chain) > 1 and chain[-1] not in tree.skinned:
         chain.pop()

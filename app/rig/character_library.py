@@ -50,7 +50,7 @@ RESERVED: Final = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)", re.IGNORECASE)
 """Names that are devices on Windows."""
 
 Stamp: TypeAlias = tuple[tuple[str, int, int], ...]
-"""Names, times and sizes of files."""
+"""Names, times and sizes of files; and why a folder could not be listed."""
 
 
 class CharacterEntry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
@@ -152,7 +152,7 @@ def read_characters(folder: Path, before: CharacterLibrary | None = None) -> Cha
     except FileError as error:
         problems[folder] = error.message
         listed = []
-    stamp = _stamp(listed)
+    stamp = (*_stamp(listed), *((problem.id, 0, 0) for problem in problems.values()))
     if before is not None and before.folder == folder and before.stamp == stamp:
         return before
     bundled = {id: Source(path) for id, path in bundled_characters().items()}
@@ -216,9 +216,21 @@ def _stamp(paths: list[Path]) -> Stamp:
 
 
 _lock = RLock()
+_loading = RLock()
+"""Held while a character is loaded, which may take seconds; nobody waits for it with `_lock`."""
 _library: CharacterLibrary | None = None
 _good: dict[Path, Character] = {}
 """The last good version of each of a person's own files."""
+
+
+def begin_characters() -> CharacterLibrary:
+    """Have the bundled characters alone, unless the folder was read already: for a program that reads it beside its
+    window (`reload_characters`)."""
+    global _library
+    with _lock:
+        bundled = {id: Source(path) for id, path in bundled_characters().items()}
+        _library = _library or CharacterLibrary(own_folder(), bundled)
+        return _library
 
 
 def character_library() -> CharacterLibrary:
@@ -258,7 +270,7 @@ def character_named(id: str) -> Character:
     if id not in sources:
         raise UsageError("character.missing", id=id, known=", ".join(sources))
     source = sources[id]
-    with _lock:
+    with _loading:
         try:
             character = _opened(id, source)
         except FileError:

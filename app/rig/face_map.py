@@ -15,6 +15,7 @@ from collections import defaultdict
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Final
+from weakref import WeakKeyDictionary
 
 from app.errors import FileError
 from app.rig.figure import Figure
@@ -61,7 +62,7 @@ def map_morphs(figure: Figure, wanted: Mapping[str, Mapping[str, float]] | None 
     FileError
         A correction names a shape or a morph that there is not.
     """
-    found = {name: _shapes(figure, table) for name, table in load_face_names().items()}
+    found = _found(figure)
     order = sorted(found, key=lambda name: (-len(found[name]), name))
     morphs: dict[str, Mapping[str, float]] = {}
     for name in order:
@@ -77,6 +78,17 @@ def map_morphs(figure: Figure, wanted: Mapping[str, Mapping[str, float]] | None 
         morphs={shape: morphs[shape] for shape in ARKIT_MORPHS if shape in morphs},
         missing=tuple(shape for shape in ARKIT_MORPHS if shape not in morphs),
     )
+
+
+_kept: WeakKeyDictionary[Figure, dict[str, dict[str, dict[str, float]]]] = WeakKeyDictionary()
+
+
+def _found(figure: Figure) -> dict[str, dict[str, dict[str, float]]]:
+    """What each table makes of a figure, once for each: it is asked for with every correction."""
+    known = _kept.get(figure)
+    if known is None:
+        known = _kept[figure] = {name: _shapes(figure, table) for name, table in load_face_names().items()}
+    return known
 
 
 def _check(figure: Figure, shape: str, own: Mapping[str, float]) -> None:

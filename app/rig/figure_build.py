@@ -229,12 +229,14 @@ def _rotations(world: FloatArray) -> FloatArray:
 
 def _unique(names: Sequence[str]) -> tuple[str, ...]:
     taken: set[str] = set()
+    last: dict[str, int] = {}
     result = []
     for name in names:
-        unique, number = name, 1
+        unique, number = name, last.get(name, 1)
         while unique in taken:
             number += 1
             unique = f"{name}_{number}"
+        last[name] = number
         taken.add(unique)
         result.append(unique)
     return tuple(result)

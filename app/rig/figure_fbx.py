@@ -14,6 +14,7 @@ from typing import Final
 import numpy as np
 import numpy.typing as npt
 
+from app.errors import FileError
 from app.formats.fbx.foreign import FbxCluster, FbxContent, FbxMesh, FbxNode, read_foreign_fbx
 from app.formats.scene import Material
 from app.rig.figure import Figure
@@ -24,6 +25,8 @@ FloatArray = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.int64]
 
 MOST_INFLUENCES: Final = 16
+FREE_MOVES: Final = 2**19
+MOST_VERTICES_OF_POINT: Final = 16
 
 
 def fbx_figure(path: Path) -> Figure:
@@ -35,7 +38,7 @@ def fbx_figure(path: Path) -> Figure:
     parts: list[Part] = []
     hidden = _hidden(content.nodes)
     for mesh in content.meshes:
-        parts += _parts(mesh, content.nodes, world, hidden)
+        parts += _parts(str(path), mesh, content.nodes, world, hidden)
     nodes = Nodes(
         names=[node.name for node in content.nodes],
         parents=[node.parent for node in content.nodes],
@@ -79,12 +82,14 @@ def _hidden(nodes: tuple[FbxNode, ...]) -> frozenset[int]:
     return frozenset(hidden)
 
 
-def _parts(mesh: FbxMesh, nodes: tuple[FbxNode, ...], world: FloatArray, hidden: frozenset[int]) -> list[Part]:
+def _parts(
+    file: str, mesh: FbxMesh, nodes: tuple[FbxNode, ...], world: FloatArray, hidden: frozenset[int]
+) -> list[Part]:
     shown = [node for node in mesh.nodes if node not in hidden]
     if not len(mesh.points) or not len(mesh.faces) or not shown:
         return []
     clusters = [cluster for skin in mesh.skins for cluster in skin if len(cluster.points)]
-    built, points = _triangulated(mesh)
+    built, points = _triangulated(file, mesh)
     if clusters:
         joints, weights = _influences(clusters, len(mesh.points))
         table = np.array([world[cluster.node] @ cluster.bone_from_mesh for cluster in clusters])
@@ -117,7 +122,7 @@ def _influences(clusters: list[FbxCluster], count: int) -> tuple[npt.NDArray[np.
     return joints, shares
 
 
-def _triangulated(mesh: FbxMesh) -> tuple[Mesh, IntArray]:
+def _triangulated(file: str, mesh: FbxMesh) -> tuple[Mesh, IntArray]:
     """The mesh with one vertex per point, normal and texture coordinate that belong together, without its skin, and the
     point of each vertex."""
     corners = mesh.corners
@@ -141,7 +146,7 @@ def _triangulated(mesh: FbxMesh) -> tuple[Mesh, IntArray]:
         materials=surfaces or (Material("default", (0.8, 0.8, 0.8, 1.0), 0.0, 0.8),),
         joints=np.zeros((len(points), 1), np.int32),
         weights=np.zeros((len(points), 1), np.float32),
-        morphs=_morphs(mesh, points),
+        morphs=_morphs(file, mesh, points),
     )
     return built, points
 
@@ -155,22 +160,29 @@ def _fans(faces: IntArray) -> tuple[IntArray, IntArray]:
     return np.column_stack([begin, begin + step + 1, begin + step + 2]), owners
 
 
-def _morphs(mesh: FbxMesh, points: IntArray) -> tuple[Morph, ...]:
+def _morphs(file: str, mesh: FbxMesh, points: IntArray) -> tuple[Morph, ...]:
     order = np.argsort(points, kind="stable")
     ranked = points[order]
     found: dict[str, Morph] = {}
+    last: dict[str, int] = {}
+    # A point is a vertex for each normal and texture coordinate it has: that may be any number, but not everywhere.
+    left = FREE_MOVES + MOST_VERTICES_OF_POINT * sum(len(morph.points) for morph in mesh.morphs)
     for morph in mesh.morphs:
-        moved = np.zeros((len(mesh.points), 3))
-        np.add.at(moved, morph.points, morph.deltas)
-        touched = np.unique(morph.points)
+        touched, place = np.unique(morph.points, return_inverse=True)
+        moved = np.zeros((len(touched), 3))
+        np.add.at(moved, place.reshape(-1), morph.deltas)
         begin, end = np.searchsorted(ranked, touched), np.searchsorted(ranked, touched, side="right")
-        spread = np.repeat(begin, end - begin) + _counted(end - begin)
-        vertices = np.sort(order[spread])
-        name, number = morph.name, 1
+        left -= int((end - begin).sum())
+        if left < 0:
+            raise FileError("figure.too_large", file=file)
+        vertices = np.sort(order[np.repeat(begin, end - begin) + _counted(end - begin)])
+        name, number = morph.name, last.get(morph.name, 1)
         while name in found:
             number += 1
             name = f"{morph.name}_{number}"
-        found[name] = Morph(name, vertices.astype(np.int32), moved[points[vertices]].astype(np.float32), None)
+        last[morph.name] = number
+        deltas = moved[np.searchsorted(touched, points[vertices])]
+        found[name] = Morph(name, vertices.astype(np.int32), deltas.astype(np.float32), None)
     return tuple(found.values())
 
 

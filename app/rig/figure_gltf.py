@@ -18,7 +18,7 @@ import numpy.typing as npt
 from app.rig.figure import Figure, Origin
 from app.rig.figure_build import SINGULAR, Nodes, Part, apart, build_figure, rest_pose, turned
 from app.rig.source import Source, build_mesh, read_source
-from app.rig.texture_color import Seen, coloured
+from app.rig.texture_color import Textures, coloured
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -118,13 +118,13 @@ def _nodes(source: Source) -> Nodes:
 
 def _parts(source: Source) -> list[Part]:
     parts = []
-    seen: Seen = {}
+    textures = Textures(source.gltf)
     for node, entry in enumerate(source.gltf.nodes):
         if entry.mesh is None:
             continue
         name = source.gltf.meshes[entry.mesh].name or entry.name
         mesh, skinned = build_mesh(source, entry.mesh, name)
-        colours = coloured(mesh.materials, source.gltf.meshes[entry.mesh].primitives, source.gltf, seen)
+        colours = coloured(mesh.materials, source.gltf.meshes[entry.mesh].primitives, source.gltf, textures)
         mesh = replace(mesh, materials=colours)
         mesh = replace(mesh, morphs=tuple(replace(m, name=morph_name(source, entry.mesh, m.name)) for m in mesh.morphs))
         skin = source.gltf.skins[entry.skin] if entry.skin is not None else None

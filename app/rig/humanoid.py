@@ -17,6 +17,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 from typing import Final
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -99,8 +100,7 @@ def map_joints(figure: Figure, wanted: Mapping[str, str] | None = None) -> Joint
     FileError
         A correction names a joint or a bone that there is not.
     """
-    tree = _tree(figure)
-    found, guessed = _automatic(figure, tree)
+    tree, found, guessed = _without_help(figure)
     bones = dict(found.bones)
     doubtful = set(found.astray) | guessed
     doubtful |= _turn_sides(tree, bones)
@@ -120,6 +120,19 @@ def map_joints(figure: Figure, wanted: Mapping[str, str] | None = None) -> Joint
         missing=tuple(joint for joint in joints if joint not in bones),
         doubtful=tuple(joint for joint in joints if joint in doubtful and joint in bones),
     )
+
+
+_kept: WeakKeyDictionary[Figure, tuple[Tree, _Found, set[str]]] = WeakKeyDictionary()
+
+
+def _without_help(figure: Figure) -> tuple[Tree, _Found, set[str]]:
+    """What is found by itself, once for each figure: it takes seconds where there are thousands of bones, and is asked
+    for with every correction."""
+    known = _kept.get(figure)
+    if known is None:
+        tree = _tree(figure)
+        known = _kept[figure] = (tree, *_automatic(figure, tree))
+    return known
 
 
 def _automatic(figure: Figure, tree: Tree) -> tuple[_Found, set[str]]:
@@ -179,8 +192,6 @@ def _by_names(figure: Figure, tree: Tree) -> _Found:
     spellings = [[bone_key(name) for name in figure.bone_names]]
     if sum(NUMBERED.search(name) is not None for name in figure.bone_names) >= MOST_NUMBERED * len(figure.bone_names):
         spellings.append([bone_key(NUMBERED.sub("", name)) for name in figure.bone_names])
-    # How much hangs on a bone: of two with one name the body's is the one that more hangs on.
-    below = Counter(bone for above in tree.above for bone in above)
     best = _Found("", {}, frozenset(), 0)
     for profile, table in load_bone_names().items():
         names = table.keys()
@@ -190,8 +201,9 @@ def _by_names(figure: Figure, tree: Tree) -> _Found:
                 for bone, key in enumerate(keys):
                     if key.startswith(prefix) and key.endswith(suffix) and len(key) >= len(prefix) + len(suffix):
                         bones_of.setdefault(key[len(prefix) : len(key) - len(suffix)], []).append(bone)
+                # Of bones with one name the body's is the one that most hangs on.
                 place = {
-                    key: min(bones, key=lambda bone: (-below[bone], figure.bone_names[bone]))
+                    key: min(bones, key=lambda bone: (-tree.below[bone], figure.bone_names[bone]))
                     for key, bones in bones_of.items()
                 }
                 found = _found(profile, tree, {joint: _first(place, own) for joint, own in names.items()})
@@ -203,9 +215,14 @@ def _by_names(figure: Figure, tree: Tree) -> _Found:
 def _affixes(keys: list[str], known: set[str]) -> list[tuple[str, str]]:
     """What stands before and after the known names in most of a figure's; none at all comes first."""
     votes: Counter[tuple[str, str]] = Counter()
+    names = [name for name in known if len(name) >= SHORTEST_AFFIXED]
+    # Most keys of a figure with thousands of bones hold no known name.
+    any_name = re.compile("|".join(map(re.escape, names)))
     for key in set(keys):
-        for name in known:
-            at = key.find(name) if len(name) >= SHORTEST_AFFIXED else -1
+        if not any_name.search(key):
+            continue
+        for name in names:
+            at = key.find(name)
             if at >= 0 and len(name) < len(key):
                 votes[key[:at], key[at + len(name) :]] += 1
     common = sorted(votes, key=lambda affix: (-votes[affix], affix))

@@ -8,6 +8,7 @@ model.invalid : file, detail
 
 from __future__ import annotations
 
+import hashlib
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -59,13 +60,16 @@ def build_mesh(source: Source, index: int, name: str) -> tuple[Mesh, bool]:
     primitives = source.gltf.meshes[index].primitives
     blocks: list[tuple[int, GltfPrimitive]] = []
     starts: list[int] = []
+    known: dict[bytes, int] = {}
+    digests: dict[int, bytes] = {}
     count = 0
     for primitive in primitives:
-        known = next((start for start, other in blocks if _same_vertices(primitive, other)), None)
-        if known is None:
+        own = id(primitive.positions)  # Those that share them share the joints too.
+        digest = digests[own] = digests.get(own) or _digest(primitive)
+        if digest not in known:
             blocks.append((count, primitive))
-            known, count = count, count + len(primitive.positions)
-        starts.append(known)
+            known[digest], count = count, count + len(primitive.positions)
+        starts.append(known[digest])
     width = max((part.joint_indices.shape[1] for _, part in blocks), default=0)
     positions, normals = np.zeros((count, 3), np.float32), np.zeros((count, 3), np.float32)
     uvs = np.zeros((count, 2), np.float32)
@@ -118,8 +122,12 @@ def moved_mesh(mesh: Mesh, change: FloatArray, joints: npt.NDArray[np.int32], we
     return Mesh(**values)
 
 
-def _same_vertices(a: GltfPrimitive, b: GltfPrimitive) -> bool:
-    return np.array_equal(a.positions, b.positions) and np.array_equal(a.joint_indices, b.joint_indices)
+def _digest(primitive: GltfPrimitive) -> bytes:
+    """The same for primitives with the same vertices, and no others."""
+    digest = hashlib.blake2b(str(primitive.joint_indices.shape).encode(), digest_size=16)
+    digest.update(primitive.positions.tobytes())
+    digest.update(primitive.joint_indices.tobytes())
+    return digest.digest()
 
 
 def _morph(name: str, parts: list[tuple[int, GltfPrimitive, int]]) -> Morph:

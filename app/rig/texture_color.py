@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 import warnings
 from dataclasses import replace
-from typing import Final, TypeAlias
+from typing import Final
 
 import numpy as np
 import numpy.typing as npt
@@ -18,34 +18,71 @@ FloatArray = npt.NDArray[np.float64]
 
 SAMPLED_PX: Final = 256
 """Textures are made so small first: a mean needs no more."""
-MOST_PX: Final = 8192
-"""A texture larger than this on a side is left alone."""
+FREE_PX: Final = 2**24
+PX_PER_BYTE: Final = 64
+"""So many pixels in all, and so many more for each byte of the images, are looked at: a few bytes can be any number."""
+MOST_SCANS: Final = 64
+"""A JPEG is read once for each of its scans, of which real ones have about ten."""
+_UNREADABLE: Final = (
+    *(OSError, ValueError, SyntaxError, EOFError),
+    *(Image.DecompressionBombError, Image.DecompressionBombWarning),
+)
+_SCAN: Final = b"\xff\xda"
 OPAQUE: Final = 0.5
 """What lets more light through than it keeps is cut out and has no colour."""
 
 
-Seen: TypeAlias = dict[int, "FloatArray | None"]
-"""Images that have been looked at, by number: many surfaces share one."""
+class Textures:
+    """The images of a file, each looked at once: many surfaces share one."""
+
+    def __init__(self, gltf: GltfModel) -> None:
+        self._images = gltf.images
+        unique = {id(image): len(image) for image in gltf.images}
+        self._left_px = FREE_PX + PX_PER_BYTE * sum(unique.values())
+        self._seen: dict[int, FloatArray | None] = {}
+
+    def pixels(self, number: int) -> FloatArray | None:
+        """An image as (H, W, 4) values 0..1, made small; None where it is none, or too large."""
+        image = self._images[number]
+        if id(image) not in self._seen:
+            self._seen[id(image)] = self._opened(image)
+        return self._seen[id(image)]
+
+    def _opened(self, image: bytes) -> FloatArray | None:
+        if image.startswith(b"\xff\xd8") and image.count(_SCAN) > MOST_SCANS:
+            return None
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("error", Image.DecompressionBombWarning)
+                with Image.open(io.BytesIO(image), formats=("PNG", "JPEG", "WEBP")) as opened:
+                    self._left_px -= opened.width * opened.height
+                    if self._left_px < 0:
+                        return None
+                    opened.draft("RGB", (SAMPLED_PX, SAMPLED_PX))
+                    small = opened.convert("RGBA")
+        except _UNREADABLE:
+            return None
+        small.thumbnail((SAMPLED_PX, SAMPLED_PX), Image.Resampling.BOX)
+        return np.asarray(small, dtype=np.float64) / 255.0
 
 
 def coloured(
-    materials: tuple[Material, ...], primitives: tuple[GltfPrimitive, ...], gltf: GltfModel, seen: Seen
+    materials: tuple[Material, ...], primitives: tuple[GltfPrimitive, ...], gltf: GltfModel, textures: Textures
 ) -> tuple[Material, ...]:
     """Materials of a mesh's primitives with the mean colours of their textures; one that cannot be read has none."""
     return tuple(
-        _coloured(material, primitive, gltf, seen) for material, primitive in zip(materials, primitives, strict=True)
+        _coloured(material, primitive, gltf, textures)
+        for material, primitive in zip(materials, primitives, strict=True)
     )
 
 
-def _coloured(material: Material, primitive: GltfPrimitive, gltf: GltfModel, seen: Seen) -> Material:
+def _coloured(material: Material, primitive: GltfPrimitive, gltf: GltfModel, textures: Textures) -> Material:
     if primitive.material is None or primitive.uvs is None or not len(primitive.triangles):
         return material
     number = gltf.materials[primitive.material].color_image
     if number is None:
         return material
-    if number not in seen:
-        seen[number] = _pixels(gltf.images[number])
-    pixels = seen[number]
+    pixels = textures.pixels(number)
     if pixels is None:
         return material
     height, width = pixels.shape[:2]
@@ -58,22 +95,6 @@ def _coloured(material: Material, primitive: GltfPrimitive, gltf: GltfModel, see
         return material
     red, green, blue = (_linear(found[:, :3]).mean(axis=0) * material.base_color[:3]).tolist()
     return replace(material, base_color=(red, green, blue, material.base_color[3]))
-
-
-def _pixels(image: bytes) -> FloatArray | None:
-    """An image as (H, W, 4) values 0..1, made small; None where it is none, or too large."""
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("error", Image.DecompressionBombWarning)
-            with Image.open(io.BytesIO(image), formats=("PNG", "JPEG", "WEBP")) as opened:
-                if max(opened.size) > MOST_PX:
-                    return None
-                opened.draft("RGB", (SAMPLED_PX, SAMPLED_PX))
-                small = opened.convert("RGBA")
-    except (OSError, ValueError, SyntaxError, EOFError, Image.DecompressionBombError, Image.DecompressionBombWarning):
-        return None
-    small.thumbnail((SAMPLED_PX, SAMPLED_PX), Image.Resampling.BOX)
-    return np.asarray(small, dtype=np.float64) / 255.0
 
 
 def _linear(srgb: FloatArray) -> FloatArray:

@@ -21,6 +21,7 @@ from app.formats.scratch import scratch_folder
 from app.project.autosave import Autosave
 from app.project.edit.piece import new_piece
 from app.project.presence import Presence, recovery_folder
+from app.rig.character_library import begin_characters
 from app.shell.actions import ActionTable, KeyboardButtons, rows
 from app.shell.character_watch import CharacterWatch
 from app.shell.editor import Editor
@@ -38,6 +39,7 @@ from app.shell.streamer import Streamer
 from app.shell.tasks import ThreadTasks
 from app.shell.theme import apply_font, apply_theme
 from app.shell.window import Window
+from instrument_maps.library import begin
 from widgets.common.session import Session, Severity
 from widgets.common.tasks import Tasks
 from widgets.common.viewport_state import VIEWS
@@ -115,6 +117,9 @@ class Program(QObject):
         recorder: Callable[[Session, Files], Recorder] | None = None,
     ) -> None:
         super().__init__()
+        # The user's own are read beside the window, which may take as long as it likes.
+        begin()
+        begin_characters()
         application = QApplication.instance()
         assert isinstance(application, QApplication)
         self._application = application

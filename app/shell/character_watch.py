@@ -2,10 +2,18 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from PySide6.QtCore import QObject, QTimer
 
 from app.errors import Message
-from app.rig.character_library import CharacterLibrary, character_library, own_folder, reload_characters
+from app.rig.character_library import (
+    CharacterLibrary,
+    begin_characters,
+    character_library,
+    own_folder,
+    reload_characters,
+)
 from app.rig.read_figure import SUFFIXES
 from app.shell.folder_watch import FolderWatch
 from widgets.common.session import Session, Severity
@@ -22,11 +30,13 @@ class CharacterWatch(QObject):
     def __init__(self, session: Session) -> None:
         super().__init__(session)
         self._session = session
-        self._known = character_library()
+        self._known = begin_characters()
         self._watch = FolderWatch(self, own_folder, (".toml", *SUFFIXES))
         self._watch.changed.connect(self.read)
         session.characters_saved.connect(self.take)
-        QTimer.singleShot(0, self, self._tell_first)
+        for told in self._known.problems.values():
+            QTimer.singleShot(0, self, partial(session.notice, told, Severity.ERROR))
+        QTimer.singleShot(0, self, self.read)
 
     def read(self) -> None:
         """Read the folder again now."""
@@ -44,11 +54,6 @@ class CharacterWatch(QObject):
         if self._known is before:
             return
         self._session.characters_changed.emit()
-        wrong = [told for path, told in self._known.problems.items() if before.problems.get(path) != told]
-        if wrong:
-            self._session.notice(wrong[0], Severity.ERROR)
-
-    def _tell_first(self) -> None:
-        """What was wrong when the program began."""
-        for told in self._known.problems.values():
-            self._session.notice(told, Severity.ERROR)
+        for path, told in self._known.problems.items():
+            if before.problems.get(path) != told:
+                self._session.notice(told, Severity.ERROR)

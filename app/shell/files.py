@@ -20,10 +20,11 @@ from app.project.edit.piece import new_piece, set_audio, set_offset
 from app.project.importing import import_project, usual_rows
 from app.project.model import Project
 from app.project.recovery import Recoverable, discard, load_work, recoverable, recoverable_of
+from app.rig.character_library import reload_characters
 from app.score.read import MidiContents, read_contents
 from app.shell.questions import Questions
 from app.shell.settings import Settings
-from instrument_maps.library import all_maps
+from instrument_maps.library import all_maps, reload
 from widgets.common.session import Session, Severity
 
 MIDI_SUFFIXES: Final = (".mid", ".midi", ".smf", ".kar", ".rmi")
@@ -181,6 +182,7 @@ class Files(QObject):
         presence = self.autosave.presence if self.autosave is not None else None
 
         def work(progress: Callable[[float], None], stop_wanted: Callable[[], bool]) -> Opened:
+            _read_own()
             content = storage.read(path)
             project = storage.decode(content, Path(os.path.realpath(path)), str(path))
             items = recoverable_of(path, presence.folder, presence.token) if presence is not None else ()
@@ -205,6 +207,7 @@ class Files(QObject):
         source = str(path)
 
         def work(progress: Callable[[float], None], stop_wanted: Callable[[], bool]) -> Read:
+            _read_own()
             contents = read_contents(path)
             if ask:
                 return contents, None
@@ -471,6 +474,7 @@ class Files(QObject):
         """Go on with unsaved work."""
 
         def work(progress: Callable[[float], None], stop_wanted: Callable[[], bool]) -> tuple[Project, str]:
+            _read_own()
             return load_work(item)
 
         def done(loaded: tuple[Project, str]) -> None:
@@ -495,3 +499,9 @@ class Files(QObject):
 
 Opened = tuple[Project, Recoverable | None, str]
 Read = tuple[MidiContents, Project | None]
+
+
+def _read_own() -> None:
+    """Have the user's own instruments and characters before a piece that may be played by them."""
+    reload()
+    reload_characters()

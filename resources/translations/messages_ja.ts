@@ -16,6 +16,10 @@
             <translation>{file} には音が入っていません。別の録音を選んでください</translation>
         </message>
         <message>
+            <source>{file} holds more than {minutes} minutes of silence, far more than a file of its size has of sound; cut it to the piece</source>
+            <translation>{file} には {minutes} 分を超える無音が入っています。このサイズのファイルに入る音よりもはるかに長いので、曲の長さに切ってください</translation>
+        </message>
+        <message>
             <source>{file} is longer than {most_hours} hours; cut it to the piece</source>
             <translation>{file} は {most_hours} 時間を超えています。曲の部分だけに切り詰めてください</translation>
         </message>
@@ -520,8 +524,8 @@
             <translation>{file} は壊れています（{detail}）。もう一度書き出してください</translation>
         </message>
         <message>
-            <source>{file} describes more data than any character has; export the character alone</source>
-            <translation>{file} のデータ量は、キャラクターとしてあり得ない大きさです。キャラクターだけを書き出してください</translation>
+            <source>{file} describes far more data than a file of its size holds; export the character alone</source>
+            <translation>{file} の内容がファイルのサイズに対して大きすぎます。キャラクターだけを書き出してください</translation>
         </message>
         <message>
             <source>{file} contradicts itself: {detail}</source>
@@ -538,6 +542,10 @@
         <message>
             <source>{file}: the motion does not fit the skeleton ({detail})</source>
             <translation>{file}: モーションがスケルトンに合いません（{detail}）</translation>
+        </message>
+        <message>
+            <source>{file} describes far more data than a file of its size holds; export the motion alone</source>
+            <translation>{file} の内容がファイルのサイズに対して大きすぎます。モーションだけを書き出してください</translation>
         </message>
         <message>
             <source>{file}, line {line}: {what} is not supported</source>
@@ -1428,12 +1436,16 @@
             <translation>{file} は未対応の {what} を使っています</translation>
         </message>
         <message>
-            <source>{file} describes more data than any character has</source>
-            <translation>{file} のデータ量は、キャラクターとしてあり得ない大きさです</translation>
+            <source>{file} nests its nodes more than {most} deep; export the character alone</source>
+            <translation>{file} のノードの階層が {most} 段を超えています。キャラクターだけを書き出してください</translation>
         </message>
         <message>
             <source>{file} is neither VRM, glTF nor FBX</source>
             <translation>{file} は VRM、glTF、FBX のいずれでもありません</translation>
+        </message>
+        <message>
+            <source>{file} describes more data than any character has; export the character alone</source>
+            <translation>{file} のデータ量は、キャラクターとしてあり得ない大きさです。キャラクターだけを書き出してください</translation>
         </message>
         <message>
             <source>{file} has no bones: a character needs a skeleton to play with</source>

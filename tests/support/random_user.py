@@ -379,8 +379,8 @@ def prepare(folder: Path, seed: int) -> None:
         good = spec.seeds()
         for number in range(6):
             (files / f"hostile {number}{suffix}").write_bytes(mutated(good, chance, spec.structured))
-        for name, content in seeds.hostile(kind):
-            (files / f"found {name.replace('/', ' ')}{suffix}").write_bytes(content)
+        for name, make in seeds.hostile(kind).items():
+            (files / f"found {name.replace('/', ' ')}{suffix}").write_bytes(make())
 
 
 def travel(folder: Path, seed: int, deeds: int, kills: int) -> Journey:

@@ -9,6 +9,7 @@ Messages (all with ``file`` and the ``offset`` of the trouble in bytes):
 ``fbx.bad_record``: "{file}: the record at byte {offset} does not fit into its surroundings";
 ``fbx.bad_property``: "{file}: the property at byte {offset} is of an unknown kind or too long for its record";
 ``fbx.bad_array``: "{file}: the array at byte {offset} is damaged";
+``fbx.too_large``: "{file} describes far more data than a file of its size holds";
 ``fbx.too_deep``: "{file}: the records at byte {offset} are nested too deeply".
 """
 
@@ -30,6 +31,9 @@ _DEEPEST = 32
 
 # DEFLATE cannot pack more than 1032 bytes into one.
 _LARGEST_RATIO = 1032
+# What all packed arrays may take together: this and a multiple of the file's size. What stands still packs well.
+_FREE_BYTES = 2**26
+_MOST_TIMES = 256
 
 _ARRAYS = {b"f": "<f4", b"d": "<f8", b"i": "<i4", b"l": "<i8", b"b": "?", b"c": "u1"}
 _SCALARS = {b"C": "<?", b"B": "<?", b"Y": "<h", b"I": "<i", b"L": "<q", b"F": "<f", b"D": "<d"}
@@ -75,6 +79,7 @@ class _Reader:
     def __init__(self, data: bytes, file: str, version: int) -> None:
         self._data = data
         self._file = file
+        self._left_bytes = _FREE_BYTES + _MOST_TIMES * len(data)
         self._head = struct.Struct("<IIIB" if version < LARGE_VERSION else "<QQQB")
 
     def _error(self, what: str, offset: int) -> FileError:
@@ -146,6 +151,9 @@ class _Reader:
         if encoding == 1:
             if size > _LARGEST_RATIO * (end - start):
                 raise self._error("bad_array", start)
+            self._left_bytes -= size
+            if self._left_bytes < 0:
+                raise FileError("fbx.too_large", file=self._file)
             inflate = zlib.decompressobj()
             try:
                 raw = inflate.decompress(raw, size + 1)

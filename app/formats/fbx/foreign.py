@@ -6,10 +6,11 @@ units and axes. It runs in a process of its own (`foreign_child`): what a damage
 Messages (all with ``file``)
 --------
 file.cannot_read : reason
+file.too_large : size_mb, most_mb
 fbx.not_fbx : "{file} is not an FBX file"
 fbx.foreign_damaged : detail
     "{file} is damaged: {detail}"
-fbx.too_large : "{file} describes more data than any character has"
+fbx.too_large : "{file} describes far more data than a file of its size holds"
 """
 
 from __future__ import annotations
@@ -17,25 +18,29 @@ from __future__ import annotations
 import io
 import json
 import os
+import signal
 import subprocess
 import zipfile
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
 import numpy.typing as npt
 
 from app.errors import FileError
-from app.formats.files import open_file
+from app.formats.files import read_file
 from app.own_process import own_process
 
 FloatArray = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.int64]
 
+MOST_BYTES: Final = 2**30
+"""Of a file; characters have a hundredth of it."""
 PATIENCE_S: Final = 180.0
 UNREADABLE, NO_MEMORY = 3, 4
 """What the child's end means."""
+_LIMITS: Final = frozenset(-number for name in ("SIGXCPU", "SIGKILL") if (number := getattr(signal, name, 0)))
+"""The system ended the child: it had taken too long, or all the memory there is."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -154,9 +159,7 @@ def read_foreign_fbx(path: str | os.PathLike[str]) -> FbxContent:
         If it cannot be read, is no FBX file, is damaged or absurdly large.
     """
     file = os.fspath(path)
-    with open_file(path):
-        pass
-    printed = _child(str(Path(path).resolve()), file)
+    printed = _child(read_file(path, MOST_BYTES), file)
     try:
         with np.load(io.BytesIO(printed), allow_pickle=False) as packed:
             arrays = {name: packed[name] for name in packed.files}
@@ -166,22 +169,22 @@ def read_foreign_fbx(path: str | os.PathLike[str]) -> FbxContent:
         raise FileError("fbx.foreign_damaged", file=file, detail=str(error)) from error
 
 
-def _child(path: str, file: str) -> bytes:
-    """What the child printed. Raises FileError."""
+def _child(data: bytes, file: str) -> bytes:
+    """What the child printed of a file's bytes. Raises FileError."""
     try:
         ended: subprocess.CompletedProcess[bytes] = subprocess.run(
-            stdin=subprocess.DEVNULL,
+            input=data,
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,
             timeout=PATIENCE_S,
             check=False,
-            **own_process("app.formats.fbx.foreign_child", path),
+            **own_process("app.formats.fbx.foreign_child"),
         )
     except subprocess.TimeoutExpired as error:
         raise FileError("fbx.too_large", file=file) from error
     except OSError as error:
         raise FileError("file.cannot_read", file=file, reason=str(error)) from error
-    if ended.returncode == NO_MEMORY:
+    if ended.returncode in (NO_MEMORY, *_LIMITS):
         raise FileError("fbx.too_large", file=file)
     if ended.returncode == UNREADABLE:
         detail = ended.stdout.decode("utf-8", "replace")

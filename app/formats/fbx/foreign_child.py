@@ -12,14 +12,21 @@ import json
 import os
 import sys
 from collections.abc import Iterable
+from pathlib import Path
 from typing import Any, Final, TypeVar
 
 import numpy as np
 import numpy.typing as npt
 import ufbx
 
-MOST_BYTES: Final = 6 * 2**30
-"""Address space this process may take, where the system can limit it."""
+FREE_MEMORY_BYTES, MEMORY_PER_BYTE = 2**29, 64
+FREE_CPU_S, CPU_S_PER_MB = 3, 4
+FREE_NUMBERS, NUMBERS_PER_BYTE = 2**20, 4
+"""What reading a file may take: so much, and so much more for its size. A file of a real program takes a fifth of it;
+arrays of equal values can be packed a thousand times as small."""
+
+DEEPEST: Final = 500
+"""How many nodes may hang from one another, as in glTF."""
 
 T = TypeVar("T")
 _kept: list[object] = []
@@ -36,15 +43,38 @@ def _every(values: Iterable[T]) -> list[T]:
 
 
 class _Written:
-    """Arrays by number, beside the description that names them."""
+    """Arrays by number, beside the description that names them.
 
-    def __init__(self) -> None:
+    Parameters
+    ----------
+    most : int
+        How many numbers they may have; one more, and it raises MemoryError.
+    """
+
+    def __init__(self, most: int) -> None:
         self.arrays: dict[str, npt.NDArray[Any]] = {}
+        self._left = most
+
+    def take(self, count: int) -> None:
+        """Count what is to be made, before it is."""
+        self._left -= count
+        if self._left < 0:
+            raise MemoryError
 
     def add(self, values: npt.NDArray[Any]) -> str:
         name = f"a{len(self.arrays)}"
         self.arrays[name] = values
         return name
+
+    def vectors(self, values: Any, width: int) -> str:
+        """Numbers of vectors, which are plain tuples and may be freed: a face of many shapes has millions."""
+        self.take(width * len(_keep(values)))
+        numbers = (number for vector in values for number in vector)
+        return self.add(np.fromiter(numbers, np.float64).reshape(-1, width))
+
+    def numbers(self, values: Any, kind: type[np.int64] | type[np.float64]) -> str:
+        self.take(len(_keep(values)))
+        return self.add(np.fromiter(values, kind))
 
 
 def _matrix(matrix: Any) -> list[list[float]]:
@@ -53,25 +83,19 @@ def _matrix(matrix: Any) -> list[list[float]]:
     return rows
 
 
-def _vectors(values: Any, width: int) -> npt.NDArray[np.float64]:
-    """Numbers of vectors, which are plain tuples and may be freed: a face of many shapes has millions."""
-    numbers = (number for vector in _keep(values) for number in vector)
-    return np.fromiter(numbers, np.float64).reshape(-1, width)
-
-
-def _whole(values: Any) -> npt.NDArray[np.int64]:
-    return np.fromiter(_keep(values), np.int64)
-
-
 def _mesh(mesh: Any, written: _Written) -> dict[str, Any]:
-    spans = np.array([(face.index_begin, face.num_indices) for face in _keep(mesh.faces)], dtype=np.int64)
+    written.take(2 * len(_keep(mesh.faces)))
+    spans = np.array([(face.index_begin, face.num_indices) for face in mesh.faces], dtype=np.int64)
+    nodes = [_keep(node).typed_id for node in _every(mesh.instances)]
+    # On each node it is a mesh of its own.
+    written.take(len(nodes) * len(_keep(mesh.vertex_indices)))
     return {
         "name": mesh.name,
-        "nodes": [_keep(node).typed_id for node in _every(mesh.instances)],
-        "points": written.add(_vectors(mesh.vertices, 3)),
-        "corners": written.add(_whole(mesh.vertex_indices)),
+        "nodes": nodes,
+        "points": written.vectors(mesh.vertices, 3),
+        "corners": written.numbers(mesh.vertex_indices, np.int64),
         "faces": written.add(spans.reshape(-1, 2)),
-        "face_materials": written.add(_whole(mesh.face_material)),
+        "face_materials": written.numbers(mesh.face_material, np.int64),
         "normals": _attribute(mesh.vertex_normal, 3, written),
         "uvs": _attribute(mesh.vertex_uv, 2, written),
         "materials": [_material(material) for material in _every(mesh.materials)],
@@ -89,7 +113,7 @@ def _attribute(attribute: Any, width: int, written: _Written) -> list[str] | Non
     """Values and, by corner, which of them."""
     if not _keep(attribute).exists:
         return None
-    return [written.add(_vectors(attribute.values, width)), written.add(_whole(attribute.indices))]
+    return [written.vectors(attribute.values, width), written.numbers(attribute.indices, np.int64)]
 
 
 def _material(material: Any) -> dict[str, Any]:
@@ -122,8 +146,8 @@ def _skin(skin: Any, written: _Written) -> list[dict[str, Any]]:
                 "node": bone.typed_id,
                 "bone_from_mesh": _matrix(cluster.geometry_to_bone),
                 "world_from_bone": _matrix(cluster.bind_to_world),
-                "points": written.add(_whole(cluster.vertices)),
-                "weights": written.add(np.fromiter(_keep(cluster.weights), np.float64)),
+                "points": written.numbers(cluster.vertices, np.int64),
+                "weights": written.numbers(cluster.weights, np.float64),
             }
         )
     return clusters
@@ -142,17 +166,17 @@ def _morph(deformer: Any, channel: Any, written: _Written) -> list[dict[str, Any
     return [
         {
             "name": name,
-            "points": written.add(_whole(shape.offset_vertices)),
-            "deltas": written.add(_vectors(shape.position_offsets, 3)),
+            "points": written.numbers(shape.offset_vertices, np.int64),
+            "deltas": written.vectors(shape.position_offsets, 3),
         }
     ]
 
 
-def read(path: str) -> tuple[dict[str, Any], dict[str, npt.NDArray[Any]]]:
-    """Nodes and meshes of a file, in metres, right-handed, Y up."""
+def read(data: bytes) -> tuple[dict[str, Any], dict[str, npt.NDArray[Any]]]:
+    """Nodes and meshes of a file's bytes, in metres, right-handed, Y up."""
     scene = _keep(
-        ufbx.load_file(
-            path,
+        ufbx.load_memory(
+            data,
             file_format=ufbx.FileFormat.FBX,
             ignore_animation=True,
             ignore_embedded=True,
@@ -165,10 +189,12 @@ def read(path: str) -> tuple[dict[str, Any], dict[str, npt.NDArray[Any]]]:
             target_axes=ufbx.axes_right_handed_y_up,
             target_unit_meters=1.0,
             space_conversion=ufbx.SpaceConversion.ADJUST_TRANSFORMS,
-            node_depth_limit=1000,
+            node_depth_limit=DEEPEST,
         )
     )
-    written = _Written()
+    written = _Written(FREE_NUMBERS + NUMBERS_PER_BYTE * len(data))
+    # Matrices, a name and the rest.
+    written.take(64 * len(_keep(scene.nodes)))
     nodes = [
         {
             "name": node.name,
@@ -185,23 +211,38 @@ def read(path: str) -> tuple[dict[str, Any], dict[str, npt.NDArray[Any]]]:
     return {"nodes": nodes, "meshes": meshes}, written.arrays
 
 
-def main() -> None:
-    """Print the file named on the command line: a JSON description and the arrays it names, as ``.npz``."""
-    gc.disable()
+def _limit(size: int) -> None:
+    """Have the system end this process where a file of this size takes far too much."""
     try:
         import resource
-
-        resource.setrlimit(resource.RLIMIT_AS, (MOST_BYTES, MOST_BYTES))
     except ImportError:
-        pass  # Windows has no such limit; what the parent waits for is limited.
+        return  # Windows has no such limits; how long the parent waits is limited.
+    used = resource.getrusage(resource.RUSAGE_SELF)
+    cpu_s = int(used.ru_utime + used.ru_stime) + FREE_CPU_S + CPU_S_PER_MB * size // 2**20
+    resource.setrlimit(resource.RLIMIT_CPU, (cpu_s, cpu_s))
+    try:
+        pages = int(Path("/proc/self/statm").read_text().split()[0])
+    except OSError:
+        pages = 2**20  # As much as any system gives before the first byte is read.
+    memory = pages * resource.getpagesize() + FREE_MEMORY_BYTES + MEMORY_PER_BYTE * size
+    resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
+
+
+def main() -> None:
+    """Print what the file on standard input holds: a JSON description and the arrays it names, as ``.npz``."""
+    gc.disable()
     output = sys.stdout.buffer
     status = 0
     try:
-        content, arrays = read(sys.argv[1])
+        data = _keep(sys.stdin.buffer.read())
+        _limit(len(data))
+        content, arrays = read(data)
         packed = io.BytesIO()
         text = np.frombuffer(json.dumps(content).encode(), dtype=np.uint8)
         np.savez(packed, allow_pickle=False, description=text, **arrays)
         output.write(packed.getvalue())
+    except (ufbx.OutOfMemoryError, ufbx.MemoryLimitError):
+        status = 4
     except ufbx.UfbxError as error:
         output.write(str(error)[:300].encode())
         status = 3

@@ -20,10 +20,11 @@ from app.formats.gltf.model import FloatArray, IntArray
 _COMPONENTS = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
 
-# What decoding may take in all; accessors may overlap, so that a small file could ask for any amount.
-_MOST_BYTES = 2**31
-# An accessor without a buffer is all zeros and costs a file nothing.
-_MOST_ZEROS = 2**22
+# What decoding may take in all, in bytes: this and a multiple of the file's size. Accessors may overlap, be used many
+# times or have no bytes at all, so that a small file could ask for any amount; the largest that a real one takes is
+# eight times its size (numbers that are stored as bytes), more where parts share what they do not use alike.
+_FREE_BYTES = 2**23
+_MOST_TIMES = 32
 
 # Extensions without which the file can still be read as it is meant here: they change materials only, or add meaning.
 _HARMLESS = (
@@ -37,11 +38,12 @@ _HARMLESS = (
 class Accessors:
     """A document and its bytes; every method raises FileError for what is not as it should be."""
 
-    def __init__(self, document: dict[str, Any], binary: bytes | None, file: str) -> None:
+    def __init__(self, document: dict[str, Any], binary: bytes | None, file: str, size: int) -> None:
         self.document = document
         self._binary = binary
         self.file = file
-        self._taken = 0
+        self._left_bytes = _FREE_BYTES + _MOST_TIMES * size
+        self._lists: dict[str, list[Any]] = {}
         required = document.get("extensionsRequired")
         for name in required if isinstance(required, list) else []:
             if not str(name).startswith(_HARMLESS):
@@ -54,7 +56,15 @@ class Accessors:
         return FileError("gltf.damaged", file=self.file, what=what)
 
     def items(self, name: str, owner: object = None) -> list[Any]:
-        values = field(self.document if owner is None else owner, name)
+        if owner is not None:
+            return self._list(owner, name)
+        if name not in self._lists:
+            # Asked for once for every element of others: it is looked through once.
+            self._lists[name] = self._list(self.document, name)
+        return self._lists[name]
+
+    def _list(self, owner: object, name: str) -> list[Any]:
+        values = field(owner, name)
         if values is None:
             return []
         if not isinstance(values, list) or any(value is None for value in values):
@@ -123,28 +133,42 @@ class Accessors:
 
     def blob(self, number: object) -> bytes:
         """The bytes of a buffer view."""
-        views = self.items("bufferViews")
-        view = views[self.index(number, len(views), "bufferView")]
-        return self._view(number, 0, self.number(view, "byteLength"), np.dtype("<u1"), 1).tobytes()
+        buffer, start, length, _ = self._place(number)
+        self.take(length // 8)
+        return buffer[start : start + length]
 
-    def _take(self, size: int) -> None:
-        self._taken += size
-        if self._taken > _MOST_BYTES:
-            raise FileError("gltf.too_large", file=self.file)
-
-    def _view(self, number: object, offset: int, count: int, dtype: np.dtype[Any], width: int) -> npt.NDArray[Any]:
-        """Elements (count, width) of a buffer view, from an offset in bytes; a copy."""
+    def _place(self, number: object) -> tuple[bytes, int, int, int]:
+        """The buffer that a view is of, where it begins there, its length and its stride, which may be 0."""
         views = self.items("bufferViews")
         view = views[self.index(number, len(views), "bufferView")]
         buffer = self._buffers[self.index(field(view, "buffer"), len(self._buffers), "buffer")]
         start, length = self.number(view, "byteOffset", 0), self.number(view, "byteLength")
+        if start + length > len(buffer):
+            raise self.damaged("bufferView")
+        return buffer, start, length, self.number(view, "byteStride", 0)
+
+    def take(self, numbers: int) -> None:
+        """Refuse the file if it makes more of its bytes than any does, before the memory for it is asked for.
+
+        Parameters
+        ----------
+        numbers : int
+            How many numbers of 8 bytes are to be made.
+        """
+        self._left_bytes -= 8 * numbers
+        if self._left_bytes < 0:
+            raise FileError("gltf.too_large", file=self.file)
+
+    def _view(self, number: object, offset: int, count: int, dtype: np.dtype[Any], width: int) -> npt.NDArray[Any]:
+        """Elements (count, width) of a buffer view, from an offset in bytes; a copy."""
+        buffer, start, length, stride = self._place(number)
         element = dtype.itemsize * width
-        stride = self.number(view, "byteStride", 0) or element
-        if start + length > len(buffer) or (count and offset + stride * (count - 1) + element > length):
+        stride = stride or element
+        if count and offset + stride * (count - 1) + element > length:
             raise self.damaged("bufferView")
         if stride < element:
             raise self.damaged("byteStride")
-        self._take(count * element)
+        self.take(count * width)
         rows = np.ndarray((count, width), dtype, buffer, start + offset, (stride, dtype.itemsize)) if count else None
         return np.empty((0, width), dtype) if rows is None else rows.copy()
 
@@ -190,9 +214,7 @@ class Accessors:
         accessor, dtype, width, count = self._accessor(number)
         rows, changed = self._sparse(accessor, dtype, width, count)
         if field(accessor, "bufferView") is None:
-            if count > _MOST_ZEROS:
-                raise FileError("gltf.too_large", file=self.file)
-            self._take(count * width * dtype.itemsize)
+            self.take(count * width)
             values = np.zeros((count, width), dtype)
         else:
             offset = self.number(accessor, "byteOffset", 0)

@@ -10,14 +10,15 @@ Messages (all with ``file``): ``file.cannot_read`` (reason);
 ``gltf.damaged`` (what): "{file} is damaged: {what} is wrong";
 ``gltf.external`` (uri): "{file} needs the file {uri} beside it; only files that hold everything themselves are read";
 ``gltf.unsupported`` (what): "{file} uses {what}, which is not supported";
-``gltf.too_large``: "{file} describes more data than any character has".
+``gltf.too_large``: "{file} describes far more data than a file of its size holds; export the character alone";
+``gltf.too_deep`` (most): "{file} nests its nodes more than {most} deep".
 """
 
 from __future__ import annotations
 
 import math
 import os
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -39,7 +40,23 @@ from app.formats.gltf.model import (
 
 MOST_BYTES = 2**30
 """Of a file; characters have a hundredth of it."""
+MOST_NODES = 20_000
+DEEPEST = 500
+"""How many nodes may hang from one another; strands of hair have some dozens of bones."""
+_FREE_NUMBERS = 2**19
+"""A small file may show its meshes as often as comes to so many numbers."""
 _TRIANGLES, _STRIP, _FAN = 4, 5, 6
+
+
+class _Vertices(NamedTuple):
+    """What `GltfPrimitive` has by vertex."""
+
+    positions: FloatArray
+    normals: FloatArray | None
+    uvs: FloatArray | None
+    joint_indices: IntArray
+    weights: FloatArray
+    morphs: tuple[GltfMorph, ...]
 
 
 def read_glb(path: str | os.PathLike[str]) -> GltfModel:
@@ -57,13 +74,16 @@ def read_glb(path: str | os.PathLike[str]) -> GltfModel:
 
 def decode_gltf(data: bytes, file: str) -> GltfModel:
     """Model of a file's bytes, as `read_glb`."""
-    reader = _Reader(*split(data, file), file)
+    reader = _Reader(*split(data, file), file, len(data))
+    nodes = reader.nodes()
+    meshes = tuple(reader.mesh(mesh, index) for index, mesh in enumerate(reader.items("meshes")))
+    reader.check_instances(nodes, meshes)
     return GltfModel(
-        nodes=reader.nodes(),
-        meshes=tuple(reader.mesh(mesh, index) for index, mesh in enumerate(reader.items("meshes"))),
+        nodes=nodes,
+        meshes=meshes,
         skins=tuple(reader.skin(skin) for skin in reader.items("skins")),
         materials=tuple(reader.material(material) for material in reader.items("materials")),
-        images=tuple(reader.image(image) for image in reader.items("images")),
+        images=reader.images(),
         extensions=reader.mapping(reader.document, "extensions"),
         extras=reader.mapping(reader.document, "extras"),
         scene_extras=reader.scene_extras(),
@@ -81,14 +101,33 @@ class _Reader(Accessors):
         if not isinstance(names, list) and primitives:  # some exporters name them here
             names = self.mapping(primitives[0], "extras").get("targetNames")
         names = [str(name) for name in names] if isinstance(names, list) else []
+        known: dict[str, _Vertices] = {}
         return GltfMesh(
             self.text(mesh, "name", f"mesh_{index}"),
-            tuple(self._primitive(primitive, names) for primitive in primitives),
+            tuple(self._primitive(primitive, names, known) for primitive in primitives),
             extras,
         )
 
-    def _primitive(self, primitive: object, names: list[str]) -> GltfPrimitive:
-        attributes = self.mapping(primitive, "attributes")
+    def check_instances(self, nodes: tuple[GltfNode, ...], meshes: tuple[GltfMesh, ...]) -> None:
+        """Refuse a file that shows its meshes so often that it is a scene, or meant to fill the memory."""
+        sizes = [_size(mesh) for mesh in meshes]
+        shown = sum(sizes[node.mesh] for node in nodes if node.mesh is not None)
+        if shown > _FREE_NUMBERS + 2 * sum(sizes):
+            raise FileError("gltf.too_large", file=self.file)
+
+    def _primitive(self, primitive: object, names: list[str], known: dict[str, _Vertices]) -> GltfPrimitive:
+        attributes, targets = self.mapping(primitive, "attributes"), self.items("targets", primitive)
+        # Primitives of several materials often have the very same vertices: they are read once.
+        key = repr((attributes, targets))
+        if key not in known:
+            known[key] = self._vertices(attributes, targets, names)
+        return GltfPrimitive(
+            **known[key]._asdict(),
+            triangles=self._triangles(primitive, len(known[key].positions)),
+            material=self.optional_index(primitive, "material", len(self.items("materials"))),
+        )
+
+    def _vertices(self, attributes: dict[str, Any], targets: list[Any], names: list[str]) -> _Vertices:
         positions = self.real(attributes.get("POSITION"), 3)
         count = len(positions)
 
@@ -107,23 +146,23 @@ class _Reader(Accessors):
         weights = [optional(f"WEIGHTS_{number}", 4) for number in range(sets)]
         if any(values is None for values in weights) or any(len(values) != count for values in joints):
             raise self.damaged("JOINTS")
-        return GltfPrimitive(
+        self.take(count * 8 * sets)
+        return _Vertices(
             positions=positions,
             normals=optional("NORMAL", 3),
             uvs=optional("TEXCOORD_0", 2),
-            triangles=self._triangles(primitive, count),
-            material=self.optional_index(primitive, "material", len(self.items("materials"))),
             joint_indices=np.concatenate([np.empty((count, 0), np.int64), *joints], axis=1),
             weights=np.concatenate([np.empty((count, 0)), *(w for w in weights if w is not None)], axis=1),
             morphs=tuple(
                 self._morph(target, names[number] if number < len(names) else f"morph_{number}", count)
-                for number, target in enumerate(self.items("targets", primitive))
+                for number, target in enumerate(targets)
             ),
         )
 
     def _triangles(self, primitive: object, count: int) -> IntArray:
         number = field(primitive, "indices")
         if number is None:
+            self.take(count)
             indices = np.arange(count)
         else:
             indices = self.whole(number, 1)[:, 0]
@@ -134,6 +173,8 @@ class _Reader(Accessors):
             return np.empty((0, 3), dtype=np.int64)
         if mode == _TRIANGLES:
             return indices[: len(indices) // 3 * 3].reshape(-1, 3)
+        if mode in (_STRIP, _FAN):
+            self.take(3 * len(indices))
         if mode == _STRIP:
             strip = np.stack([indices[:-2], indices[1:-1], indices[2:]], axis=1)
             strip[1::2] = strip[1::2, [1, 0, 2]]
@@ -150,6 +191,7 @@ class _Reader(Accessors):
         if attributes.get("NORMAL") is None:
             return GltfMorph(name, rows, deltas, None)
         normal_rows, normal_deltas = self.changes(attributes["NORMAL"], count)
+        self.take(7 * (len(rows) + len(normal_rows)))
         both = np.union1d(rows, normal_rows)
         deltas_of_both = np.zeros((2, len(both), 3))
         deltas_of_both[0, np.searchsorted(both, rows)] = deltas
@@ -159,6 +201,7 @@ class _Reader(Accessors):
     def skin(self, skin: object) -> GltfSkin:
         nodes = self.items("nodes")
         joints = tuple(self.index(joint, len(nodes), "skin joint") for joint in self.items("joints", skin))
+        self.take(16 * len(joints))
         matrices = np.tile(np.eye(4), (len(joints), 1, 1))
         number = field(skin, "inverseBindMatrices")
         if number is not None:
@@ -196,35 +239,53 @@ class _Reader(Accessors):
         texture = textures[self.index(field(use, "index"), len(textures), "texture")]
         return self.optional_index(texture, "source", len(self.items("images")))
 
-    def image(self, image: object) -> bytes:
-        """An image's file; empty where it lies beside this one, which is not needed."""
-        uri = field(image, "uri")
-        if isinstance(uri, str) and uri.startswith("data:"):
-            return self.data(uri)
-        return self.blob(field(image, "bufferView")) if field(image, "bufferView") is not None else b""
+    def images(self) -> tuple[bytes, ...]:
+        """The images' files; empty where one lies beside this file, which is not needed. The same bytes are there
+        once, however many images they are."""
+        blobs: dict[int, bytes] = {}
+        found = []
+        for image in self.items("images"):
+            uri = field(image, "uri")
+            view = self.optional_index(image, "bufferView", len(self.items("bufferViews")))
+            if isinstance(uri, str) and uri.startswith("data:"):
+                found.append(self.data(uri))
+            elif view is None:
+                found.append(b"")
+            else:
+                if view not in blobs:
+                    blobs[view] = self.blob(view)
+                found.append(blobs[view])
+        return tuple(found)
 
     def nodes(self) -> tuple[GltfNode, ...]:
         nodes = self.items("nodes")
         if not nodes:
             raise self.damaged("nodes")
+        if len(nodes) > MOST_NODES:
+            raise FileError("gltf.too_large", file=self.file)
         parents = [-1] * len(nodes)
         for number, node in enumerate(nodes):
             for child in self.items("children", node):
                 if parents[self.index(child, len(nodes), "child")] != -1:
                     raise self.damaged("node with two parents")
                 parents[child] = number
-        self._refuse_cycles(parents)
+        self._check_depth(parents)
         return tuple(self._node(node, number, parents[number]) for number, node in enumerate(nodes))
 
-    def _refuse_cycles(self, parents: list[int]) -> None:
+    def _check_depth(self, parents: list[int]) -> None:
+        """Refuse circles, and nodes that hang from more others than any figure's."""
         children: list[list[int]] = [[] for _ in parents]
         for number, parent in enumerate(parents):
             if parent >= 0:
                 children[parent].append(number)
-        reached = [number for number, parent in enumerate(parents) if parent < 0]
-        for number in reached:  # grows while it is walked
-            reached += children[number]
-        if len(reached) != len(parents):
+        level = [number for number, parent in enumerate(parents) if parent < 0]
+        reached = depth = 0
+        while level:
+            reached, depth = reached + len(level), depth + 1
+            if depth > DEEPEST:
+                raise FileError("gltf.too_deep", file=self.file, most=DEEPEST)
+            level = [child for number in level for child in children[number]]
+        if reached != len(parents):
             raise self.damaged("node that is its own ancestor")
 
     def _node(self, node: object, number: int, parent: int) -> GltfNode:
@@ -279,3 +340,13 @@ class _Reader(Accessors):
         if not scenes:
             return {}
         return self.mapping(scenes[self.index(field(self.document, "scene") or 0, len(scenes), "scene")], "extras")
+
+
+def _size(mesh: GltfMesh) -> int:
+    """How many numbers a mesh has, and some for the work that each part of it makes."""
+    shared = {id(primitive.positions): primitive for primitive in mesh.primitives}
+    size = sum(256 + primitive.triangles.size for primitive in mesh.primitives)
+    for primitive in shared.values():
+        size += primitive.positions.size + primitive.joint_indices.size + primitive.weights.size
+        size += sum(morph.position_deltas.size for morph in primitive.morphs)
+    return size

@@ -69,7 +69,7 @@ def _tell_costs(tallies: Mapping[str, Tally]) -> int:
                     cells += [f"{stall_s:7.3f} s", f"{max(result.peak_mb for result in shown):7.0f} MB"]
                 print(f"{kind:>18} {size // 1000:4} KB {' '.join(cells)}", flush=True)
         for kind in SHOWN:
-            stalls = [(window.run(kind, data).cpu_s, name) for name, data in hostile(kind)]
+            stalls = [(window.run(kind, make()).cpu_s, name) for name, make in hostile(kind).items()]
             if stalls:
                 print(
                     f"{kind:>18} found: {len(stalls)} files, longest stall {max(stalls)[0]:.3f} s in {max(stalls)[1]}"

@@ -221,7 +221,7 @@ def attack(kinds: Sequence[str], seconds: float, seed: int) -> dict[str, Tally]:
 def _attack(child: Child, kind: str, seconds: float, seed: int, tally: Tally) -> None:
     chance = random.Random(f"{kind} {seed}")
     spec = KINDS[kind]
-    good = [*spec.seeds(), *(data for _, data in hostile(kind))]
+    good = [*spec.seeds(), *(make() for make in hostile(kind).values())]
     pool: list[bytes] = []
     known: set[tuple[str, str]] = set()
     end_s = time.monotonic() + seconds

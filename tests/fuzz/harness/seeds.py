@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import io
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from fractions import Fraction
 from functools import cache, partial
 from pathlib import Path
@@ -17,6 +17,7 @@ from typing import Any, Final
 import numpy as np
 import soundfile
 
+from tests.fuzz.harness.costly_files import costly
 from tests.fuzz.harness.costly_midi import COSTLY, WORST
 
 ROOT: Final = Path(__file__).parents[3]
@@ -262,7 +263,12 @@ MADE: Final[dict[str, dict[str, Callable[[], bytes]]]] = {
     "character_entry": _TABLES,
     "metadata": _TABLES,
     "settings": {**_TABLES, "time": lambda: b"a = 07:32:00\nb = 1979-05-27\nc = 1979-05-27T07:32:00Z\nd = [{e = 1}]\n"},
-    "gltf": {"deep": lambda: b'{"a":' * 60_000, "nested_nodes": _nested_gltf},
+    "gltf": {"deep": lambda: b'{"a":' * 60_000, "nested_nodes": _nested_gltf, **costly("gltf")},
+    "instrument_model": costly("instrument_model"),
+    "foreign_fbx": costly("foreign_fbx"),
+    "fbx": costly("fbx"),
+    "bvh": costly("bvh", 100_000),
+    "audio": costly("audio"),
     "unreal_manifest": {"deep": lambda: b"[" * 100_000},
     "unreal_project": {"deep": lambda: b"[" * 100_000},
     "journal": {"long_name": lambda: journal()[0].replace(b"EWI USB", b"E" * 20_000)},
@@ -281,7 +287,6 @@ MADE: Final[dict[str, dict[str, Callable[[], bytes]]]] = {
 """By kind and name."""
 
 
-def hostile(kind: str) -> Sequence[tuple[str, bytes]]:
-    """Every file of a kind that ever broke a reader, by name."""
-    made = [(name, make()) for name, make in MADE.get(kind, {}).items()]
-    return [*((path.name, path.read_bytes()) for path in found_files(kind)), *made]
+def hostile(kind: str) -> dict[str, Callable[[], bytes]]:
+    """Every file of a kind that ever broke a reader, by name: what returns its bytes."""
+    return {**{path.name: path.read_bytes for path in found_files(kind)}, **MADE.get(kind, {})}

@@ -346,7 +346,8 @@ def test_a_document_without_anything_is_refused(data: bytes) -> None:
 
 
 def test_many_views_of_one_buffer_do_not_fill_the_memory(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("app.formats.gltf.accessors._MOST_BYTES", 300)
+    monkeypatch.setattr("app.formats.gltf.accessors._FREE_BYTES", 0)
+    monkeypatch.setattr("app.formats.gltf.accessors._MOST_TIMES", 0)
     with pytest.raises(FileError) as raised:
         decode_gltf(character().glb(), "big.glb")
     assert raised.value.message.id == "gltf.too_large"
