@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import ctypes
 import gc
 import multiprocessing
 import os
@@ -45,7 +46,7 @@ class Footprint:
     Attributes
     ----------
     memory_mb : float
-        Resident.
+        Resident, once the allocator has returned what is free.
     threads, files, processes, timers, widgets, objects : int
         Python's threads, open file descriptors, child processes, active timers of Qt, widgets, all objects of Qt below
         the application and its windows.
@@ -79,6 +80,7 @@ def footprint() -> Footprint:
         # What the editor has set aside as lasting counts too.
         gc.unfreeze()
         gc.collect()
+    ctypes.CDLL(None).malloc_trim(0)
     application = QApplication.instance()
     assert isinstance(application, QApplication)
     found: dict[int, QObject] = {}

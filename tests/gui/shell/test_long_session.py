@@ -15,12 +15,13 @@ from app.shell.settings import Settings
 from tests.gui.conftest import delete_now
 from tests.support.long_session import LongDay, footprint, larger_piece
 
-WARM_UP, ROUNDS = 2, 2
+WARM_UP, ROUNDS, MOST_ROUNDS = 2, 2, 8
 DRAWN = ("widgets.viewport.renderer._Solid", "vispy.gloo.")
 """One for each level of detail that was drawn of the figures that are there: which, the speed of drawing decides. They
 go with the figures."""
 MOST_MB = 48.0
-"""Caches of what is drawn fill up for some rounds more: thirty rounds grew by nothing after the fifth."""
+"""What the graphics driver holds rises and falls by this much from round to round, while what Python holds stays the
+same to 0.1 MB: so only growth that no later round gives back is a leak."""
 
 
 @pytest.fixture
@@ -57,7 +58,11 @@ def test_after_some_rounds_everything_is_as_it_was(program: Program, tmp_path: P
     assert grown == {}
     for name in ("threads", "files", "processes", "timers", "widgets", "objects"):
         assert getattr(after, name) <= getattr(before, name), (name, str(before), str(after))
-    assert after.memory_mb - before.memory_mb < MOST_MB, (str(before), str(after))
+    memory_mb = [after.memory_mb]
+    while memory_mb[-1] - before.memory_mb >= MOST_MB and len(memory_mb) <= MOST_ROUNDS - ROUNDS:
+        day.round()
+        memory_mb.append(footprint().memory_mb)
+    assert memory_mb[-1] - before.memory_mb < MOST_MB, (str(before), memory_mb)
 
 
 def test_a_leak_would_be_seen(program: Program) -> None:
