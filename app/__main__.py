@@ -15,6 +15,8 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
     from types import FrameType
 
+UTF8_MODE = "PYTHONUTF8"
+"""Python's own variable."""
 OPENED = (".suisou", ".mid", ".midi")
 """A file that is named alone, as a desktop does, opens in the editor."""
 
@@ -24,6 +26,8 @@ def main() -> int:
     # While modules load nothing has to be cleared up. The commands and the editor, which have something, take Ctrl-C
     # over for as long as they run.
     signal.signal(signal.SIGINT, end_at_once)
+    if sys.getfilesystemencoding() != "utf-8" and os.environ.get(UTF8_MODE) != "1":
+        begin_again_in_utf8()
     status = run(sys.argv[1:])
     if status == 128 + signal.SIGINT:
         # Python's own end would be death by the signal where KeyboardInterrupt came in code of `exec`, a dataclass's
@@ -33,6 +37,13 @@ def main() -> int:
     # It is done, and Python's own end calls no handlers any more.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     return status
+
+
+def begin_again_in_utf8() -> None:
+    """Replace this process by one for which names of files are UTF-8, as they are for Qt and on the disk, whatever the
+    locale says; a terminal keeps its encoding."""
+    encoding = {"PYTHONIOENCODING": f"{sys.stderr.encoding}:backslashreplace"} if sys.stderr.isatty() else {}
+    os.execve(sys.executable, sys.orig_argv, {**os.environ, UTF8_MODE: "1", **encoding})
 
 
 def end_at_once(number: int, frame: FrameType | None) -> None:
@@ -45,6 +56,7 @@ def run(arguments: Sequence[str]) -> int:
     from app.cli import main as command_line
     from app.cli import parser
     from app.cli.status import BAD_USE, NO_DISPLAY
+    from app.cli.terminal import warn
 
     wanted = list(arguments)
     if not wanted or wanted[0].lower().endswith(OPENED):
@@ -59,7 +71,7 @@ def run(arguments: Sequence[str]) -> int:
 
     reason = why_no_display()
     if reason is not None:
-        sys.stderr.write(f"suisou: {reason}\n")
+        warn(reason)
         return NO_DISPLAY
     return edit(parsed)
 
@@ -69,6 +81,7 @@ def edit(parsed: Namespace) -> int:
     # Which sound libraries this system lacks is nothing a person can act on.
     os.environ.setdefault("QT_LOGGING_RULES", "qt.multimedia.symbolsresolver=false;qt.multimedia.ffmpeg=false")
     from app.cli.status import BAD_INPUT, STOPPED
+    from app.cli.terminal import warn
     from app.errors import AppError
     from app.messages import error_text
     from app.shell.app import Start
@@ -86,7 +99,7 @@ def edit(parsed: Namespace) -> int:
     try:
         return run_editor(start)
     except AppError as error:
-        sys.stderr.write(f"suisou: {error_text(error)}\n")
+        warn(error_text(error))
         return BAD_INPUT
     except KeyboardInterrupt:
         return STOPPED

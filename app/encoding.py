@@ -2,8 +2,8 @@
 
 On Linux the name of a file is bytes. Those that are not UTF-8, as of files out of a Japanese zip archive, are lone
 surrogates in Python's paths (PEP 383): they open the file, and neither JSON, nor TOML, nor Qt, nor a terminal takes
-them. So paths are kept in files as `stored` writes them, and read back with `restored`; what a user reads, and what
-is named after a file, is `shown`.
+them. Those that are UTF-8 may hold line ends and escape sequences all the same. So paths are kept in files as `stored`
+writes them, and read back with `restored`; what a user reads, and what is named after a file, is `shown`.
 """
 
 from __future__ import annotations
@@ -16,6 +16,9 @@ from urllib.parse import quote_from_bytes, unquote_to_bytes
 
 PREFIX: Final = "bytes://"
 """Begins a stored path that is not UTF-8; no other path begins so, because two slashes are one in a path."""
+
+HIDDEN: Final = re.compile("[\x00-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\u2066-\u2069\ud800-\udfff]")
+"""What no text for users holds: what ends a line, commands a terminal or turns the direction, and lone surrogates."""
 
 _ESCAPED = re.compile("[%\ud800-\udfff]")
 # One character from beyond ASCII, alone, touching a small Latin letter: what "Flöte" in Latin-1 looks like in CP932.
@@ -46,7 +49,7 @@ def stored(path: str | os.PathLike[str]) -> str:
     if text.startswith(PREFIX):
         if restored(text) == text:
             return text  # of another system, which has other names
-    elif _is_text(text):
+    elif is_text(text):
         return text
     return PREFIX + _ESCAPED.sub(lambda found: quote_from_bytes(_bytes(found[0])), text)
 
@@ -62,21 +65,18 @@ def restored(text: str) -> str:
 
 
 def shown(path: str | os.PathLike[str]) -> str:
-    """A path, or any text with a path in it, for users to read and to name something by: names that are not UTF-8 are
-    guessed."""
+    """A path, or any text with a path in it, for users to read and to name something by, on one line: names that are
+    not UTF-8 are guessed, and what is `HIDDEN` is escaped as in Python."""
     text = os.fspath(path)
-    return text if _is_text(text) else "/".join(map(_readable, text.split("/")))
+    if not is_text(text):
+        text = "/".join(name if is_text(name) else guessed(_bytes(name)) for name in text.split("/"))
+    return HIDDEN.sub(lambda found: found[0].encode("unicode_escape").decode(), text)
 
 
-def _readable(name: str) -> str:
-    if _is_text(name):
-        return name
-    return "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in guessed(_bytes(name)))
-
-
-def _is_text(text: str) -> bool:
+def is_text(path: str | os.PathLike[str]) -> bool:
+    """Whether a path is UTF-8."""
     try:
-        text.encode()
+        os.fspath(path).encode()
     except UnicodeEncodeError:
         return False
     return True

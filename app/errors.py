@@ -31,7 +31,9 @@ class Message(msgspec.Struct, frozen=True, gc=False):
     arguments: dict[str, Argument] = {}
 
     def __post_init__(self) -> None:
-        if not all(value.isascii() for value in self.arguments.values() if isinstance(value, str)):
+        if not all(
+            value.isascii() and value.isprintable() for value in self.arguments.values() if isinstance(value, str)
+        ):
             readable = {
                 name: shown(value) if isinstance(value, str) else value for name, value in self.arguments.items()
             }

@@ -12,6 +12,7 @@ import signal
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from typing import NoReturn
 
 import app.cli.characters
 import app.cli.edit
@@ -23,6 +24,8 @@ import app.cli.ports
 import app.cli.record
 import app.cli.stream
 from app.cli.status import BAD_INPUT, BAD_USE, DONE, STOPPED
+from app.cli.terminal import warn
+from app.encoding import shown
 from app.errors import AppError, UsageError
 from app.messages import error_text
 from app.version import program_version
@@ -48,9 +51,16 @@ examples:
 """
 
 
+class _Parser(argparse.ArgumentParser):
+    """Quotes the arguments that it refuses, names of files among them, as everything else is printed."""
+
+    def error(self, message: str) -> NoReturn:
+        super().error(shown(message))
+
+
 def parser() -> argparse.ArgumentParser:
     """The whole command line."""
-    top = argparse.ArgumentParser(
+    top: argparse.ArgumentParser = _Parser(
         prog="suisou",
         description=_DESCRIPTION,
         epilog=_EPILOG,
@@ -110,19 +120,18 @@ def _interruptible() -> Iterator[None]:
 def _with_file(error: AppError, parsed: argparse.Namespace) -> str:
     """What is wrong with the input, and with which file, also where the room that found out knows no files."""
     sentence = error_text(error)
-    return sentence if "file" in error.message.arguments or "file" not in parsed else f"{parsed.file}: {sentence}"
+    if "file" in error.message.arguments or "file" not in parsed:
+        return sentence
+    return f"{shown(parsed.file)}: {sentence}"
 
 
 def _fail(sentence: str, status: int) -> int:
-    print(f"suisou: {sentence}", file=sys.stderr)
+    warn(sentence)
     return status
 
 
 def _speak_utf8() -> None:
-    """Pipes and files get UTF-8 on every system; a terminal keeps its encoding and shows what it can."""
+    """Pipes and files get UTF-8 on every system, a terminal keeps its encoding; what neither has is escaped."""
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
-            if stream.isatty():
-                stream.reconfigure(errors="replace")
-            else:
-                stream.reconfigure(encoding="utf-8", errors="backslashreplace")
+            stream.reconfigure(encoding=None if stream.isatty() else "utf-8", errors="backslashreplace")

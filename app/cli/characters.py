@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import argparse
-import json
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from app.cli.options import Commands, within
+from app.cli.terminal import say, say_json
+from app.encoding import restored, shown, stored
 from app.errors import AppError, Message, UsageError
 from app.messages import filled, text
 
@@ -79,21 +80,22 @@ def list_characters(arguments: argparse.Namespace) -> None:
         {
             "id": id,
             "title": source.entry.title if source.entry else "",
-            "file": str(source.path),
+            "file": stored(source.path),
             "own": source.entry is not None,
         }
         for id, source in known.sources.items()
     ]
-    problems = {id: text(problem) for id, problem in character_problems().items()}
+    problems = {shown(id): text(problem) for id, problem in character_problems().items()}
     if arguments.json:
-        found = {"characters": rows, "folder": str(known.folder), "problems": problems}
-        print(json.dumps(found, ensure_ascii=False, indent=2))
+        found = {"characters": rows, "folder": stored(known.folder), "problems": problems}
+        say_json(found)
         return
     for row in rows:
-        print(f"{row['id']}{'*' if row['own'] else ''}".ljust(28), row["title"] or row["id"])
-    print(f"\nyour own (*): {known.folder}")
+        mark = "*" if row["own"] else ""
+        say(f"{row['id']}{mark}".ljust(28) + f" {row['title'] or row['id']}")
+    say("", f"your own (*): {shown(known.folder)}")
     for problem in problems.values():
-        print(f"  {problem}")
+        say(f"  {problem}")
 
 
 def check_character(arguments: argparse.Namespace) -> None:
@@ -105,7 +107,10 @@ def check_character(arguments: argparse.Namespace) -> None:
         It cannot play.
     """
     found = checked(arguments.file, joints_of(arguments.joint), morphs_of(arguments.morph))
-    print(json.dumps(found, ensure_ascii=False, indent=2) if arguments.json else as_text(found))
+    if arguments.json:
+        say_json(found)
+    else:
+        say(*as_text(found))
     if not found["plays"]:
         raise CannotPlayError("character.cannot_play", file=arguments.file.name)
 
@@ -114,7 +119,7 @@ def add_character(arguments: argparse.Namespace) -> None:
     """Add a character and print its id. Raises FileError, UsageError."""
     from app.rig.character_library import add_character as add
 
-    print(add(arguments.file, arguments.name, joints_of(arguments.joint), morphs_of(arguments.morph)))
+    say(add(arguments.file, arguments.name, joints_of(arguments.joint), morphs_of(arguments.morph)))
 
 
 def joints_of(texts: list[str]) -> dict[str, str]:
@@ -156,10 +161,10 @@ def checked(path: Path, joints: Mapping[str, str], morphs: Mapping[str, Mapping[
     lacking = [joint for joint in REQUIRED_JOINTS if joint not in reading.joints.bones]
     told = list(reading.figure.notes)
     if not lacking:
-        character = figure_character(reading.figure, path.stem, reading.joints.bones, reading.face.morphs)
+        character = figure_character(reading.figure, shown(path.stem), reading.joints.bones, reading.face.morphs)
         told += _told(character)
     return {
-        "file": str(path),
+        "file": stored(path),
         "kind": reading.figure.origin,
         "plays": not lacking,
         "bones": len(names),
@@ -187,14 +192,14 @@ def _told(character: Any) -> tuple[Message, ...]:
     return suited(character, played, load_body(), lambda: load_instrument(model_path(played), played)).told
 
 
-def as_text(found: Mapping[str, Any]) -> str:
+def as_text(found: Mapping[str, Any]) -> list[str]:
     """What was found, for people."""
     doubtful = set(found["doubtful_joints"])
     by_what = {"": "by shape", "vrm0": "by the file (VRM 0.x)", "vrm1": "by the file (VRM 1.0)"}
     lines = [
         filled(
             "{file}: {kind}, {bones} {bones:bone|bones}, {meshes} {meshes:mesh|meshes}",
-            {**found, "meshes": len(found["meshes"])},
+            {**found, "file": restored(found["file"]), "meshes": len(found["meshes"])},
         ),
         "",
         f"joints, {by_what.get(found['names'], found['names'])} (?: in doubt):",
@@ -207,10 +212,11 @@ def as_text(found: Mapping[str, Any]) -> str:
         lines.append(f"  {shape.ljust(26)}  {' + '.join(_share(name, weight) for name, weight in own.items())}")
     if found["missing_morphs"]:
         lines.append(f"shapes that nothing makes: {', '.join(found['missing_morphs'])}")
-    lines += ["", *found["notes"]]
+    if found["notes"] or found["required_joints"]:
+        lines += ["", *found["notes"]]
     if found["required_joints"]:
         lines.append(f"It cannot play: no bone was found for {', '.join(found['required_joints'])}.")
-    return "\n".join(lines).rstrip()
+    return lines
 
 
 def _share(name: str, weight: float) -> str:

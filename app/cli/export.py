@@ -15,6 +15,8 @@ from app.cli.options import Commands, add_source_options, frame_rate, open_proje
 from app.cli.progress import Progress
 from app.cli.status import tell_left_out
 from app.cli.summary import project_summary, summary
+from app.cli.terminal import say
+from app.encoding import shown
 from app.errors import UsageError
 from app.export.formats import FILE_FORMATS, USUAL_FORMATS, Format
 from app.messages import text
@@ -141,7 +143,7 @@ def export(arguments: argparse.Namespace) -> int:
         formats=frozenset(arguments.formats or USUAL_FORMATS),
         span=_span(performance, arguments),
         bars=_bars(performance, arguments),
-        source=arguments.file.name,
+        source=shown(arguments.file.name),
         creator=f"Suisou {program_version()}",
         skeleton=arguments.skeleton,
         asset=arguments.check_skeleton,
@@ -158,7 +160,7 @@ def export(arguments: argparse.Namespace) -> int:
                 report, told = written.report, project_summary(written, unreal)
     finally:
         progress.clear()
-    print(told)
+    say(*told)
     return tell_left_out((one.player, one.reason) for one in report.left_out)
 
 

@@ -6,13 +6,14 @@ import argparse
 from collections.abc import Sequence
 from typing import Any
 
-import msgspec
 import numpy as np
 
 from app.cli.instruments import note_name
 from app.cli.options import Commands, add_source_options, open_project
 from app.cli.status import tell_left_out
 from app.cli.summary import columns
+from app.cli.terminal import say, say_json
+from app.encoding import shown
 from app.errors import Message
 from app.messages import filled, text
 from app.performance.cast import attempt
@@ -40,9 +41,9 @@ def inspect(arguments: argparse.Namespace) -> int:
     """Print the file's plan and name the players who have none; the exit status."""
     found = inspection(Performance(open_project(arguments)))
     if arguments.json:
-        print(msgspec.json.format(msgspec.json.encode(found), indent=1).decode())
+        say_json(found)
     else:
-        print(tables(arguments.file.name, found))
+        say(*tables(shown(arguments.file.name), found))
     return tell_left_out((one["player"], one["reason"]) for one in found["left_out"])
 
 
@@ -170,7 +171,7 @@ def _counted(count: int, what: str) -> str:
     return filled(f"{{count}} {{count:{what}|{what}s}}", {"count": count})
 
 
-def tables(file: str, found: Table) -> str:
+def tables(file: str, found: Table) -> list[str]:
     """The same for people: one line per player, then what is not played and what to look at."""
     lines = [
         f"{file}: {found['duration_s']:.2f} s, {_counted(len(found['players']), 'player')}, "
@@ -189,7 +190,7 @@ def tables(file: str, found: Table) -> str:
     if found["warnings"]:
         lines += ["", "to look at:"]
         lines += [f"  {warning}" for warning in found["warnings"]]
-    return "\n".join(lines)
+    return lines
 
 
 def _tempo(tempos: list[Table]) -> str:

@@ -7,6 +7,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from app.cli.options import Commands
+from app.cli.terminal import say
+from app.encoding import shown
 from app.errors import AppError
 from app.messages import text
 
@@ -60,11 +62,11 @@ def list_maps(arguments: argparse.Namespace) -> None:
         )
         for instrument in known.maps.values()
     ]
-    print("\n".join(_left(("id", "name", "sounds", "written", "controls"), rows)))
-    print(f"\nyour own (*): {known.folder}")
+    say(*_left(("id", "name", "sounds", "written", "controls"), rows))
+    say("", f"your own (*): {shown(known.folder)}")
     for problems in known.problems.values():
         for problem in problems:
-            print(f"  {text(problem)}")
+            say(f"  {text(problem)}")
 
 
 def print_scale(arguments: argparse.Namespace) -> None:
@@ -86,7 +88,7 @@ def print_scale(arguments: argparse.Namespace) -> None:
                     ", ".join(fingering.tags),
                 )
             )
-    print("\n".join(_left(("sounds", "written", "rank", "fingering", "cents", "for"), rows)))
+    say(*_left(("sounds", "written", "rank", "fingering", "cents", "for"), rows))
 
 
 def transposition(semitones: int) -> str:
@@ -96,7 +98,7 @@ def transposition(semitones: int) -> str:
 
 def _left(head: tuple[str, ...], rows: Sequence[tuple[str, ...]]) -> list[str]:
     """Columns, all to the left."""
-    table = [head, *rows]
+    table = [tuple(map(shown, row)) for row in (head, *rows)]
     widths = [max(len(row[column]) for row in table) for column in range(len(head))]
     return ["  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in table]
 
@@ -113,10 +115,10 @@ def check_map(arguments: argparse.Namespace) -> None:
 
     problems = problems_of(arguments.file)
     for problem in problems:
-        print(text(problem))
+        say(text(problem))
     if problems:
         raise InvalidMapError("instruments.invalid", file=arguments.file.name, count=len(problems))
-    print(f"{arguments.file.name}: valid")
+    say(f"{shown(arguments.file.name)}: valid")
 
 
 def note_name(pitch: int) -> str:

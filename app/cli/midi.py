@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from pathlib import Path
 
 from app.cli.options import Commands, add_file_options, open_project
+from app.cli.terminal import say, warn
 from app.errors import FileError
 from app.messages import filled, text
 
@@ -33,9 +33,9 @@ def write(arguments: argparse.Namespace) -> None:
     if _same(arguments.to, arguments.file):
         raise FileError("midi.onto_itself", file=str(arguments.to))
     for warning in export_midi(project, arguments.to, library().maps):
-        print(f"suisou: {text(warning)}", file=sys.stderr)
+        warn(text(warning))
     notes = sum(len(part.notes) for part in project.score.parts)
-    print(
+    say(
         filled(
             "{file}: {tracks} {tracks:track|tracks}, {notes} {notes:note|notes}",
             {"file": arguments.to, "tracks": len(project.score.parts), "notes": notes},

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
@@ -12,6 +11,7 @@ from typing import Final, TypeAlias, TypeVar
 
 import msgspec
 
+from app.cli.terminal import warn
 from app.errors import UsageError
 from app.messages import text as worded
 from app.plan.generate import PREROLL_BEATS, PREROLL_LEAST_S
@@ -188,7 +188,7 @@ def open_project(arguments: argparse.Namespace) -> Project:
     known = library()
     maps = known.maps
     for problems in known.problems.values():
-        print(f"suisou: {worded(problems[0])}", file=sys.stderr)
+        warn(worded(problems[0]))
     project = _saved_project(arguments) if is_project_file(arguments.file) else _cast_project(arguments, maps)
     settings = parse_settings(
         arguments.settings, [player.name for player in project.players], maps, tuple(characters())

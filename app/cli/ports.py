@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import json
 import threading
 import time
 from collections.abc import Iterator
@@ -13,6 +12,7 @@ from typing import Final, Self
 from app.capture.link import RecorderLink
 from app.capture.protocol import News, Ports, Refused
 from app.cli.options import Commands
+from app.cli.terminal import say, say_json
 from app.errors import AppError, Message
 from app.messages import text
 from metadata.load import recognised_controller
@@ -86,20 +86,16 @@ def list_ports(arguments: argparse.Namespace) -> None:
     taken_for = {name: recognised_controller(name) for name in ports.inputs}
     if arguments.json:
         inputs = [{"name": name, "controller": controller.name} for name, controller in taken_for.items()]
-        print(
-            json.dumps(
-                {"system": ports.system, "inputs": inputs, "outputs": ports.outputs}, ensure_ascii=False, indent=2
-            )
-        )
+        say_json({"system": ports.system, "inputs": inputs, "outputs": ports.outputs})
         return
     if not ports.inputs:
-        print(text(Message("capture.no_ports")))
+        say(text(Message("capture.no_ports")))
     else:
         width = max(map(len, ports.inputs))
-        print("to record from:")
+        say("to record from:")
         for name, controller in taken_for.items():
-            print(f"  {name.ljust(width)}  {controller.title.en}")
+            say(f"  {name.ljust(width)}  {controller.title.en}")
     if ports.outputs:
-        print("to send to:")
+        say("to send to:")
         for name in ports.outputs:
-            print(f"  {name}")
+            say(f"  {name}")

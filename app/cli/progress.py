@@ -5,6 +5,8 @@ from __future__ import annotations
 import time
 from typing import TextIO
 
+from app.encoding import shown
+
 
 class Progress:
     """Shows how far the work is, on one line that is written over.
@@ -27,7 +29,7 @@ class Progress:
         if not self._active or (now_s - self._last_s < 0.1 and fraction < 1.0):
             return
         self._last_s = now_s
-        line = f"{round(100 * min(max(fraction, 0.0), 1.0)):3d} %  {label}"[:78]
+        line = f"{round(100 * min(max(fraction, 0.0), 1.0)):3d} %  {shown(label)}"[:78]
         self._stream.write(f"\r{line.ljust(len(self._shown))}")
         self._stream.flush()
         self._shown = line

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import contextlib
-import sys
 import time
 from datetime import datetime
 from pathlib import Path
@@ -14,6 +13,8 @@ from app.capture.journal import Header, Journal, passes, read_journal
 from app.capture.protocol import Back, Finished, Lost, NotStarted, Opened, Refused, Restarted, Written
 from app.cli.options import LONGEST_S, Commands, within
 from app.cli.ports import Listening, NoDevice
+from app.cli.terminal import count, say, warn
+from app.encoding import shown
 from app.errors import AppError, FileError, UsageError
 from app.formats.locks import is_locked
 from app.messages import text
@@ -106,7 +107,7 @@ def _listen(arguments: argparse.Namespace, journal: Path) -> None:
             with contextlib.suppress(KeyboardInterrupt):
                 _count_in(listening, arguments.count_in, arguments.tempo, begin_ns)
                 length_s = LONGEST_S if arguments.seconds is None else arguments.seconds
-                _say("recording" if arguments.seconds else "recording; Ctrl+C ends it")
+                warn("recording" if arguments.seconds else "recording; Ctrl+C ends it")
                 _tell_until(listening, _monotonic_s(begin_ns) + length_s)
         finally:
             now_ns = time.perf_counter_ns()
@@ -147,8 +148,7 @@ def _count_in(listening: Listening, bars: int, tempo: float, begin_ns: int) -> N
     for beat in range(beats):
         _tell_until(listening, _monotonic_s(begin_ns) - (beats - beat) * 60.0 / tempo)
         number = beat % _BEATS_IN_BAR + 1
-        bell = "\a" if sys.stdout.isatty() else ""
-        print(f"{bell}{number}", end="\n" if number == _BEATS_IN_BAR else " ", flush=True)
+        count(number, is_last=number == _BEATS_IN_BAR)
     _tell_until(listening, _monotonic_s(begin_ns))
 
 
@@ -157,17 +157,17 @@ def _tell_until(listening: Listening, end_s: float) -> None:
     for told in listening.until(end_s):
         match told:
             case Lost(port=port):
-                _say(f"{port} is gone; recording goes on when it comes back")
+                warn(f"{port} is gone; recording goes on when it comes back")
             case Back(port=port):
-                _say(f"{port} is back")
+                warn(f"{port} is back")
             case Refused(reason=reason) | Restarted(reason=reason):
-                _say(text(reason))
+                warn(text(reason))
 
 
 def _finished(listening: Listening) -> None:
     for told in listening.until(time.monotonic() + _WITHIN_S):
         if isinstance(told, Refused):
-            _say(text(told.reason))
+            warn(text(told.reason))
         if isinstance(told, Finished):
             return
 
@@ -195,7 +195,8 @@ def _write(target: Path, path: Path, tempo: float) -> None:
         reason = error.message.arguments.get("reason", text(error.message))
         raise RecordError("record.not_written", file=str(target), reason=reason, journal=path.name) from error
     path.unlink()
-    print(f"{target}: {notes} {'note' if notes == 1 else 'notes'} in {max(end_us, take.times_us[-1], 0) / 1e6:.1f} s")
+    length_s = max(end_us, take.times_us[-1], 0) / 1e6
+    say(f"{shown(target)}: {notes} {'note' if notes == 1 else 'notes'} in {length_s:.1f} s")
 
 
 def _end_us(journal: Journal) -> int:
@@ -205,7 +206,3 @@ def _end_us(journal: Journal) -> int:
 def _monotonic_s(ns: int) -> float:
     """A moment of `time.perf_counter_ns` as one of `time.monotonic`."""
     return time.monotonic() + (ns - time.perf_counter_ns()) / 1e9
-
-
-def _say(sentence: str) -> None:
-    print(f"suisou: {sentence}", file=sys.stderr, flush=True)

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import signal
-import sys
 from collections.abc import Iterable
 from typing import Final
 
+from app.cli.terminal import warn
 from app.errors import Message
 from app.messages import text
 
@@ -26,6 +26,6 @@ def tell_left_out(left_out: Iterable[tuple[str, str]]) -> int:
     """Name the players who are left out with the reasons, a line for each on stderr; the exit status."""
     status = DONE
     for player, reason in left_out:
-        print(f"suisou: {text(Message('player.left_out', {'player': player, 'reason': reason}))}", file=sys.stderr)
+        warn(text(Message("player.left_out", {"player": player, "reason": reason})))
         status = PARTIAL
     return status

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Final
 from app.cli.options import Commands, add_source_options, frame_rate, open_project, seconds, within
 from app.cli.progress import Progress
 from app.cli.status import tell_left_out
+from app.cli.terminal import say
 from app.errors import UsageError
 from app.messages import text
 from app.project.parameters import select_players
@@ -123,12 +124,12 @@ def stream(arguments: argparse.Namespace) -> int:
     try:
         cast = [_Streamed(performance, one, span, arguments, alone=len(chosen) == 1) for one in found.made.values()]
         for performer, sender in zip(found.made.values(), senders, strict=True):
-            print(f"{performer.player.name}: {arguments.host}:{sender.address.at[1]}")
+            say(f"{performer.player.name}: {arguments.host}:{sender.address.at[1]}")
         if not is_loopback(arguments.host):
-            print(f"what is sent leaves this computer, to {arguments.host}", file=sys.stderr)
+            say(f"what is sent leaves this computer, to {arguments.host}", stream=sys.stderr)
         _play(cast, senders, span, first, arguments.loop)
     except KeyboardInterrupt:
-        print("stopped")
+        say("stopped")
     finally:
         for sender in senders:
             sender.close()
@@ -204,7 +205,7 @@ def _play(cast: list[_Streamed], senders: list[Sender], span: FrameSpan, first: 
         sent += 1
         if now_s - heard_s >= _TELL_S:
             if unheard and sys.stderr.isatty():
-                print("nobody listens there yet", file=sys.stderr)
+                say("nobody listens there yet", stream=sys.stderr)
             heard_s, unheard = now_s, False
         step = max(step + 1, int((time.perf_counter() - began_s) * fps))
-    print(f"{sent} frames in {time.perf_counter() - began_s:.1f} s")
+    say(f"{sent} frames in {time.perf_counter() - began_s:.1f} s")

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable
 from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING
 
+from app.encoding import shown
 from app.export.measure import PlayerMeasures, Spread
 from app.export.report import PlayerReport, Report, failures
 from app.messages import filled, text
@@ -18,22 +19,22 @@ if TYPE_CHECKING:
 _HEAD = ("player", "notes", "controls", "fingers mm", "grips mm", "lips mm", "feet mm", "into mm", "breaths", "sway")
 
 
-def summary(report: Report, folder: Path) -> str:
+def summary(report: Report, folder: Path) -> list[str]:
     """The table of measures, what was written, what is not played and what to look at."""
     lines = [
         filled("{count} {count:file|files} in {folder}: ", {"count": report.file_count, "folder": folder})
         + f"{report.frames} frames at {report.fps_exact} frames/s; "
         f"the sound starts at {-report.first_frame_s:.3f} s"
     ]
-    return "\n".join([*lines, *_judgement(report)])
+    return [*lines, *_judgement(report)]
 
 
-def project_summary(written: Written, project: UnrealProject) -> str:
+def project_summary(written: Written, project: UnrealProject) -> list[str]:
     """The tree of what is in an Unreal project now, and what `summary` says of it."""
     plan, report = written.plan, written.report
     engine = f"Unreal Engine {project.engine}" if project.version is not None else "its engine's version is not told"
     lines = [
-        f"{project.file} ({engine}): {report.frames} frames at {report.fps_exact} frames/s; "
+        f"{shown(project.file)} ({engine}): {report.frames} frames at {report.fps_exact} frames/s; "
         "the sound starts with the first one",
         *tree(plan.written, lambda path: " (replaced)" if path in plan.replaced else ""),
     ]
@@ -42,7 +43,7 @@ def project_summary(written: Written, project: UnrealProject) -> str:
     lines += [
         f"in Unreal: Suisou > Import Performance, or Update Performance; the assets come to {plan.layout.content}"
     ]
-    return "\n".join([*lines, *_judgement(report)])
+    return [*lines, *_judgement(report)]
 
 
 def tree(paths: Iterable[PurePosixPath], mark: Callable[[PurePosixPath], str] = lambda path: "") -> list[str]:
@@ -86,7 +87,7 @@ def _judgement(report: Report) -> list[str]:
 
 def columns(rows: Iterable[tuple[str, ...]]) -> list[str]:
     """Rows with their cells one below the other: the first column left, the others right."""
-    table = list(rows)
+    table = [tuple(map(shown, row)) for row in rows]
     widths = [max(len(row[column]) for row in table) for column in range(len(table[0]))]
     return [
         "  ".join(

@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from string import Formatter
 from typing import Final
 
+from app.encoding import shown
 from app.errors import AppError, Message
 from app.messages import (
     audio,
@@ -67,7 +68,7 @@ PITCHES: Final[dict[str, tuple[str, ...]]] = {
 class _Filling(Formatter):
     def format_field(self, value: object, format_spec: str) -> str:
         if "|" not in format_spec:
-            return str(super().format_field(value, format_spec))
+            return shown(str(super().format_field(value, format_spec)))
         one, _, more = format_spec.partition("|")
         return one if value == 1 else more
 

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 from pytestqt.qtbot import QtBot
 
+from app.encoding import shown
 from app.errors import Message
 from app.project.autosave import Autosave
 from app.project.presence import Presence
@@ -98,7 +99,7 @@ def test_everything_bad_at_once(homes: Path, qtbot: QtBot, qt_app: object) -> No
         said = {file_of(message) for message in told}
         assert str(settings_path()) in said
         for folder in folders[:2]:
-            missing = {name for name in names[folder] if str(folder / name) not in said}
+            missing = {name for name in names[folder] if shown(folder / name) not in said}
             assert missing == set()
         assert {str(folders[0] / "kazoo.toml")} <= said
         # Presets and expressions say theirs where they are chosen.

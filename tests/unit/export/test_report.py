@@ -87,7 +87,7 @@ def test_numbers_are_finite(value: float) -> None:
 
 
 def test_the_table_marks_what_is_beyond() -> None:
-    text = summary(report(player(measures(lips=Spread(2.1, 0.0, 2.0, 10))), player(None)), Path("out"))
+    text = "\n".join(summary(report(player(measures(lips=Spread(2.1, 0.0, 2.0, 10))), player(None)), Path("out")))
     assert "2.10*" in text
     assert "! Ünal 🎺: lips" in text
     assert "tuba (3 notes): no map" in text
