@@ -46,7 +46,7 @@ class Header(msgspec.Struct, frozen=True):
     Attributes
     ----------
     project : str
-        Path of the project file, or what the editor calls a project never saved.
+        Path of the project file (`app.encoding.stored`), or what the editor calls a project never saved.
     player : str
         Id of the player the take is for.
     port, controller : str

@@ -114,7 +114,7 @@ class RecorderLink:
             if self._failure is not None:
                 self._put(NotStarted(self._failure))
                 return
-            self._take = Start(str(Path(path).absolute()), header)
+            self._take = Start(os.fsencode(Path(path).absolute()), header)
             self._is_stopping = False
             self._unsent.clear()
             self._is_begun = self._tell(self._take)

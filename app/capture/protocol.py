@@ -27,9 +27,10 @@ class Open(_Told, frozen=True):
 
 
 class Start(_Told, frozen=True):
-    """Write what is heard into a journal. ``resumed_ns``: another recorder began it, and since then nobody listened."""
+    """Write what is heard into a journal, whose path is as `os.fsencode` has it: not all names are text.
+    ``resumed_ns``: another recorder began it, and since then nobody listened."""
 
-    path: str
+    path: bytes
     header: Header
     resumed_ns: int | None = None
 
@@ -125,7 +126,7 @@ class Written(_Told, frozen=True):
 class Finished(_Told, frozen=True):
     """The journal is whole and closed."""
 
-    path: str
+    path: bytes
     count: int
 
 

@@ -267,7 +267,7 @@ class JournalKeeper:
     def _start(self, start: Start) -> None:
         self._finish("end")
         try:
-            self._writer = JournalWriter(start.path, start.header, resumed=start.resumed_ns is not None)
+            self._writer = JournalWriter(os.fsdecode(start.path), start.header, resumed=start.resumed_ns is not None)
             self._is_away = False
             if start.resumed_ns is not None:
                 self._mark("lost", start.resumed_ns)
@@ -307,7 +307,7 @@ class JournalKeeper:
         self._writer = None
         self._failed = False
         if word is not None:
-            self._news.put(Finished(writer.path, writer.count))
+            self._news.put(Finished(os.fsencode(writer.path), writer.count))
 
     def _tell_failure(self, error: OSError) -> None:
         """Say that the disk takes nothing, once; it is tried again with what comes next."""

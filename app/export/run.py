@@ -11,6 +11,7 @@ from pathlib import Path
 
 import msgspec
 
+from app.encoding import shown
 from app.errors import Cancelled, Message
 from app.export.bone_names import profile_names
 from app.export.character import character_scene
@@ -104,7 +105,7 @@ def write_cast(
             report, measured = _export_player(
                 request, performer, checked.target, stems[player.id], names[player.id], folder, told
             )
-            asset = None if request.asset is None else request.asset.name
+            asset = None if request.asset is None else shown(request.asset.name)
             skeleton = SkeletonReport(checked.target.choice, asset, checked.differences)
             report = msgspec.structs.replace(report, skeleton=skeleton)
             reports.append(report)

@@ -31,6 +31,7 @@ def write_sound(
     """
     block = mixdown(project, span.first_frame_s, span.end_s, RATE_HZ, progress, stop_wanted)
     try:
-        soundfile.write(path, block, RATE_HZ, subtype="PCM_16")
+        with path.open("wb") as stream:
+            soundfile.write(stream, block, RATE_HZ, format="WAV", subtype="PCM_16")
     except (OSError, soundfile.SoundFileError) as error:
         raise FileError("file.cannot_write", file=str(path), reason=str(error)) from error

@@ -23,6 +23,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
+from app.encoding import stored
 from app.errors import FileError, Message
 from app.formats.atomic import atomic_write
 from app.project.model import Project
@@ -267,7 +268,7 @@ class Autosave:
             return None
         self._changed_s = None
         self._generation += 1
-        facts = Autosaved(self._work, self._generation, self.presence.token, str(self._document or ""), self._base)
+        facts = Autosaved(self._work, self._generation, self.presence.token, stored(self._document or ""), self._base)
         asks_usual = not self._pending
         writing = Writing(self._project, facts, self._document, self.presence, self._held, asks_usual, self._own_place)
         self._pending[writing] = now_s

@@ -302,6 +302,8 @@ def _setting_faults(project: Project) -> Iterator[Fault]:
     if not limits.FPS[0] <= project.fps <= limits.FPS[1]:
         yield "fps", f"must be from {limits.FPS[0]} to {limits.FPS[1]}"
     yield from _text("source", project.source)
+    if "\0" in project.source:
+        yield "source", "must be the path of a MIDI file"
     if project.audio is not None:
         yield from _within("audio", _audio_faults(project.audio))
     yield from _unique("expressions", (expression.name for expression in project.expressions), "name")

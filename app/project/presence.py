@@ -17,6 +17,7 @@ from typing import IO, Final
 import msgspec
 import platformdirs
 
+from app.encoding import stored
 from app.errors import FileError
 from app.formats.atomic import atomic_write, sweep
 from app.formats.files import read_file
@@ -37,7 +38,7 @@ class Note(msgspec.Struct, frozen=True):
     pid : int
         For people; the lock says whether the editor lives.
     document : str
-        Absolute path of the project's file; empty for one that was never saved.
+        Absolute path of the project's file; empty for one that was never saved. In the file as `app.encoding.stored`.
     autosave : str
         Absolute path of the file that holds its unsaved work.
     """
@@ -91,7 +92,7 @@ class Presence:
 
     def tell(self, document: Path | None, autosave: Path | None) -> None:
         """Note down what this editor works on. Raises FileError where the folder refuses."""
-        self.note = Note(os.getpid(), str(document or ""), str(autosave or ""))
+        self.note = note = Note(os.getpid(), str(document or ""), str(autosave or ""))
         was_here = self._is_here()
         if not was_here:
             self._enter()
@@ -99,7 +100,7 @@ class Presence:
             return
         try:
             with atomic_write(self.folder / f"{self.token}{NOTE}") as stream:
-                stream.write(msgspec.json.encode(self.note))
+                stream.write(msgspec.json.encode(Note(note.pid, stored(note.document), stored(note.autosave))))
         except FileError as error:
             raise FileError(
                 "presence.refused", file=os.fspath(self.folder), reason=error.message.arguments["reason"]

@@ -11,6 +11,7 @@ import os
 from dataclasses import dataclass
 from pathlib import Path
 
+from app.encoding import shown
 from app.errors import FileError
 from app.formats.atomic import sweep
 from app.project.autosave import autosave_path
@@ -207,7 +208,7 @@ def _item(
     return Recoverable(
         path,
         document,
-        document.name if document is not None else score.title or Path(project.source).stem,
+        shown(document.name if document is not None else score.title or Path(project.source).stem),
         written_s,
         sum(len(part.notes) for part in score.parts),
         token if facts is None else facts.editor,

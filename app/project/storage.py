@@ -27,6 +27,7 @@ from typing import Any, Final
 import msgspec
 import numpy as np
 
+from app.encoding import PREFIX, restored, stored
 from app.errors import FileError, Message, shortened
 from app.formats.atomic import atomic_write
 from app.formats.files import open_file, read_file
@@ -89,7 +90,7 @@ class Autosaved(msgspec.Struct, frozen=True):
     editor : str
         Token of the editor that wrote it (`app.project.presence`).
     document : str
-        Absolute path of the project's file; empty for a project that was never saved.
+        Absolute path of the project's file (`app.encoding.stored`); empty for a project that was never saved.
     base : str
         `content_hash` of that file when the work on it began; empty where it was not there.
     """
@@ -271,8 +272,8 @@ def autosave_facts(content: bytes) -> Autosaved | None:
 
 def file_named(text: str) -> str:
     """The absolute path of a file, as a note or an autosave names it; empty where it can be no file's."""
-    path = Path(text)
-    return text if path.is_absolute() and path.name and "\0" not in text else ""
+    path = Path(restored(text))
+    return str(path) if path.is_absolute() and path.name and "\0" not in str(path) else ""
 
 
 def is_project_file(path: Path) -> bool:
@@ -407,21 +408,21 @@ def _unknown(raw: Any, known: Any, place: str) -> Iterator[str]:
 
 
 def _stored_path(path: str, folder: Path) -> str:
-    """As the file has it: relative, with slashes, where both lie in one tree below the root; else as it is."""
-    if not path or not Path(path).is_absolute():
-        return path
-    try:
-        shared = Path(os.path.commonpath([path, folder]))
-    except ValueError:  # two drives
-        return path
-    if shared == Path(shared.anchor):
-        return path
-    return Path(os.path.relpath(path, folder)).as_posix()
+    """As the file has it: relative, with slashes, where both lie in one tree below the root."""
+    if path and Path(path).is_absolute():
+        try:
+            shared = Path(os.path.commonpath([path, folder]))
+        except ValueError:  # two drives
+            return stored(path)
+        if shared != Path(shared.anchor):
+            path = Path(os.path.relpath(path, folder)).as_posix()
+    return stored(path)
 
 
 def _full_path(path: str, folder: Path) -> str:
     """Absolute; a path that is absolute on another system only stays what it is."""
-    if not path or PurePosixPath(path).is_absolute() or PureWindowsPath(path).is_absolute():
+    path = restored(path)
+    if not path or path.startswith(PREFIX) or PurePosixPath(path).is_absolute() or PureWindowsPath(path).is_absolute():
         return path
     return os.path.normpath(folder / path)
 

@@ -15,6 +15,7 @@ from typing import Final
 
 import numpy as np
 
+from app.encoding import shown
 from app.rig.face_map import FaceMapping, map_morphs
 from app.rig.figure import Figure
 from app.rig.figure_character import figure_character
@@ -74,9 +75,9 @@ def load_character(
         if path.suffix.lower() == ".glb":
             source = read_source(path)
             if source.gltf.generator == OURS:
-                return _ours(source, id or path.stem)
+                return _ours(source, id or shown(path.stem))
         reading = read_character(path, joints, morphs)
-        return figure_character(reading.figure, id or path.stem, reading.joints.bones, reading.face.morphs)
+        return figure_character(reading.figure, id or shown(path.stem), reading.joints.bones, reading.face.morphs)
     except (KeyError, IndexError, TypeError, ValueError) as error:
         raise invalid(path, f"damaged: {error!r}") from error
 

@@ -34,6 +34,7 @@ from typing import Final, TypeAlias
 import msgspec
 import platformdirs
 
+from app.encoding import shown
 from app.errors import AppError, FileError, MapError, Message, UsageError, shortened
 from app.formats.atomic import atomic_write
 from app.formats.files import files_in, open_file, read_file
@@ -331,8 +332,8 @@ def add_character(
     FileError
         It cannot play, or cannot be copied.
     """
-    title = title or path.stem
-    load_character(path, path.stem, joints or {}, morphs or {})
+    title = title or shown(path.stem)
+    load_character(path, shown(path.stem), joints or {}, morphs or {})
     folder = own_folder()
     try:
         folder.mkdir(parents=True, exist_ok=True)

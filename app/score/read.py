@@ -60,6 +60,7 @@ from typing import Final
 import mido
 import msgspec
 
+from app.encoding import shown
 from app.errors import FileError, Message
 from app.score.choose import PERCUSSION_CHANNEL, MapChoice, Stream, told_by_file
 from app.score.chunks import Container, Track, read_container
@@ -184,12 +185,13 @@ def read_contents(path: Path, *, encoding: str | None = None) -> MidiContents:
     streams = _streams(tracks, encoding)
     if len(streams) > MOST_STREAMS:
         raise FileError("midi.too_many_parts", file=str(path), parts=len(streams), most=MOST_STREAMS)
+    stem = shown(path.stem)
     return MidiContents(
-        title=_title(tracks, encoding) or path.stem,
+        title=_title(tracks, encoding) or stem,
         tempo_map=tempo_map,
         metres=metres,
         pickup_ticks=pickup_ticks,
-        streams=tuple(told_by_file(streams, path.stem)),
+        streams=tuple(told_by_file(streams, stem)),
         warnings=(*warnings, *tempo_warnings, *metre_warnings),
         markers=_markers(tracks, encoding),
     )

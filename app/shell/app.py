@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import signal
 import threading
 import time
@@ -11,12 +10,13 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
-from PySide6.QtCore import QCoreApplication, QEventLoop, QObject, Qt, QTimer
-from PySide6.QtGui import QGuiApplication
+from PySide6.QtCore import QBuffer, QCoreApplication, QEventLoop, QIODevice, QObject, Qt, QTimer
+from PySide6.QtGui import QGuiApplication, QImage
 from PySide6.QtWidgets import QApplication
 
 from app.audio.playback import Playback
-from app.errors import AppError, Message
+from app.errors import AppError, FileError, Message
+from app.formats.atomic import atomic_write
 from app.formats.scratch import scratch_folder
 from app.project.autosave import Autosave
 from app.project.edit.piece import new_piece
@@ -283,8 +283,7 @@ def picture(start: Start, target: Path) -> int:
             wait(lambda: False, 1.2)
             wait(lambda: not _working(program), READY_S)
             image = window.grab().toImage()
-            if not image.save(str(target)):
-                raise AppError("file.cannot_write", file=str(target), reason=_why_not(target))
+            _write_picture(image, target)
         finally:
             program.end()
             garbage.stop()
@@ -305,7 +304,11 @@ def _working(program: Program) -> bool:
     return isinstance(program.tasks, ThreadTasks) and bool(program.tasks.running)
 
 
-def _why_not(target: Path) -> str:
-    if target.suffix.lower() not in (".png", ".jpg", ".jpeg", ".webp", ".bmp"):
-        return f"unknown kind of picture {target.suffix!r}"
-    return os.strerror(2) if not target.parent.is_dir() else "not writable"
+def _write_picture(image: QImage, target: Path) -> None:
+    """Write a picture in the format that the file's name asks for. Raises FileError."""
+    data = QBuffer()
+    data.open(QIODevice.OpenModeFlag.WriteOnly)
+    if not image.save(data, target.suffix[1:]):  # type: ignore[call-overload]
+        raise FileError("file.cannot_write", file=str(target), reason=f"unknown kind of picture {target.suffix!r}")
+    with atomic_write(target) as stream:
+        stream.write(data.data().data())

@@ -8,6 +8,7 @@ from pathlib import Path
 import msgspec
 from PySide6.QtCore import QCoreApplication
 
+from app.encoding import shown
 from app.errors import AppError, Message
 from app.project.edit.players import change
 from app.rig.character import read_character
@@ -153,4 +154,5 @@ def _change(editor: Editor, id: str, entry: CharacterEntry, draft: Draft) -> Non
 
 
 def _title(path: Path) -> str:
-    return path.stem.replace("_", " ").strip() or path.stem
+    stem = shown(path.stem)
+    return stem.replace("_", " ").strip() or stem

@@ -110,7 +110,7 @@ class Faults:
             if self._log.exists() and not self._log.is_file():
                 raise OSError(f"{self._log} is no file")  # A pipe would wait for a reader.
             is_long = self._log.exists() and self._log.stat().st_size > MOST_BYTES
-            with self._log.open("w" if is_long else "a", encoding="utf-8") as stream:
+            with self._log.open("w" if is_long else "a", encoding="utf-8", errors="backslashreplace") as stream:
                 stream.write(f"{head}\n{text}\n")
         except OSError as error:
             sys.stderr.write(f"suisou: {self._log}: {error}\n")

@@ -12,6 +12,7 @@ from typing import Final
 
 from PySide6.QtCore import QCoreApplication, QObject, Qt, QTimer, Signal
 
+from app.encoding import shown
 from app.errors import AppError, Cancelled, Message
 from app.project import storage
 from app.project.autosave import Autosave, Writing, Written
@@ -99,10 +100,10 @@ class Files(QObject):
     def name(self) -> str:
         """What the project is called in the title."""
         if self.path is not None:
-            return self.path.name
+            return shown(self.path.name)
         score, source = self.session.project.score, self.session.project.source
         if source:
-            return Path(source).stem
+            return shown(Path(source).stem)
         return score.title or QCoreApplication.translate("Files", "Untitled")
 
     @property

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from PySide6.QtCore import QFileSystemWatcher, QObject, QTimer, Signal
 
+from app.encoding import is_text
 from app.errors import FileError
 from app.formats.files import files_in
 
@@ -45,6 +46,8 @@ class FolderWatch(QObject):
         wanted = {str(next(place for place in (folder, *folder.parents) if place.is_dir()))}
         with contextlib.suppress(FileError):  # Who reads the folder says that it cannot be listed.
             wanted |= {str(path) for path in files_in(folder, *self._suffixes) if path.exists()}
+        # Of what is not UTF-8 Qt would watch something else.
+        wanted = set(filter(is_text, wanted))
         watched = {*self._watcher.directories(), *self._watcher.files()}
         if gone := watched - wanted:
             self._watcher.removePaths(sorted(gone))

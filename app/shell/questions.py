@@ -7,11 +7,13 @@ from pathlib import Path
 from typing import Literal, Protocol
 
 from PySide6.QtCore import QCoreApplication
-from PySide6.QtWidgets import QApplication, QDialog, QFileDialog, QWidget
+from PySide6.QtWidgets import QApplication, QDialog, QWidget
 
+from app.encoding import shown
 from app.project.model import Project
 from app.score.read import MidiContents
 from instrument_maps.library import all_maps
+from widgets.common.paths import ask_for_file, ask_where_to_save
 from widgets.common.plain import MessageBox
 from widgets.common.tokens import Tokens
 
@@ -42,18 +44,17 @@ class Dialogs:
 
     def open_file(self, title: str, folder: str, filters: str) -> Path | None:
         """See `Questions`."""
-        name, _ = QFileDialog.getOpenFileName(_parent(), title, folder, filters)
-        return Path(name) if name else None
+        return ask_for_file(_parent(), title, Path(folder), filters)
 
     def save_file(self, title: str, proposal: str, filters: str, suffixes: Sequence[str]) -> Path | None:
         """See `Questions`."""
         while True:
-            name, _ = QFileDialog.getSaveFileName(_parent(), title, proposal, filters)
-            if not name:
+            chosen = ask_where_to_save(_parent(), title, Path(proposal), filters)
+            if chosen is None:
                 return None
-            path = with_suffix(Path(name), suffixes)
+            path = with_suffix(chosen, suffixes)
             # The system's dialog has asked about the name as it was typed.
-            if path == Path(name) or not path.exists() or _may_replace(title, path):
+            if path == chosen or not path.exists() or _may_replace(title, path):
                 return path
             proposal = str(path)
 
@@ -118,7 +119,7 @@ def _may_replace(title: str, path: Path) -> bool:
     box.setObjectName("replace")
     box.setIcon(MessageBox.Icon.NoIcon)
     box.setWindowTitle(title)
-    box.setText(translate("Questions", "Replace {name}?").format(name=path.name))
+    box.setText(translate("Questions", "Replace {name}?").format(name=shown(path.name)))
     box.setInformativeText(translate("Questions", "The folder has a file of this name. What it holds is lost."))
     replace = box.addButton(translate("Questions", "Replace"), MessageBox.ButtonRole.DestructiveRole)
     cancel = box.addButton(translate("Questions", "Cancel"), MessageBox.ButtonRole.RejectRole)

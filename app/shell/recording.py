@@ -7,6 +7,7 @@ stays until they are in a file.
 
 from __future__ import annotations
 
+import os
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -35,6 +36,7 @@ from app.capture.protocol import (
     Restarted,
     Written,
 )
+from app.encoding import stored
 from app.errors import AppError, Message
 from app.project.edit.takes import add_takes, comp
 from app.project.journals import journal_path, journals_of
@@ -254,7 +256,7 @@ class Recorder(QObject):
             case Written():
                 state.set(events=told.count)
             case Finished():
-                self._finished(Path(told.path))
+                self._finished(Path(os.fsdecode(told.path)))
 
     def _refused(self, reason: Message) -> None:
         """Something cannot be done: the device be had, or something beside it."""
@@ -325,7 +327,7 @@ class Recorder(QObject):
         # After a crash the take is looked for beside the project: it must be there too.
         self._files.write_soon()
         header = Header(
-            project=str(self._files.path or ""),
+            project=stored(self._files.path or ""),
             player=player_id,
             port=state.port,
             controller=state.controller,

@@ -17,12 +17,12 @@ import binascii
 import os
 from pathlib import Path
 from typing import Annotated, Any, Final, Generic, Literal, TypeVar, overload
-from urllib.parse import quote, unquote_to_bytes
 
 import msgspec
 import platformdirs
 from PySide6.QtCore import QByteArray, QCoreApplication, QObject, QTimer, Signal
 
+from app import encoding
 from app.errors import AppError, FileError, Message
 from app.formats.atomic import atomic_write
 from app.formats.toml import read_toml, shaped, toml
@@ -34,8 +34,6 @@ MOST_RECENT: Final = 12
 """Recent files kept."""
 WRITE_MS: Final = 300
 """What is dragged changes many times a second: it is written once in this time."""
-_PATH_OF_BYTES: Final = "file://"
-"""Before a path whose name is not UTF-8, which no text file can hold as it is."""
 
 
 def settings_path() -> Path:
@@ -101,13 +99,13 @@ class _Bytes(_Value[QByteArray]):
 
 
 class _FilePath(_Value[str]):
-    """A path; its bytes survive also where they are not UTF-8."""
+    """A path, also one whose name is not UTF-8."""
 
     def read(self, stored: object, file: str) -> str:
-        return _path_of(super().read(stored, file))
+        return encoding.restored(super().read(stored, file))
 
     def written(self, value: str) -> object:
-        return _path_text(value)
+        return encoding.stored(value)
 
 
 class Settings(QObject):
@@ -275,17 +273,17 @@ class Settings(QObject):
     @property
     def recent(self) -> tuple[str, ...]:
         """Files opened lately, the newest first."""
-        return tuple(path for text in self._recent[:MOST_RECENT] if (path := _path_of(text)))
+        return tuple(path for text in self._recent[:MOST_RECENT] if (path := encoding.restored(text)))
 
     def add_recent(self, path: Path) -> None:
         """This file was opened or saved just now."""
         text = str(path)
         others = tuple(other for other in self.recent if other != text)
-        self._recent = tuple(map(_path_text, (text, *others)))[:MOST_RECENT]
+        self._recent = tuple(map(encoding.stored, (text, *others)))[:MOST_RECENT]
 
     def remove_recent(self, path: str) -> None:
         """Forget a file."""
-        self._recent = tuple(_path_text(other) for other in self.recent if other != path)
+        self._recent = tuple(encoding.stored(other) for other in self.recent if other != path)
 
     def shortcut(self, action_id: str) -> str | None:
         """The user's own shortcut of an action, ``;`` between several, empty for none; None: as it comes."""
@@ -306,18 +304,6 @@ def _put(table: dict[str, Any], keys: tuple[str, str], value: object) -> None:
     if not isinstance(table.get(section), dict):
         table[section] = {}
     table[section][name] = value
-
-
-def _path_text(path: str) -> str:
-    try:
-        path.encode()
-    except UnicodeEncodeError:
-        return _PATH_OF_BYTES + quote(os.fsencode(path))
-    return path
-
-
-def _path_of(text: str) -> str:
-    return os.fsdecode(unquote_to_bytes(text[len(_PATH_OF_BYTES) :])) if text.startswith(_PATH_OF_BYTES) else text
 
 
 def _cannot_write(path: Path, error: OSError) -> Message:

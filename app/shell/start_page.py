@@ -9,6 +9,7 @@ from PySide6.QtCore import QDateTime, QEvent, QLocale, QSize, Qt
 from PySide6.QtGui import QFontMetrics
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QPushButton, QScrollArea, QToolButton, QVBoxLayout, QWidget
 
+from app.encoding import shown
 from app.project.recovery import Recoverable
 from app.shell.files import Files
 from app.shell.settings import Settings
@@ -190,12 +191,12 @@ class StartPage(QScrollArea):
         there = path.is_file()
         button = _row_button("recent_file")
         metrics = QFontMetrics(button.font())
-        name = metrics.elidedText(path.name, Qt.TextElideMode.ElideMiddle, RECENT_PX - LEAST_FOLDER_PX)
+        name = metrics.elidedText(shown(path.name), Qt.TextElideMode.ElideMiddle, RECENT_PX - LEAST_FOLDER_PX)
         room = RECENT_PX - metrics.horizontalAdvance(name)
-        where = metrics.elidedText(str(path.parent), Qt.TextElideMode.ElideMiddle, room)
+        where = metrics.elidedText(shown(path.parent), Qt.TextElideMode.ElideMiddle, room)
         button.setText(verbatim(f"  {name}    {where if there else self.tr('not found')}"))
         button.setIcon(icon("piece", tokens))
-        button.setToolTip(str(path))
+        button.setToolTip(shown(path))
         button.setEnabled(there)
         button.clicked.connect(partial(self._files.open, path))
         forget = QToolButton()

@@ -12,6 +12,7 @@ from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QKeySequence
 from PySide6.QtOpenGLWidgets import QOpenGLWidget
 from PySide6.QtWidgets import QMainWindow, QPushButton, QStackedWidget, QToolBar, QVBoxLayout, QWidget
 
+from app.encoding import is_text, shown
 from app.errors import Message
 from app.project.edit.piece import set_audio
 from app.project.recovery import Recoverable
@@ -28,6 +29,7 @@ from app.shell.start_page import StartPage
 from app.shell.status import StatusLine
 from app.shell.tasks import ThreadTasks
 from widgets.common.icons import icon
+from widgets.common.paths import dropped_paths
 from widgets.common.plain import verbatim, verbatim_title
 from widgets.common.session import Session
 from widgets.inspector.panel import InspectorPanel
@@ -341,7 +343,7 @@ class Window(QMainWindow):
         menu.clear()
         for text in self.editor.settings.recent:
             path = Path(text)
-            row = menu.addAction(verbatim(f"{path.name}    {path.parent}"))
+            row = menu.addAction(verbatim(f"{shown(path.name)}    {shown(path.parent)}"))
             row.setEnabled(path.is_file())
             row.triggered.connect(partial(self._open_recent, path))
         if menu.isEmpty():
@@ -375,7 +377,7 @@ class Window(QMainWindow):
         self.banner.ask(
             lambda: (
                 self.tr("The recording {name} is not where it was. Without it the synthesiser is heard.").format(
-                    name=path.name
+                    name=shown(path.name)
                 ),
                 (self.tr("Find It..."), self.tr("Remove It")),
             ),
@@ -386,7 +388,7 @@ class Window(QMainWindow):
         self.banner.ask(
             lambda: (
                 self.tr("{name} was changed by somebody else since it was opened. It was not saved.").format(
-                    name=path.name
+                    name=shown(path.name)
                 ),
                 (self.tr("Save As..."), self.tr("Replace It")),
             ),
@@ -394,10 +396,11 @@ class Window(QMainWindow):
         )
 
     def _find_media(self, path: Path) -> None:
-        kinds = " ".join(f"*{suffix}" for suffix in AUDIO_SUFFIXES)
-        found = self.editor.questions.open_file(
-            self.tr("Find {name}").format(name=path.name), self._files.folder, f"{path.name} ({path.name});;({kinds})"
-        )
+        kinds = f"({' '.join(f'*{suffix}' for suffix in AUDIO_SUFFIXES)})"
+        if is_text(path.name):
+            kinds = f"{path.name} ({path.name});;{kinds}"
+        title = self.tr("Find {name}").format(name=shown(path.name))
+        found = self.editor.questions.open_file(title, self._files.folder, kinds)
         if found is not None:
             self._files.replace_audio(found)
 
@@ -485,8 +488,7 @@ class Window(QMainWindow):
 
 def dropped_file(event: QDropEvent) -> Path | None:
     """The first file of a drop that can be opened."""
-    for url in event.mimeData().urls():
-        path = Path(url.toLocalFile())
+    for path in dropped_paths(event):
         if path.suffix.lower() in (SUFFIX, *MIDI_SUFFIXES, *AUDIO_SUFFIXES, *CHARACTER_SUFFIXES):
             return path
     return None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import time
 from collections.abc import Callable
 
@@ -61,7 +62,7 @@ class SpokenFor(RecorderLink):
         if writer is not None:
             writer.mark("end", self.clock.now_ns())
             writer.close()
-            self.say(Finished(writer.path, writer.count))
+            self.say(Finished(os.fsencode(writer.path), writer.count))
 
     def play(self, message: bytes) -> None:
         self.play_at(self.clock.now_ns(), message)

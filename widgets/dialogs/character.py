@@ -28,6 +28,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.encoding import shown
 from app.errors import AppError, Message
 from app.rig.figure import Figure
 from widgets.common.character_picture import Crop, Seen, picture, seen
@@ -411,11 +412,11 @@ class CharacterDialog(QDialog):
 
     def retranslate(self) -> None:
         """Set all texts."""
-        self.setWindowTitle(verbatim_title(self.tr("Character: {file}").format(file=self._path.name)))
+        self.setWindowTitle(verbatim_title(self.tr("Character: {file}").format(file=shown(self._path.name))))
         self._title_name.setText(self.tr("Name"))
         self._source.setText(
             self.tr("{file}\nBones: {bones}, morphs: {morphs}").format(
-                file=self._path.name, bones=len(self._figure.bone_names), morphs=len(self._figure.morph_names)
+                file=shown(self._path.name), bones=len(self._figure.bone_names), morphs=len(self._figure.morph_names)
             )
         )
         self.tabs.setTabText(0, self.tr("Body"))

@@ -21,6 +21,7 @@ from app.rig.character_library import character_library, character_named, charac
 from app.rig.read_figure import SUFFIXES
 from widgets.common.character_picture import picture, seen
 from widgets.common.instrument_name import character_name
+from widgets.common.paths import dropped_paths
 from widgets.common.plain import Label
 from widgets.common.session import Session
 from widgets.common.tasks import Progress, StopWanted
@@ -184,8 +185,7 @@ class CharactersDialog(QDialog):
 
 def dropped_character(event: QDropEvent) -> Path | None:
     """The first file of a drop that can hold a character."""
-    for url in event.mimeData().urls():
-        path = Path(url.toLocalFile())
+    for path in dropped_paths(event):
         if path.suffix.lower() in SUFFIXES:
             return path
     return None

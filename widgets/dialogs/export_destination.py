@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
+from app.encoding import shown
 from app.errors import Message
 from app.export.formats import Format
 from app.export.report import Report
@@ -84,8 +85,8 @@ def foresee(
         plan = plan_export(performance, player_ids, source, project, by_length=True)
         return Foreseen(
             count=len(plan.written),
-            replaced=tuple(path.name for path in plan.replaced),
-            removed=tuple(path.name for path in plan.removed),
+            replaced=tuple(shown(path.name) for path in plan.replaced),
+            removed=tuple(shown(path.name) for path in plan.removed),
             kept=plan.kept,
             project=project,
         )

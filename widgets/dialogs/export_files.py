@@ -7,8 +7,8 @@ from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
-from PySide6.QtCore import QEvent, QSize, Qt, QTimer, QUrl, Signal
-from PySide6.QtGui import QCloseEvent, QDesktopServices
+from PySide6.QtCore import QEvent, QSize, Qt, QTimer, Signal
+from PySide6.QtGui import QCloseEvent
 from PySide6.QtWidgets import (
     QDialog,
     QDialogButtonBox,
@@ -24,12 +24,14 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.encoding import shown
 from app.errors import AppError, Message
 from app.export.request import Request
 from app.performance.ensemble import Performance
 from app.performance.span import bars_span, whole_span
 from app.project.model import Player
 from metadata.load import load_bone_names
+from widgets.common.paths import show_folder
 from widgets.common.plain import ComboBox, Label
 from widgets.common.session import Session, Severity
 from widgets.common.tasks import Progress, StopWanted
@@ -268,7 +270,7 @@ class ExportDialog(QDialog):
 
     def _done(self, done: Done) -> None:
         if done.project is None:
-            text = self.tr("Files written to {folder}: {count}").format(folder=done.folder, count=done.count)
+            text = self.tr("Files written to {folder}: {count}").format(folder=shown(done.folder), count=done.count)
             told = Message("export.done", {"count": done.count, "folder": str(done.folder)})
         else:
             text = self.tr(
@@ -317,7 +319,7 @@ class ExportDialog(QDialog):
             self._players.item(row).setCheckState(state)
 
     def _show_folder(self) -> None:
-        QDesktopServices.openUrl(QUrl.fromLocalFile(str(self._shown_folder)))
+        show_folder(self._shown_folder)
 
     # What will come of it
 

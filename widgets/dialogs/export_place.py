@@ -5,8 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 from PySide6.QtCore import QEvent, Signal
-from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QLineEdit, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QPushButton, QVBoxLayout, QWidget
 
+from app.encoding import stored
+from widgets.common.paths import PathEdit, ask_for_file, ask_for_folder
 from widgets.common.plain import ComboBox
 from widgets.dialogs.export_destination import Destination
 
@@ -32,13 +34,13 @@ class PlaceChooser(QWidget):
         self, folder: Path, unreal: Path | None, destination: Destination, parent: QWidget | None = None
     ) -> None:
         super().__init__(parent)
-        self._paths = {"folder": str(folder), "unreal": "" if unreal is None else str(unreal)}
+        self._paths = {"folder": stored(folder), "unreal": "" if unreal is None else stored(unreal)}
         self._box = ComboBox()
         self._box.setObjectName("export_destination")
         for choice in _DESTINATIONS:
             self._box.addItem("", choice)
         self._box.setCurrentIndex(_DESTINATIONS.index(destination))
-        self._path = QLineEdit(self._paths[destination])
+        self._path = PathEdit(folder if destination == "folder" else unreal)
         self._path.setObjectName("export_folder")
         self._choose = QPushButton()
         self._choose.setAutoDefault(False)
@@ -62,12 +64,12 @@ class PlaceChooser(QWidget):
     @property
     def path(self) -> Path:
         """The folder, or the project's file or folder."""
-        return Path(self._path.text().strip())
+        return self._path.path or Path()
 
     @property
     def problem(self) -> str:
         """What is missing; empty if nothing is."""
-        if self._path.text().strip():
+        if self._path.path is not None:
             return ""
         if self.destination == "unreal":
             return self.tr("Choose the .uproject file of your Unreal project.")
@@ -88,11 +90,11 @@ class PlaceChooser(QWidget):
     def _choose_path(self) -> None:
         if self.destination == "unreal":
             title = self.tr("Unreal project")
-            chosen, _ = QFileDialog.getOpenFileName(self, title, self._path.text(), f"{title} (*.uproject)")
+            chosen = ask_for_file(self, title, self._path.path, f"{title} (*.uproject)")
         else:
-            chosen = QFileDialog.getExistingDirectory(self, self.tr("Folder for the files"), self._path.text())
-        if chosen:
-            self._path.setText(chosen)
+            chosen = ask_for_folder(self, self.tr("Folder for the files"), self._path.path)
+        if chosen is not None:
+            self._path.set_path(chosen)
 
     def retranslate(self) -> None:
         """Set every text anew."""

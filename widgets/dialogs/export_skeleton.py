@@ -9,9 +9,7 @@ from typing import TypeAlias
 from PySide6.QtCore import QEvent, QSize, Signal
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import (
-    QFileDialog,
     QHBoxLayout,
-    QLineEdit,
     QPushButton,
     QVBoxLayout,
     QWidget,
@@ -25,6 +23,7 @@ from app.performance.bodies import character_of
 from app.performance.cast import attempt
 from app.project.model import Player
 from app.rig.read_figure import SUFFIXES, read_figure
+from widgets.common.paths import PathEdit, ask_for_file
 from widgets.common.plain import ComboBox, Label
 from widgets.common.session import Session
 from widgets.common.tasks import Progress, StopWanted
@@ -65,7 +64,7 @@ class SkeletonChooser(QWidget):
         self._box.setObjectName("export_skeleton")
         for choice in CHOICES:
             self._box.addItem("", choice)
-        self._asset = QLineEdit()
+        self._asset = PathEdit()
         self._asset.setObjectName("export_asset")
         self._asset.setClearButtonEnabled(True)
         self._choose = QPushButton()
@@ -94,8 +93,7 @@ class SkeletonChooser(QWidget):
     @property
     def asset(self) -> Path | None:
         """The asset's file; None where none is named."""
-        text = self._asset.text().strip()
-        return Path(text) if text else None
+        return self._asset.path
 
     @property
     def problem(self) -> str:
@@ -173,12 +171,10 @@ class SkeletonChooser(QWidget):
 
     def _choose_asset(self) -> None:
         patterns = " ".join(f"*{suffix}" for suffix in SUFFIXES)
-        folder = str(self.asset.parent) if self.asset is not None else ""
-        chosen, _ = QFileDialog.getOpenFileName(
-            self, self.tr("File of the asset"), folder, self.tr("Characters") + f" ({patterns})"
-        )
-        if chosen:
-            self._asset.setText(chosen)
+        kinds = self.tr("Characters") + f" ({patterns})"
+        chosen = ask_for_file(self, self.tr("File of the asset"), self.asset and self.asset.parent, kinds)
+        if chosen is not None:
+            self._asset.set_path(chosen)
 
     def retranslate(self) -> None:
         """Set every text anew."""

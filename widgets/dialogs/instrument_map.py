@@ -9,8 +9,8 @@ from collections.abc import Callable
 from functools import partial
 
 import msgspec
-from PySide6.QtCore import QEvent, QModelIndex, QPersistentModelIndex, QSize, Qt, QUrl, Signal
-from PySide6.QtGui import QCloseEvent, QColor, QDesktopServices, QIcon, QKeySequence, QShortcut
+from PySide6.QtCore import QEvent, QModelIndex, QPersistentModelIndex, QSize, Qt, Signal
+from PySide6.QtGui import QCloseEvent, QColor, QIcon, QKeySequence, QShortcut
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QCompleter,
@@ -39,6 +39,7 @@ from widgets.common.fingering_diagram import FingeringDiagram
 from widgets.common.fingering_tags import tag_words, tags_of_text, words_of_tags
 from widgets.common.icons import icon
 from widgets.common.instrument_name import instrument_name
+from widgets.common.paths import show_folder
 from widgets.common.pitch import LETTERS, pitch_name, syllables
 from widgets.common.plain import Label, MessageBox
 from widgets.common.session import Session, Severity
@@ -498,7 +499,7 @@ class InstrumentsDialog(QDialog):
     def _open_folder(self) -> None:
         folder = library().folder
         folder.mkdir(parents=True, exist_ok=True)
-        QDesktopServices.openUrl(QUrl.fromLocalFile(str(folder)))
+        show_folder(folder)
 
     # Words
 

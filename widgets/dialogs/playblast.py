@@ -11,25 +11,25 @@ from typing import Final
 
 import numpy as np
 import numpy.typing as npt
-from PySide6.QtCore import QEvent, QSize, Qt, QTimer, QUrl, Signal
-from PySide6.QtGui import QCloseEvent, QDesktopServices
+from PySide6.QtCore import QEvent, QSize, Qt, QTimer, Signal
+from PySide6.QtGui import QCloseEvent
 from PySide6.QtWidgets import (
     QCheckBox,
     QDialog,
     QDialogButtonBox,
-    QFileDialog,
     QFormLayout,
     QHBoxLayout,
-    QLineEdit,
     QProgressBar,
     QPushButton,
     QVBoxLayout,
     QWidget,
 )
 
+from app.encoding import shown
 from app.errors import AppError, Cancelled, Message
 from app.export.video import video_into
 from app.performance.span import FrameSpan, cut_span, whole_span
+from widgets.common.paths import PathEdit, ask_where_to_save, show_folder
 from widgets.common.plain import ComboBox, Label
 from widgets.common.session import Session
 from widgets.common.tasks import Progress, StopWanted
@@ -98,7 +98,7 @@ class PlayblastDialog(QDialog):
         self._with_sound = QCheckBox()
         self._with_sound.setObjectName("playblast_sound")
         self._with_sound.setChecked(True)
-        self._file = QLineEdit(str(path))
+        self._file = PathEdit(path)
         self._file.setObjectName("playblast_file")
         self._choose = QPushButton()
         self._choose.setAutoDefault(False)
@@ -163,7 +163,8 @@ class PlayblastDialog(QDialog):
         self._progress.setValue(0)
         self._progress.show()
         self._state.setText("")
-        path, size = Path(self._file.text()), self._size.currentData()
+        path, size = self._file.path, self._size.currentData()
+        assert path is not None, "the button is disabled without one"
         with_sound, sound = self._with_sound.isChecked(), self._sound
 
         def work(progress: Progress, stop_wanted: StopWanted) -> Path:
@@ -207,7 +208,7 @@ class PlayblastDialog(QDialog):
         self._progress.setValue(round(1000 * self._drawn / span.count))
 
     def _done(self, path: Path) -> None:
-        self._state.setText(self.tr("The film is written: {file}").format(file=path))
+        self._state.setText(self.tr("The film is written: {file}").format(file=shown(path)))
         self._show.show()
         self._session.notice(Message("video.done", {"file": str(path)}))
         self.filmed.emit(path)
@@ -247,17 +248,19 @@ class PlayblastDialog(QDialog):
             self.reject()
 
     def _choose_file(self) -> None:
-        chosen, _ = QFileDialog.getSaveFileName(self, self.tr("Film"), self._file.text(), self.tr("Films (*.mp4)"))
-        if chosen:
-            self._file.setText(chosen if chosen.lower().endswith(".mp4") else f"{chosen}.mp4")
+        proposal = self._file.path or Path("film.mp4")
+        chosen = ask_where_to_save(self, self.tr("Film"), proposal, self.tr("Films (*.mp4)"))
+        if chosen is not None:
+            self._file.set_path(chosen if chosen.suffix.lower() == ".mp4" else chosen.with_name(f"{chosen.name}.mp4"))
 
     def _show_folder(self) -> None:
-        QDesktopServices.openUrl(QUrl.fromLocalFile(str(Path(self._file.text()).parent)))
+        if self._file.path is not None:
+            show_folder(self._file.path.parent)
 
     def _show_state(self) -> None:
-        path = self._file.text().strip()
-        self._start.setEnabled(bool(path) and not self._running)
-        exists = bool(path) and Path(path).is_file()
+        path = self._file.path
+        self._start.setEnabled(path is not None and not self._running)
+        exists = path is not None and path.is_file()
         self._state.setText(self.tr("This file is there and will be replaced.") if exists else "")
 
     def retranslate(self) -> None:

@@ -6,8 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
 
-from PySide6.QtCore import QEvent, QSize, Qt, QUrl, Signal
-from PySide6.QtGui import QDesktopServices
+from PySide6.QtCore import QEvent, QSize, Qt, Signal
 from PySide6.QtWidgets import (
     QButtonGroup,
     QDialog,
@@ -22,7 +21,9 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.encoding import shown
 from instrument_maps.library import library, own_folder
+from widgets.common.paths import show_folder
 from widgets.common.plain import ComboBox, Label
 from widgets.common.session import Session, TimeDisplay
 from widgets.common.text import message_text
@@ -156,7 +157,7 @@ class PreferencesDialog(QDialog):
         column.setContentsMargins(16, 16, 16, 16)
         column.setSpacing(12)
         self._own, self._found = Label(), Label()
-        self._folder = QLineEdit(str(own_folder()))
+        self._folder = QLineEdit(shown(own_folder()))
         self._folder.setObjectName("preferences_instruments")
         self._folder.setReadOnly(True)
         self._open = QPushButton()
@@ -178,7 +179,7 @@ class PreferencesDialog(QDialog):
     def _open_folder(self) -> None:
         folder = own_folder()
         folder.mkdir(parents=True, exist_ok=True)
-        QDesktopServices.openUrl(QUrl.fromLocalFile(str(folder)))
+        show_folder(folder)
 
     def _show_instruments(self) -> None:
         known = library()

@@ -85,7 +85,7 @@ def check_fbx(path: Path, expected: Expected) -> None:
 
 def check_wave(path: Path, rate_hz: int, channels: int, samples: int) -> None:
     """Raise ``unreal.file_wrong`` where a recording is not a WAV file of 16-bit PCM as long as it must be."""
-    with soundfile.SoundFile(path) as file:
+    with path.open("rb") as stream, soundfile.SoundFile(stream) as file:
         found = (file.format, file.subtype, file.samplerate, file.channels, file.frames)
     _same(path, "sound", list(found), ["WAV", "PCM_16", rate_hz, channels, samples])
 

@@ -16,6 +16,7 @@ from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 from typing import Final
 
+from app.encoding import shown
 from app.errors import FileError, shortened
 from app.formats.files import read_file
 
@@ -50,7 +51,7 @@ class UnrealProject:
     @property
     def name(self) -> str:
         """What the project is called."""
-        return self.file.stem
+        return shown(self.file.stem)
 
 
 def find_project(path: Path) -> UnrealProject:

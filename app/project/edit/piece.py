@@ -81,10 +81,6 @@ def set_audio(project: Project, path: str | os.PathLike[str] | None) -> Project:
     if path is None:
         return _with(project, audio=None)
     text = os.path.abspath(path)  # noqa: PTH100 - a symbolic link is what the person chose
-    try:
-        text.encode()
-    except UnicodeEncodeError:
-        raise UsageError("piece.path_unusable", path=ascii(text)) from None
     if "\0" in text or len(text) > limits.MOST_TEXT:
         raise UsageError("piece.path_unusable", path=ascii(text))
     before = project.audio

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from PySide6.QtCore import QCoreApplication, Qt
 
+from app.encoding import shown
 from app.errors import AppError, Message
 from app.project.midi_out import export_midi as write_piece
 from app.project.model import Player, Project, map_choices
@@ -62,7 +63,7 @@ def reimport_from(session: Session, path: Path) -> None:
         dialog = ReimportDialog(
             project,
             outcome,
-            path.name,
+            shown(path.name),
             correction_title,
             lambda part_id, note: note_text(session, note, _who_plays(project, part_id)),
             session.tokens,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import Qt, QTimer
+from PySide6.QtCore import Qt, QTimer, QUrl
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QFileDialog, QMessageBox
 
@@ -21,11 +21,12 @@ class Typed:
         self.left = [str(folder / name) if name else "" for name in names]
         self.proposals: list[str] = []
         self.asked: list[str] = []
-        monkeypatch.setattr(QFileDialog, "getSaveFileName", self._type)
+        monkeypatch.setattr(QFileDialog, "getSaveFileUrl", self._type)
 
-    def _type(self, parent: object, title: str, proposal: str, filters: str) -> tuple[str, str]:
-        self.proposals.append(proposal)
-        return self.left.pop(0), filters
+    def _type(self, parent: object, title: str, proposal: QUrl, filters: str, **more: object) -> tuple[QUrl, str]:
+        self.proposals.append(proposal.toLocalFile())
+        typed = self.left.pop(0)
+        return QUrl.fromLocalFile(typed) if typed else QUrl(), filters
 
     def answer(self, button: str) -> None:
         def click() -> None:

@@ -66,7 +66,7 @@ def started(ear: Ear, path: Path) -> Ear:
 def finished(ear: Ear, path: Path) -> Journal:
     ear.link.stop()
     told = ear.wait(Finished)
-    assert told.path == str(path)
+    assert told.path == os.fsencode(path)
     assert not ear.link.is_recording
     journal = read_journal(path)
     assert journal.complete

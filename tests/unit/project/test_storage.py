@@ -13,6 +13,7 @@ import msgspec
 import numpy as np
 import pytest
 
+from app.encoding import shown
 from app.errors import FileError, Message
 from app.messages import error_text, text
 from app.project.edit.piece import set_audio
@@ -313,7 +314,9 @@ def test_what_could_not_be_read_again_is_not_written(tmp_path: Path) -> None:
         save(replace(small_project(), preroll_beats=float("nan")), path)
     assert raised.value.message.arguments["place"] == "preroll_beats"
     with pytest.raises(FileError, match=r"project\.cannot_save"):
-        save(replace(small_project(), source="/music/\udcff.mid"), path)
+        save(replace(small_project(), score=msgspec.structs.replace(small_project().score, title="\udcff")), path)
+    with pytest.raises(FileError, match=r"project\.cannot_save"):
+        save(replace(small_project(), source="/music/\0.mid"), path)
     assert path.read_bytes() == before
 
 
@@ -330,7 +333,7 @@ def test_what_cannot_be_opened_is_named(tmp_path: Path, name: str) -> None:
     (tmp_path / "folder").mkdir()
     with pytest.raises(FileError) as raised:
         load(tmp_path / name)
-    assert raised.value.message.arguments["file"] == str(tmp_path / name)
+    assert raised.value.message.arguments["file"] == shown(tmp_path / name)
 
 
 def test_a_link_stays_a_link(tmp_path: Path) -> None:

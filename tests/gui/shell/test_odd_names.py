@@ -1,0 +1,148 @@
+"""Files whose names are not UTF-8 in the editor: dropped, saved, exported, opened again; shown as they were meant."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import soundfile
+from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt
+from PySide6.QtGui import QDragEnterEvent, QDropEvent
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication, QFileDialog, QLabel, QLineEdit, QPushButton
+from pytestqt.qtbot import QtBot
+
+from app.errors import Message
+from app.project.edit.piece import set_title
+from app.project.recovery import Recoverable
+from app.project.storage import load
+from app.shell.app import Program
+from app.shell.questions import Dialogs
+from tests.gui.shell.conftest import Answers, Start, trigger
+from tests.support.odd_names import NAME, odd, on_bytes
+from tests.unit.cli.test_main import named_piece
+from widgets.common.paths import PathEdit, ask_for_file, ask_for_folder, url_of
+from widgets.dialogs.export_files import ExportDialog
+from widgets.dialogs.reimport_midi import ReimportDialog
+
+pytestmark = on_bytes
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    """A folder of such a name, with such a piece and a recording in it."""
+    result = odd(tmp_path)
+    result.mkdir()
+    named_piece(odd(result, ".mid"), "trumpet")
+    soundfile.write(str(tmp_path / "x.wav"), np.zeros((4410, 2), np.float32), 44_100)
+    (tmp_path / "x.wav").rename(odd(result, ".wav"))
+    return result
+
+
+def drop(program: Program, path: Path) -> None:
+    mime = QMimeData()
+    mime.setUrls([url_of(path)])
+    action, left, none = Qt.DropAction.CopyAction, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier
+    QApplication.sendEvent(program.window, QDragEnterEvent(QPoint(50, 50), action, mime, left, none))
+    QApplication.sendEvent(program.window, QDropEvent(QPointF(50, 50), action, mime, left, none))
+
+
+def test_a_piece_is_dropped_heard_saved_and_opened_again(
+    empty: Program, start: Start, folder: Path, answers: Answers
+) -> None:
+    drop(empty, odd(folder, ".mid"))
+    session, files = empty.session, empty.editor.files
+    assert session.project.source == str(odd(folder, ".mid"))
+    assert empty.window.windowTitle().startswith(NAME)
+    drop(empty, odd(folder, ".wav"))
+    assert session.project.audio is not None
+    assert session.project.audio.path == str(odd(folder, ".wav"))
+    answers.path = document = odd(folder, ".suisou")
+    trigger(empty, "file.save")
+    assert files.path == document
+    assert load(document) == session.project
+    assert f"{NAME}.suisou" in empty.window.windowTitle()
+    empty.window._fill_recent()
+    recent = [action.text() for action in empty.window.menus.menu("File/Recent").actions()]
+    assert f"{NAME}.suisou    {folder.parent}/{NAME}" in recent
+    answers.path = odd(folder, ".mid")
+    trigger(empty, "file.reimport_other")
+    (dialog,) = empty.window.findChildren(ReimportDialog)
+    assert NAME in dialog.windowTitle() + "".join(label.text() for label in dialog.findChildren(QLabel))
+    dialog.reject()
+    answers.path = odd(folder, ".2.mid")
+    trigger(empty, "file.export_midi")
+    assert odd(folder, ".2.mid").is_file()
+    # Unsaved work of an editor that dies.
+    session.attempt(Message("edit.set_tempo"), lambda project: set_title(project, "Another"))
+    files.write_now()
+    edited = session.project
+    presence = files.autosave.presence if files.autosave is not None else None
+    assert presence is not None
+    assert presence._stream is not None
+    presence._stream.close()
+    files.autosave = None
+    again = start()
+    page = again.window.start_page
+    texts = [label.text() for label in page.findChildren(QLabel)]
+    assert any(text.startswith(f"Unsaved work was found: {NAME}.suisou") for text in texts)
+    rows = [button for button in page.findChildren(QPushButton, "recent_file") if f"{NAME}.suisou" in button.text()]
+    assert rows[0].isEnabled()
+    assert rows[0].toolTip() == f"{folder.parent}/{NAME}/{NAME}.suisou"
+    offers: list[Recoverable] = []
+    again.editor.files.found.connect(offers.append)
+    QTest.mouseClick(rows[0], Qt.MouseButton.LeftButton)
+    assert again.editor.files.path == document
+    assert again.session.project == load(document)
+    (offer,) = offers
+    again.editor.files.recover(offer)
+    assert again.session.project == edited
+
+
+def test_players_are_exported(empty: Program, folder: Path, qtbot: QtBot) -> None:
+    program = empty
+    program.editor.files.open(odd(folder, ".mid"), ask=False)
+    program.editor.settings.export_folder = str(odd(folder, ".out"))
+    trigger(program, "export.files")
+    (dialog,) = program.window.findChildren(ExportDialog)
+    line, told = dialog.findChild(QLineEdit, "export_folder"), dialog.findChild(QLabel, "export_outcome")
+    assert line is not None
+    assert told is not None
+    assert line.text().startswith("bytes:///")
+    dialog.start()
+    qtbot.waitUntil(lambda: f"{NAME}/{NAME}.out" in told.text(), timeout=30_000)
+    assert (odd(folder, ".out") / "report.json").is_file()
+    dialog.close()
+    assert program.editor.settings.export_folder == str(odd(folder, ".out"))
+
+
+def test_a_path_that_is_typed(qt_app: QApplication, folder: Path) -> None:
+    edit = PathEdit(odd(folder, ".mp4"))
+    assert edit.path == odd(folder, ".mp4")
+    edit.setText(edit.text().replace(".mp4", ".2.mp4"))
+    assert edit.path == odd(folder, ".2.mp4")
+    edit.setText(f" {folder.parent} ")
+    assert edit.path == folder.parent
+    edit.set_path(None)
+    assert edit.path is None
+
+
+def test_dialogs_give_the_bytes_and_begin_where_qt_can_be(
+    qt_app: QApplication, folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The desktop's own dialogs have such names; Qt's does not list them."""
+    begun: list[str] = []
+
+    def chosen(parent: object, title: str, start: object, *more: object, **options: object) -> object:
+        begun.append(start.toLocalFile())  # type: ignore[attr-defined]
+        return url_of(odd(folder, ".suisou")), ""
+
+    for name in ("getOpenFileUrl", "getSaveFileUrl"):
+        monkeypatch.setattr(QFileDialog, name, chosen)
+    monkeypatch.setattr(QFileDialog, "getExistingDirectoryUrl", lambda *given, **more: chosen(*given, **more)[0])  # type: ignore[index]
+    assert Dialogs().open_file("Open", str(folder), "*") == odd(folder, ".suisou")
+    assert Dialogs().save_file("Save", str(odd(folder, ".suisou")), "*", (".suisou",)) == odd(folder, ".suisou")
+    assert ask_for_folder(None, "Folder", folder) == odd(folder, ".suisou")
+    assert ask_for_file(None, "Open", None, "*") == odd(folder, ".suisou")
+    assert begun == [str(folder.parent), f"{folder.parent}/{NAME}.suisou", str(folder.parent), str(Path.home())]

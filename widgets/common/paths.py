@@ -1,0 +1,91 @@
+"""Paths between Qt and the program.
+
+Qt takes the name of a file for UTF-8 and drops the bytes that are not; in a URL they survive. So files come from
+dialogs and drops as URLs, and a path that can be edited is written as `app.encoding.stored` has it. Qt's own file
+dialog does not list names that are not UTF-8 at all; those of the desktops do.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+from urllib.parse import quote_from_bytes, unquote_to_bytes
+
+from PySide6.QtCore import QUrl
+from PySide6.QtGui import QDesktopServices, QDropEvent
+from PySide6.QtWidgets import QFileDialog, QLineEdit, QWidget
+
+from app.encoding import is_text, restored, shown, stored
+
+_SCHEMES = ["file"]
+
+
+def path_of(url: QUrl) -> Path | None:
+    """The path that a URL names; None where it is no file."""
+    if not url.isLocalFile():
+        return None
+    if sys.platform == "win32" or url.host():
+        return Path(url.toLocalFile())
+    return Path(os.fsdecode(unquote_to_bytes(url.path(QUrl.ComponentFormattingOption.FullyEncoded))))
+
+
+def url_of(path: Path) -> QUrl:
+    """The URL of a path."""
+    path = path.absolute()
+    if sys.platform == "win32":
+        return QUrl.fromLocalFile(str(path))
+    return QUrl.fromEncoded(b"file://" + quote_from_bytes(os.fsencode(path)).encode())
+
+
+def dropped_paths(event: QDropEvent) -> list[Path]:
+    """The files of a drop."""
+    return [path for url in event.mimeData().urls() if (path := path_of(url)) is not None]
+
+
+def ask_for_file(parent: QWidget | None, title: str, start: Path | None, filters: str) -> Path | None:
+    """An existing file; None where none was chosen. The dialog begins in a folder or with a file, or at home."""
+    url, _ = QFileDialog.getOpenFileUrl(parent, title, url_of(_reachable(start)), filters, supportedSchemes=_SCHEMES)
+    return path_of(url)
+
+
+def ask_where_to_save(parent: QWidget | None, title: str, proposal: Path, filters: str) -> Path | None:
+    """A file to write; None where none was chosen. Whether one that is there may be replaced was asked."""
+    start = url_of(_reachable(proposal.parent) / shown(proposal.name))
+    url, _ = QFileDialog.getSaveFileUrl(parent, title, start, filters, supportedSchemes=_SCHEMES)
+    return path_of(url)
+
+
+def ask_for_folder(parent: QWidget | None, title: str, start: Path | None) -> Path | None:
+    """An existing folder; None where none was chosen."""
+    url = QFileDialog.getExistingDirectoryUrl(parent, title, url_of(_reachable(start)), supportedSchemes=_SCHEMES)
+    return path_of(url)
+
+
+def show_folder(folder: Path) -> None:
+    """Open a folder in the desktop's file manager."""
+    QDesktopServices.openUrl(url_of(folder))
+
+
+def _reachable(path: Path | None) -> Path:
+    """The path, or the next folder above that Qt can enter."""
+    path = path or Path.home()
+    return next(place for place in (path, *path.parents, Path()) if is_text(place))
+
+
+class PathEdit(QLineEdit):
+    """A path that can be typed; one that is not UTF-8 is written so that it can (`app.encoding.stored`)."""
+
+    def __init__(self, path: Path | None = None, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.set_path(path)
+
+    @property
+    def path(self) -> Path | None:
+        """The path; None where nothing is typed."""
+        text = self.text().strip()
+        return Path(restored(text)) if text else None
+
+    def set_path(self, path: Path | None) -> None:
+        """Show another path; None: nothing."""
+        self.setText("" if path is None else stored(path))
