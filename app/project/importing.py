@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 import msgspec
 
+from app.errors import Message
 from app.project.model import Project, map_choices, project_from_score
-from app.score.model import Score
+from app.score.model import Score, UnplayedPart
 from app.score.parts import PartWish, usual_wishes
 from app.score.read import MidiContents, wished_score
 from instrument_maps.model import InstrumentMap
@@ -58,13 +59,89 @@ def separated(rows: Sequence[ImportRow], place: int) -> tuple[ImportRow, ...]:
     return (*rows[:place], *parts, *rows[place + 1 :])
 
 
-def score_of_rows(contents: MidiContents, rows: Sequence[ImportRow], maps: Mapping[str, InstrumentMap]) -> Score:
-    """The score with the parts of the wanted rows."""
-    return wished_score(contents, [row.wish for row in rows if row.wanted], map_choices(maps.values()))
+class Outcome(msgspec.Struct, frozen=True):
+    """What would come of some rows.
+
+    Attributes
+    ----------
+    players : int
+    warnings : tuple of Message
+    unplayed : tuple of UnplayedPart
+    instruments : dict of PartWish to tuple of str
+        Wishes without a name, and the ids of the maps that would play them.
+    """
+
+    players: int
+    warnings: tuple[Message, ...]
+    unplayed: tuple[UnplayedPart, ...]
+    instruments: dict[PartWish, tuple[str, ...]]
+
+    def instruments_of(self, wish: PartWish) -> tuple[str, ...]:
+        """The ids of the maps that would play a row, were it wanted; empty where that is not known yet."""
+        return self.instruments.get(_unnamed(wish), ())
+
+
+def outcome_of(
+    contents: MidiContents,
+    rows: Sequence[ImportRow],
+    maps: Mapping[str, InstrumentMap],
+    before: Outcome | None = None,
+    stop_wanted: Callable[[], bool] = lambda: False,
+) -> Outcome:
+    """What would come of the rows.
+
+    Parameters
+    ----------
+    before : Outcome, optional
+        Of the same file: rows that are the same are not looked at again.
+    stop_wanted : callable
+        Raises Cancelled when it says so.
+    """
+    score = score_of_rows(contents, rows, maps, stop_wanted)
+    known = {} if before is None else before.instruments
+    instruments: dict[PartWish, tuple[str, ...]] = {}
+    for row in rows:
+        for wish in (_unnamed(row.wish), _unnamed(automatic(row.wish))):
+            if wish not in instruments:
+                instruments[wish] = known.get(wish) or _instruments(contents, wish, maps, stop_wanted)
+    return Outcome(len(score.parts), score.warnings, score.unplayed, instruments)
+
+
+def automatic(wish: PartWish) -> PartWish:
+    """The wish without an instrument of its own: names, programs and ranges say which."""
+    return msgspec.structs.replace(wish, map_id=None)
+
+
+def _unnamed(wish: PartWish) -> PartWish:
+    return msgspec.structs.replace(wish, name="")
+
+
+def _instruments(
+    contents: MidiContents, wish: PartWish, maps: Mapping[str, InstrumentMap], stop_wanted: Callable[[], bool]
+) -> tuple[str, ...]:
+    """What plays a wish's tracks."""
+    # As if the file had no others.
+    own = msgspec.structs.replace(contents, streams=tuple(contents.streams[stream] for stream in wish.streams))
+    alone = msgspec.structs.replace(wish, streams=tuple(range(len(wish.streams))))
+    return tuple(part.map_id for part in score_of_rows(own, [ImportRow(alone)], maps, stop_wanted).parts)
+
+
+def score_of_rows(
+    contents: MidiContents,
+    rows: Sequence[ImportRow],
+    maps: Mapping[str, InstrumentMap],
+    stop_wanted: Callable[[], bool] = lambda: False,
+) -> Score:
+    """The score with the parts of the wanted rows. Raises Cancelled when ``stop_wanted`` says so."""
+    return wished_score(contents, [row.wish for row in rows if row.wanted], map_choices(maps.values()), stop_wanted)
 
 
 def import_project(
-    contents: MidiContents, rows: Sequence[ImportRow], maps: Mapping[str, InstrumentMap], source: str = ""
+    contents: MidiContents,
+    rows: Sequence[ImportRow],
+    maps: Mapping[str, InstrumentMap],
+    source: str = "",
+    stop_wanted: Callable[[], bool] = lambda: False,
 ) -> Project:
     """A project in which the wanted rows are played.
 
@@ -72,8 +149,10 @@ def import_project(
     ----------
     source : str
         Absolute path of the MIDI file.
+    stop_wanted : callable
+        Raises Cancelled when it says so.
     """
-    project = project_from_score(score_of_rows(contents, rows, maps), maps)
+    project = project_from_score(score_of_rows(contents, rows, maps, stop_wanted), maps)
     characters = {}
     for row in rows:
         if row.wanted and row.character_id is not None:

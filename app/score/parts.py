@@ -40,11 +40,11 @@ score.notes_left_out : part, most, count
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import msgspec
 
-from app.errors import Argument, Message
+from app.errors import Argument, Cancelled, Message
 from app.score.choose import Candidates, How, MapChoice, Stream, candidates, plays, recognised, refusal
 from app.score.limits import MOST_PARTS
 from app.score.model import Note, Part, UnplayedPart
@@ -101,7 +101,11 @@ def usual_wishes(streams: Sequence[Stream], maps: Sequence[MapChoice]) -> tuple[
 
 
 def wished_parts(
-    streams: Sequence[Stream], wishes: Sequence[PartWish], maps: Sequence[MapChoice], tempo_map: TempoMap
+    streams: Sequence[Stream],
+    wishes: Sequence[PartWish],
+    maps: Sequence[MapChoice],
+    tempo_map: TempoMap,
+    stop_wanted: Callable[[], bool] = lambda: False,
 ) -> tuple[tuple[Part, ...], tuple[UnplayedPart, ...], tuple[Message, ...]]:
     """Sort tracks into the parts that a person wants and those nobody plays, and say what was guessed.
 
@@ -112,11 +116,20 @@ def wished_parts(
         A stream is asked for at most once.
     maps : sequence of MapChoice
     tempo_map : TempoMap
+    stop_wanted : callable
+        Asked before each part.
+
+    Raises
+    ------
+    Cancelled
+        ``stop_wanted`` said so.
     """
     parts: list[Part] = []
     warnings: list[Message] = []
     asked: set[int] = set()
     for wish in wishes:
+        if stop_wanted():
+            raise Cancelled("work.stopped")
         room = MOST_PARTS - len(parts)
         if not room:
             break

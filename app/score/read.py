@@ -52,7 +52,7 @@ from __future__ import annotations
 import codecs
 import io
 import re
-from collections.abc import Mapping, Sequence, Set
+from collections.abc import Callable, Mapping, Sequence, Set
 from fractions import Fraction
 from pathlib import Path
 from typing import Final
@@ -133,9 +133,14 @@ def read_midi(path: Path, *, encoding: str | None = None, maps: Sequence[MapChoi
     return _score(contents, parts, unplayed, (*contents.warnings, *warnings))
 
 
-def wished_score(contents: MidiContents, wishes: Sequence[PartWish], maps: Sequence[MapChoice]) -> Score:
-    """The score in which the parts are those that a person wants."""
-    parts, unplayed, warnings = wished_parts(contents.streams, wishes, maps, contents.tempo_map)
+def wished_score(
+    contents: MidiContents,
+    wishes: Sequence[PartWish],
+    maps: Sequence[MapChoice],
+    stop_wanted: Callable[[], bool] = lambda: False,
+) -> Score:
+    """The score in which the parts are those that a person wants. Raises Cancelled as `wished_parts`."""
+    parts, unplayed, warnings = wished_parts(contents.streams, wishes, maps, contents.tempo_map, stop_wanted)
     return _score(contents, parts, unplayed, (*contents.warnings, *warnings))
 
 

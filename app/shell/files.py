@@ -207,20 +207,23 @@ class Files(QObject):
     def _read(self, path: Path, ask: bool) -> None:
         source = str(path)
 
-        def work(progress: Callable[[float], None], stop_wanted: Callable[[], bool]) -> Read:
+        def read(progress: Callable[[float], None], stop_wanted: Callable[[], bool]) -> MidiContents:
             _read_own()
-            contents = read_contents(path)
-            if ask:
-                return contents, None
-            maps = all_maps()
-            return contents, import_project(contents, usual_rows(contents, maps), maps, source)
+            return read_contents(path)
 
-        def done(read: Read) -> None:
-            contents, project = read
-            if project is None:
-                project = self.questions.import_midi(contents, source, self.session.tokens)
-            if project is None:
+        def asked(contents: MidiContents) -> None:
+            rows = self.questions.import_midi(contents, self.session.tokens, self.session.tasks) if ask else None
+            if ask and rows is None:
                 return
+
+            def build(progress: Callable[[float], None], stop_wanted: Callable[[], bool]) -> Project:
+                maps = all_maps()
+                wanted = usual_rows(contents, maps) if rows is None else rows
+                return import_project(contents, wanted, maps, source, stop_wanted)
+
+            self.session.tasks.run(Message("work.open"), build, done, self._failed(path), key="open")
+
+        def done(project: Project) -> None:
             self._become(project, None)
             self.settings.folder = str(path.parent)
             # The bundled example is offered by itself; it is no file of this person's.
@@ -230,7 +233,7 @@ class Files(QObject):
                 self.session.notice(warning, Severity.WARNING)
             self.changed.emit()
 
-        self.session.tasks.run(Message("work.open"), work, done, self._failed(path), key="open")
+        self.session.tasks.run(Message("work.open"), read, asked, self._failed(path), key="open")
 
     def _failed(self, path: Path) -> Callable[[AppError], None]:
         def failed(error: AppError) -> None:
@@ -499,7 +502,6 @@ class Files(QObject):
 
 
 Opened = tuple[Project, Recoverable | None, str]
-Read = tuple[MidiContents, Project | None]
 
 
 def _read_own() -> None:

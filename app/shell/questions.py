@@ -10,11 +10,12 @@ from PySide6.QtCore import QCoreApplication
 from PySide6.QtWidgets import QApplication, QDialog, QWidget
 
 from app.encoding import shown
-from app.project.model import Project
+from app.project.importing import ImportRow
 from app.score.read import MidiContents
 from instrument_maps.library import all_maps
 from widgets.common.paths import ask_for_file, ask_where_to_save
 from widgets.common.plain import MessageBox
+from widgets.common.tasks import Tasks
 from widgets.common.tokens import Tokens
 
 Answer = Literal["save", "discard", "cancel"]
@@ -32,7 +33,7 @@ class Questions(Protocol):
     def unsaved(self, name: str) -> Answer:
         """What becomes of the changes that are in no file."""
 
-    def import_midi(self, contents: MidiContents, source: str, tokens: Tokens) -> Project | None:
+    def import_midi(self, contents: MidiContents, tokens: Tokens, tasks: Tasks) -> tuple[ImportRow, ...] | None:
         """Who plays what in a MIDI file."""
 
     def remove_character(self, name: str, players: tuple[str, ...]) -> bool:
@@ -77,13 +78,13 @@ class Dialogs:
         box.deleteLater()
         return "save" if clicked is save else "discard" if clicked is discard else "cancel"
 
-    def import_midi(self, contents: MidiContents, source: str, tokens: Tokens) -> Project | None:
+    def import_midi(self, contents: MidiContents, tokens: Tokens, tasks: Tasks) -> tuple[ImportRow, ...] | None:
         """See `Questions`."""
         from widgets.dialogs.import_midi import ImportDialog
 
-        dialog = ImportDialog(contents, all_maps(), source, tokens, _parent())
+        dialog = ImportDialog(contents, all_maps(), tokens, tasks, _parent())
         try:
-            return dialog.project() if dialog.exec() == QDialog.DialogCode.Accepted else None
+            return dialog.rows if dialog.exec() == QDialog.DialogCode.Accepted else None
         finally:
             dialog.deleteLater()
 

@@ -417,6 +417,10 @@ Unreal で「Suisou &gt; 演奏をインポート」を選んでください。�
         <translation>キャンセル</translation>
     </message>
     <message>
+        <source>Finding out who plays what ...</source>
+        <translation>誰が何を演奏するかを調べています...</translation>
+    </message>
+    <message>
         <source>Notes: {count}
 {low} to {high}</source>
         <translation>{count} 音

@@ -289,7 +289,7 @@ class Look:
         self.window.palette_popup.hide()
 
     def _import(self) -> None:
-        dialog = ImportDialog(read_contents(LUTKIN), bundled_maps(), str(LUTKIN), self.session.tokens, self.window)
+        dialog = ImportDialog(read_contents(LUTKIN), bundled_maps(), self.session.tokens, ImmediateTasks(), self.window)
         dialog.show()
 
     def sharp(self) -> None:

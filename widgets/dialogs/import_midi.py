@@ -1,11 +1,17 @@
-"""The import of a MIDI file: which of its tracks are played, by how many, on what and as whom."""
+"""The import of a MIDI file: which of its tracks are played, by how many, on what and as whom.
+
+What comes of the choices is worked out beside the window: a file can ask for minutes of it.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from threading import Event
 
 import msgspec
-from PySide6.QtCore import QEvent, QPoint, QRectF, QSize, Qt
+import numpy as np
+import numpy.typing as npt
+from PySide6.QtCore import QEvent, QPoint, QRectF, QSize, Qt, QTimer
 from PySide6.QtGui import QColor, QIcon, QPainter, QPaintEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
@@ -22,16 +28,17 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from app.project.importing import ImportRow, import_project, merged, score_of_rows, separated, usual_rows
-from app.project.model import Project
+from app.errors import Message
+from app.project.importing import ImportRow, Outcome, automatic, merged, outcome_of, separated, usual_rows
 from app.rig.character_library import characters
-from app.score.model import Note
-from app.score.parts import stream_name
+from app.score.choose import Stream
+from app.score.parts import PartWish, stream_name
 from app.score.read import MidiContents
 from instrument_maps.model import InstrumentMap
 from widgets.common.instrument_name import character_name, instrument_name
 from widgets.common.pitch import pitch_name
 from widgets.common.plain import ComboBox, Label
+from widgets.common.tasks import Progress, StopWanted, Tasks
 from widgets.common.text import message_text
 from widgets.common.tokens import LEAST_TARGET_PX, Tokens
 
@@ -41,6 +48,10 @@ _SIZE = QSize(1280, 580)
 _TITLE_PX = 600
 _INSTRUMENT_LETTERS = 31
 """Width of the column of instruments: the longest names would leave the notes no room."""
+_ROWS_AT_ONCE, _ROWS_LATER = 14, 4
+"""Rows that are made before anything is shown, and of the others in each turn of the event loop."""
+_SLOW_MS = 300
+"""After this long the dialog says that it is working."""
 
 
 class ImportDialog(QDialog):
@@ -51,9 +62,9 @@ class ImportDialog(QDialog):
     contents : MidiContents
     maps : mapping of str to InstrumentMap
         Every installed instrument by id.
-    source : str
-        Absolute path of the file.
     tokens : Tokens
+    tasks : Tasks
+        Where what comes of the choices is worked out.
     parent : QWidget, optional
     """
 
@@ -61,15 +72,26 @@ class ImportDialog(QDialog):
         self,
         contents: MidiContents,
         maps: Mapping[str, InstrumentMap],
-        source: str,
         tokens: Tokens,
+        tasks: Tasks,
         parent: QWidget | None = None,
     ) -> None:
         super().__init__(parent)
         self.setObjectName("import_midi")
-        self._contents, self._maps, self._source, self._tokens = contents, maps, source, tokens
-        self._rows = usual_rows(contents, maps)
-        self._notes = [sorted(stream.notes(), key=lambda note: note.onset_tick) for stream in contents.streams]
+        self._contents, self._maps, self._tokens, self._tasks = contents, maps, tokens, tasks
+        self._rows: tuple[ImportRow, ...] = ()
+        self._outcome: Outcome | None = None
+        """Of the newest rows for which it is known."""
+        self._closing = Event()
+        self._slow = QTimer(self)
+        self._slow.setSingleShot(True)
+        self._slow.setInterval(_SLOW_MS)
+        self._slow.timeout.connect(self._show_slow)
+        self._filled = 0
+        """So many rows of the table have their widgets."""
+        self._filling = QTimer(self)
+        self._filling.setInterval(0)
+        self._filling.timeout.connect(lambda: self._fill_more(_ROWS_LATER))
         self._end_tick = max((max(stream.end_ticks) for stream in contents.streams), default=1)
 
         self._heading = Label()
@@ -124,15 +146,12 @@ class ImportDialog(QDialog):
         self._table.itemSelectionChanged.connect(self._show_tools)
         self.retranslate()
         self.resize(_SIZE.boundedTo(self.screen().availableSize()))
+        self._work_out(None)
 
     @property
     def rows(self) -> tuple[ImportRow, ...]:
-        """What is wanted so far."""
+        """What is wanted so far; empty until it is known what the file says."""
         return self._rows
-
-    def project(self) -> Project:
-        """The project as it is wanted."""
-        return import_project(self._contents, self._rows, self._maps, self._source)
 
     def merge_selected(self) -> None:
         """Make one part of the selected tracks."""
@@ -141,6 +160,7 @@ class ImportDialog(QDialog):
             self._rows = merged(self._rows, places)
             self._fill()
             self._table.selectRow(min(places))
+            self._work_out(self._rows)
 
     def separate_selected(self) -> None:
         """Take the selected part apart into its tracks."""
@@ -148,6 +168,7 @@ class ImportDialog(QDialog):
             if len(self._rows[place].wish.streams) > 1:
                 self._rows = separated(self._rows, place)
         self._fill()
+        self._work_out(self._rows)
 
     def retranslate(self) -> None:
         """Set every text anew."""
@@ -189,10 +210,52 @@ class ImportDialog(QDialog):
     def _fill(self) -> None:
         self._table.setRowCount(0)
         self._table.setRowCount(len(self._rows))
-        for place, row in enumerate(self._rows):
-            self._fill_row(place, row)
+        self._filled = 0
+        self._instruments = [(instrument_name(table), id_) for id_, table in self._maps.items()]
+        self._characters = [(character_name(id_), id_) for id_ in characters()]
+        self._fill_more(_ROWS_AT_ONCE)
         self._show_tools()
         self._show_outcome()
+
+    def _fill_more(self, count: int) -> None:
+        """Make the widgets of some more rows, and of the others when the window has time."""
+        end = min(self._filled + count, len(self._rows))
+        for place in range(self._filled, end):
+            self._fill_row(place, self._rows[place])
+        self._filled = end
+        if end < len(self._rows):
+            self._filling.start()
+        else:
+            self._filling.stop()
+
+    def _work_out(self, rows: tuple[ImportRow, ...] | None) -> None:
+        """Find out what comes of these rows, or of the usual ones."""
+        contents, maps, before, closing = self._contents, self._maps, self._outcome, self._closing
+
+        def work(progress: Progress, stop_wanted: StopWanted) -> tuple[tuple[ImportRow, ...], Outcome]:
+            asked = usual_rows(contents, maps) if rows is None else rows
+            return asked, outcome_of(contents, asked, maps, before, lambda: stop_wanted() or closing.is_set())
+
+        self._slow.start()
+        self._tasks.run(Message("work.open"), work, self._worked_out, key="import")
+
+    def _worked_out(self, found: tuple[tuple[ImportRow, ...], Outcome]) -> None:
+        rows, outcome = found
+        first = self._outcome is None
+        if self._closing.is_set() or not (first or rows is self._rows):
+            return
+        self._slow.stop()
+        self._outcome = outcome
+        if first:
+            self._rows = rows
+            self._fill()
+            return
+        for place in range(self._filled):
+            self._show_instruments(place)
+        self._show_outcome()
+
+    def _show_slow(self) -> None:
+        self._summary.setText(self.tr("Finding out who plays what ..."))
 
     def _fill_row(self, place: int, row: ImportRow) -> None:
         use = _Tick()
@@ -207,12 +270,13 @@ class ImportDialog(QDialog):
         name.textEdited.connect(lambda text: self._wish(place, name=text.strip()))
         self._table.setCellWidget(place, _NAME, name)
 
-        notes = [note for stream in row.wish.streams for note in self._notes[stream]]
-        self._table.setCellWidget(place, _PREVIEW, NotesPreview(notes, self._end_tick, self._tokens))
-        low, high = min(note.pitch for note in notes), max(note.pitch for note in notes)
+        streams = [self._contents.streams[stream] for stream in row.wish.streams]
+        self._table.setCellWidget(place, _PREVIEW, NotesPreview(streams, self._end_tick, self._tokens))
         count = Label(
             self.tr("Notes: {count}\n{low} to {high}").format(
-                count=len(notes), low=pitch_name(low), high=pitch_name(high)
+                count=sum(len(stream.pitches) for stream in streams),
+                low=pitch_name(min(min(stream.pitches) for stream in streams)),
+                high=pitch_name(max(max(stream.pitches) for stream in streams)),
             )
         )
         count.setContentsMargins(6, 0, 6, 0)
@@ -230,9 +294,9 @@ class ImportDialog(QDialog):
         instrument.setObjectName(f"instrument_{place}")
         instrument.setSizeAdjustPolicy(ComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         instrument.setMinimumContentsLength(_INSTRUMENT_LETTERS)
-        instrument.addItem(self.tr("Automatic: {name}").format(name=self._automatic(row)), None)
-        for id_, table in self._maps.items():
-            instrument.addItem(instrument_name(table), id_)
+        instrument.addItem(self.tr("Automatic"), None)
+        for text, id_ in self._instruments:
+            instrument.addItem(text, id_)
         instrument.setCurrentIndex(max(instrument.findData(row.wish.map_id), 0))
         instrument.currentIndexChanged.connect(lambda _, box=instrument: self._wish(place, map_id=box.currentData()))
         instrument.setToolTip(instrument.currentText())
@@ -253,23 +317,30 @@ class ImportDialog(QDialog):
         character = ComboBox()
         character.setObjectName(f"character_{place}")
         character.addItem(self.tr("Automatic"), None)
-        for id_ in characters():
-            character.addItem(character_name(id_), id_)
+        for text, id_ in self._characters:
+            character.addItem(text, id_)
         character.setCurrentIndex(max(character.findData(row.character_id), 0))
         character.currentIndexChanged.connect(lambda _, box=character: self._set(place, character_id=box.currentData()))
         self._table.setCellWidget(place, _CHARACTER, character)
         self._enable(place)
+        self._show_instruments(place)
 
-    def _automatic(self, row: ImportRow) -> str:
-        """The instruments that the file's names, programs and ranges choose."""
-        wish = msgspec.structs.replace(row.wish, map_id=None)
-        used = self._instruments(msgspec.structs.replace(row, wish=wish))
-        return " + ".join(dict.fromkeys(map(instrument_name, used)))
+    def _played_on(self, wish: PartWish) -> list[InstrumentMap]:
+        """What a row is played on, were it wanted; nothing where that is not known yet."""
+        return [] if self._outcome is None else [self._maps[id_] for id_ in self._outcome.instruments_of(wish)]
 
-    def _instruments(self, row: ImportRow) -> list[InstrumentMap]:
-        """What a row is played on, were it wanted."""
-        wanted = msgspec.structs.replace(row, wanted=True)
-        return [self._maps[part.map_id] for part in score_of_rows(self._contents, [wanted], self._maps).parts]
+    def _show_instruments(self, place: int) -> None:
+        """Say which instruments a row's names, programs and ranges choose, and whether its pitches can be written."""
+        row = self._rows[place]
+        instrument, pitches = self._table.cellWidget(place, _INSTRUMENT), self._table.cellWidget(place, _PITCHES)
+        assert isinstance(instrument, ComboBox)
+        assert pitches is not None
+        names = dict.fromkeys(map(instrument_name, self._played_on(automatic(row.wish))))
+        if names:
+            instrument.setItemText(0, self.tr("Automatic: {name}").format(name=" + ".join(names)))
+        # Only there is a difference.
+        transposes = any(table.transposition_semitones for table in self._played_on(row.wish))
+        pitches.setEnabled(row.wanted and transposes)
 
     def _name(self, row: ImportRow) -> str:
         return " + ".join(stream_name(self._contents.streams[stream]) for stream in row.wish.streams)
@@ -281,19 +352,13 @@ class ImportDialog(QDialog):
         changed = msgspec.structs.replace(self._rows[place], **changes)
         self._rows = (*self._rows[:place], changed, *self._rows[place + 1 :])
         self._enable(place)
-        self._show_outcome()
+        self._work_out(self._rows)
 
     def _enable(self, place: int) -> None:
         for column in (_NAME, _PREVIEW, _NOTES, _SPLIT, _INSTRUMENT, _CHARACTER):
             widget = self._table.cellWidget(place, column)
             if widget is not None:
                 widget.setEnabled(self._rows[place].wanted)
-        pitches = self._table.cellWidget(place, _PITCHES)
-        if pitches is not None:
-            # Only there is a difference.
-            used = self._instruments(self._rows[place])
-            transposes = any(instrument.transposition_semitones for instrument in used)
-            pitches.setEnabled(self._rows[place].wanted and transposes)
 
     def _show_tools(self) -> None:
         places = self._selected()
@@ -302,18 +367,21 @@ class ImportDialog(QDialog):
 
     def _show_outcome(self) -> None:
         """Say what will come of it: the reader's warnings where nothing was changed, the players in any case."""
-        score = score_of_rows(self._contents, self._rows, self._maps)
-        self._summary.setText(
-            self.tr("Players: {count}").format(count=len(score.parts))
-            if score.parts
-            else self.tr("Nobody plays: tick a track, or import an empty stage")
-        )
+        outcome = self._outcome
+        self._buttons.button(QDialogButtonBox.StandardButton.Ok).setEnabled(outcome is not None)
         self._warnings.clear()
-        for message in score.warnings:
-            self._warnings.addItem(message_text(message))
-        for part in score.unplayed:
-            self._warnings.addItem(
-                self.tr("{name} is not played: {reason}").format(name=part.name, reason=message_text(part.reason))
+        if outcome is not None:
+            self._summary.setText(
+                self.tr("Players: {count}").format(count=outcome.players)
+                if outcome.players
+                else self.tr("Nobody plays: tick a track, or import an empty stage")
+            )
+            self._warnings.addItems([message_text(message) for message in outcome.warnings])
+            self._warnings.addItems(
+                [
+                    self.tr("{name} is not played: {reason}").format(name=part.name, reason=message_text(part.reason))
+                    for part in outcome.unplayed
+                ]
             )
         self._warning_title.setText(self.tr("What the reader noticed"))
         self._warning_title.setVisible(self._warnings.count() > 0)
@@ -321,6 +389,10 @@ class ImportDialog(QDialog):
 
     def sizeHint(self) -> QSize:
         return _SIZE
+
+    def done(self, result: int) -> None:
+        self._closing.set()
+        super().done(result)
 
     def changeEvent(self, event: QEvent) -> None:
         if event.type() == QEvent.Type.LanguageChange:
@@ -331,24 +403,39 @@ class ImportDialog(QDialog):
 class NotesPreview(QWidget):
     """A track's notes over the whole piece, as a small piano roll."""
 
-    def __init__(self, notes: list[Note], end_tick: int, tokens: Tokens) -> None:
+    def __init__(self, streams: Sequence[Stream], end_tick: int, tokens: Tokens) -> None:
         super().__init__()
-        self._notes, self._end_tick, self._tokens = notes, max(end_tick, 1), tokens
+        self._onsets = np.concatenate([np.asarray(stream.onset_ticks, np.float64) for stream in streams])
+        self._ends = np.concatenate([np.asarray(stream.end_ticks, np.float64) for stream in streams])
+        self._pitches = np.concatenate([np.asarray(stream.pitches, np.intp) for stream in streams])
+        self._end_tick, self._tokens = max(end_tick, 1), tokens
         self.setMinimumHeight(_ROW_PX - 8)
 
     def paintEvent(self, event: QPaintEvent) -> None:
         painter = QPainter(self)
         area = QRectF(self.rect()).adjusted(2, 5, -2, -5)
         painter.fillRect(self.rect().adjusted(0, 2, 0, -2), QColor(self._tokens.sunken))
-        low = min(note.pitch for note in self._notes)
-        span = max(max(note.pitch for note in self._notes) - low, 11) + 1
+        low = int(self._pitches.min())
+        span = max(int(self._pitches.max()) - low, 11) + 1
         height = area.height() / span
         colour = QColor(self._tokens.accent if self.isEnabled() else self._tokens.text_dim)
-        for note in self._notes:
-            left = area.left() + area.width() * note.onset_tick / self._end_tick
-            width = max(area.width() * note.duration_tick / self._end_tick, 1.0)
-            top = area.bottom() - (note.pitch - low + 1) * height
-            painter.fillRect(QRectF(left, top, width, max(height, 1.5)), colour)
+        for pitch, begin, end in self._runs(area.width()):
+            top = area.bottom() - (pitch - low + 1) * height
+            painter.fillRect(QRectF(area.left() + begin, top, end - begin, max(height, 1.5)), colour)
+
+    def _runs(self, width_px: float) -> list[tuple[int, int, int]]:
+        """Pitches and the columns of pixels, from the first to the one behind the last, that their notes fill."""
+        columns = max(int(width_px), 1)
+        begins = np.clip((self._onsets * columns / self._end_tick).astype(np.intp), 0, columns - 1)
+        ends = np.clip(np.ceil(self._ends * columns / self._end_tick).astype(np.intp), begins + 1, columns)
+        changes: npt.NDArray[np.int64] = np.zeros((128, columns + 1), np.int64)
+        np.add.at(changes, (self._pitches, begins), 1)
+        np.add.at(changes, (self._pitches, ends), -1)
+        sounding = np.cumsum(changes, axis=1) > 0
+        edges = np.diff(sounding, axis=1, prepend=False)
+        pitches, columns_of = np.nonzero(edges)
+        pairs = zip(pitches[::2].tolist(), columns_of[::2].tolist(), columns_of[1::2].tolist(), strict=True)
+        return list(pairs)
 
 
 class _Tick(QCheckBox):

@@ -17,11 +17,11 @@ from pathlib import Path
 from typing import Any, Final
 
 from PySide6.QtCore import QObject, QTimer
-from PySide6.QtWidgets import QApplication, QDialog
+from PySide6.QtWidgets import QApplication, QDialog, QDialogButtonBox
 
 from app.errors import AppError, Message
 from app.project.autosave import Autosave
-from app.project.model import Project
+from app.project.importing import ImportRow
 from app.project.presence import Presence
 from app.score.read import MidiContents
 from app.shell.app import Program, make_application
@@ -35,6 +35,7 @@ from tests.fuzz.harness.readers import KINDS
 from tests.gui.shell.conftest import Answers
 from tests.support.restless import QUARTET
 from widgets.common.session import Severity
+from widgets.common.tasks import Tasks
 from widgets.common.tokens import Tokens
 
 PATIENCE_S: Final = 60.0
@@ -67,22 +68,24 @@ class StallMeter(QObject):
 class ImportAnswers(Answers):
     """Whoever imports a MIDI file looks at the dialog for a moment and agrees."""
 
-    def import_midi(self, contents: MidiContents, source: str, tokens: Tokens) -> Project | None:
+    def import_midi(self, contents: MidiContents, tokens: Tokens, tasks: Tasks) -> tuple[ImportRow, ...] | None:
         """The real dialog."""
         timer = QTimer()
         timer.setInterval(300)
         timer.timeout.connect(self._agree)
         timer.start()
         try:
-            return Dialogs().import_midi(contents, source, tokens)
+            return Dialogs().import_midi(contents, tokens, tasks)
         finally:
             timer.stop()
 
     @staticmethod
     def _agree() -> None:
         dialog = QApplication.activeModalWidget()
-        if isinstance(dialog, QDialog):
-            dialog.accept()
+        buttons = dialog.findChild(QDialogButtonBox) if isinstance(dialog, QDialog) else None
+        if buttons is not None:
+            # Not enabled before there is something to agree to.
+            buttons.button(QDialogButtonBox.StandardButton.Ok).click()
 
 
 class WatchedWindow:

@@ -2,22 +2,35 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import mido
 import msgspec
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QCheckBox, QComboBox, QLabel, QLineEdit, QListWidget, QPushButton
+from PySide6.QtWidgets import (
+    QApplication,
+    QCheckBox,
+    QComboBox,
+    QDialogButtonBox,
+    QLabel,
+    QLineEdit,
+    QListWidget,
+    QPushButton,
+)
 from pytestqt.qtbot import QtBot
 
+from app.project import importing
 from app.project.importing import import_project, usual_rows
-from app.project.model import map_choices, project_from_score
+from app.project.model import Project, map_choices, project_from_score
 from app.score.read import read_contents, read_midi
 from instrument_maps.load import bundled_maps
+from tests.support.tasks import ImmediateTasks
 from widgets.common.tokens import DARK
-from widgets.dialogs.import_midi import ImportDialog
+from widgets.dialogs.import_midi import ImportDialog, NotesPreview
 
 LUTKIN = Path(__file__).parents[2] / "data" / "midi" / "ensemble" / "brass_quartet_lutkin_2tpt_tbn_tuba.mid"
 MAPS = {
@@ -30,10 +43,15 @@ MAPS = {
 
 @pytest.fixture
 def dialog(qt_app: QApplication, qtbot: QtBot) -> ImportDialog:
-    dialog = ImportDialog(read_contents(LUTKIN), MAPS, str(LUTKIN), DARK)
+    dialog = ImportDialog(read_contents(LUTKIN), MAPS, DARK, ImmediateTasks())
     qtbot.addWidget(dialog)
     dialog.show()
     return dialog
+
+
+def imported(dialog: ImportDialog) -> Project:
+    """What comes of the dialog."""
+    return import_project(dialog._contents, dialog.rows, dialog._maps)
 
 
 def choose(dialog: ImportDialog, name: str, data: object) -> None:
@@ -51,7 +69,7 @@ def choose(dialog: ImportDialog, name: str, data: object) -> None:
 def test_untouched_it_is_what_the_command_line_does(dialog: ImportDialog) -> None:
     score = read_midi(LUTKIN, maps=map_choices(MAPS.values()))
     usual = project_from_score(score, MAPS)
-    project = dialog.project()
+    project = import_project(read_contents(LUTKIN), dialog.rows, MAPS, str(LUTKIN))
     assert project.players == usual.players
     assert project.score == usual.score
     assert project.source == str(LUTKIN)
@@ -69,7 +87,7 @@ def test_a_track_nobody_plays_is_ticked_and_given_an_instrument_and_a_character(
     assert name is not None
     name.selectAll()
     QTest.keyClicks(name, "Bass")
-    bass = dialog.project().players[-1]
+    bass = imported(dialog).players[-1]
     assert (bass.name, bass.instrument_id, bass.character_id) == ("Bass", trombone, "woman_adult")
     summary = dialog.findChild(QLabel, "import_summary")
     assert summary is not None
@@ -92,7 +110,7 @@ def test_tracks_are_merged_and_taken_apart(dialog: ImportDialog) -> None:
     QTest.mouseClick(dialog.findChild(QPushButton, "merge"), Qt.MouseButton.LeftButton)
     assert [row.wish.streams for row in dialog.rows] == [(0, 1), (2,), (3,)]
     choose(dialog, "split_0", False)
-    assert len(dialog.project().players) == 2
+    assert len(imported(dialog).players) == 2
     table.selectRow(0)
     QTest.mouseClick(dialog.findChild(QPushButton, "separate"), Qt.MouseButton.LeftButton)
     assert [row.wish.streams for row in dialog.rows] == [(0,), (1,), (2,), (3,)]
@@ -110,7 +128,7 @@ def test_a_part_that_looks_written_is_told_and_read_so(qt_app: QApplication, qtb
     low, high = (bundled_maps()["sax_alto_Eb"].range.low, bundled_maps()["sax_alto_Eb"].range.high)
     # The lowest and the highest note that the alto saxophone has, as they are written.
     path = piece(tmp_path, {"Alto Sax": (low + 9, low + 20, high + 9), "Flute": (72, 74, 76)})
-    dialog = ImportDialog(read_contents(path), bundled_maps(), str(path), DARK)
+    dialog = ImportDialog(read_contents(path), bundled_maps(), DARK, ImmediateTasks())
     qtbot.addWidget(dialog)
     dialog.show()
     told = dialog.findChild(QListWidget, "import_warnings")
@@ -118,12 +136,12 @@ def test_a_part_that_looks_written_is_told_and_read_so(qt_app: QApplication, qtb
     assert not dialog.findChild(QComboBox, "pitches_1").isEnabled()
     choose(dialog, "pitches_0", True)
     assert told.count() == 0
-    sax, flute = dialog.project().score.parts
+    sax, flute = imported(dialog).score.parts
     assert [note.pitch for note in sax.notes] == [low, low + 11, high]
     assert sax.transposed_semitones == -9
     assert [note.pitch for note in flute.notes] == [72, 74, 76]
     choose(dialog, "pitches_0", False)
-    assert dialog.project().score.parts[0].notes[0].pitch == low + 9
+    assert imported(dialog).score.parts[0].notes[0].pitch == low + 9
     # For an instrument that sounds as it is written there is nothing to choose.
     choose(dialog, "instrument_0", "oboe")
     assert not dialog.findChild(QComboBox, "pitches_0").isEnabled()
@@ -143,11 +161,99 @@ def piece(folder: Path, tracks: dict[str, tuple[int, ...]]) -> Path:
 
 def test_a_long_title_does_not_widen_the_dialog(qt_app: QApplication, qtbot: QtBot) -> None:
     contents = msgspec.structs.replace(read_contents(LUTKIN), title="Allegro ma non troppo " * 500)
-    dialog = ImportDialog(contents, MAPS, str(LUTKIN), DARK)
+    dialog = ImportDialog(contents, MAPS, DARK, ImmediateTasks())
     qtbot.addWidget(dialog)
     dialog.show()
     heading = dialog.findChild(QLabel, "heading")
     assert heading is not None
     assert "Allegro" in heading.text()
     assert "4/4" in heading.text()
-    assert dialog.width() == ImportDialog(read_contents(LUTKIN), MAPS, str(LUTKIN), DARK).width()
+    assert dialog.width() == ImportDialog(read_contents(LUTKIN), MAPS, DARK, ImmediateTasks()).width()
+
+
+class SlowTasks(ImmediateTasks):
+    """Keeps work until the test lets it be done; every one, also those that were asked again since."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.waiting: list[Callable[[], None]] = []
+
+    def run(self, *arguments: Any, **options: Any) -> None:
+        """Work later."""
+        self.waiting.append(lambda: ImmediateTasks.run(self, *arguments, **options))
+
+    def work(self, number: int) -> None:
+        """Do what was asked at this place."""
+        self.waiting.pop(number)()
+
+
+def test_what_comes_of_the_choices_is_worked_out_beside_the_window(qt_app: QApplication, qtbot: QtBot) -> None:
+    tasks = SlowTasks()
+    dialog = ImportDialog(read_contents(LUTKIN), MAPS, DARK, tasks)
+    qtbot.addWidget(dialog)
+    dialog.show()
+    agree = dialog._buttons.button(QDialogButtonBox.StandardButton.Ok)
+    summary = dialog.findChild(QLabel, "import_summary")
+    assert summary is not None
+    assert (dialog.rows, agree.isEnabled(), dialog._table.rowCount()) == ((), False, 0)
+    tasks.work(0)
+    assert (len(dialog.rows), agree.isEnabled(), summary.text()) == (4, True, "Players: 3")
+    for place in (0, 1):
+        box = dialog.findChild(QCheckBox, f"play_{place}")
+        assert box is not None
+        box.click()
+    # The newer one is done first: what the older one says is of rows that are no longer those of the dialog.
+    tasks.work(1)
+    assert summary.text() == "Players: 1"
+    tasks.work(0)
+    assert summary.text() == "Players: 1"
+
+
+def test_closing_the_dialog_stops_the_work(qt_app: QApplication, qtbot: QtBot) -> None:
+    tasks = SlowTasks()
+    dialog = ImportDialog(read_contents(LUTKIN), MAPS, DARK, tasks)
+    qtbot.addWidget(dialog)
+    dialog.show()
+    dialog.reject()
+    tasks.work(0)
+    assert dialog.rows == ()
+    assert dialog._outcome is None
+
+
+def test_many_tracks_are_shown_turn_by_turn(
+    qt_app: QApplication, qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = piece(tmp_path, {f"Flute {number}": (72, 74) for number in range(40)})
+    dialog = ImportDialog(read_contents(path), bundled_maps(), DARK, ImmediateTasks())
+    qtbot.addWidget(dialog)
+    dialog.show()
+    assert dialog._table.rowCount() == 40
+    assert dialog.findChild(QLineEdit, "name_39") is None
+    qtbot.waitUntil(lambda: dialog.findChild(QLineEdit, "name_39") is not None, timeout=20_000)
+    looked: list[object] = []
+    monkeypatch.setattr(importing, "_instruments", lambda contents, wish, *more: looked.append(wish) or ("flute",))
+    name = dialog.findChild(QLineEdit, "name_39")
+    assert name is not None
+    choose(dialog, "split_39", False)
+    assert [wish.streams for wish in looked] == [(39,)]  # type: ignore[attr-defined]
+    QTest.keyClicks(name, "x")
+    assert len(looked) == 1
+
+
+def test_the_preview_draws_what_sounds(qt_app: QApplication, qtbot: QtBot) -> None:
+    """Against the slow way: column by column, whether a note of the pitch sounds there."""
+    contents = read_contents(LUTKIN)
+    end_tick = max(max(stream.end_ticks) for stream in contents.streams)
+    preview = NotesPreview(contents.streams[:2], end_tick, DARK)
+    qtbot.addWidget(preview)
+    drawn = {(pitch, column) for pitch, begin, end in preview._runs(100.0) for column in range(begin, end)}
+    expected = set()
+    for stream in contents.streams[:2]:
+        for onset, end, pitch in zip(stream.onset_ticks, stream.end_ticks, stream.pitches, strict=True):
+            expected |= {
+                (pitch, column)
+                for column in range(100)
+                if onset * 100 // end_tick == column
+                or (onset * 100 < (column + 1) * end_tick and column * end_tick < end * 100)
+            }
+    assert drawn == expected

@@ -11,8 +11,7 @@ from pytestqt.qtbot import QtBot
 
 from app.audio.playback import Playback
 from app.project.autosave import Autosave
-from app.project.importing import import_project, usual_rows
-from app.project.model import Project
+from app.project.importing import ImportRow, usual_rows
 from app.project.presence import Presence
 from app.score.read import MidiContents
 from app.shell.app import Program
@@ -28,6 +27,7 @@ from tests.support.studio import Studio
 from tests.support.tasks import ImmediateTasks
 from tests.support.windows import show_in_front
 from widgets.common.session import Session
+from widgets.common.tasks import Tasks
 from widgets.common.tokens import Tokens
 
 
@@ -63,11 +63,10 @@ class Answers:
         self.told_players = players
         return self.removes
 
-    def import_midi(self, contents: MidiContents, source: str, tokens: Tokens) -> Project | None:
+    def import_midi(self, contents: MidiContents, tokens: Tokens, tasks: Tasks) -> tuple[ImportRow, ...] | None:
         """As if nobody touched the dialog."""
         self.asked.append("import")
-        maps = bundled_maps()
-        return import_project(contents, usual_rows(contents, maps), maps, source) if self.imports else None
+        return usual_rows(contents, bundled_maps()) if self.imports else None
 
 
 @pytest.fixture

@@ -126,7 +126,7 @@ def piece(program: Program, judge: Judge, folder: Path) -> None:
     """A MIDI file in the import dialog and as a piece; then a project that has what only projects have."""
     midi = folder / f"{judge.canary.file_name('source')}.mid"
     write_midi(hostile_score(quartet_project().score, judge.canary), midi)
-    ImportDialog(read_contents(midi), all_maps(), str(midi), program.session.tokens, program.window).show()
+    ImportDialog(read_contents(midi), all_maps(), program.session.tokens, ImmediateTasks(), program.window).show()
     judge.look("import", program.window)
     close_others(program)
     program.editor.files.open(midi, ask=False)
