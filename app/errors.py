@@ -31,13 +31,13 @@ class Message(msgspec.Struct, frozen=True, gc=False):
     arguments: dict[str, Argument] = {}
 
     def __post_init__(self) -> None:
-        if not all(
-            value.isascii() and value.isprintable() for value in self.arguments.values() if isinstance(value, str)
-        ):
-            readable = {
-                name: shown(value) if isinstance(value, str) else value for name, value in self.arguments.items()
-            }
-            msgspec.structs.force_setattr(self, "arguments", readable)
+        for value in self.arguments.values():
+            if isinstance(value, str) and not (value.isascii() and value.isprintable()):
+                break
+        else:
+            return  # Of most, and a plan has hundreds of thousands.
+        readable = {name: shown(value) if isinstance(value, str) else value for name, value in self.arguments.items()}
+        msgspec.structs.force_setattr(self, "arguments", readable)
 
 
 class AppError(Exception):

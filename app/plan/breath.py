@@ -29,6 +29,7 @@ breath.too_long(note, phrase_s, air_s, lung_s): "From note {note} on, {phrase_s}
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Callable
 from typing import NamedTuple
 
@@ -393,17 +394,17 @@ def _with_depths(
     index_of: dict[str, int],
 ) -> tuple[BreathEvent, ...]:
     """Depths by what the phrase to come needs, within what the time allows. Those set by hand stay."""
-    breaths = np.append(np.flatnonzero(refill > 0.0), len(refill))
+    breaths, used_s = [*np.flatnonzero(refill > 0.0).tolist(), len(refill)], used.tolist()
     result = []
     for event in events:
         if not event.corrected:
             index = index_of[_note_id(event)]
-            until = int(breaths[np.searchsorted(breaths, index, side="right")])
+            until = breaths[bisect_right(breaths, index)]
             # Within a note nobody knows what the rest of it needs: there the time says it.
-            need = 1.0 if _is_within(event) else (used[until] - used[index]) / lung_s
+            need = 1.0 if _is_within(event) else (used_s[until] - used_s[index]) / lung_s
             most = 1.0 if event.kind == "preparation" else drawn(event.end_s - event.start_s)
             depth = min(max(LEAST_DEPTH + (1.0 - LEAST_DEPTH) * need, LEAST_DEPTH), max(most, LEAST_DEPTH), 1.0)
-            event = msgspec.structs.replace(event, depth=round(float(depth), 4))
+            event = msgspec.structs.replace(event, depth=round(depth, 4))
         result.append(event)
     return tuple(result)
 

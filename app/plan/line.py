@@ -286,12 +286,12 @@ class Seeds(msgspec.Struct, frozen=True):
     def chances_at(self, purpose: str, ticks: IntArray) -> FloatArray:
         """The same at many places, (N,) float64."""
         begun = _begun((*self.names, purpose))
-        digests = bytearray()
+        digests = []
         for tick in ticks.tolist():
             digest = begun.copy()
             digest.update(b"%d" % tick)
-            digests += digest.digest()
-        shares: FloatArray = np.frombuffer(digests, ">u8") / 2.0**64
+            digests.append(digest.digest())
+        shares: FloatArray = np.frombuffer(b"".join(digests), ">u8") / 2.0**64
         for start_tick, end_tick, _ in self.varied:
             for place in np.flatnonzero((ticks >= start_tick) & (ticks < end_tick)).tolist():
                 shares[place] = self.chance_at(purpose, int(ticks[place]))

@@ -267,7 +267,7 @@ def _tempo_map(container: Container, tracks: Sequence[TrackEvents]) -> tuple[Tem
     changes: list[TempoChange] = []
     warnings = []
     for index, events in enumerate(tracks):
-        possible = [TempoChange(tick, tempo) for tick, tempo in events.tempos if tempo >= LEAST_TEMPO]
+        possible = [TempoChange(tick, float(tempo)) for tick, tempo in events.tempos if tempo >= LEAST_TEMPO]
         impossible = [tick for tick, tempo in events.tempos if tempo < LEAST_TEMPO]
         changes += possible
         warnings += _left_out("midi.impossible_tempo", index, impossible)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from functools import cached_property
 from typing import TypeAlias, overload
 
@@ -10,8 +11,10 @@ import numpy as np
 import numpy.typing as npt
 
 Floats: TypeAlias = npt.NDArray[np.float64]
+_Pieces: TypeAlias = tuple[list[float], list[float], list[float]]
+"""Knots, values at them, slopes after them."""
 
-DEFAULT_MICROSECONDS_PER_QUARTER = 500_000
+DEFAULT_MICROSECONDS_PER_QUARTER = 500_000.0
 
 
 class TempoChange(msgspec.Struct, frozen=True):
@@ -50,7 +53,7 @@ class TempoMap(msgspec.Struct, frozen=True, dict=True):
     @classmethod
     def of_changes(cls, ticks_per_quarter: int, changes: list[TempoChange]) -> TempoMap:
         """Build a map from changes in any order; of several at one tick the last counts, and repetitions fall away."""
-        latest = {0: float(DEFAULT_MICROSECONDS_PER_QUARTER)}
+        latest = {0: DEFAULT_MICROSECONDS_PER_QUARTER}
         for change in sorted(changes, key=lambda change: change.tick):
             latest[change.tick] = change.microseconds_per_quarter
         kept: list[TempoChange] = []
@@ -75,6 +78,16 @@ class TempoMap(msgspec.Struct, frozen=True, dict=True):
         return ticks, starts, slopes
 
     @cached_property
+    def _to_seconds(self) -> _Pieces:
+        ticks, starts, slopes = self._table
+        return ticks.tolist(), starts.tolist(), slopes.tolist()
+
+    @cached_property
+    def _to_ticks(self) -> _Pieces:
+        ticks, starts, slopes = self._table
+        return starts.tolist(), ticks.tolist(), (1.0 / slopes).tolist()
+
+    @cached_property
     def bpm(self) -> tuple[tuple[int, float], ...]:
         """The tempo changes as (tick, quarters per minute)."""
         return tuple((change.tick, 60e6 / change.microseconds_per_quarter) for change in self.changes)
@@ -95,6 +108,8 @@ class TempoMap(msgspec.Struct, frozen=True, dict=True):
         -------
         float, or float64 array of the same shape
         """
+        if not isinstance(ticks, np.ndarray):
+            return _piecewise_at(float(ticks), self._to_seconds)
         at, starts, slopes = self._table
         return _piecewise(ticks, at, starts, slopes)
 
@@ -114,15 +129,24 @@ class TempoMap(msgspec.Struct, frozen=True, dict=True):
         -------
         float, or float64 array of the same shape
         """
+        if not isinstance(seconds, np.ndarray):
+            return _piecewise_at(float(seconds), self._to_ticks)
         at, starts, slopes = self._table
         return _piecewise(seconds, starts, at, 1.0 / slopes)
 
 
+def _piecewise_at(x: float, pieces: _Pieces) -> float:
+    """`_piecewise` at one place, for which numpy takes ten times as long."""
+    knots, values, slopes = pieces
+    piece = max(bisect_right(knots, x) - 1, 0)
+    return values[piece] + (x - knots[piece]) * slopes[piece]
+
+
 def _piecewise(
-    x: float | npt.NDArray[np.floating] | npt.NDArray[np.integer], knots: Floats, values: Floats, slopes: Floats
-) -> float | Floats:
+    x: npt.NDArray[np.floating] | npt.NDArray[np.integer], knots: Floats, values: Floats, slopes: Floats
+) -> Floats:
     """A piecewise linear function whose outer pieces extend; ``values`` are at the ``knots``, ``slopes`` after them."""
     places = np.asarray(x, np.float64)
     piece = np.maximum(np.searchsorted(knots, places, side="right") - 1, 0)
-    result = values[piece] + (places - knots[piece]) * slopes[piece]
-    return float(result) if result.ndim == 0 else result
+    result: Floats = values[piece] + (places - knots[piece]) * slopes[piece]
+    return result

@@ -8,9 +8,11 @@ from pathlib import Path
 import mido
 import pytest
 
+from app.project.importing import import_project, usual_rows
 from app.project.model import map_choices
+from app.project.storage import decode, encode
 from app.score.model import Score
-from app.score.read import read_midi
+from app.score.read import read_contents, read_midi
 from instrument_maps.load import bundled_maps
 from resources.build import arrange_example
 from tests.unit.score.midi_bytes import MAPS
@@ -47,6 +49,14 @@ def test_every_file_opens_and_no_note_is_lost(path: Path) -> None:
     played = Counter(note.pitch for part in score.parts for note in part.notes)
     assert sum(played.values()) + unplayed == sum(onsets.values())
     assert not played - onsets
+
+
+@pytest.mark.parametrize("path", [*READABLE, QUARTET], ids=lambda path: path.stem)
+def test_a_project_that_was_saved_and_loaded_is_saved_as_the_same_bytes(path: Path) -> None:
+    maps, file = bundled_maps(), Path("/music/piece.suisou")
+    contents = read_contents(path)
+    content = encode(import_project(contents, usual_rows(contents, maps), maps, str(path)), file)
+    assert encode(decode(content, file), file) == content
 
 
 @pytest.mark.parametrize(
