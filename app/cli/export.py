@@ -12,7 +12,7 @@ from types import FrameType
 from typing import TYPE_CHECKING, Final
 
 from app.cli.options import Commands, add_source_options, frame_rate, open_project, whole_number
-from app.cli.progress import Progress
+from app.cli.progress import Progress, find_holds
 from app.cli.status import tell_left_out
 from app.cli.summary import project_summary, summary
 from app.cli.terminal import say
@@ -132,13 +132,14 @@ def export(arguments: argparse.Namespace) -> int:
     clean_up()
     project = open_project(arguments)
     performance = Performance(project)
-    # Before the plans, which say what a body does not reach.
-    performance.hold()
     chosen = select_players(arguments.players, [player.name for player in project.players])
+    players = tuple(project.players[index] for index in chosen)
+    # Before the plans, which say what a body does not reach.
+    find_holds(performance, players)
     progress = Progress(sys.stderr)
     request = Request(
         performance=performance,
-        players=tuple(project.players[index] for index in chosen),
+        players=players,
         folder=arguments.to if unreal is None else unreal.folder,
         formats=frozenset(arguments.formats or USUAL_FORMATS),
         span=_span(performance, arguments),

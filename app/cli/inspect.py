@@ -10,6 +10,7 @@ import numpy as np
 
 from app.cli.instruments import note_name
 from app.cli.options import Commands, add_source_options, open_project
+from app.cli.progress import find_holds
 from app.cli.status import tell_left_out
 from app.cli.summary import columns
 from app.cli.terminal import say, say_json
@@ -18,6 +19,7 @@ from app.errors import Message
 from app.messages import filled, text
 from app.performance.cast import attempt
 from app.performance.ensemble import Performance
+from app.performance.reach import carried_controls
 from app.plan.model import BreathEvent, Clock, CueEvent, FingeringEvent, GestureEvent, Note, PoseEvent
 from app.project.model import Player
 from instrument_maps.model import InstrumentMap
@@ -39,7 +41,17 @@ def add_command(commands: Commands) -> None:
 
 def inspect(arguments: argparse.Namespace) -> int:
     """Print the file's plan and name the players who have none; the exit status."""
-    found = inspection(Performance(open_project(arguments)))
+    performance = Performance(open_project(arguments))
+    maps = performance.library.maps
+    find_holds(
+        performance,
+        [
+            player
+            for player in performance.project.players
+            if player.instrument_id in maps and carried_controls(maps[player.instrument_id])
+        ],
+    )
+    found = inspection(performance)
     if arguments.json:
         say_json(found)
     else:

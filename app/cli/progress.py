@@ -2,8 +2,14 @@
 
 from __future__ import annotations
 
+import sys
 import time
-from typing import TextIO
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, TextIO
+
+if TYPE_CHECKING:
+    from app.performance.ensemble import Performance
+    from app.project.model import Player
 
 from app.encoding import shown
 
@@ -40,3 +46,13 @@ class Progress:
             self._stream.write(f"\r{' ' * len(self._shown)}\r")
             self._stream.flush()
             self._shown = ""
+
+
+def find_holds(performance: Performance, players: Iterable[Player]) -> None:
+    """Find out how players hold their instruments, where it is not known yet. It takes seconds for each, and minutes
+    for an instrument that can hardly be held: progress is shown on standard error."""
+    progress = Progress(sys.stderr)
+    try:
+        performance.hold(progress=lambda share: progress(share, "how the instruments are held"), players=players)
+    finally:
+        progress.clear()

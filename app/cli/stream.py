@@ -9,7 +9,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Final
 
 from app.cli.options import Commands, add_source_options, frame_rate, open_project, seconds, within
-from app.cli.progress import Progress
+from app.cli.progress import Progress, find_holds
 from app.cli.status import tell_left_out
 from app.cli.terminal import say
 from app.errors import UsageError
@@ -114,6 +114,7 @@ def stream(arguments: argparse.Namespace) -> int:
     address = find_address(arguments.host, arguments.port)
     if not arguments.broadcast and reaches_many(address):
         raise UsageError("stream.broadcast", host=arguments.host)
+    find_holds(performance, chosen)
     found = performers_of(performance, chosen)
     if not found.made:
         refuse_nobody(found.left_out, str(arguments.file), text)

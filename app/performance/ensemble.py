@@ -7,7 +7,7 @@ wrong with the file of that instrument or character.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from functools import cached_property
 from threading import RLock
 
@@ -310,22 +310,31 @@ class Performance:
         self,
         stop_wanted: Callable[[], bool] = lambda: False,
         progress: Callable[[float], None] = lambda share: None,
+        players: Iterable[Player] | None = None,
     ) -> None:
         """Find out how the players hold their instruments, where that is not known yet.
+
+        Parameters
+        ----------
+        stop_wanted, progress : callable
+            Asked and called often; ``progress`` is given the share 0..1 that is done.
+        players : iterable of Player, optional
+            Only these; all by default.
 
         Raises
         ------
         Cancelled
             ``stop_wanted`` said so; holds that were finished stay.
         """
-        players = self.unheld
+        chosen = None if players is None else {player.id for player in players}
+        unheld = [player for player in self.unheld if chosen is None or player.id in chosen]
 
-        for number, player in enumerate(players):
+        for number, player in enumerate(unheld):
 
             def told(share: float, before: int = number) -> None:
                 if stop_wanted():
                     raise Cancelled("work.stopped")
-                progress((before + share) / len(players))
+                progress((before + share) / len(unheld))
 
             told(0.0)
             hold_now(player, self.instrument(player), told)

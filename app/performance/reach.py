@@ -49,13 +49,18 @@ class Reached:
     problems: tuple[Problem, ...]
 
 
+def carried_controls(instrument: InstrumentMap) -> frozenset[str]:
+    """The controls that a whole hand moves, such as a slide: only of them it is looked at what a player reaches."""
+    return frozenset(control.name for control in instrument.controls if control.finger.endswith(".hand"))
+
+
 def reached(player: Player, instrument: InstrumentMap, plan: PlayerPlan, before: Reached | None = None) -> Reached:
     """How far the hands come, and what they do not reach.
 
     Looked at are only controls that a whole hand moves, in every place that the plan uses, as the player would hold
     them standing or sitting still. Where the places are those of ``before``, an edit ago, nobody is posed again.
     """
-    carried = frozenset(control.name for control in instrument.controls if control.finger.endswith(".hand"))
+    carried = carried_controls(instrument)
     if not carried:
         return Reached((), (), ())
     known: dict[int, Place] = {}

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import io
 import json
+import re
 from collections.abc import Callable
 from fractions import Fraction
 from functools import cache, partial
@@ -244,8 +245,8 @@ def _nested_gltf() -> bytes:
     return json.dumps({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": nodes}).encode()
 
 
-def _huge_tick() -> bytes:
-    return project()[-1].replace(b'"start_tick": 1,', b'"start_tick": ' + b"9" * 400 + b",", 1)
+def _huge_tick(content: bytes) -> bytes:
+    return re.sub(rb'"(start_tick|tick)": *\d+', rb'"\1": ' + b"9" * 400, content, count=1)
 
 
 _TABLES: dict[str, Callable[[], bytes]] = {
@@ -256,21 +257,36 @@ _TABLES: dict[str, Callable[[], bytes]] = {
 
 MADE: Final[dict[str, dict[str, Callable[[], bytes]]]] = {
     "midi": {name: partial(make, WORST.get(name, 3000)) for name, make in COSTLY.items()},
-    "project": {"huge_tick": _huge_tick, "deep": lambda: b"[" * 100_000, "deep_object": lambda: b'{"a":' * 60_000},
+    "project": {
+        "huge_tick": lambda: _huge_tick(project()[-1]),
+        "deep": lambda: b"[" * 100_000,
+        "deep_object": lambda: b'{"a":' * 60_000,
+    },
     "instrument_map": _TABLES,
     "expression": _TABLES,
     "preset": _TABLES,
     "character_entry": _TABLES,
     "metadata": _TABLES,
-    "settings": {**_TABLES, "time": lambda: b"a = 07:32:00\nb = 1979-05-27\nc = 1979-05-27T07:32:00Z\nd = [{e = 1}]\n"},
+    "settings": {
+        **_TABLES,
+        "time": lambda: b"a = 07:32:00\nb = 1979-05-27\nc = 1979-05-27T07:32:00Z\nd = [{e = 1}]\n",
+        "infinite": lambda: b"[midi]\ncount_in_bars = inf\n[sound]\nvolume = nan\n[stream]\nport = -inf\n",
+        "digits_of_a_number": lambda: b"[midi]\ncount_in_bars = " + b"9" * 6000,
+    },
     "gltf": {"deep": lambda: b'{"a":' * 60_000, "nested_nodes": _nested_gltf, **costly("gltf")},
     "instrument_model": costly("instrument_model"),
     "foreign_fbx": costly("foreign_fbx"),
     "fbx": costly("fbx"),
     "bvh": costly("bvh", 100_000),
     "audio": costly("audio"),
+    "unreal_description": {
+        "deep": lambda: b"[" * 100_000,
+        "infinite_bytes": lambda: unreal_description()[0].replace(b'"bytes": 10', b'"bytes": 1e999', 1),
+        "infinite_frame": lambda: unreal_description()[0].replace(b'"frame": 60', b'"frame": 1e999', 1),
+    },
     "unreal_manifest": {"deep": lambda: b"[" * 100_000},
     "unreal_project": {"deep": lambda: b"[" * 100_000},
+    "autosave": {"huge_tick": lambda: _huge_tick(autosave()[0])},
     "journal": {"long_name": lambda: journal()[0].replace(b"EWI USB", b"E" * 20_000)},
     "clip": {
         "deep": lambda: b'{"x":' * 60_000,

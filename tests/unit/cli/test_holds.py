@@ -1,0 +1,55 @@
+"""The search for how instruments are held, which may take minutes: it shows how far it is, and Ctrl-C ends it."""
+
+from __future__ import annotations
+
+import io
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from app.cli import main
+from app.cli.status import STOPPED
+from app.performance import bodies, ensemble
+from tests.unit.cli.test_main import QUARTET
+
+
+class Terminal(io.StringIO):
+    """Keeps what is written to it."""
+
+    def isatty(self) -> bool:
+        return True
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        ["export", str(QUARTET), "--to", "out", "--player", "Trombone 2"],
+        ["stream", str(QUARTET), "--player", "Trombone 2"],
+        ["inspect", str(QUARTET)],
+    ],
+    ids=lambda command: command[0],
+)
+def test_the_search_shows_progress_and_ends_at_ctrl_c(
+    command: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    searched: list[str] = []
+
+    def stopped(character: Any, model: Any, instrument: Any, body: Any, told: Callable[[float], None]) -> None:
+        searched.append(instrument.id)
+        told(0.5)
+        raise KeyboardInterrupt
+
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(bodies, "hold_for", stopped)
+    monkeypatch.setattr(bodies, "_HOLDS", bodies.IdentityCache(8))
+    monkeypatch.setattr(ensemble, "is_held", lambda player, instrument: False)
+    terminal = Terminal()
+    monkeypatch.setattr(sys, "stderr", terminal)
+    assert main(command) == STOPPED
+    # Not the trumpets, who come first: nobody asks how they hold theirs.
+    assert searched == ["trombone_tenor_F_attachment"]
+    assert "0 %  how the instruments are held" in terminal.getvalue()
+    assert list(tmp_path.iterdir()) == []
