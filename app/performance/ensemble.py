@@ -7,6 +7,7 @@ wrong with the file of that instrument or character.
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Iterable
 from functools import cached_property
 from threading import RLock
@@ -167,10 +168,31 @@ class Performance:
                 progress,
             )
             self.unseen = dict[str, Message]()
-            self._plans = {player.id: self._told(player, made) for player in self.project.players}
+            plans = {}
+            for player in self.project.players:
+                # Whether hands reach is found out by posing them: with many players it takes as long as planning.
+                if stop_wanted():
+                    raise Cancelled("work.stopped")
+                plans[player.id] = self._told(player, made)
+            self._plans = plans
             self.__dict__["_ensemble"] = made
             self._memo.close()
             self._before = None
+
+    def prepare_within(self, cpu_s: float) -> bool:
+        """Make all plans unless that takes the calling thread longer; whether they are made.
+
+        Parameters
+        ----------
+        cpu_s : float
+            Of the thread's own time: what else the machine does is no reason to give up.
+        """
+        end_s = time.thread_time() + cpu_s
+        try:
+            self.prepare(lambda: time.thread_time() > end_s)
+        except Cancelled:
+            return False
+        return True
 
     def _told(self, player: Player, made: EnsemblePlan) -> PlayerPlan:
         """A player's plan with what is wrong about the player."""

@@ -29,7 +29,9 @@ from widgets.common.session import Session, Severity
 from widgets.common.tasks import Progress, StopWanted, Tasks
 
 AT_ONCE_NOTES = 2500
-"""So many notes are planned within the time of two pictures."""
+"""So many notes are planned within the time of two pictures ..."""
+AT_ONCE_S = 0.1
+"""... unless they turn out to cost more of the processor than this: many players, or what no musician writes."""
 TOLD_NOTES = 6000
 """So many take long enough that the person sees how far it is, and may stop it."""
 SWITCH_S = 0.001
@@ -155,9 +157,12 @@ class Generator(QObject):
             self._worker.plan(performance, self._asked)
         else:
             try:
-                performance.prepare()
+                made = performance.prepare_within(AT_ONCE_S)
             except AppError as error:
                 self._session.notice(error.message, Severity.ERROR)
+                return
+            if not made:
+                self._worker.plan(performance, self._asked)
                 return
             self._shown = self._asked
             try:

@@ -14,7 +14,9 @@ from widgets.common.session import Session
 from widgets.common.tasks import Progress, StopWanted
 
 AT_ONCE_NOTES = 3000
-"""So many notes are planned while a person hardly notices."""
+"""So many notes are planned while a person hardly notices ..."""
+AT_ONCE_S = 0.1
+"""... unless they turn out to cost more of the processor than this."""
 
 
 class Generated(QObject):
@@ -56,11 +58,12 @@ class Generated(QObject):
         bare = Performance(_without_corrections(performance.project, player_id), before, performance.waiting)
         if bare.unplanned_notes <= AT_ONCE_NOTES:
             try:
-                bare.prepare()
+                made = bare.prepare_within(AT_ONCE_S)
             except AppError:
                 return
-            self._keep(performance, player_id, bare)
-            return
+            if made:
+                self._keep(performance, player_id, bare)
+                return
         self._underway = (performance, player_id)
 
         def work(progress: Progress, stop_wanted: StopWanted) -> Performance:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 
+import numpy as np
 from PySide6.QtCore import QRectF, Qt, Signal
 from PySide6.QtGui import QFontMetricsF, QKeyEvent
 from PySide6.QtWidgets import QLineEdit
@@ -83,15 +85,26 @@ def lay_marks(
         Between these there is room.
     height_px : float
     """
-    found = [(metre.tick, 0, "metre", f"{metre.numerator}/{metre.denominator}") for metre in score.metres]
-    found += [(tick, 1, "tempo", f"♩={bpm:.4g}") for tick, bpm in score.tempo_map.bpm]
-    places = [
-        (left_px + axis.x_px(score.tempo_map.seconds(float(tick))), kind, tick, text)
-        for tick, _, kind, text in sorted(found)
-    ]
-    held = {kind: (tick, text) for x, kind, tick, text in places if x < left_px}
-    inside = [place for place in places if left_px <= place[0] <= right_px]
-    room_px = min((place[0] for place in inside), default=right_px)
+    metres, bpm = score.metres, score.tempo_map.bpm
+    texts: dict[str, Callable[[int], str]] = {
+        "metre": lambda index: f"{metres[index].numerator}/{metres[index].denominator}",
+        "tempo": lambda index: f"♩={bpm[index][1]:.4g}",
+    }
+    held: dict[str, tuple[int, str]] = {}
+    inside: list[tuple[int, int, float, str, int]] = []
+    # A file can have tens of thousands: of those out of sight only the last before the left edge is looked at.
+    ticks_of = {"metre": [metre.tick for metre in metres], "tempo": [tick for tick, _ in bpm]}
+    for order, (kind, ticks) in enumerate(ticks_of.items()):
+        x_px = left_px + axis.x_px(score.tempo_map.seconds(np.array(ticks, np.float64)))
+        first, end = int(x_px.searchsorted(left_px)), int(x_px.searchsorted(right_px, side="right"))
+        if first:
+            held[kind] = ticks[first - 1], texts[kind](first - 1)
+        shown = range(first, end)
+        inside += [
+            (ticks[index], order, x, kind, index) for index, x in zip(shown, x_px[first:end].tolist(), strict=True)
+        ]
+    inside.sort()
+    room_px = inside[0][2] if inside else right_px
     marks: list[Mark] = []
     free_px = left_px
 
@@ -103,10 +116,10 @@ def lay_marks(
     for kind in ("metre", "tempo"):
         if kind in held and free_px + metrics.horizontalAdvance(held[kind][1]) + 12.0 <= room_px:
             free_px = put(free_px, kind, *held[kind])
-    for x, kind, tick, text in inside:
+    for tick, _, x, kind, index in inside:
         beside = bool(marks) and marks[-1].tick == tick
         if x >= free_px - 1 or beside:
-            free_px = put(max(x, free_px), kind, tick, text)
+            free_px = put(max(x, free_px), kind, tick, texts[kind](index))
     return marks
 
 

@@ -13,6 +13,7 @@ import tempfile
 import time
 import traceback
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any, Final
 
@@ -39,8 +40,12 @@ from widgets.common.tasks import Tasks
 from widgets.common.tokens import Tokens
 
 PATIENCE_S: Final = 60.0
-LOOK_S: Final = 1.5
-"""The window is looked at this long after a file was read."""
+LOOK_S: Final = float(os.environ.get("SUISOU_LOOK_S", "1.5"))
+"""The window is looked at this long after everything that is done."""
+
+
+AWAITED: Final = ("open", "save", "import", "reimport", "character", "plan")
+EDITS: Final = ("timeline.fit", "notes.select_all", "notes.up", "edit.undo", "edit.redo")
 
 
 class StallMeter(QObject):
@@ -137,7 +142,9 @@ class WatchedWindow:
             time.sleep(0.001)
 
     def _reads(self) -> bool:
-        return any(task.key in ("open", "reimport", "character", "plan") for task in self.tasks.running)
+        return any(
+            task.key in ("open", "save", "import", "reimport", "character", "plan") for task in self.tasks.running
+        )
 
     def show(self, kind: str, path: Path) -> dict[str, Any]:
         """Open a file in every way that there is for it."""
@@ -166,6 +173,11 @@ class WatchedWindow:
             "peak_mb": status_kb("VmHWM") / 1024,
         }
 
+    def _trigger(self, action_id: str) -> None:
+        self.program.editor.table.refresh()
+        if self.session.actions[action_id].isEnabled():
+            self.session.actions[action_id].trigger()
+
     def _told(self, outcome: str, error: BaseException) -> dict[str, Any]:
         detail = "".join(traceback.format_exception(error))
         place = type(error).__name__
@@ -173,11 +185,14 @@ class WatchedWindow:
 
     def _ways(self, kind: str, path: Path) -> tuple[Callable[[], None], ...]:
         files, window = self.program.editor.files, self.program.window
-        self.answers.path = path
+        # Saved elsewhere: nothing hostile is written over.
+        self.answers.path = self.folder / "saved.suisou" if kind == "midi" else path
         if kind == "midi":
             return (
                 lambda: files.open(path, ask=False),
                 lambda: files.open(path, ask=True),
+                *(partial(self._trigger, action_id) for action_id in EDITS),
+                lambda: files.save(),
                 lambda: reimport_from(self.session, path),
             )
         if kind in ("gltf", "foreign_fbx"):

@@ -178,11 +178,15 @@ def test_what_is_wanted_ends_the_rest(generator: Generator) -> None:
     worker._rest(60.0, wishes)
 
 
-@pytest.mark.parametrize("most", ["AT_ONCE_NOTES", "TOLD_NOTES"])
+@pytest.mark.parametrize("most", ["AT_ONCE_NOTES", "TOLD_NOTES", "AT_ONCE_S"])
 def test_plans_that_take_longer_come_from_a_thread(
     session: Session, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch, most: str
 ) -> None:
-    monkeypatch.setattr(module, "AT_ONCE_NOTES", 1)
+    if most == "AT_ONCE_S":
+        # Few notes, but they turn out to be costly.
+        monkeypatch.setattr(module, "AT_ONCE_S", -1.0)
+    else:
+        monkeypatch.setattr(module, "AT_ONCE_NOTES", 1)
     if most == "TOLD_NOTES":
         monkeypatch.setattr(module, "TOLD_NOTES", 2)
     tasks = ThreadTasks()
@@ -190,6 +194,7 @@ def test_plans_that_take_longer_come_from_a_thread(
     try:
         for tension in (0.5, 0.6, 0.7, 0.8):
             _correct(session, tension)
+        assert not generator.up_to_date
         qtbot.waitUntil(lambda: generator.up_to_date, timeout=10_000)
         player = session.project.players[0]
         assert session.performance.plan(player).embouchures[20].tension == 0.8

@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
+import random
+
 import pytest
 from PySide6.QtCore import QPointF, Qt
-from PySide6.QtGui import QColor
+from PySide6.QtGui import QColor, QFont, QFontMetricsF
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QLineEdit, QMenu
 
+from app.score.model import Metre, Score
+from app.score.tempo import TempoChange, TempoMap
 from tests.gui.timeline.conftest import TPQ, Stage
 from tests.gui.timeline.hand import ALT, CTRL, Hand, Place
 from widgets.common.selection import Selection
+from widgets.timeline.axis import TimeAxis
 from widgets.timeline.lane import GUTTER_PX
 from widgets.timeline.ruler import MARKS_PX, Ruler
-from widgets.timeline.ruler_labels import clock
+from widgets.timeline.ruler_labels import clock, lay_marks
 
 BAR = 4 * TPQ
 
@@ -317,3 +322,42 @@ def test_enter_and_a_double_click_edit_a_metre(stage: Stage) -> None:
     QTest.keyClick(ruler, Qt.Key.Key_Return)
     type_into(stage, "2/4")
     assert metres(stage)[-1] == (2 * BAR, 2, 4)
+
+
+def slow_marks(score: Score, axis: TimeAxis, metrics: QFontMetricsF) -> list[tuple[str, int, str, float]]:
+    """Kind, tick, text and left edge of the marks of a ruler from 100 to 700 pixels: every one is looked at."""
+    found = [(metre.tick, 0, "metre", f"{metre.numerator}/{metre.denominator}") for metre in score.metres]
+    found += [(tick, 1, "tempo", f"♩={bpm:.4g}") for tick, bpm in score.tempo_map.bpm]
+    laid = [(100.0 + axis.x_px(score.tempo_map.seconds(float(tick))), tick, kind, text)
+            for tick, _, kind, text in sorted(found)]  # fmt: skip
+    inside = [mark for mark in laid if 100.0 <= mark[0] <= 700.0]
+    marks: list[tuple[str, int, str, float]] = []
+    free_px = 100.0
+    for kind in ("metre", "tempo"):
+        for _, tick, _, text in [mark for mark in laid if mark[0] < 100.0 and mark[2] == kind][-1:]:
+            width = metrics.horizontalAdvance(text) + 12.0
+            if free_px + width <= (inside[0][0] if inside else 700.0):
+                marks.append((kind, tick, text, free_px))
+                free_px += width + 2.0
+    for x, tick, kind, text in inside:
+        if x >= free_px - 1 or (marks and marks[-1][1] == tick):
+            marks.append((kind, tick, text, max(x, free_px)))
+            free_px = max(x, free_px) + metrics.horizontalAdvance(text) + 14.0
+    return marks
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_marks_stand_where_the_slow_way_puts_them(qt_app: QApplication, seed: int) -> None:
+    made = random.Random(seed)
+    ticks = sorted({0, *made.sample(range(1, 40 * BAR), 60)})
+    metres = tuple(Metre(tick, made.randint(2, 7), 4) for tick in ticks if tick == 0 or made.random() < 0.5)
+    changes = [TempoChange(tick, made.randint(300_000, 900_000)) for tick in ticks if tick == 0 or made.random() < 0.5]
+    score = Score("", TPQ, TempoMap.of_changes(TPQ, changes), metres)
+    axis, metrics = TimeAxis(), QFontMetricsF(QFont())
+    axis.set_limits(-1.0, 100.0)
+    axis.set_width(600)
+    axis.show(made.uniform(-1.0, 30.0), made.uniform(31.0, 90.0))
+    marks = lay_marks(score, axis, metrics, 100.0, 700.0, 20.0)
+    assert marks
+    laid = [(mark.kind, mark.tick, mark.text, pytest.approx(mark.rect.left())) for mark in marks]
+    assert laid == slow_marks(score, axis, metrics)

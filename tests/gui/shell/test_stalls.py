@@ -1,0 +1,25 @@
+"""What the costliest files ask for is done beside the window: its thread is never busy for long."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.bench.hostile.__main__ import WINDOW
+from tests.fuzz.harness.campaign import Child
+from tests.fuzz.harness.costly_midi import COSTLY
+
+MOST_S = 0.5
+FILES = {"tracks of sixteen channels": 620, "lines of 40": 6_000}
+"""Bytes of each: many rows in the dialog; few notes, and many players of them."""
+
+
+def test_the_costliest_files_do_not_stall_the_window(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Imported without and with the dialog, edited, saved and read again; CPU of the window's thread alone counts."""
+    monkeypatch.setenv("SUISOU_LOOK_S", "0.1")
+    stalls_s = {}
+    with Child(("midi",), WINDOW) as window:
+        for name, size in FILES.items():
+            result = window.run("midi", COSTLY[name](size))
+            assert result.outcome == "accepted", (name, result)
+            stalls_s[name] = result.cpu_s
+    assert {name: stall_s for name, stall_s in stalls_s.items() if stall_s > MOST_S} == {}, stalls_s
