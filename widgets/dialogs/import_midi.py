@@ -222,6 +222,9 @@ class ImportDialog(QDialog):
         end = min(self._filled + count, len(self._rows))
         for place in range(self._filled, end):
             self._fill_row(place, self._rows[place])
+        if self._filled == 0 or end == len(self._rows):
+            # Qt does not measure widgets that come later.
+            self._table.resizeColumnsToContents()
         self._filled = end
         if end < len(self._rows):
             self._filling.start()

@@ -196,8 +196,15 @@ def test_what_comes_of_the_choices_is_worked_out_beside_the_window(qt_app: QAppl
     summary = dialog.findChild(QLabel, "import_summary")
     assert summary is not None
     assert (dialog.rows, agree.isEnabled(), dialog._table.rowCount()) == ((), False, 0)
+    QApplication.processEvents()
     tasks.work(0)
     assert (len(dialog.rows), agree.isEnabled(), summary.text()) == (4, True, "Players: 3")
+    # There is room for what came after the dialog was shown.
+    QApplication.processEvents()
+    for column in range(dialog._table.columnCount()):
+        widget = dialog._table.cellWidget(0, column)
+        assert widget is not None
+        assert dialog._table.columnWidth(column) >= widget.sizeHint().width(), column
     for place in (0, 1):
         box = dialog.findChild(QCheckBox, f"play_{place}")
         assert box is not None
