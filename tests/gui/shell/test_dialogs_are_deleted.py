@@ -1,0 +1,112 @@
+"""A dialog that was closed leaves no widget behind, however it was opened and closed."""
+
+from __future__ import annotations
+
+import importlib
+import pkgutil
+from collections import Counter
+from collections.abc import Callable
+from pathlib import Path
+
+from PySide6.QtCore import QTimer
+from PySide6.QtWidgets import QApplication, QDialog, QMessageBox
+
+import app.shell
+import widgets.dialogs
+from app.rig.read_figure import read_figure
+from app.score.read import read_contents
+from app.shell import characters, questions
+from app.shell.app import Program
+from app.shell.commands.exchange import reimport_from
+from app.shell.licences_dialog import LicencesDialog
+from app.shell.questions import Dialogs
+from tests.gui.conftest import QUARTET, delete_now
+from tests.gui.shell.conftest import Studio, trigger
+from tests.unit.cli.test_main import ROOT
+from widgets.dialogs.character_draft import Draft
+from widgets.dialogs.instrument_map import InstrumentsDialog
+
+FIGURE = ROOT / "tests" / "data" / "characters" / "toddler_vrm1.vrm"
+
+Open = Callable[[Program], object]
+
+
+def command(action_id: str) -> Open:
+    return lambda program: trigger(program, action_id)
+
+
+def ask_about_instruments(program: Program) -> None:
+    """In a dialog that stays: what it asks is gone before it is."""
+    dialog = program.window.findChild(InstrumentsDialog) or InstrumentsDialog(program.session, program.window)
+    dialog.ask(1)
+
+
+OPENED: dict[str, Open] = {
+    "AboutDialog": command("application.about"),
+    "LicencesDialog": lambda program: LicencesDialog(program.window).open(),
+    "PreferencesDialog": command("application.preferences"),
+    "InstrumentsDialog": command("application.instruments"),
+    "CharactersDialog": command("application.characters"),
+    "CharacterDialog": lambda program: characters._dialog(
+        program.editor, FIGURE, read_figure(FIGURE), Draft("x"), give=True
+    ),
+    "ExportDialog": command("export.files"),
+    "PlayblastDialog": command("export.playblast"),
+    "StreamDialog": lambda program: program.window.show_streaming(),
+    "MidiDevicesDialog": command("record.devices"),
+    "LatencyDialog": lambda program: program.window.show_latency(),
+    "ReimportDialog": lambda program: reimport_from(program.session, QUARTET),
+    "ImportDialog": lambda program: Dialogs().import_midi(read_contents(QUARTET), str(QUARTET), program.session.tokens),
+    "MessageBox of unsaved changes": lambda program: Dialogs().unsaved("x"),
+    "MessageBox of a character": lambda program: Dialogs().remove_character("x", ("y",)),
+    "MessageBox of a file": lambda program: questions._may_replace("x", Path("y")),
+    "MessageBox of instruments": ask_about_instruments,
+}
+
+
+def test_no_dialog_is_missing_here() -> None:
+    for package in (widgets.dialogs, app.shell):
+        for module in pkgutil.iter_modules(package.__path__, f"{package.__name__}."):
+            importlib.import_module(module.name)
+    ours = {
+        each.__name__
+        for each in QDialog.__subclasses__()
+        if each.__module__.startswith(("app.", "widgets.")) and not issubclass(each, QMessageBox)
+    }
+    assert ours == {name for name in OPENED if " " not in name}
+
+
+def widgets_now() -> Counter[str]:
+    delete_now()
+    return Counter(type(widget).__name__ for widget in QApplication.allWidgets())
+
+
+def shut(way: str) -> set[str]:
+    """Close every dialog; returns their classes."""
+    seen = set()
+    for widget in QApplication.topLevelWidgets():
+        if isinstance(widget, QDialog) and widget.isVisible():
+            seen.add(type(widget).__name__)
+            getattr(widget, way)()
+    return seen
+
+
+def test_nothing_is_left(studio: Studio) -> None:
+    program = studio.program
+    program.editor.files.open(QUARTET, ask=False)
+    left = {}
+    for name, show in OPENED.items():
+        seen: set[str] = set()
+        counts = []
+        # The first time fills caches.
+        for way in ("reject", "close"):
+            # One that waits for an answer is closed while it waits.
+            QTimer.singleShot(0, lambda way=way, seen=seen: seen.update(shut(way)))
+            show(program)
+            QApplication.processEvents()
+            seen.update(shut(way))
+            counts.append(widgets_now())
+        assert name.split()[0] in seen
+        if grown := counts[-1] - counts[0]:
+            left[name] = dict(grown)
+    assert left == {}
