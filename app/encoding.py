@@ -59,9 +59,10 @@ def restored(text: str) -> str:
     if not text.startswith(PREFIX):
         return text
     try:
-        return os.fsdecode(unquote_to_bytes(text.removeprefix(PREFIX)))
+        path = os.fsdecode(unquote_to_bytes(text.removeprefix(PREFIX)))
     except UnicodeDecodeError:
         return text
+    return text if "\0" in path else path
 
 
 def shown(path: str | os.PathLike[str]) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -22,7 +23,7 @@ SURFACE_M = 0.001
 
 def model_problems(instrument: InstrumentMap, path: Path) -> Iterator[Problem]:
     """Yield what is wrong with the model of a map, as key paths of the map."""
-    if not path.is_file():
+    if not os.path.isfile(path):
         yield "model", f"there is no file '{instrument.model}' beside the map or among the bundled models"
         return
     try:

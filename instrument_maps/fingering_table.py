@@ -22,6 +22,7 @@ map.not_rewritten : file
 from __future__ import annotations
 
 import json
+import os
 import re
 from collections import Counter
 from collections.abc import Iterable, Sequence
@@ -279,7 +280,7 @@ def save_own(instrument: InstrumentMap, table: Table, folder: Path) -> Path | No
         Their file cannot be read, or the folder or the file not be written.
     """
     path = folder / f"{instrument.id}.toml"
-    before = toml_text(path) if path.exists() else None
+    before = toml_text(path) if os.path.exists(path) else None
     text = own_text(instrument, table, before, str(path))
     try:
         folder.mkdir(parents=True, exist_ok=True)

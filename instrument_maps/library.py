@@ -79,7 +79,7 @@ class Library:
         """
         folders = (self.folder, MODELS) if instrument.id in self.own else (MODELS,)
         for folder in folders:
-            if (folder / instrument.model).is_file():
+            if os.path.isfile(folder / instrument.model):
                 return folder / instrument.model
         raise MapError("map.unreadable", file=instrument.model, detail="no such model")
 
@@ -129,7 +129,7 @@ def _own_map(path: Path) -> tuple[InstrumentMap | None, tuple[Message, ...]]:
     except AppError as error:
         return None, (error.message,)
     beside = path.parent / instrument.model
-    wrong = model_problems(instrument, beside if beside.is_file() else MODELS / instrument.model)
+    wrong = model_problems(instrument, beside if os.path.isfile(beside) else MODELS / instrument.model)
     told = tuple(
         Message("table.invalid", {"file": str(path), "place": where, "detail": detail}) for where, detail in wrong
     )

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import contextlib
 import hashlib
+import os
 from collections.abc import Mapping
 from functools import cache, lru_cache
 from pathlib import Path
@@ -94,7 +95,7 @@ def check_map(path: Path | str) -> tuple[Message, ...]:
     found = [*problems(instrument)]
     if not any(where == "model" for where, _ in found):
         model = file.parent / instrument.model
-        found += model_problems(instrument, model if model.exists() else MODELS / instrument.model)
+        found += model_problems(instrument, model if os.path.exists(model) else MODELS / instrument.model)
     return tuple(
         Message("table.invalid", {"file": str(file), "place": where, "detail": detail}) for where, detail in found
     )
@@ -135,7 +136,7 @@ def _digest() -> str:
 def model_path(instrument: InstrumentMap) -> Path:
     """Return the file of a bundled map's model; MapError (``map.unreadable``) where there is none."""
     path = MODELS / instrument.model
-    if not path.is_file():
+    if not os.path.isfile(path):
         raise MapError("map.unreadable", file=instrument.model, detail="no such model")
     return path
 
@@ -180,7 +181,7 @@ def _extended(table: dict[str, Any], file: str, above: tuple[Path, ...]) -> dict
         raise MapError("table.invalid", file=file, place=BASE, detail=f"{base!r} is not the id of a map")
     # A person's own map may extend the bundled one of its own name.
     paths = [path for path in (folder / f"{base}.toml" for folder in (own.parent, FOLDER)) if path != own]
-    path = next((path for path in paths if path.is_file()), None)
+    path = next((path for path in paths if os.path.isfile(path)), None)
     if path in above or (path is None and base == own.stem):
         raise MapError("table.invalid", file=file, place=BASE, detail=f"'{base}' extends itself")
     if len(above) >= MOST_BASES:

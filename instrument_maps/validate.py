@@ -34,6 +34,7 @@ Problem: TypeAlias = tuple[str, str]
 
 _UNIT_TOLERANCE = 1e-3
 _REACH_M = 3.0
+_MOST_NAME = 200
 _CENTS = 200.0
 _SMALLEST, _LARGEST = 0.2, 4.0
 _HARMONICS = 20
@@ -68,6 +69,8 @@ def _head(instrument: InstrumentMap) -> Iterator[Problem]:
     for key, text in (("name.en", instrument.name.en), ("name.ja", instrument.name.ja)):
         if not text.strip():
             yield key, "is empty"
+        if len(text) > _MOST_NAME:
+            yield key, f"is longer than {_MOST_NAME} characters"
     if instrument.size != 1.0:
         yield "size", "is chosen for each player (hold.size_range); a file is as large as its model"
     if not instrument.plays:

@@ -148,7 +148,7 @@ class JournalWriter:
         self.path = path
         self.count = 0
         self._last_sync = (-_LARGEST_NS, 0)
-        mode = "r+" if resumed and Path(path).exists() else "x"
+        mode = "r+" if resumed and os.path.exists(path) else "x"
         try:
             self._file = FileIO(path, mode)
             # For whoever finds the journal: somebody still writes it.

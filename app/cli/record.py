@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import os
 import time
 from datetime import datetime
 from pathlib import Path
@@ -75,12 +76,12 @@ def record(arguments: argparse.Namespace) -> None:
     journal = target.with_name(f"{target.name}.take-journal")
     if arguments.port is None and not arguments.rescue:
         raise UsageError("record.no_port")
-    if target.exists():
+    if os.path.exists(target):
         raise FileError("record.exists", file=str(target))
     if is_locked(journal):
         raise FileError("record.running", file=str(target))
     if not arguments.rescue:
-        if journal.exists():
+        if os.path.exists(journal):
             raise FileError("record.journal_left", file=str(target), journal=journal.name)
         _listen(arguments, journal)
     _write(target, journal, arguments.tempo)

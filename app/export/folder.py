@@ -53,9 +53,9 @@ def files_into(folder: Path) -> Iterator[Path]:
 
 def _make(folder: Path, made: list[Path]) -> None:
     """Make a folder and those above it; ``made`` gets the new ones."""
-    if folder.is_dir():
+    if os.path.isdir(folder):
         return
-    if folder.exists():
+    if os.path.exists(folder):
         raise NotADirectoryError(errno.ENOTDIR, os.strerror(errno.ENOTDIR), folder)
     if folder.parent != folder:
         _make(folder.parent, made)

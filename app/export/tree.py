@@ -86,7 +86,7 @@ def tree_into(root: Path, scratch: Path) -> Iterator[TreeChange]:
         ``file.cannot_write``, ``tree.busy``, ``tree.leads_outside``, ``tree.refused``, ``tree.not_restored``.
     """
     refuse_links_out(root, [scratch.relative_to(root) / _NEW])
-    had_scratch = scratch.is_dir()
+    had_scratch = os.path.isdir(scratch)
     try:
         scratch.mkdir(parents=True, exist_ok=True)
     except OSError as error:
@@ -111,7 +111,7 @@ def tree_into(root: Path, scratch: Path) -> Iterator[TreeChange]:
             _commit(root, partial, change)
     finally:
         # What could not be given back stays, for the next one to try.
-        if not (partial / _LIST).exists():
+        if not os.path.exists(partial / _LIST):
             shutil.rmtree(partial, ignore_errors=True)
         if not had_scratch:
             with contextlib.suppress(OSError):  # it is in use now
@@ -140,10 +140,10 @@ def recover(root: Path, scratch: Path) -> None:
         ``tree.busy``: it is alive; ``tree.leads_outside``; ``tree.not_restored``: the system refuses.
     """
     refuse_links_out(root, [scratch.relative_to(root) / _OLD])
-    if not scratch.is_dir():
+    if not os.path.isdir(scratch):
         return
     for partial in sorted(path for path in scratch.iterdir() if _SCRATCH.fullmatch(path.name)):
-        if partial.is_symlink() or not partial.is_dir():
+        if os.path.islink(partial) or not os.path.isdir(partial):
             continue
         # Between making the folder and locking it, it has nothing to give back.
         if is_locked(partial / _LOCK):
@@ -164,7 +164,7 @@ def refuse_links_out(root: Path, paths: Iterable[Path | PurePath]) -> None:
 
 def files_below(folder: Path) -> list[Path]:
     """All files below a folder, relative to it, in order."""
-    return sorted(path.relative_to(folder) for path in folder.rglob("*") if path.is_file())
+    return sorted(path.relative_to(folder) for path in folder.rglob("*") if os.path.isfile(path))
 
 
 def stays_inside(name: str) -> bool:
@@ -180,9 +180,9 @@ def _commit(root: Path, partial: Path, change: TreeChange) -> None:
     try:
         for path in [*coming, *change.removed]:
             at = root / path
-            if at.is_dir():
+            if os.path.isdir(at):
                 raise IsADirectoryError(f"{path.name} is a folder")
-            if at.exists():
+            if os.path.exists(at):
                 # A second name rather than a move: at every moment each file is there, old or new.
                 _second_name(at, partial / _OLD / path)
         _write_list(partial, coming)
@@ -213,19 +213,19 @@ def _write_list(partial: Path, coming: list[Path]) -> None:
 
 def _give_back(root: Path, partial: Path) -> None:
     """Make the tree what it was before its change began."""
-    if not (partial / _LIST).is_file():
+    if not os.path.isfile(partial / _LIST):
         return
     lines = read_file(partial / _LIST, MOST_BYTES).decode("utf-8", "replace").splitlines()
     # A project comes from anywhere, with whatever list in it.
     coming = [Path(line) for line in lines if stays_inside(line)]
     refuse_links_out(root, [*coming, partial.relative_to(root) / _OLD / _LIST])
-    old = files_below(partial / _OLD) if (partial / _OLD).is_dir() else []
+    old = files_below(partial / _OLD) if os.path.isdir(partial / _OLD) else []
     refuse_links_out(root, old)
     at = root
     try:
         for path in coming:
             # What has not moved yet is still among the new ones.
-            if path not in old and not (partial / _NEW / path).exists():
+            if path not in old and not os.path.exists(partial / _NEW / path):
                 at = root / path
                 at.unlink(missing_ok=True)
             _prune((root / path).parent, root)

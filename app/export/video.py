@@ -86,7 +86,7 @@ def video_into(
     """
     if any(length % 2 or length <= 0 for length in size):
         raise ValueError(f"a film's width and height are even: {size}")
-    if not path.parent.is_dir():
+    if not os.path.isdir(path.parent):
         raise FileError("file.cannot_write", file=os.fspath(path), reason=os.strerror(errno.ENOENT))
     # In a folder of the film's own: others may write beside it meanwhile.
     making = path.with_name(f".{hashlib.sha256(os.fsencode(path.name)).hexdigest()[:16]}.making")

@@ -69,7 +69,7 @@ def atomic_write(
             yield stream
             stream.flush()
             os.fsync(stream.fileno())
-            if backup is not None and target.exists():
+            if backup is not None and os.path.exists(target):
                 shutil.copymode(target, partial)
                 _keep(target, backup)
             _rename(stream, partial, target)

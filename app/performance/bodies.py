@@ -6,6 +6,7 @@ Messages: ``character.hold_failed`` (character, instrument, detail): "{character
 from __future__ import annotations
 
 import contextlib
+import os
 from collections.abc import Callable
 from functools import cache, lru_cache
 from typing import TypeVar
@@ -129,4 +130,4 @@ def _pair(player: Player, instrument: InstrumentMap) -> tuple[str, int, str, int
 
 @cache
 def _is_stored(character_id: str, instrument_id: str) -> bool:
-    return bundled_path(character_id, instrument_id).is_file()
+    return os.path.isfile(bundled_path(character_id, instrument_id))

@@ -3,6 +3,7 @@ is kept."""
 
 from __future__ import annotations
 
+import os
 import time
 from datetime import UTC, datetime
 from pathlib import Path
@@ -54,4 +55,4 @@ def journals_of(document: Path | None, *stems: Path) -> tuple[Path, ...]:
 
 def _is_left(path: Path) -> bool:
     """Whether it is a file, which nobody writes any more. A link is none of ours, and where it leads is not opened."""
-    return path.is_file() and not path.is_symlink() and not is_locked(path)
+    return os.path.isfile(path) and not os.path.islink(path) and not is_locked(path)

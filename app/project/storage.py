@@ -130,7 +130,7 @@ def save(project: Project, path: str | os.PathLike[str]) -> str:
     """
     target = Path(os.path.realpath(path))
     content = encode(project, target)
-    if target.exists() and not os.access(target, os.W_OK):
+    if os.path.exists(target) and not os.access(target, os.W_OK):
         raise FileError("project.read_only", file=os.fspath(path))
     with atomic_write(path, backup=backup_path(target)) as stream:
         stream.write(content)
@@ -302,10 +302,7 @@ def missing_media(project: Project) -> Path | None:
     if project.audio is None:
         return None
     path = Path(project.audio.path)
-    try:
-        return None if path.is_file() else path
-    except (OSError, ValueError):
-        return path
+    return None if os.path.isfile(path) else path
 
 
 def _is_version(value: object) -> bool:

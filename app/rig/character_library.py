@@ -47,6 +47,7 @@ from app.rig.read_figure import SUFFIXES
 FOLDER_VARIABLE: Final = "SUISOU_CHARACTERS"
 """Environment variable that names another folder for a person's own characters."""
 MOST_ID: Final = 60
+MOST_TITLE: Final = 200
 RESERVED: Final = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)", re.IGNORECASE)
 """Names that are devices on Windows."""
 
@@ -185,7 +186,7 @@ def _own_source(path: Path) -> Source:
         raise FileError("character.taken", file=str(path), id=path.stem)
     entry = read_entry(path)
     file = path.parent / entry.file
-    if not file.is_file():
+    if not os.path.isfile(file):
         raise FileError("character.file_missing", file=str(path), name=entry.file)
     return Source(file, entry, _stamp([path, file]))
 
@@ -196,6 +197,8 @@ def read_entry(path: Path) -> CharacterEntry:
     if not _is_plain(entry.file):
         detail = f"{shortened(entry.file)!r} must be the name of a file in this folder ({', '.join(SUFFIXES)})"
         raise MapError("table.invalid", file=str(path), place="file", detail=detail)
+    if len(entry.title) > MOST_TITLE:
+        raise MapError("table.invalid", file=str(path), place="title", detail=f"at most {MOST_TITLE} characters")
     return entry
 
 
@@ -332,7 +335,7 @@ def add_character(
     FileError
         It cannot play, or cannot be copied.
     """
-    title = title or shown(path.stem)
+    title = shortened(" ".join(title.split()), MOST_TITLE) or shown(path.stem)
     load_character(path, shown(path.stem), joints or {}, morphs or {})
     folder = own_folder()
     try:

@@ -9,10 +9,11 @@ import msgspec
 from PySide6.QtCore import QCoreApplication
 
 from app.encoding import shown
-from app.errors import AppError, Message
+from app.errors import AppError, Message, shortened
 from app.project.edit.players import change
 from app.rig.character import read_character
 from app.rig.character_library import (
+    MOST_TITLE,
     CharacterEntry,
     add_character,
     character_library,
@@ -143,7 +144,8 @@ def _keep(editor: Editor, path: Path, draft: Draft, give: bool) -> None:
 def _change(editor: Editor, id: str, entry: CharacterEntry, draft: Draft) -> None:
     """Describe a character anew."""
     morphs = {face: dict(parts) for face, parts in draft.morphs.items()}
-    now = msgspec.structs.replace(entry, title=draft.title, joints=dict(draft.joints), morphs=morphs)
+    title = shortened(" ".join(draft.title.split()), MOST_TITLE)
+    now = msgspec.structs.replace(entry, title=title, joints=dict(draft.joints), morphs=morphs)
     if now == entry:
         return
     try:

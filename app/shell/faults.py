@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import platform
 import sys
 import threading
@@ -107,9 +108,9 @@ class Faults:
         head = f"{datetime.now(UTC).isoformat(timespec='seconds')} Python {platform.python_version()} {sys.platform}"
         try:
             self._log.parent.mkdir(parents=True, exist_ok=True)
-            if self._log.exists() and not self._log.is_file():
+            if os.path.exists(self._log) and not os.path.isfile(self._log):
                 raise OSError(f"{self._log} is no file")  # A pipe would wait for a reader.
-            is_long = self._log.exists() and self._log.stat().st_size > MOST_BYTES
+            is_long = os.path.exists(self._log) and self._log.stat().st_size > MOST_BYTES
             with self._log.open("w" if is_long else "a", encoding="utf-8", errors="backslashreplace") as stream:
                 stream.write(f"{head}\n{text}\n")
         except OSError as error:

@@ -20,6 +20,7 @@ from app.project.document import Change
 from app.project.edit.piece import new_piece, set_audio, set_offset
 from app.project.importing import import_project, usual_rows
 from app.project.model import Project
+from app.project.names import file_stem
 from app.project.recovery import Recoverable, discard, load_work, recoverable, recoverable_of
 from app.rig.character_library import reload_characters
 from app.score.read import MidiContents, read_contents
@@ -105,6 +106,11 @@ class Files(QObject):
         if source:
             return shown(Path(source).stem)
         return score.title or QCoreApplication.translate("Files", "Untitled")
+
+    @property
+    def stem(self) -> str:
+        """What files of the project are proposed to be called, without an ending."""
+        return shown(self.path.stem) if self.path is not None else file_stem(self.name)
 
     @property
     def is_saved(self) -> bool:
@@ -239,7 +245,7 @@ class Files(QObject):
         def failed(error: AppError) -> None:
             self.session.notice(error.message, Severity.ERROR)
             # Unlike `Path.exists`, it is no error where the name cannot be any file's.
-            if not os.path.exists(path):  # noqa: PTH110
+            if not os.path.exists(path):
                 self.changed.emit()
 
         return failed
@@ -314,7 +320,7 @@ class Files(QObject):
 
     def save_as(self, then: Then | None = None) -> None:
         """Save to another file, which is the project's from now on."""
-        proposal = str(Path(self.folder) / f"{Path(self.name).stem}{storage.SUFFIX}")
+        proposal = str(Path(self.folder) / f"{self.stem}{storage.SUFFIX}")
         path = self.questions.save_file(
             QCoreApplication.translate("Files", "Save project"),
             proposal,

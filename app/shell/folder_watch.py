@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import os
 from collections.abc import Callable, Collection
 from pathlib import Path
 
@@ -43,9 +44,9 @@ class FolderWatch(QObject):
     def look(self) -> None:
         """Watch the folder and its files as they are now; a folder that is not there yet, by the one it would be in."""
         folder = self._folder()
-        wanted = {str(next(place for place in (folder, *folder.parents) if place.is_dir()))}
+        wanted = {str(next(place for place in (folder, *folder.parents) if os.path.isdir(place)))}
         with contextlib.suppress(FileError):  # Who reads the folder says that it cannot be listed.
-            wanted |= {str(path) for path in files_in(folder, *self._suffixes) if path.exists()}
+            wanted |= {str(path) for path in files_in(folder, *self._suffixes) if os.path.exists(path)}
         # Of what is not UTF-8 Qt would watch something else.
         wanted = set(filter(is_text, wanted))
         watched = {*self._watcher.directories(), *self._watcher.files()}

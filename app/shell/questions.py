@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Literal, Protocol
@@ -55,7 +56,7 @@ class Dialogs:
                 return None
             path = with_suffix(chosen, suffixes)
             # The system's dialog has asked about the name as it was typed.
-            if path == chosen or not path.exists() or _may_replace(title, path):
+            if path == chosen or not os.path.exists(path) or _may_replace(title, path):
                 return path
             proposal = str(path)
 

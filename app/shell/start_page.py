@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from functools import partial
 from pathlib import Path
 
@@ -188,7 +189,7 @@ class StartPage(QScrollArea):
         row = QWidget()
         line = QHBoxLayout(row)
         line.setContentsMargins(0, 0, 0, 0)
-        there = path.is_file()
+        there = os.path.isfile(path)
         button = _row_button("recent_file")
         metrics = QFontMetrics(button.font())
         name = metrics.elidedText(shown(path.name), Qt.TextElideMode.ElideMiddle, RECENT_PX - LEAST_FOLDER_PX)

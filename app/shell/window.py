@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
@@ -344,7 +345,7 @@ class Window(QMainWindow):
         for text in self.editor.settings.recent:
             path = Path(text)
             row = menu.addAction(verbatim(f"{shown(path.name)}    {shown(path.parent)}"))
-            row.setEnabled(path.is_file())
+            row.setEnabled(os.path.isfile(path))
             row.triggered.connect(partial(self._open_recent, path))
         if menu.isEmpty():
             menu.addAction(self.tr("Nothing yet")).setEnabled(False)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -94,7 +95,7 @@ def foresee(
     wanted = [name for player_id in player_ids for name in names[player_id].values()] + [REPORT]
     if sound:
         wanted.append(sound_name(source))
-    return Foreseen(len(wanted), tuple(name for name in wanted if (place / name).exists()))
+    return Foreseen(len(wanted), tuple(name for name in wanted if os.path.exists(place / name)))
 
 
 def write(

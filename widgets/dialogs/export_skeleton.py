@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 from pathlib import Path
 from typing import TypeAlias
@@ -102,7 +103,7 @@ class SkeletonChooser(QWidget):
             return self.tr("The skeletons are being compared.")
         if self._error is not None:
             return sentence(self._error.message)
-        if self.asset is not None and not self.asset.is_file():
+        if self.asset is not None and not os.path.isfile(self.asset):
             return self.tr("There is no file of this name to compare with.")
         if self._checked and not any(map(_fits, self._checked.values())):
             return self.tr("The asset has another skeleton: its animation would be lost or spoilt.")
@@ -116,7 +117,7 @@ class SkeletonChooser(QWidget):
         if wanted == self._wanted:
             return
         self._wanted, self._checked, self._error = wanted, {}, None
-        self._comparing = asset is not None and asset.is_file()
+        self._comparing = asset is not None and os.path.isfile(asset)
         if self._comparing and asset is not None:
             name = Message("work.compare_skeleton", {"file": asset.name})
             self._session.tasks.run(name, _comparison(wanted, players, choice, asset), self._found, key=_KEY)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import queue
 import threading
 from collections.abc import Callable
@@ -260,7 +261,7 @@ class PlayblastDialog(QDialog):
     def _show_state(self) -> None:
         path = self._file.path
         self._start.setEnabled(path is not None and not self._running)
-        exists = path is not None and path.is_file()
+        exists = path is not None and os.path.isfile(path)
         self._state.setText(self.tr("This file is there and will be replaced.") if exists else "")
 
     def retranslate(self) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 from typing import Final
@@ -89,7 +90,7 @@ def piece_name(source: str, folder: Path) -> str:
     """
     name = asset_name(Path(source).stem, "Piece")
     sources = folder / SOURCES
-    there = sorted(path.name for path in sources.iterdir()) if sources.is_dir() else []
+    there = sorted(path.name for path in sources.iterdir()) if os.path.isdir(sources) else []
     return next((other for other in there if other.casefold() == name.casefold()), name)
 
 

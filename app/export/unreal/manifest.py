@@ -111,11 +111,11 @@ def changes(
     for path in sorted(coming):
         there = folder / path
         if path == PurePosixPath(MANIFEST):
-            if there.exists():
+            if os.path.exists(there):
                 replaced.append(path)
-        elif there.exists() or there.is_symlink():
+        elif os.path.exists(there) or os.path.islink(there):
             known = own.get(path)
-            if known is None or not there.is_file():
+            if known is None or not os.path.isfile(there):
                 raise FileError("unreal.in_the_way", file=os.fspath(there))
             if not is_as_left(there, known, by_length):
                 raise FileError("unreal.changed", file=os.fspath(there))
@@ -123,7 +123,7 @@ def changes(
     removed, kept = [], []
     for path, known in sorted(own.items()):
         there = folder / path
-        if path not in coming and path not in stays and there.is_file():
+        if path not in coming and path not in stays and os.path.isfile(there):
             if is_as_left(there, known, by_length):
                 removed.append(path)
             else:
@@ -135,7 +135,7 @@ def changes(
 def read_manifest(folder: Path) -> dict[PurePosixPath, OwnFile]:
     """The files of a folder that are ours; none where there is no manifest."""
     path = folder / MANIFEST
-    if not path.exists():
+    if not os.path.exists(path):
         return {}
     try:
         manifest = decode_json(read_file(path, MOST_BYTES), Manifest, os.fspath(path))

@@ -12,7 +12,6 @@ from __future__ import annotations
 import json
 import os
 from importlib.resources import files
-from importlib.resources.abc import Traversable
 from pathlib import Path, PurePosixPath
 from typing import Final
 
@@ -27,7 +26,7 @@ CREATED_BY: Final = "Suisou"
 
 def plugin_files() -> dict[PurePosixPath, bytes]:
     """What the plug-in consists of, by path in its folder."""
-    return dict(sorted(_below(files("resources") / "unreal" / "Suisou", PurePosixPath())))
+    return dict(sorted(_below(Path(str(files("resources"))) / "unreal" / "Suisou", PurePosixPath())))
 
 
 def wanted_plugin(folder: Path) -> dict[PurePosixPath, bytes]:
@@ -40,9 +39,9 @@ def wanted_plugin(folder: Path) -> dict[PurePosixPath, bytes]:
     """
     own = plugin_files()
     place = folder / PLUGIN
-    if not place.exists():
+    if not os.path.exists(place):
         return own
-    there = _version(read_file(place / DESCRIPTOR, MOST_BYTES)) if (place / DESCRIPTOR).is_file() else None
+    there = _version(read_file(place / DESCRIPTOR, MOST_BYTES)) if os.path.isfile(place / DESCRIPTOR) else None
     if there is None and any(path.name != MANIFEST for path in place.iterdir()):
         raise FileError("unreal.plugin_foreign", file=os.fspath(place))
     newest = _version(own[PurePosixPath(DESCRIPTOR)])
@@ -64,10 +63,10 @@ def _version(descriptor: bytes) -> int | None:
     return version if isinstance(version, int) else None
 
 
-def _below(folder: Traversable, path: PurePosixPath) -> list[tuple[PurePosixPath, bytes]]:
+def _below(folder: Path, path: PurePosixPath) -> list[tuple[PurePosixPath, bytes]]:
     found: list[tuple[PurePosixPath, bytes]] = []
     for entry in folder.iterdir():
-        if entry.is_dir():
+        if os.path.isdir(entry):
             if entry.name != "__pycache__":
                 found += _below(entry, path / entry.name)
         else:

@@ -92,16 +92,16 @@ def require_writable(project: UnrealProject, paths: Iterable[PurePosixPath] = ()
 
 
 def _project_file(path: Path) -> Path:
-    if path.is_dir():
-        found = sorted(file for file in path.iterdir() if file.suffix.lower() == ".uproject" and file.is_file())
+    if os.path.isdir(path):
+        found = sorted(file for file in path.iterdir() if file.suffix.lower() == ".uproject" and os.path.isfile(file))
         if not found:
             raise FileError("unreal.no_project", file=os.fspath(path))
         if len(found) > 1:
             raise FileError("unreal.several", file=os.fspath(path), names=", ".join(file.name for file in found))
         return found[0].absolute()
-    if not path.exists():
+    if not os.path.exists(path):
         raise FileError("unreal.not_found", file=os.fspath(path))
-    if path.suffix.lower() != ".uproject" or not path.is_file():
+    if path.suffix.lower() != ".uproject" or not os.path.isfile(path):
         raise FileError("unreal.no_project", file=os.fspath(path))
     return path.absolute()
 

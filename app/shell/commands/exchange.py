@@ -3,6 +3,7 @@ out."""
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 from PySide6.QtCore import QCoreApplication, Qt
@@ -27,7 +28,7 @@ from widgets.inspector.words import correction_title
 def read_again(session: Session) -> None:
     """Read the project's MIDI file once more; one that is not there any more is asked for."""
     source = Path(session.project.source) if session.project.source else None
-    if source is not None and source.is_file():
+    if source is not None and os.path.isfile(source):
         reimport_from(session, source)
     else:
         read_another(session)
@@ -95,7 +96,7 @@ def export_midi(session: Session) -> None:
     """Ask for a file, and write the piece to it as MIDI."""
     editor = editor_of(session)
     translate = QCoreApplication.translate
-    proposal = Path(editor.files.folder) / f"{Path(editor.files.name).stem}.mid"
+    proposal = Path(editor.files.folder) / f"{editor.files.stem}.mid"
     kinds = f"{translate('Files', 'MIDI files')} (*.mid)"
     target = editor.questions.save_file(translate("Files", "Export MIDI"), str(proposal), kinds, MIDI_SUFFIXES)
     if target is None:
@@ -150,7 +151,7 @@ def export_files(session: Session) -> None:
 def playblast(session: Session) -> None:
     """Ask for a film of the viewport, and make it."""
     editor = editor_of(session)
-    path = Path(editor.files.folder) / f"{Path(editor.files.name).stem}.mp4"
+    path = Path(editor.files.folder) / f"{editor.files.stem}.mp4"
     project = session.project
     from app.audio.mix import mixdown
     from widgets.dialogs.playblast import PlayblastDialog

@@ -56,7 +56,9 @@ OPENED: dict[str, Open] = {
     "MidiDevicesDialog": command("record.devices"),
     "LatencyDialog": lambda program: program.window.show_latency(),
     "ReimportDialog": lambda program: reimport_from(program.session, QUARTET),
-    "ImportDialog": lambda program: Dialogs().import_midi(read_contents(QUARTET), str(QUARTET), program.session.tokens),
+    "ImportDialog": lambda program: Dialogs().import_midi(
+        read_contents(QUARTET), program.session.tokens, program.session.tasks
+    ),
     "MessageBox of unsaved changes": lambda program: Dialogs().unsaved("x"),
     "MessageBox of a character": lambda program: Dialogs().remove_character("x", ("y",)),
     "MessageBox of a file": lambda program: questions._may_replace("x", Path("y")),

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -15,15 +17,19 @@ from pytestqt.qtbot import QtBot
 
 from app.errors import Message
 from app.project.edit.piece import set_title
+from app.project.names import file_stem
 from app.project.recovery import Recoverable
 from app.project.storage import load
 from app.shell.app import Program
 from app.shell.questions import Dialogs
+from app.shell.settings import Settings
+from tests.gui.conftest import QUARTET
 from tests.gui.shell.conftest import Answers, Start, trigger
 from tests.support.odd_names import NAME, odd, on_bytes
 from tests.unit.cli.test_main import named_piece
 from widgets.common.paths import PathEdit, ask_for_file, ask_for_folder, url_of
 from widgets.dialogs.export_files import ExportDialog
+from widgets.dialogs.playblast import PlayblastDialog
 from widgets.dialogs.reimport_midi import ReimportDialog
 
 pytestmark = on_bytes
@@ -146,3 +152,63 @@ def test_dialogs_give_the_bytes_and_begin_where_qt_can_be(
     assert ask_for_folder(None, "Folder", folder) == odd(folder, ".suisou")
     assert ask_for_file(None, "Open", None, "*") == odd(folder, ".suisou")
     assert begun == [str(folder.parent), f"{folder.parent}/{NAME}.suisou", str(folder.parent), str(Path.home())]
+
+
+def test_names_that_no_file_can_have(start: Start, settings: Settings, answers: Answers, qtbot: QtBot) -> None:
+    """Longer than the system takes them: from a settings file, a project and a field, each is refused and named."""
+    name = "長" * 2_000
+    folder = Path("/tmp") / name
+    settings.folder = settings.export_folder = str(folder)
+    settings.add_recent(folder / f"{name}.mid")
+    program = start()
+    told: list[Message] = []
+    program.session.noticed.connect(lambda message, severity: told.append(message))
+    (row,) = program.window.start_page.findChildren(QPushButton, "recent_file")
+    assert not row.isEnabled()
+    program.window._fill_recent()
+    program.editor.files.open(folder / f"{name}.mid")
+    program.editor.files.open(QUARTET, ask=False)
+    program.session.document.apply(
+        Message("edit.set_tempo"), replace(program.session.project, source=str(folder / f"{name}.mid"))
+    )
+    answers.path = folder / f"{name}.suisou"
+    for action_id in ("file.export_midi", "file.reimport"):
+        trigger(program, action_id)
+    assert [message.id for message in told] == ["file.cannot_read", "file.cannot_write", "file.cannot_read"]
+    assert all(name in str(message.arguments.get("file", "")) for message in told)
+    told.clear()
+    trigger(program, "export.files")
+    (export,) = program.window.findChildren(ExportDialog)
+    export.start()
+    outcome = export.findChild(QLabel, "export_outcome")
+    assert outcome is not None
+    qtbot.waitUntil(lambda: name in outcome.text(), timeout=30_000)
+    export.close()
+    trigger(program, "export.playblast")
+    (film,) = program.window.findChildren(PlayblastDialog)
+    film.close()
+
+
+def test_a_name_is_proposed_that_a_file_can_have(empty: Program, answers: Answers) -> None:
+    """Whatever the piece is called."""
+    proposals: list[str] = []
+
+    def save_file(title: str, proposal: str, filters: str, suffixes: Sequence[str]) -> None:
+        proposals.append(proposal)
+
+    answers.save_file = save_file  # type: ignore[assignment]
+    empty.editor.files.open(QUARTET, ask=False)
+    empty.session.document.apply(Message("edit.set_tempo"), replace(empty.session.project, source=""))
+    empty.session.attempt(Message("edit.set_tempo"), lambda project: set_title(project, "a/../\\:*" + "長" * 300))
+    for action_id in ("file.save_as", "file.export_midi"):
+        trigger(empty, action_id)
+    trigger(empty, "export.playblast")
+    (film,) = empty.window.findChildren(PlayblastDialog)
+    field = film.findChild(PathEdit)
+    assert field is not None
+    proposals.append(str(field.path))
+    film.close()
+    assert len(proposals) == 3
+    for proposal in proposals:
+        assert Path(proposal).parent == Path(empty.editor.files.folder)
+        assert Path(proposal).stem == file_stem(empty.session.project.score.title)

@@ -78,6 +78,9 @@ def test_everything_bad_at_once(homes: Path, qtbot: QtBot, qt_app: object) -> No
     os.mkfifo(folders[0] / "kazoo.glb")
     (folders[1] / "piped.toml").write_text('file = "piped.vrm"\n')
     os.mkfifo(folders[1] / "piped.vrm")
+    # No file can be called so.
+    (folders[0] / "long.toml").write_text(f'extends = "trumpet_Bb"\nid = "long"\nmodel = "{"m" * 5000}.glb"\n')
+    (folders[1] / "long.toml").write_text(f'file = "{"m" * 5000}.vrm"\n')
     settings_path().parent.mkdir(exist_ok=True)
     BAD["infinite"](settings_path())
     recovery = homes / "recovery"
@@ -94,14 +97,14 @@ def test_everything_bad_at_once(homes: Path, qtbot: QtBot, qt_app: object) -> No
     program = Program(settings, ImmediateTasks(), Answers(), Autosave(Presence(recovery)), heard=False)
     program.session.noticed.connect(lambda message, severity: told.append(message))
     program.window.show()
-    qtbot.waitUntil(lambda: len({file_of(message) for message in told}) >= 2 * len(BAD) + 2)
+    qtbot.waitUntil(lambda: len({file_of(message) for message in told}) >= 2 * len(BAD) + 4)
     try:
         said = {file_of(message) for message in told}
         assert str(settings_path()) in said
         for folder in folders[:2]:
             missing = {name for name in names[folder] if shown(folder / name) not in said}
             assert missing == set()
-        assert {str(folders[0] / "kazoo.toml")} <= said
+        assert {str(folders[0] / "kazoo.toml"), *(str(folder / "long.toml") for folder in folders[:2])} <= said
         # Presets and expressions say theirs where they are chosen.
         assert content(folders[0]) == before[folders[0]]
         assert all(content(folder) == before[folder] for folder in folders)

@@ -119,6 +119,27 @@ def test_recording(run: Run, folder: Path) -> None:
     assert f"{NAME}/{NAME}.mid" in readable(err)
 
 
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ("inspect", "{name}.mid"),
+        ("inspect", "{name}.suisou"),
+        ("midi", QUARTET, "--to", "{name}.mid"),
+        ("export", QUARTET, "--to", "{name}/out"),
+        ("export", QUARTET, "--unreal", "{name}.uproject"),
+        ("characters", "check", "{name}.vrm"),
+        ("instruments", "check", "{name}.toml"),
+        ("record", "--rescue", "--to", "{name}.mid"),
+        ("record", "--port", "x", "--to", "{name}.mid"),
+    ],
+)
+def test_names_longer_than_the_system_takes(run: Run, tmp_path: Path, arguments: tuple[str | Path, ...]) -> None:
+    name = "長" * 300
+    status, out, err = run(*(str(each).replace("{name}", str(tmp_path / name)) for each in arguments))
+    assert status == 1
+    assert name in out + err
+
+
 @pytest.mark.parametrize("locale", [{"LANG": "C"}, {"LC_ALL": "POSIX", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}])
 def test_locales_that_are_not_utf8(tmp_path: Path, locale: dict[str, str]) -> None:
     """Names are on the disk as they are meant, whatever Python makes of the locale."""

@@ -71,6 +71,7 @@ def test_unreadable_files_are_our_errors(tmp_path: Path) -> None:
         ('finger = "right.middle"', 'finger = "right.midle"', "controls[1].finger", "'right.midle' is not a finger"),
         ("schema_version = 1", "schema_version = 2", "schema_version", "2 is not 1"),
         ('id = "trumpet_Bb"', 'id = "../trumpet"', "id", "'../trumpet' is not a plain name"),
+        ('en = "Trumpet in B flat"', f'en = "{"t" * 201}"', "name.en", "is longer than 200 characters"),
         (
             'label = "123", controls',
             'label = "12", controls',

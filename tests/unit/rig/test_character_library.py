@@ -68,6 +68,13 @@ def test_who_is_added_can_play_under_an_id_of_its_own(folder: Path) -> None:
     assert OURS.is_file()
 
 
+def test_a_long_title_is_cut_when_written_and_refused_when_read(folder: Path) -> None:
+    added = add_character(OURS, "Ms. Mori\n" + "m" * 20_000)
+    assert library().own[added].title == "Ms. Mori " + "m" * 190 + "…"
+    (folder / "other.toml").write_text(f'file = "{added}.glb"\ntitle = "{"m" * 201}"\n')
+    assert reload_characters().problems[folder / "other.toml"].arguments["place"] == "title"
+
+
 def test_who_cannot_play_is_not_added(folder: Path, tmp_path: Path) -> None:
     broken = tmp_path / "broken.vrm"
     broken.write_bytes(OURS.read_bytes()[:5000])
