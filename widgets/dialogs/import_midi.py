@@ -223,8 +223,8 @@ class ImportDialog(QDialog):
         for place in range(self._filled, end):
             self._fill_row(place, self._rows[place])
         if self._filled == 0 or end == len(self._rows):
-            # Qt does not measure widgets that come later.
-            self._table.resizeColumnsToContents()
+            # Said again, the table measures its columns again: Qt does not do so for widgets that come later.
+            self._table.horizontalHeader().setSectionResizeMode(_PREVIEW, QHeaderView.ResizeMode.Stretch)
         self._filled = end
         if end < len(self._rows):
             self._filling.start()

@@ -201,7 +201,10 @@ def test_what_comes_of_the_choices_is_worked_out_beside_the_window(qt_app: QAppl
     assert (len(dialog.rows), agree.isEnabled(), summary.text()) == (4, True, "Players: 3")
     # There is room for what came after the dialog was shown.
     QApplication.processEvents()
-    for column in range(dialog._table.columnCount()):
+    columns = range(dialog._table.columnCount())
+    header = dialog._table.horizontalHeader()
+    assert header.length() == header.viewport().width()
+    for column in columns:
         widget = dialog._table.cellWidget(0, column)
         assert widget is not None
         assert dialog._table.columnWidth(column) >= widget.sizeHint().width(), column
