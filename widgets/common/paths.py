@@ -74,18 +74,28 @@ def _reachable(path: Path | None) -> Path:
 
 
 class PathEdit(QLineEdit):
-    """A path that can be typed; one that is not UTF-8 is written so that it can (`app.encoding.stored`)."""
+    """A path that can be typed; one that is not UTF-8 is written so that it can (`app.encoding.stored`), and its tip
+    has it readable."""
 
     def __init__(self, path: Path | None = None, parent: QWidget | None = None) -> None:
         super().__init__(parent)
+        self._set: Path | None = None
+        self.textChanged.connect(self._show_tip)
         self.set_path(path)
 
     @property
     def path(self) -> Path | None:
         """The path; None where nothing is typed."""
+        if self._set is not None and self.text() == stored(self._set):
+            return self._set  # also one that ends with a blank
         text = self.text().strip()
         return Path(restored(text)) if text else None
 
     def set_path(self, path: Path | None) -> None:
         """Show another path; None: nothing."""
+        self._set = path
         self.setText("" if path is None else stored(path))
+
+    def _show_tip(self, text: str) -> None:
+        readable = shown(restored(text))
+        self.setToolTip("" if readable == text else readable)

@@ -126,10 +126,15 @@ def test_players_are_exported(empty: Program, folder: Path, qtbot: QtBot) -> Non
 def test_a_path_that_is_typed(qt_app: QApplication, folder: Path) -> None:
     edit = PathEdit(odd(folder, ".mp4"))
     assert edit.path == odd(folder, ".mp4")
+    assert edit.toolTip() == f"{folder.parent}/{NAME}/{NAME}.mp4"
     edit.setText(edit.text().replace(".mp4", ".2.mp4"))
     assert edit.path == odd(folder, ".2.mp4")
     edit.setText(f" {folder.parent} ")
     assert edit.path == folder.parent
+    assert edit.toolTip() == ""
+    for name in ("-x ", "a\nb", "\x1b[2J'\"", "bytes:"):
+        edit.set_path(folder.parent / name)
+        assert edit.path == folder.parent / name
     edit.set_path(None)
     assert edit.path is None
 
