@@ -24,7 +24,7 @@ OUR_OWN = {
     # What the system says of this process.
     "app/formats/fbx/foreign_child.py": {"read_text"},
     # Files of ours, written a moment ago.
-    "app/export/unreal/check.py": {"read_bytes"},
+    "app/export/unreal/check.py": {"open", "read_bytes"},
 }
 READING = {"read_bytes", "read_text", "fromfile", "QSettings", "tomllib"}
 

@@ -338,9 +338,9 @@ def test_other_bones_make_a_figure_anew(two: Editor) -> None:
     """Another instrument model may have other moving parts under the same name."""
     skeleton = f"{ROOT}/Instruments/Trumpet_1_trumpet_Bb/SKEL_Trumpet_1_trumpet_Bb"
     two.studio.metadata[skeleton]["SuisouBones"] = "of before"
-    before = {path: id(asset) for path, asset in two.studio.assets.items()}
+    before = dict(two.studio.assets)
     told = two.update_performance()
-    changed = {path for path, asset in two.studio.assets.items() if before[path] != id(asset)}
+    changed = {path for path, asset in two.studio.assets.items() if before[path] is not asset}
     assert changed == figure_assets("Instruments", "Trumpet_1_trumpet_Bb")
     assert "bones are others now" in told
     binding = bindings(two)["Trumpet 1 (trumpet_Bb)"]
