@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import io
+import os
 from pathlib import Path
 from queue import SimpleQueue
 from typing import Any
@@ -256,4 +257,4 @@ def test_a_disk_that_stays_full_is_reported_once_and_again_at_the_end(
     JournalKeeper(queue, news).run()
     heard = [news.get_nowait() for _ in range(news.qsize())]
     assert [one.reason.id for one in heard if isinstance(one, Refused)] == ["capture.not_written", "capture.cut_short"]
-    assert heard[-1] == Finished(str(journal), 1)
+    assert heard[-1] == Finished(os.fsencode(journal), 1)
