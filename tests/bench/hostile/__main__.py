@@ -61,7 +61,10 @@ def _tell_costs(tallies: Mapping[str, Tally]) -> int:
                 rows = tally.worst.get(size)
                 if not rows:
                     continue
-                cells = [f"{rows['cpu_s'][0]:7.2f} s", f"{rows['peak_mb'][0]:7.0f} MB"]
+                cells = [
+                    f"{rows[what][0]:7.{digits}f} {unit}" if what in rows else f"{'-':>7} {unit}"
+                    for what, digits, unit in (("cpu_s", 2, "s"), ("peak_mb", 0, "MB"))
+                ]
                 if kind in SHOWN:
                     shown = [window.run(kind, data) for _, data in rows.values()]
                     stall_s = max(result.cpu_s for result in shown)
