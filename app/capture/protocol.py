@@ -28,7 +28,7 @@ class Open(_Told, frozen=True):
 
 class Start(_Told, frozen=True):
     """Write what is heard into a journal, whose path is as `os.fsencode` has it: not all names are text.
-    ``resumed_ns``: another recorder began it, and since then nobody listened."""
+    ``resumed_ns``: another recorder began it, and nothing was received since."""
 
     path: bytes
     header: Header

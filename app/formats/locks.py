@@ -20,7 +20,7 @@ _BYTE: Final = 2**30
 
 
 def lock(stream: IO[Any]) -> bool:
-    """Lock a file for as long as it is open; whether nobody else has. Raises OSError where there are no locks."""
+    """Lock a file for as long as it is open; whether no other process has. Raises OSError where there are no locks."""
     try:
         if sys.platform == "win32":
             place = stream.tell()

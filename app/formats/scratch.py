@@ -50,8 +50,8 @@ def scratch_folder() -> Iterator[Path]:
 
 
 def abandoned_folders() -> Iterator[Path]:
-    """The folders of processes that were killed. Each is removed when the next one is asked for; until then nobody else
-    is given it."""
+    """The folders of processes that were killed. Each is removed when the next one is requested; until then no other
+    process is given it."""
     for place in scratch_places():
         try:
             found = [path for path in place.iterdir() if _NAME.fullmatch(path.name)] if _is_ours(place) else []

@@ -77,7 +77,7 @@ class Outcome(msgspec.Struct, frozen=True):
     instruments: dict[PartWish, tuple[str, ...]]
 
     def instruments_of(self, wish: PartWish) -> tuple[str, ...]:
-        """The ids of the maps that would play a row, were it wanted; empty where that is not known yet."""
+        """The ids of the maps that would play a row if it were imported; empty where that is not known yet."""
         return self.instruments.get(_unnamed(wish), ())
 
 
@@ -132,7 +132,7 @@ def score_of_rows(
     maps: Mapping[str, InstrumentMap],
     stop_wanted: Callable[[], bool] = lambda: False,
 ) -> Score:
-    """The score with the parts of the wanted rows. Raises Cancelled when ``stop_wanted`` says so."""
+    """The score with the parts of the selected rows. Raises Cancelled when ``stop_wanted`` says so."""
     return wished_score(contents, [row.wish for row in rows if row.wanted], map_choices(maps.values()), stop_wanted)
 
 

@@ -221,7 +221,7 @@ def _stamp(paths: list[Path]) -> Stamp:
 
 _lock = RLock()
 _loading = RLock()
-"""Held while a character is loaded, which may take seconds; nobody waits for it with `_lock`."""
+"""Held while a character is loaded, which may take seconds; never waited for with `_lock`."""
 _library: CharacterLibrary | None = None
 _good: dict[Path, Character] = {}
 """The last good version of each of a person's own files."""

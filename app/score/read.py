@@ -139,7 +139,7 @@ def wished_score(
     maps: Sequence[MapChoice],
     stop_wanted: Callable[[], bool] = lambda: False,
 ) -> Score:
-    """The score in which the parts are those that a person wants. Raises Cancelled as `wished_parts`."""
+    """The score in which the parts are those that the user requests. Raises Cancelled as `wished_parts`."""
     parts, unplayed, warnings = wished_parts(contents.streams, wishes, maps, contents.tempo_map, stop_wanted)
     return _score(contents, parts, unplayed, (*contents.warnings, *warnings))
 
