@@ -282,7 +282,6 @@ class Files(QObject):
             return
         answer = self.questions.unsaved(self.name)
         if answer == "discard":
-            self._begin_autosave()
             then()
         elif answer == "save":
             self.save(then)

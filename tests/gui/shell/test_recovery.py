@@ -125,6 +125,20 @@ def test_an_orderly_end_leaves_nothing_to_recover(
     assert offered(start()) == ()
 
 
+def test_work_that_was_to_be_discarded_is_kept_until_another_file_is_open(
+    start: Start, monkeypatch: pytest.MonkeyPatch, answers: Answers, tmp_path: Path
+) -> None:
+    first = start()
+    first.editor.files.open(QUARTET, ask=False)
+    edit(first, "Still here")
+    later(first, monkeypatch)
+    (tmp_path / "broken.mid").write_bytes(b"no music")
+    answers.answer = "discard"
+    first.editor.files.open(tmp_path / "broken.mid", ask=False)
+    crash(first)
+    assert len(offered(start())) == 1
+
+
 def test_a_fault_is_told_noted_down_and_the_work_written(
     program: Program, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
