@@ -40,6 +40,7 @@ from widgets.common.selection import EventKey, Selection
 from widgets.common.session import Session
 from widgets.timeline.lanes.acting import ActingLane
 from widgets.timeline.lanes.breath import BreathLane
+from widgets.timeline.lanes.regions import LEAST_REGION_PX
 from widgets.timeline.panel import TimelinePanel
 
 
@@ -353,3 +354,30 @@ def test_a_pose_is_moved_and_its_fades_lie_beside_it(panel: TimelinePanel, sessi
     seconds = session.project.score.tempo_map.seconds
     length_s = seconds(float(faded.start_tick)) - seconds(float(faded.start_tick - faded.fade_in_ticks))
     assert length_s == pytest.approx(region.fade_in_s + 0.5, abs=0.05)
+
+
+def test_from_far_away_the_strongest_of_each_column_is_drawn(panel: TimelinePanel, session: Session) -> None:
+    lane = breath_lane(panel)
+    plan = front_plan(session)
+    corrected, selected = [event.id for event in plan.breaths if event.kind == "breath"][1:3]
+    session.attempt(
+        Message("edit.set_event_amount", {"count": 1}), lambda one: edit.set_amounts(one, plan, {corrected: 0.1})
+    )
+    everything = {region.event_id for region in lane.regions}
+    lane.axis.show(-3.0, 27.0)
+    near = {region.event_id for region in lane.visible(0.0, 1e4)}
+    lane.axis.set_limits(-500.0, 6000.0)
+    lane.axis.show(-500.0, 6000.0)
+    session.select(Selection(events=frozenset({EventKey(plan.player_id, selected)})))
+    drawn = list(lane.visible(-1e4, 1e4))
+    shown = {region.event_id for region in drawn}
+    assert near == everything
+    assert {corrected, selected} < shown < everything
+    for region in lane.regions:
+        if region.event_id not in shown:
+            assert any(
+                other.row == region.row
+                and abs(other.start_s - region.start_s) * lane.axis.px_per_s < LEAST_REGION_PX
+                and other.amount >= region.amount
+                for other in drawn
+            ), region

@@ -306,6 +306,8 @@ class ActingLane(RegionLane):
         painter.setBrush(Qt.BrushStyle.NoBrush if region.guest else QColor(shade(colour, 90)))
         painter.drawPolygon(QPolygonF([QPointF(x, y) for x, y in outline]))
         painter.drawLine(QPointF(box.right(), box.top()), QPointF(box.right(), box.bottom()))
+        if box.width() < LEAST_SHAPE_PX:
+            return
         painter.setPen(QColor(tokens.text_dim if region.guest else tokens.text))
         draw_text(painter, QRectF(box.right() + 4.0, box.top(), 130.0, box.height()), region.label)
 

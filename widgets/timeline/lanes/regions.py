@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Sequence
 
+import numpy as np
+import numpy.typing as npt
 from msgspec.structs import replace
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QAction, QColor, QKeyEvent, QPainter, QPen
@@ -33,6 +35,20 @@ STEP, FINE_STEP = 0.05, 0.01
 """What Up and Down add to an amount."""
 GLYPH_PX = 12.0
 """Width of the mark of a removed event, which has no length."""
+
+
+IntArray = npt.NDArray[np.intp]
+
+_TRAITS = np.dtype([
+    ("row", np.intp), ("start_s", float), ("length_s", float), ("strength", float), ("narrowable", bool)
+])  # fmt: skip
+
+
+def _traits(regions: Sequence[Region]) -> npt.NDArray[np.void]:
+    """What says which regions are drawn where they are crowded; what was done by hand always is."""
+    return np.array(
+        [(one.row, one.start_s, one.end_s - one.start_s, abs(one.amount), not one.by_hand) for one in regions], _TRAITS
+    )
 
 
 class _Regions(LaneItem):
@@ -87,6 +103,7 @@ class RegionLane(Lane):
         self._spans = spans_of(())
         self._single: list[Region] = []
         self._single_spans = spans_of(())
+        self._single_traits = _traits(())
         self._row_count = 1
         self._scrolled_px = 0.0
         self._made_for: tuple[object, ...] = ()
@@ -180,7 +197,7 @@ class RegionLane(Lane):
         axis, selected = self.axis, self.session.selection.events
         margin_s = GLYPH_PX / axis.px_per_s
         found = self._single_spans.between(axis.seconds(left_px) - margin_s, axis.seconds(right_px) + margin_s)
-        for index in found.tolist():
+        for index in self._distinct(found).tolist():
             region = self._single[index]
             key = region.key
             if key not in selected and key not in self._preview and key not in self._hidden:
@@ -190,6 +207,22 @@ class RegionLane(Lane):
             if region_ is not None and key not in self._preview and key not in self._hidden:
                 yield region_
         yield from self._preview.values()
+
+    def _distinct(self, found: IntArray) -> IntArray:
+        """Of the regions to draw those that can be seen: of the narrow ones in a column the strongest.
+
+        From far away thousands share a column, and each takes as long to draw as a wide one.
+        """
+        scale, traits = self.axis.px_per_s, self._single_traits[found]
+        narrow = traits["narrowable"] & (traits["length_s"] * scale < LEAST_REGION_PX)
+        crowded = found[narrow]
+        # Columns are places in time, so that scrolling does not choose others.
+        columns = np.floor(traits["start_s"] * scale / LEAST_REGION_PX)[narrow]
+        order = np.lexsort((-traits["strength"][narrow], columns, traits["row"][narrow]))
+        places = np.stack((traits["row"][narrow], columns))[:, order]
+        first = np.ones(order.size, bool)
+        first[1:] = np.any(places[:, 1:] != places[:, :-1], axis=0)
+        return np.sort(np.concatenate((found[~narrow], crowded[order[first]])))
 
     def region_at(self, mouse: LaneMouse) -> tuple[Region | None, str]:
         """The region at a place, and its zone: ``start``, ``end``, ``fade_in``, ``fade_out`` or ``body``."""
@@ -269,6 +302,7 @@ class RegionLane(Lane):
         self._spans = spans_of(regions)
         self._single = [region for region in regions if region.removed or not self.is_calm(region)]
         self._single_spans = spans_of(self._single)
+        self._single_traits = _traits(self._single)
         self._hovered = None
         self.regions_refreshed()
         self.update_items()
