@@ -317,7 +317,7 @@ def test_how_a_new_body_holds_an_instrument_is_found_beside_the_window(
             qtbot.waitUntil(lambda: bool(where), timeout=10_000)
             assert where[0] is not here
             # The others play on, and what is edited meanwhile is seen; it begins nothing again.
-            assert "character.hold_waiting" in told()
+            qtbot.waitUntil(lambda: "character.hold_waiting" in told(), timeout=10_000)
             _correct(session, 0.8)
             qtbot.waitUntil(lambda: generator.live.pose(second.id, 1.0) is not None, timeout=20_000)
             assert generator.live.pose(first.id, 1.0) is None
