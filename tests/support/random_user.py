@@ -20,6 +20,7 @@ import subprocess
 import sys
 import threading
 import time
+import traceback
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -497,4 +498,9 @@ def lost_work(events: Sequence[dict[str, Any]], found: Sequence[str]) -> str:
 
 
 if __name__ == "__main__":
-    SessionRun(Path(sys.argv[1]), int(sys.argv[2]), int(sys.argv[3])).run("kill" in sys.argv[4:])
+    try:
+        SessionRun(Path(sys.argv[1]), int(sys.argv[2]), int(sys.argv[3])).run("kill" in sys.argv[4:])
+    except Exception:  # noqa: BLE001 - printed, and the session fails
+        # The hook of the complaints would keep it to itself.
+        traceback.print_exc()
+        sys.exit(1)
