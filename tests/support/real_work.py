@@ -39,7 +39,7 @@ from widgets.viewport.panel import ViewportPanel
 LUTKIN = Path(__file__).parents[1] / "data" / "midi" / "ensemble" / "brass_quartet_lutkin_2tpt_tbn_tuba.mid"
 OFFSET_S = -1.37
 """The recording begins this long before the music's first tick."""
-PATIENCE_S = 90.0
+PATIENCE_S = 240.0
 
 
 class Work:

@@ -37,5 +37,5 @@ def failing(path: Path, folder: Path) -> None:
 
 if __name__ == "__main__":
     KINDS["failing"] = Kind("failing", failing, lambda: [b"good"], (), ".txt")
-    child.HANG_CPU_S = 0
+    child.HANG_CPU_S = 2
     child.main()

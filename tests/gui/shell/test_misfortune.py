@@ -412,7 +412,9 @@ STRANGE = (
 
 
 @pytest.mark.parametrize("name", STRANGE)
-def test_a_piece_that_nobody_would_write(program: Program, answers: Answers, tmp_path: Path, name: str) -> None:
+def test_a_piece_that_nobody_would_write(
+    program: Program, answers: Answers, tmp_path: Path, qtbot: QtBot, name: str
+) -> None:
     project = strange(name)
     path = tmp_path / "strange.suisou"
     storage.save(project, path)
@@ -432,7 +434,7 @@ def test_a_piece_that_nobody_would_write(program: Program, answers: Answers, tmp
     program.editor.table.refresh()
     assert session.actions["export.files"].isEnabled() == bool(project.players)
     if project.players:
-        assert session.performance.project is session.project
+        qtbot.waitUntil(lambda: session.performance.project is session.project, timeout=20_000)
         fresh = Performance(session.project)
         for player in session.project.players:
             assert session.performance.plan(player) == fresh.plan(player)
