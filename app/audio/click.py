@@ -54,7 +54,7 @@ def _beats(project: Project, bar_tick: int, next_tick: int) -> list[float]:
     """Ticks of a bar's beats."""
     score = project.score
     length = next_tick - bar_tick
-    felt = project.felt_beat_ticks
+    felt = project.felt_beat_ticks(bar_tick)
     if length % felt == 0:
         return [float(bar_tick + beat) for beat in range(0, length, felt)]
     metre = next(metre for metre in reversed(score.metres) if metre.tick <= max(bar_tick, score.metres[0].tick))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
+from collections.abc import Sequence, Set
 from typing import Any
 
 import numpy as np
@@ -20,8 +20,10 @@ from app.messages import filled, text
 from app.performance.cast import attempt
 from app.performance.ensemble import Performance
 from app.performance.reach import carried_controls
+from app.plan.line import staccato
 from app.plan.model import BreathEvent, Clock, CueEvent, FingeringEvent, GestureEvent, Note, PoseEvent
 from app.project.model import Player
+from app.score.model import UnplayedPart
 from instrument_maps.model import InstrumentMap
 
 Table = dict[str, Any]
@@ -85,7 +87,7 @@ def inspection(performance: Performance) -> Table:
             ),
         ],
         "unplayed": [
-            {"name": part.name, "reason": text(part.reason), "note_count": part.note_count} for part in score.unplayed
+            {"name": part.name, "reason": _unplayed(part), "note_count": part.note_count} for part in score.unplayed
         ],
         "left_out": [{"player": one.player.name, "reason": text(one.reason)} for one in playable.left_out],
         "players": [
@@ -94,6 +96,14 @@ def inspection(performance: Performance) -> Table:
             if player.id not in absent
         ],
     }
+
+
+def _unplayed(part: UnplayedPart) -> str:
+    """Why a part is not played, and what helps."""
+    reason = text(part.reason)
+    if part.reason.id != "score.unknown_instrument":
+        return reason
+    return text(Message("assign.needed", {"part": part.name, "reason": reason}))
 
 
 class _Reasons:
@@ -115,12 +125,17 @@ def _player(performance: Performance, player: Player, instrument: InstrumentMap)
     clock = performance.piece.clock
     part = performance.project.part(player)
     fingerings = {event.note_id: event for event in plan.fingerings}
+    played = [note for note in part.notes if note.id in fingerings]
+    articulation = _articulations(played, {event.note_id for event in plan.tongues}, clock.ticks_per_quarter)
     table = {
         "name": player.name,
         "instrument": player.instrument_id,
         "part": part.name,
         # Of notes struck together only one is played; the others are among what to look at.
-        "notes": [_note(note, fingerings[note.id], instrument, clock) for note in part.notes if note.id in fingerings],
+        "notes": [
+            _note(note, fingerings[note.id], instrument, clock) | {"articulation": said}
+            for note, said in zip(played, articulation, strict=True)
+        ],
         "breaths": [
             {"kind": event.kind, **span, "reason": reason(event.reason)}
             for event, span in zip(plan.breaths, _spans(plan.breaths, clock), strict=True)
@@ -150,6 +165,17 @@ def _player(performance: Performance, player: Player, instrument: InstrumentMap)
             for event, span in zip(plan.poses, _spans(plan.poses, clock), strict=True)
         ]
     return table
+
+
+def _articulations(notes: Sequence[Note], tongued: Set[str], quarter_ticks: int) -> list[str]:
+    """How each note begins, ``tongued`` or ``slurred``; ``staccato`` where it is also short."""
+    onsets = np.array([note.onset_tick for note in notes], np.int64)
+    ends = onsets + np.array([note.duration_tick for note in notes], np.int64)
+    short = staccato(onsets, ends, quarter_ticks).tolist() if notes else []
+    return [
+        "slurred" if note.id not in tongued else "staccato" if is_short else "tongued"
+        for note, is_short in zip(notes, short, strict=True)
+    ]
 
 
 def _note(note: Note, fingering: FingeringEvent, instrument: InstrumentMap, clock: Clock) -> Table:

@@ -21,9 +21,9 @@ from app.project.names import unique_names
 from app.project.parameters import parameter_names, parse_settings, select_players
 from app.project.storage import is_project_file, load
 from app.rig.character_library import characters
-from app.score.choose import MapChoice
+from app.score.choose import MapChoice, Stream
 from app.score.model import Score
-from app.score.parts import usual_wishes
+from app.score.parts import PartWish, stream_name, usual_wishes
 from app.score.read import read_contents, wished_score
 from instrument_maps.library import library
 from instrument_maps.model import InstrumentMap
@@ -136,6 +136,14 @@ def add_file_options(command: argparse.ArgumentParser) -> None:
         help="of a MIDI file's texts (default: each is UTF-8 if it can be, else CP932, else Latin-1)",
     )
     command.add_argument(
+        "--assign",
+        action="append",
+        default=[],
+        metavar='"PART=INSTRUMENT"',
+        help="the instrument of a MIDI file's part, for instance 'Lead=trumpet_Bb', also where the file says none or "
+        "another; PART may be a pattern such as '*'; repeatable; `suisou instruments` lists the instruments",
+    )
+    command.add_argument(
         "--written",
         action="append",
         default=[],
@@ -171,7 +179,7 @@ def add_source_options(command: argparse.ArgumentParser) -> None:
         type=felt_beat,
         metavar="QUARTERS",
         help="length of the beat that the players feel: 1.5 for a fast 6/8, 2 for alla breve (default: the project's, "
-        "1); breaths, cues, sway and the pre-roll count in it",
+        "or what metre and tempo say); breaths, cues, sway and the pre-roll count in it",
     )
 
 
@@ -182,8 +190,8 @@ def open_project(arguments: argparse.Namespace) -> Project:
     Raises
     ------
     AppError
-        Those of reading, and `UsageError` of what makes no sense, ``project.encoding`` (file) and
-        ``project.written`` (file) among them.
+        Those of reading, and `UsageError` of what makes no sense, ``project.encoding`` (file),
+        ``project.written`` (file) and ``project.assign`` (file) among them.
     """
     known = library()
     maps = known.maps
@@ -201,6 +209,8 @@ def _saved_project(arguments: argparse.Namespace) -> Project:
         raise UsageError("project.encoding", file=str(arguments.file))
     if arguments.written:
         raise UsageError("project.written", file=str(arguments.file))
+    if arguments.assign:
+        raise UsageError("project.assign", file=str(arguments.file))
     project = load(arguments.file)
     asked = {
         "seed": arguments.seed,
@@ -216,14 +226,14 @@ def _cast_project(arguments: argparse.Namespace, maps: Mapping[str, InstrumentMa
         maps,
         seed=arguments.seed or 0,
         preroll_beats=PREROLL_BEATS if arguments.preroll is None else arguments.preroll,
-        felt_beat_quarters=1.0 if arguments.felt_beat is None else arguments.felt_beat,
+        felt_beat_quarters=arguments.felt_beat,
     )
 
 
 def _read_score(arguments: argparse.Namespace, maps: Sequence[MapChoice]) -> Score:
     """The score of a MIDI file, with the pitches that are written ones transposed."""
     contents = read_contents(arguments.file, encoding=arguments.encoding)
-    wishes = usual_wishes(contents.streams, maps)
+    wishes = _assigned(contents.streams, usual_wishes(contents.streams, maps), arguments.assign, maps)
     score = wished_score(contents, wishes, maps)
     if not arguments.written:
         return score
@@ -235,3 +245,29 @@ def _read_score(arguments: argparse.Namespace, maps: Sequence[MapChoice]) -> Sco
         for wish, stream in zip(wishes, streams, strict=True)
     ]
     return wished_score(contents, asked, maps)
+
+
+def _assigned(
+    streams: Sequence[Stream], wishes: Sequence[PartWish], texts: Sequence[str], maps: Sequence[MapChoice]
+) -> Sequence[PartWish]:
+    """The wishes with the instruments that are assigned to parts as ``PART=INSTRUMENT``.
+
+    Raises
+    ------
+    UsageError
+        ``assign.malformed`` (assignment), ``assign.instrument_unknown`` (instrument, possible), ``player.unknown``.
+    """
+    if not texts:
+        return wishes
+    names = unique_names(map(stream_name, streams))
+    assigned = {wish.streams[0]: wish for wish in wishes}
+    for text in texts:
+        part, equals, map_id = (piece.strip() for piece in text.rpartition("="))
+        if not (part and equals and map_id):
+            raise UsageError("assign.malformed", assignment=text)
+        if map_id not in {choice.map_id for choice in maps}:
+            possible = ", ".join(choice.map_id for choice in maps)
+            raise UsageError("assign.instrument_unknown", instrument=map_id, possible=possible)
+        for index in select_players([part], names):
+            assigned[index] = PartWish((index,), map_id)
+    return [assigned[index] for index in sorted(assigned)]

@@ -61,6 +61,14 @@ PITCHES: Final[dict[str, tuple[str, ...]]] = {
     "embouchure.heard": ("pitch", "low", "high"),
     "expression.low_loud": ("pitch", "easy_low"),
     "score.outside_ranges": ("lowest", "highest"),
+    "score.unknown_instrument": ("lowest", "highest"),
+    "score.chosen_by_range_partly": ("pitch",),
+    "score.looks_written": ("pitch",),
+    "score.notes_left_out": ("pitch",),
+    "score.stray_notes": ("pitch",),
+    "score.slurred": ("pitch",),
+    "score.key_switches": ("pitch",),
+    "score.voices": ("pitch",),
 }
 """Arguments that are MIDI numbers of pitches: here they are told as such, the editor names them."""
 

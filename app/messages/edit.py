@@ -71,6 +71,7 @@ TEMPLATES: Final[dict[str, str]] = {
     "edit.parameter_breath_min_beats": "shortest rest to breathe in, players: {count}",
     "edit.parameter_breath_last_beat_beats": "rest with a breath on its last beat, players: {count}",
     "edit.parameter_breath_prepare_beats": "rest with a prepared breath, players: {count}",
+    "edit.parameter_breath_need": "air used up before a short rest is breathed in, players: {count}",
     "edit.parameter_lung_s": "lungs of players: {count}",
     "edit.parameter_embouchure_tension": "embouchure tension of players: {count}",
     "edit.parameter_sway": "sway of players: {count}",

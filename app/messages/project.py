@@ -29,6 +29,13 @@ TEMPLATES: Final[dict[str, str]] = {
         "--written says how the pitches of a MIDI file are read; {file} is a project, whose notes are "
         "transposed in the editor"
     ),
+    "project.assign": (
+        "--assign gives instruments to the parts of a MIDI file; {file} is a project; there use --set "
+        "'PLAYER.instrument=ID'"
+    ),
+    "assign.malformed": "--assign: {assignment!r} is not PART=INSTRUMENT, for instance 'Lead=trumpet_Bb'",
+    "assign.instrument_unknown": "--assign: there is no instrument {instrument!r}; there are: {possible}",
+    "assign.needed": "{reason} with --assign '{part}=INSTRUMENT'",
     "project.encoding": "--encoding says how the texts of a MIDI file are read; {file} is a project and needs none",
     "autosave.elsewhere": (
         "{file} cannot be autosaved in its own folder ({reason}); for now it is autosaved in {folder} and offered from "

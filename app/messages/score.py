@@ -100,16 +100,32 @@ TEMPLATES: Final[dict[str, str]] = {
     ),
     "score.chosen_by_range_partly": (
         "{part}: neither its name nor its program says what it is; {map} plays it, though {outside} of {total} notes "
-        "lie outside its range"
+        "lie outside its range, the first at bar {bar}, beat {beat:g} ({pitch})"
     ),
     "score.looks_written": (
-        "{part}: {outside} of {total} notes lie outside the range of {map}, but all fit as written pitches: the part "
-        "looks untransposed; import its pitches as written"
+        "{part}: {outside} of {total} notes lie outside the range of {map}, the first at bar {bar}, beat {beat:g} "
+        "({pitch}), but all fit as written pitches: the part looks untransposed; import its pitches as written"
     ),
     "score.too_many_players": "the piece has {most} players already, and more cannot play",
+    "score.unknown_instrument": "nothing says which instrument plays it ({lowest} to {highest}); choose one",
     "score.notes_left_out": (
-        "{part}: more than {most} notes sound together; {most} players share it, and {count} {count:note is|notes are} "
-        "left out"
+        "{part}: {most} players share it, and {count} {count:note that sounds|notes that sound} together with theirs "
+        "{count:is|are} left out, the first at bar {bar}, beat {beat:g} ({pitch})"
     ),
-    "score.voices": "{part}: up to {voices} notes sound together, so {voices} players share it",
+    "score.stray_notes": (
+        "{count} {count:note sounds|notes sound} together with others, the first at bar {bar}, beat {beat:g} "
+        "({pitch}); too few and too short for another player"
+    ),
+    "score.slurred": (
+        "{count} {count:note lasts|notes last} into the next one and {count:ends|end} there, slurred; the first in "
+        "{part} at bar {bar}, beat {beat:g} ({pitch})"
+    ),
+    "score.key_switches": (
+        "{count} {count:note|notes} far from the range of the instrument {count:is a key switch|are key switches}, "
+        "the first at bar {bar}, beat {beat:g} ({pitch})"
+    ),
+    "score.voices": (
+        "{part}: {voices} players share it, for {count} {count:note goes|notes go} on sounding together with others, "
+        "the first at bar {bar}, beat {beat:g} ({pitch})"
+    ),
 }

@@ -29,7 +29,14 @@ from instrument_maps.model import Carriage, InstrumentMap
 from metadata.load import load_expressions
 from metadata.model import Body, Embouchure, Expression, Posture
 
-PLANNED_WITH = ("breath_min_beats", "breath_last_beat_beats", "breath_prepare_beats", "lung_s", "cue_leader")
+PLANNED_WITH = (
+    "breath_min_beats",
+    "breath_last_beat_beats",
+    "breath_prepare_beats",
+    "breath_need",
+    "lung_s",
+    "cue_leader",
+)
 """Parameters that decide what is planned, and not how a plan looks."""
 
 SETTLED = 0.6

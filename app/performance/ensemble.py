@@ -80,20 +80,20 @@ class Performance:
     def piece(self) -> Piece:
         """What all players share."""
         with self._lock:
-            score, beat_ticks = self.project.score, self.project.felt_beat_ticks
+            score, felt_beats = self.project.score, self.project.felt_beats
             return self._memo.step(
                 "piece",
                 lambda: Piece(
                     clock=score.tempo_map,
                     metres=score.metres,
-                    felt_beat_ticks=beat_ticks,
                     bar_ticks=tuple(score.bar_starts.tolist()),
+                    felt_beats=felt_beats,
                 ),
                 score.tempo_map,
                 score.metres,
                 score.pickup_ticks,
                 score.end_tick,
-                beat_ticks,
+                felt_beats,
             )
 
     @cached_property
@@ -133,8 +133,8 @@ class Performance:
         played = [part for part in map(self.project.part, players) if part.notes]
         first_tick = min((part.notes[0].onset_tick for part in played), default=0)
         last_tick = max((part.end_tick for part in played), default=0)
-        piece = self.piece
-        return frame_around(first_tick, last_tick, piece.clock, self.project.preroll_beats, piece.beat_ticks)
+        beat_ticks = self.project.felt_beat_ticks(first_tick)
+        return frame_around(first_tick, last_tick, self.piece.clock, self.project.preroll_beats, beat_ticks)
 
     @cached_property
     def _ensemble(self) -> EnsemblePlan:

@@ -40,8 +40,18 @@ from app.errors import Message
 from app.plan.corrections import BY_HAND, WITHIN, Correction, SetBreath, removed_ids, without_removed
 from app.plan.heard import BREATH_S, Blown, Silences, gaps_within, silences
 from app.plan.line import IntArray, LineTimes, Piece, Seeds
-from app.plan.lungs import EPSILON, air_used_s, catch_lengths_s, catch_places, drawn, levels, lungful_s
+from app.plan.lungs import (
+    EPSILON,
+    air_used_s,
+    catch_lengths_s,
+    catch_places,
+    drawn,
+    levels,
+    lungful_s,
+    needed_rests,
+)
 from app.plan.model import BreathEvent, FloatArray, Note, PlayerParameters, Problem, TimeFrame
+from app.plan.rests import rest_ticks
 from instrument_maps.model import Air
 
 LEAST_DEPTH = 0.3
@@ -100,8 +110,9 @@ def plan_breaths(
     placed = {(item.kind, item.note_id): item for item in corrections
               if isinstance(item, SetBreath) and item.note_id in index_of}  # fmt: skip
     gaps = None if heard is None or not heard.tells_breaths(times) else silences(heard, times)
+    rests = rest_ticks(times, piece.beat_ticks_at(times.onset_tick))
     if gaps is None:
-        generated = rest_breaths(notes, times, piece, parameters, frame)
+        generated = rest_breaths(notes, times, piece, parameters, frame, rests)
     else:
         assert heard is not None
         within = tuple(_within(notes[index], piece, *gap_s) for index, *gap_s in gaps_within(heard, times))
@@ -120,18 +131,33 @@ def plan_breaths(
         elif event.kind == "breath":
             refill[index] = share
     used = np.concatenate(([0.0], np.cumsum(taken_s)))
-    level = levels(used, lung_s, refill)
     length_s = catch_lengths_s(times)
+    spare: dict[int, BreathEvent] = {}
     if gaps is not None:
         length_s = np.where(gaps.played, gaps.length_s, length_s)
-    catches = catch_places(notes, times, used, piece, lung_s, refill, level, removed | hand_ids, taken, seeds, length_s)
+    else:
+        optional = rests < parameters.breath_prepare_beats * piece.beat_ticks_at(times.onset_tick)
+        optional[0] = False
+        optional[[index_of[_note_id(event)] for event in by_hand]] = False
+        needed = needed_rests(used, lung_s, refill, optional, parameters.breath_need)
+        spare = {index: event for event in kept
+                 if event.kind == "breath" and not needed[index := index_of[_note_id(event)]]}  # fmt: skip
+        kept = [event for event in kept if index_of[_note_id(event)] not in spare]
+        for index, event in spare.items():
+            refill[index], length_s[index] = 0.0, event.end_s - event.start_s
+    level = levels(used, lung_s, refill)
+    catches = catch_places(
+        notes, times, used, piece, lung_s, refill, level, removed | hand_ids, taken, seeds, rests, length_s
+    )
     breaths, air_s = np.flatnonzero(refill > 0.0), level * lung_s
-    caught = [
-        _catch(notes, times, piece, air_s, breaths, float(length_s[index]), index)
-        if gaps is None or not gaps.played[index]
-        else _heard_catch(notes[index], piece, gaps, index)
-        for index in catches
-    ]
+    caught = []
+    for index in catches:
+        if index in spare:
+            caught.append(spare[index])
+        elif gaps is None or not gaps.played[index]:
+            caught.append(_catch(notes, times, piece, air_s, breaths, float(length_s[index]), index))
+        else:
+            caught.append(_heard_catch(notes[index], piece, gaps, index))
     for event, index in zip(caught, catches, strict=True):
         refill[index] = drawn(event.end_s - event.start_s)
     events = tuple(sorted([*kept, *by_hand, *caught], key=lambda event: (event.start_s, event.end_s)))
@@ -159,12 +185,18 @@ def breath_inputs(notes: tuple[Note, ...], times: LineTimes) -> tuple[object, ..
 
 
 def rest_breaths(
-    notes: tuple[Note, ...], times: LineTimes, piece: Piece, parameters: PlayerParameters, frame: TimeFrame
+    notes: tuple[Note, ...],
+    times: LineTimes,
+    piece: Piece,
+    parameters: PlayerParameters,
+    frame: TimeFrame,
+    rests: IntArray,
 ) -> tuple[BreathEvent, ...]:
-    """The breaths that the rests give, by the thresholds."""
-    silence = times.silence_tick.astype(np.float64)
+    """The breaths that the rests may give, by the thresholds."""
+    silence = rests.astype(np.float64)
     silence[0] = _before_first(times, piece, frame)
-    serving = np.flatnonzero((silence / piece.beat_ticks >= parameters.breath_min_beats) & (silence > 0))
+    beats = piece.beat_ticks_at(times.onset_tick)
+    serving = np.flatnonzero((silence / beats >= parameters.breath_min_beats) & (silence > 0))
     told = _Told(
         lambda index, rest, long, prepared: _rest_reason(index, rest, long, prepared, parameters),
         lambda index, rest: _preparation_reason(rest, parameters),
@@ -191,8 +223,9 @@ def heard_breaths(
     end_s[known] = piece.clock.seconds(end_tick[known].astype(np.float64))
     silence[known] = np.maximum(end_tick[known] - np.round(piece.clock.ticks(gaps.start_s[known])), 1.0)
     silence[0] = _before_first(times, piece, frame)
-    guessed = ~gaps.played & (silence > 0) & (silence / piece.beat_ticks >= parameters.breath_min_beats)
-    guessed[0] = silence[0] > 0 and silence[0] / piece.beat_ticks >= parameters.breath_min_beats
+    enough = (silence > 0) & (silence / piece.beat_ticks_at(times.onset_tick) >= parameters.breath_min_beats)
+    guessed = ~gaps.played & enough
+    guessed[0] = enough[0]
     heard = np.zeros(len(notes), dtype=bool)
     heard[known] = True
     heard[0] = False
@@ -246,8 +279,8 @@ def _in_silences(
     end_tick, end_s : (N,)
         ... and where it ends.
     """
-    beat = piece.beat_ticks
-    rests = silence / beat
+    beats = piece.beat_ticks_at(end_tick)
+    rests, beat = silence / beats, beats[serving]
     onsets = end_tick[serving].astype(np.float64)
     long = rests[serving] >= parameters.breath_last_beat_beats
     # A threshold below one beat lets a rest shorter than a beat count as "last beat": then it is all there is.

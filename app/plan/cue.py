@@ -59,7 +59,7 @@ def common_entries(all_times: tuple[LineTimes, ...], piece: Piece) -> tuple[Entr
             rest_s = piece.clock.seconds(float(tick)) - piece.clock.seconds(float(end))
             bars = (tick - end) / piece.bar_length_tick(end)
             long = rest_s >= COMMON_REST_S or (bars >= COMMON_REST_BARS and rest_s >= COMMON_REST_LEAST_S)
-            if not long or tick - end < LEAST_BEATS * piece.beat_ticks:
+            if not long or tick - end < LEAST_BEATS * piece.beat_ticks_at(np.array([tick]))[0]:
                 continue
         players = []
         for line, times in sounding:
@@ -153,7 +153,7 @@ def plan_cues(
 def _cue(
     player_id: str, note: str, tick: int, beats: float, piece: Piece, frame: TimeFrame, reason: Message
 ) -> CueEvent:
-    seconds, beat = piece.clock.seconds, piece.beat_ticks * beats
+    seconds, beat = piece.clock.seconds, float(piece.beat_ticks_at(np.array([tick]))[0]) * beats
     peak_tick, start_tick = tick - beat, tick - LEAD_BEATS * beat
     end_s, peak_s = seconds(float(tick)), seconds(peak_tick)
     beat_s = end_s - peak_s

@@ -99,15 +99,15 @@ def plan_tongues(
 ) -> tuple[TongueEvent, ...]:
     """The tongue's stroke before every attacked note.
 
-    Attacked is every note but one that is slurred to: the note before overlaps it, at another pitch, and no slide has
-    to move far. Engraved scores rendered to MIDI let all notes touch, so touching alone is no slur.
+    Attacked is every note but one that is slurred to (`app.plan.line.slurs_next`), at another pitch, and no slide has
+    to move far.
     """
     if not notes:
         return ()
     slides = [(control.name, control.travel_m) for control in instrument.controls
               if control.role == "pitch" and control.kind == "slide"]  # fmt: skip
     slurred = np.zeros(len(notes), dtype=bool)
-    slurred[1:] = times.overlaps_next[:-1] & (np.diff(times.pitch) != 0)
+    slurred[1:] = times.slurs_next[:-1] & (np.diff(times.pitch) != 0)
     for index in np.flatnonzero(slurred).tolist():
         before, here = fingerings[index - 1].controls, fingerings[index].controls
         slurred[index] = all(

@@ -19,6 +19,8 @@ _DOWN = 0.5
 
 LEVER_COST = 0.5
 """A thumb that has a lever of its own moves beside the fingers."""
+FINGER_WEIGHT = {"thumb": 1.25, "little": 1.25, "ring": 1.1}
+"""What the slower fingers' moves count in a hurry; those of the others count 1."""
 CONTRARY_COST = 0.5
 """One finger going up while another goes down is harder than both going one way."""
 KEY_TO_KEY_COST = {"little": 4.0, "ring": 3.0}
@@ -36,14 +38,18 @@ class Ways:
     moves : fingers that move at all
     weighted : the same, levers and contrary motion weighted
     key_to_key : cost of the fingers that go from one key to another without being free
+    apart : how many fingers do
     rolls : fingers that roll onto a further key, or off it
+    levers : thumbs' levers that are turned
     together : 1 where a thumb's lever is turned while fingers move
     """
 
     moves: FloatArray
     weighted: FloatArray
     key_to_key: FloatArray
+    apart: FloatArray
     rolls: FloatArray
+    levers: FloatArray
     together: FloatArray
 
 
@@ -68,8 +74,7 @@ class FingerPlaces:
     def between(self, before: IntArray, after: IntArray) -> Ways:
         """Count what it takes from each fingering of the pitches ``before`` to each of those ``after``, (U,) both."""
         shape = (len(before), self.shape[1], self.shape[1])
-        moves, weighted, key_to_key, rolls = (np.zeros(shape) for _ in range(4))
-        others, flips = np.zeros(shape), np.zeros(shape, dtype=bool)
+        moves, weighted, key_to_key, rolls, levers, others, jumps = (np.zeros(shape) for _ in range(7))
         up, down = np.zeros(shape, dtype=bool), np.zeros(shape, dtype=bool)
         for finger in self.fingers:
             a, b = finger.holds[before][:, :, None], finger.holds[after][:, None, :]
@@ -82,15 +87,19 @@ class FingerPlaces:
             busy = moved & (whole_a != 0) & (whole_b != 0)
             apart = busy & ((whole_a & whole_b) == 0)
             moves += moved
-            weighted += np.where(lever, LEVER_COST, 1.0) * moved
-            key_to_key += apart * KEY_TO_KEY_COST.get(finger.name.split(".")[1], KEY_TO_KEY_USUAL_COST)
+            name = finger.name.split(".")[1]
+            weighted += np.where(lever, LEVER_COST, FINGER_WEIGHT.get(name, 1.0)) * moved
+            key_to_key += apart * KEY_TO_KEY_COST.get(name, KEY_TO_KEY_USUAL_COST)
+            jumps += apart
             rolls += busy & ~apart
-            flips |= lever
+            levers += lever
             others += moved & ~lever
             up |= moved & ~lever & ((whole_a & ~whole_b) != 0)
             down |= moved & ~lever & ((whole_b & ~whole_a) != 0)
         weighted += CONTRARY_COST * (up & down)
-        return Ways(moves, weighted, key_to_key, rolls, (flips & (others > 0.0)).astype(np.float64))
+        return Ways(
+            moves, weighted, key_to_key, jumps, rolls, levers, ((levers > 0.0) & (others > 0.0)).astype(np.float64)
+        )
 
 
 def finger_places(

@@ -46,7 +46,7 @@ from metadata.model import Expression
 
 __all__ = ["EnsemblePlan", "Line", "Piece", "make_plans", "plan_ensemble", "time_frame"]
 
-BREATH_PARAMETERS = ("breath_min_beats", "breath_last_beat_beats", "breath_prepare_beats", "lung_s")
+BREATH_PARAMETERS = ("breath_min_beats", "breath_last_beat_beats", "breath_prepare_beats", "breath_need", "lung_s")
 """Parameters that the breaths look at."""
 
 PREROLL_BEATS = 4.0
@@ -215,7 +215,7 @@ def _playable(
 
 
 class _Given(NamedTuple):
-    """What one player's plan is made from. ``taken`` are places (tick, pitch) where others of the part breathe."""
+    """What one player's plan is made from. ``taken``: places (tick, pitch class) where others of the line breathe."""
 
     piece: Piece
     line: Line
@@ -248,7 +248,7 @@ def _plan_line(given: _Given, memo: Memo) -> tuple[PlayerPlan, frozenset[tuple[i
     )
     steps = None if line.heard is None else line.heard.breath
     heard = None if steps is None else memo.step("blown", lambda: blown(steps, clock), steps, clock)
-    taken = frozenset(note.id for note in notes if (note.onset_tick, note.pitch) in given.taken)
+    taken = frozenset(note.id for note in notes if (note.onset_tick, note.pitch % 12) in given.taken)
     breaths = memo.step(
         "breaths",
         lambda: plan_breaths(notes, times, piece, parameters, frame, corrections, taken, seeds, instrument.air, heard),
@@ -364,6 +364,6 @@ def _plan_line(given: _Given, memo: Memo) -> tuple[PlayerPlan, frozenset[tuple[i
         traces=traces,
     )
     caught = frozenset(
-        (note.onset_tick, note.pitch) for note in notes if breaths.catch_notes and note.id in breaths.catch_notes
+        (note.onset_tick, note.pitch % 12) for note in notes if breaths.catch_notes and note.id in breaths.catch_notes
     )
     return plan, caught

@@ -142,8 +142,9 @@ class Pulse:
 
 def pulse(piece: Piece, frame: TimeFrame, swing_at_s: float) -> Pulse:
     """The pulse of a performance; how many beats a swing has is chosen by the tempo at ``swing_at_s``."""
-    clock, beat = piece.clock, piece.beat_ticks
+    clock = piece.clock
     at_tick = clock.ticks(swing_at_s)
+    beat = int(piece.beat_ticks_at(np.array([at_tick]))[0])
     beat_s = clock.seconds(at_tick + beat) - clock.seconds(at_tick)
     swing_beats = 2 ** max(round(math.log2(SWING_S / beat_s)), 0)
     first_tick, last_tick = int(clock.ticks(frame.first_frame_s)), int(np.ceil(clock.ticks(frame.end_s)))
@@ -250,14 +251,15 @@ def bell_heights(notes: tuple[Note, ...], times: LineTimes, piece: Piece) -> lis
     mean = float(np.average(times.pitch, weights=weight))
     bars = piece.bars(int(times.onset_tick[0]), int(times.onset_tick[-1]) + 1)
     bar = np.searchsorted(bars, times.onset_tick, "right") - 1
-    beat = (times.onset_tick - bars[bar]) // piece.beat_ticks
+    beat_ticks = piece.beat_ticks_at(times.onset_tick)
+    beat = (times.onset_tick - bars[bar]) // beat_ticks
     starts = np.flatnonzero(np.insert((np.diff(bar) > 0) | (np.diff(beat) > 0), 0, True))
     sums = np.add.reduceat(times.pitch * weight, starts) / np.add.reduceat(weight, starts)
     heights = np.clip((sums - mean) / CONTOUR_SEMITONES, -1.0, 1.0)
     ends = np.append(starts[1:], len(notes))
     groups: list[tuple[int, int, float, float]] = []
     for start, end, height, pitch in zip(starts.tolist(), ends.tolist(), heights.tolist(), sums.tolist(), strict=True):
-        joined = groups and times.silence_tick[start] < piece.beat_ticks and abs(groups[-1][2] - height) < CONTOUR_STEP
+        joined = groups and times.silence_tick[start] < beat_ticks[start] and abs(groups[-1][2] - height) < CONTOUR_STEP
         if joined:
             groups[-1] = (groups[-1][0], end, groups[-1][2], groups[-1][3])
         else:

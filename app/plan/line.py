@@ -93,7 +93,9 @@ class Piece(msgspec.Struct, frozen=True, dict=True):
     metres : tuple of Metre
         Ordered by tick; 4/4 before the first.
     felt_beat_ticks : int or None
-        The beat that is felt where it is not the quarter (a dotted quarter in a fast 6/8).
+        The beat that is felt throughout; None: ``felt_beats`` say.
+    felt_beats : tuple of (tick, ticks)
+        The beat that is felt from each tick on, by tick (see `app.plan.felt_beat`); empty: the quarter.
     bar_ticks : tuple of int
         Where the bars begin, where the score knows better than the metres (pickups); empty: the metres say.
     """
@@ -102,11 +104,27 @@ class Piece(msgspec.Struct, frozen=True, dict=True):
     metres: tuple[Metre, ...] = ()
     felt_beat_ticks: int | None = None
     bar_ticks: tuple[int, ...] = ()
+    felt_beats: tuple[tuple[int, int], ...] = ()
+
+    @cached_property
+    def _beats_from(self) -> tuple[IntArray, IntArray]:
+        beats = self.felt_beats
+        if self.felt_beat_ticks or not beats:
+            beats = ((0, self.felt_beat_ticks or self.clock.ticks_per_quarter),)
+        ticks, lengths = np.array(beats, np.int64).T
+        return ticks, lengths
+
+    def beat_ticks_at(self, ticks: IntArray) -> IntArray:
+        """Ticks of the beat that is felt at each of some ticks; before the first known one it is felt too."""
+        starts, lengths = self._beats_from
+        if len(starts) == 1:
+            return np.full(np.shape(ticks), lengths[0])
+        return np.asarray(lengths[np.maximum(np.searchsorted(starts, ticks, side="right") - 1, 0)])
 
     @property
     def beat_ticks(self) -> int:
-        """Ticks of the felt beat; a quarter unless the piece sets one."""
-        return self.felt_beat_ticks or self.clock.ticks_per_quarter
+        """Ticks of the beat that is felt where the piece begins."""
+        return int(self._beats_from[1][0])
 
     @cached_property
     def _metre_ticks(self) -> tuple[int, ...]:
@@ -155,10 +173,12 @@ class Piece(msgspec.Struct, frozen=True, dict=True):
     def beats(self, first_tick: int, last_tick: int) -> IntArray:
         """Ticks of the felt beats, counted anew in every bar, from before ``first_tick`` to after ``last_tick``."""
         bars = self.bars(first_tick, last_tick + 1)
-        lengths = np.diff(bars, append=max(int(bars[-1]) + 1, last_tick + self.beat_ticks))
-        counts = -(-lengths // self.beat_ticks)
+        beats = self.beat_ticks_at(bars)
+        lengths = np.diff(bars, append=max(int(bars[-1]) + 1, last_tick + int(beats[-1])))
+        counts = -(-lengths // beats)
         before = np.cumsum(counts) - counts
-        ticks: IntArray = np.repeat(bars - before * self.beat_ticks, counts) + np.arange(counts.sum()) * self.beat_ticks
+        within = np.arange(counts.sum()) - np.repeat(before, counts)
+        ticks: IntArray = np.repeat(bars, counts) + within * np.repeat(beats, counts)
         return ticks
 
 
@@ -166,13 +186,14 @@ class Piece(msgspec.Struct, frozen=True, dict=True):
 class LineTimes:
     """The notes of a line as arrays (N,), in ticks and seconds.
 
-    ``played_end`` is the note's end, at most the next onset; ``silence_tick`` the silence before each note (none is 0;
-    before the first it is very long, since the pre-roll is silent); ``loudness`` 0..1.
+    ``slurs_next`` is whether the next note is slurred to it; ``played_end`` is the note's end, at most the next onset;
+    ``silence_tick`` the silence before each note (none is 0; before the first it is very long, since the pre-roll is
+    silent); ``loudness`` 0..1.
     """
 
     onset_tick: IntArray
     played_end_tick: IntArray
-    overlaps_next: npt.NDArray[np.bool_]
+    slurs_next: npt.NDArray[np.bool_]
     silence_tick: IntArray
     onset_s: FloatArray
     played_end_s: FloatArray
@@ -186,8 +207,8 @@ class LineTimes:
 
     @cached_property
     def part(self) -> bytes:
-        """What is played and when: equal for players of one part."""
-        return _digest(self.onset_tick, self.played_end_tick, self.pitch)
+        """What begins when, in whatever octave: equal for players of one line."""
+        return _digest(self.onset_tick, self.pitch % 12)
 
     @cached_property
     def rhythm(self) -> bytes:
@@ -202,7 +223,7 @@ class LineTimes:
     @cached_property
     def phrasing(self) -> bytes:
         """How it divides into phrases, as far as rhythm, loudness and leaps say."""
-        silences = (self.silence_tick, self.overlaps_next)
+        silences = (self.silence_tick, self.slurs_next)
         return _digest(self.onset_tick, self.played_end_tick, *silences, self.loudness, self.leaps)
 
 
@@ -227,6 +248,43 @@ def velocity_loudness(velocity: IntArray) -> FloatArray:
     return np.clip(velocity / 127.0, 0.0, 1.0)
 
 
+TOUCHING_GATE = 0.97
+"""From this share of the time to the next onset on a note touches the next one; sequencers write 98 to 100 %."""
+DETACHED_GATES = (0.80, 0.955)
+"""What notation programs give a note that is neither slurred nor short: 80 to 95 %, by program and player."""
+DETACHED_SHARE = 0.1
+"""Where so many notes are detached so, those that touch are meant to be slurred."""
+
+
+def slurs_next(onset_tick: IntArray, end_tick: IntArray) -> npt.NDArray[np.bool_]:
+    """(N,): whether each note is slurred to the next: it overlaps it, or touches it in a line that detaches others.
+
+    Where all notes touch (an engraved score rendered to MIDI, or one gate for everything), touching says nothing.
+    """
+    following = np.append(onset_tick[1:], BEFORE_FIRST_TICK)
+    between = np.maximum(following - onset_tick, 1)
+    gates = (end_tick - onset_tick) / between
+    low, high = DETACHED_GATES
+    detached = np.count_nonzero((gates >= low) & (gates <= high))
+    slurred: npt.NDArray[np.bool_] = end_tick > following
+    if detached >= max(DETACHED_SHARE * len(gates), 1):
+        slurred |= gates >= TOUCHING_GATE
+    return slurred
+
+
+STACCATO_GATE = 0.6
+"""A note that lasts no longer share of the time to the next one is staccato; notation programs play it by half..."""
+STACCATO_QUARTERS = 1.0
+"""... where the next one comes so soon: later, what follows is a rest."""
+
+
+def staccato(onset_tick: IntArray, end_tick: IntArray, quarter_ticks: int) -> npt.NDArray[np.bool_]:
+    """(N,): whether each note is short for the time to the next one; after the last one nothing comes that says so."""
+    between = np.append(np.diff(onset_tick), BEFORE_FIRST_TICK)
+    short: npt.NDArray[np.bool_] = end_tick - onset_tick <= STACCATO_GATE * between
+    return short & (between <= STACCATO_QUARTERS * quarter_ticks)
+
+
 def line_times(line: Line, clock: Clock) -> LineTimes:
     """The times of a line's notes. A line without notes gives empty arrays."""
     notes = line.notes
@@ -247,7 +305,7 @@ def line_times(line: Line, clock: Clock) -> LineTimes:
     return LineTimes(
         onset_tick=onset,
         played_end_tick=played_end,
-        overlaps_next=end > following,
+        slurs_next=slurs_next(onset, end),
         silence_tick=silence,
         onset_s=clock.seconds(onset.astype(np.float64)),
         played_end_s=clock.seconds(played_end.astype(np.float64)),

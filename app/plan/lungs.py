@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import lru_cache
 
 import numpy as np
+import numpy.typing as npt
 
 from app.plan.heard import STOPS_AT, Blown, step_means
 from app.plan.line import MEZZOFORTE, IntArray, LineTimes, Piece, Seeds
@@ -16,7 +17,7 @@ FULL_BREATH_S = 0.5
 CATCH_MIN_S = 0.12
 """A gasp shorter than this brings no air."""
 CATCH_MAX_S = 0.4
-CATCH_NOTE_SHARE = 0.4
+CATCH_NOTE_SHARE = 0.5
 """A catch breath takes at most this part of the note before it ..."""
 CATCH_MOST_SHARE = 0.5
 """... unless that would be no gasp: out of a short note as much as a gasp needs, at most this part."""
@@ -27,27 +28,49 @@ USUAL_LUNG_S = 9.0
 PIANO, FORTE = 0.39, 0.77
 """Loudness of the dynamics a map's `Air` names: velocities 49 and 98 of 127."""
 
+STALE_S = 12.0
+"""However little air an instrument takes, usual lungs want fresh air after so long (an oboist breathes out first)."""
+
 # How good a place for a catch breath is (added up; the cost of a place is PLACE_COST minus this).
-PLACE_COST = 6.0
+PLACE_COST = 7.0
+LEAST_COST = 0.2
+REST = 4.0
+"""In a rest of the score."""
 LONG_NOTE = 1.5
-"""After a note at least twice as long as the notes around."""
-BAR_LINE = 1.0
-"""Before a bar's first note."""
-ON_BEAT = 0.4
-LEAP = 0.7
+"""After a note twice as long as the notes around; after one four times as long twice as much, and no more."""
+LEAP = 1.0
 """Before a leap of a fourth or more."""
-SILENCE = 1.5
+SILENCE = 1.0
 """A short silence is there already."""
-SLURRED = -2.0
-"""Between notes that overlap: the slur would be broken."""
+BEFORE_UPBEAT = 0.8
+"""Before a weak place after a note on a strong one, for every level between them: in running notes after the beat."""
+AFTER_UPBEAT = -2.5
+"""Between an upbeat and the place it leads to: never, unless the upbeat is a long note or before a rest."""
+BEFORE_TAIL = -7.0
+"""Before a lone short note that leads to a beat, the tail of a dotted note; half a beat before a bar line is none."""
+LIKE_ENTRIES = 1.5
+"""Where in the bar (in half a bar, where there is one) the line comes in after rests."""
+AGAIN = 2.0
+"""Where what came after a rest comes again."""
+AGAIN_NOTES = 4
+SHORTER = 0.5
+"""Before a note half as long as the one before."""
+SLURRED = -40.0
+"""Within a slur: only by somebody who has no air left."""
+BEFORE_REST = -8.0
+"""When a rest comes within a felt beat."""
 CLIPPED = -1.0
 """Out of a note so short that it loses more than the usual part."""
 JITTER = 0.2
 """Players differ where places are equally good."""
 TAKEN_COST = 3.0
-"""Where another player of the same part breathes: players stagger."""
-EARLY_COST = 2.0
-"""Breathing in with lungs still full; with half a lungful half of it."""
+"""Where another player of the same line breathes: players stagger."""
+EARLY_COST = 1.0
+"""Breathing in with lungs still full; with half a lungful a quarter of it."""
+HASTY_SHARE = 0.3
+"""Part of the lungs ..."""
+HASTY_COST = 10.0
+"""... that is used up at least before the next breath."""
 TOO_LONG_COST = 1000.0
 EPSILON = 1e-6
 """Rounding of air summed over an hour of notes, seconds."""
@@ -77,13 +100,13 @@ def air_rate(loudness: FloatArray, air: Air | None = None) -> FloatArray:
     if air is None:
         low, high = LOUDNESS_RANGE
         return np.interp(loudness, [0.0, MEZZOFORTE, 1.0], [low, 1.0, high])
-    rates = [air.mezzoforte_s / lasts_s for lasts_s in (air.piano_s, air.mezzoforte_s, air.forte_s)]
-    return np.interp(loudness, [PIANO, MEZZOFORTE, FORTE], rates)
+    lasting_s = [min(lasts_s, STALE_S) for lasts_s in (air.piano_s, air.mezzoforte_s, air.forte_s)]
+    return np.interp(loudness, [PIANO, MEZZOFORTE, FORTE], [lasting_s[1] / one_s for one_s in lasting_s])
 
 
 def lungful_s(parameters: PlayerParameters, air: Air | None = None) -> float:
     """How long a player's full breath lasts at mezzoforte: what the map says, on lungs of the player's size."""
-    return parameters.lung_s * (1.0 if air is None else air.mezzoforte_s / USUAL_LUNG_S)
+    return parameters.lung_s * (1.0 if air is None else min(air.mezzoforte_s, STALE_S) / USUAL_LUNG_S)
 
 
 def levels(used: FloatArray, lung_s: float, refill: FloatArray) -> FloatArray:
@@ -96,6 +119,33 @@ def levels(used: FloatArray, lung_s: float, refill: FloatArray) -> FloatArray:
         here = min(max(here - out, 0.0) + more, 1.0)
         level.append(here)
     return np.array(level)
+
+
+def needed_rests(
+    used: FloatArray, lung_s: float, refill: FloatArray, optional: npt.NDArray[np.bool_], need: float
+) -> npt.NDArray[np.bool_]:
+    """(N,): before which notes a rest is breathed in, of those that ``refill`` (`levels`) names.
+
+    Parameters
+    ----------
+    optional : (N,) bool
+        Rests that are left alone as long as less than ``need`` (0..1) of the lungs is used up, and where the next
+        rest that is none of them comes soon.
+    """
+    result = refill > 0.0
+    level, before = (0.5 if refill[0] == 0.0 else 0.0), 0
+    certain = np.append(np.flatnonzero(result & ~optional), len(refill))
+    comes = used[certain[np.searchsorted(certain, np.arange(len(refill)), side="right").clip(max=len(certain) - 1)]]
+    soon = np.minimum(HASTY_SHARE, need)
+    for index in np.flatnonzero(result).tolist():
+        level = max(level - float(used[index] - used[before]) / lung_s, 0.0)
+        before = index
+        until = float(comes[index] - used[index]) / lung_s
+        if optional[index] and (1.0 - level < need - EPSILON or (until < soon and until <= level)):
+            result[index] = False
+        else:
+            level = min(level + float(refill[index]), 1.0)
+    return result
 
 
 def drawn(length_s: float) -> float:
@@ -114,6 +164,7 @@ def catch_places(
     removed: frozenset[str],
     taken: frozenset[str],
     seeds: Seeds,
+    rests: IntArray,
     length_s: FloatArray | None = None,
 ) -> list[int]:
     """Indices of the notes before which a catch breath is needed.
@@ -132,6 +183,8 @@ def catch_places(
         Part of the lungs that the breath before each note fills; 0 where there is none.
     level : (N,) float
         How full the lungs are at each note.
+    rests : (N,) int64
+        Ticks of rest before each note, as `app.plan.rests.rest_ticks` finds them.
     length_s : (N,) float, optional
         How long a catch breath before each note may be, where that was heard; `catch_lengths_s` otherwise.
     """
@@ -141,7 +194,6 @@ def catch_places(
     breaths = np.flatnonzero(refill > 0.0)
     starts = np.unique(np.concatenate(([0], breaths)))
     ends = np.append(starts[1:], len(notes))
-    bars = piece.bars(int(times.onset_tick[0]), int(times.onset_tick[-1]) + 1)
     short = used[ends] - used[starts] > level[starts] * lung_s + EPSILON
     stretches = [
         (
@@ -154,7 +206,7 @@ def catch_places(
     everywhere = [index for _, _, places in stretches for index in places]
     if not everywhere:
         return []
-    cost = _place_costs(notes, times, piece, bars, _lengths_around(times.duration_s), everywhere, taken, seeds)
+    cost = _place_costs(notes, times, piece, rests, everywhere, taken, seeds)
     air_s = np.array([drawn(length) * lung_s for length in length_s.tolist()])
     result: list[int] = []
     first = 0
@@ -200,8 +252,9 @@ def _cheapest_chain(
         left_s = air_s[back:node] - needed
         ways = total[back:node] + np.where(left_s < -EPSILON, TOO_LONG_COST * (1.0 - left_s), 0.0)
         left_s = np.maximum(left_s, 0.0)
+        ways += HASTY_COST * np.maximum(1.0 - needed / (HASTY_SHARE * lung_s), 0.0)
         if node < last:
-            ways += cost[node - 1] + EARLY_COST * left_s / lung_s
+            ways += cost[node - 1] + EARLY_COST * np.square(left_s / lung_s)
         best = int(np.argmin(ways))
         origin[node], total[node] = back + best, ways[best]
         if node < last:
@@ -218,26 +271,87 @@ def _place_costs(
     notes: tuple[Note, ...],
     times: LineTimes,
     piece: Piece,
-    bars: IntArray,
-    around: FloatArray,
+    rests: IntArray,
     places: list[int],
     taken: frozenset[str],
     seeds: Seeds,
 ) -> FloatArray:
+    """(K,): what a breath before each of ``places`` costs."""
     at = np.array(places)
-    duration = times.duration_s
-    onset = times.onset_tick[at]
-    good: FloatArray = LONG_NOTE * (duration[at - 1] >= 2.0 * around[at])
-    good += BAR_LINE * np.isin(onset, bars)
-    bar = bars[np.maximum(np.searchsorted(bars, onset, side="right") - 1, 0)]
-    good += ON_BEAT * ((onset - bar) % piece.beat_ticks == 0)
+    duration, onsets = times.duration_s, times.onset_tick
+    onset, before = onsets[at], duration[at - 1]
+    beat = piece.beat_ticks_at(onset)
+    rest = rests[at] > 0
+    longer = np.maximum(before, EPSILON) / np.maximum(_lengths_around(duration)[at], EPSILON)
+    long = np.clip(np.log2(longer), 0.0, 2.0)
+    good: FloatArray = REST * rest + LONG_NOTE * long
+    bars = piece.bars(int(onsets[0]), int(onsets[-1]) + 1)
+    strength = _strength(onsets, bars, piece.beat_ticks_at(onsets))
+    falls = strength[at - 1] - strength[at]
+    steps = np.diff(onsets, append=onsets[-1] + max(beat.max(), 1))
+    leads_to = strength[np.minimum(at + 1, len(onsets) - 1)]
+    tail = ~rest & (2 * steps[at] <= beat - (leads_to == 3)) & (leads_to > 0) & (steps[at - 1] > 2 * steps[at])
+    good += BEFORE_TAIL * tail
+    good += LIKE_ENTRIES * _like_entries(rests, onsets, at, bars)
+    good += AGAIN * _begins_again(steps, times.pitch, rests)[at]
+    # A long note or a rest ends what led to the next one.
+    leads = ~rest & (long < 1.0)
+    good += BEFORE_UPBEAT * np.maximum(falls, 0) + AFTER_UPBEAT * np.maximum(-falls, 0) * leads
+    good += SHORTER * np.clip(np.log2(np.maximum(before, EPSILON) / np.maximum(duration[at], EPSILON)), 0.0, 2.0)
     good += LEAP * times.leaps[at - 1]
     good += SILENCE * (times.silence_tick[at] > 0)
-    good += SLURRED * times.overlaps_next[at - 1]
-    good += CLIPPED * (_gap_s(times)[at] + CATCH_NOTE_SHARE * duration[at - 1] < CATCH_MIN_S)
-    good += np.array([JITTER * seeds.chance_at("catch", int(tick)) for tick in onset])
+    good += SLURRED * times.slurs_next[at - 1]
+    good += BEFORE_REST * (~rest & _rest_follows(rests, onsets, at, beat))
+    good += CLIPPED * (_gap_s(times)[at] + CATCH_NOTE_SHARE * before < CATCH_MIN_S)
+    good += JITTER * seeds.chances_at("catch", onset)
     good -= TAKEN_COST * np.array([notes[index].id in taken for index in places])
-    return np.asarray(PLACE_COST - good, dtype=np.float64)
+    return np.asarray(np.maximum(PLACE_COST - good, LEAST_COST), dtype=np.float64)
+
+
+def _strength(ticks: IntArray, bars: IntArray, beat_ticks: IntArray) -> IntArray:
+    """(K,): 3 where a bar begins, 2 in its middle, 1 on another felt beat, 0 elsewhere."""
+    place = np.maximum(np.searchsorted(bars, ticks, side="right") - 1, 0)
+    since = ticks - bars[place]
+    length = np.append(np.diff(bars), 0)
+    length = np.where(length > 0, length, beat_ticks.max())[place]
+    on_beat = since % beat_ticks == 0
+    middle = on_beat & (2 * since == length)
+    return np.where(since == 0, 3, np.where(middle, 2, np.where(on_beat, 1, 0)))
+
+
+def _like_entries(rests: IntArray, onsets: IntArray, at: IntArray, bars: IntArray) -> FloatArray:
+    """(K,): of the notes that come in after rests, the part that does so where each place stands in its bar."""
+    place = np.maximum(np.searchsorted(bars, onsets, side="right") - 1, 0)
+    bar = int(np.median(np.diff(bars))) if len(bars) > 1 else 1
+    phase = (onsets - bars[place]) % max(bar // 2 if bar % 2 == 0 else bar, 1)
+    phases, counts = np.unique(phase[rests > 0], return_counts=True)
+    known = np.minimum(np.searchsorted(phases, phase[at]), len(phases) - 1)
+    shares: FloatArray = np.where(phases[known] == phase[at], counts[known] / counts.sum(), 0.0)
+    return shares
+
+
+def _begins_again(steps: IntArray, pitch: IntArray, rests: IntArray) -> npt.NDArray[np.bool_]:
+    """(N,): whether the next notes have the rhythm and the direction of what came after a rest."""
+    count = len(steps)
+    result = np.zeros(count, dtype=bool)
+    if count > AGAIN_NOTES:
+        moves = np.sign(np.diff(pitch))
+        columns = [steps[place : count - AGAIN_NOTES + place] for place in range(AGAIN_NOTES)]
+        columns += [moves[place : count - AGAIN_NOTES + place] for place in range(AGAIN_NOTES)]
+        rows = np.stack(columns, axis=1)
+        _, kinds = np.unique(rows, axis=0, return_inverse=True)
+        kinds = kinds.ravel()
+        entries = np.unique(kinds[rests[: len(kinds)] > 0])
+        result[: len(kinds)] = np.isin(kinds, entries)
+    return result
+
+
+def _rest_follows(rests: IntArray, onsets: IntArray, at: IntArray, beat_ticks: IntArray) -> npt.NDArray[np.bool_]:
+    """(K,): whether a rest begins within a beat after each place."""
+    following = np.flatnonzero(rests > 0)
+    begins = np.append(onsets[following] - rests[following], np.iinfo(np.int64).max)
+    result: npt.NDArray[np.bool_] = begins[np.searchsorted(following, at, side="right")] - onsets[at] <= beat_ticks
+    return result
 
 
 def _lengths_around(duration_s: FloatArray) -> FloatArray:

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from app.plan.figures import TRILL_NOTES
 from app.plan.line import LineTimes
-from app.plan.search import HEARD_OUT_S, TRILL_NOTES, FingeringProblem, best_path, never_worse, pitch_controls, table_of
+from app.plan.search import HEARD_OUT_S, FingeringProblem, best_path, never_worse, pitch_controls, table_of
 from instrument_maps.model import Fingering, InstrumentMap
 
 REMEMBERED = TRILL_NOTES
@@ -70,7 +71,7 @@ def _times(notes: Sequence[Fingered]) -> LineTimes:
     return LineTimes(
         onset_tick=nowhere,
         played_end_tick=nowhere,
-        overlaps_next=np.zeros(len(notes), dtype=bool),
+        slurs_next=np.zeros(len(notes), dtype=bool),
         silence_tick=nowhere,
         onset_s=onsets_s,
         played_end_s=ends_s,

@@ -14,6 +14,7 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
+from app.plan.figures import TRILL_S, attacked_notes, chromatic_notes, glissando_steps, trill_steps
 from app.plan.finger_ways import FingerPlaces, finger_places
 from app.plan.line import IntArray, LineTimes
 from app.plan.model import FloatArray, Note
@@ -32,12 +33,15 @@ HEARD_OUT_S = 0.25
 """Shorter notes do not let their intonation be heard; their cost falls in proportion."""
 FORKED_COST = 0.5
 """A forked fingering sounds covered, beside its rank."""
-IN_PLACE_COST = 0.5
-"""A fingering that is meant for trills, fast passages, loud or soft notes costs this there, whatever its rank, ..."""
+IN_PLACE_COST = {"trill": 0.5, "fast": 0.5, "forte": 0.5, "piano": 0.5, "chromatic": -0.5, "attack": -4.0}
+"""A fingering that is meant for trills, fast passages, chromatic runs, attacks, loud or soft notes costs this there,
+whatever its rank, ..."""
 OUT_OF_PLACE_COST = 6.0
 """... and so much more than its rank elsewhere."""
-CONTEXTS = ("trill", "fast", "forte", "piano")
-"""Tags of fingerings that are meant for something."""
+HELD_COST = 0.2
+"""A key left down that the note does not need (tag "held") costs this, whatever its rank."""
+RARE_COST = 4.0
+"""A fingering that players know and hardly ever take (tag "rare") costs this beside its rank."""
 QUICK_S = 0.15
 """A note is fast that lasts no longer than this, from the one before or to the next."""
 LOUD, SOFT = 0.75, 0.35
@@ -46,11 +50,15 @@ LOUD, SOFT = 0.75, 0.35
 FAST_S = 0.085
 """Below this time per note (16ths at about 176 beats/min) fingers begin to be the limit: tapping one finger reaches 6-7
 per second, alternating fingers about twice that."""
-TRILL_S = 0.15
-"""A trill is at least `TRILL_NOTES` notes of at most this length alternating by a second."""
-TRILL_NOTES = 4
 TRILL_COST = 3.0
 """A trill repeats its motion, so it tires: hurry counts this much more."""
+LIP_TRILL_WEIGHT, LEVER_TRILL_WEIGHT = 1.1, 0.75
+"""A step of a trill that nothing but the lips makes counts as so many moves; one that turns a thumb's lever as so many
+more, for the lever is slow."""
+MOVE_COST = 0.15
+"""Each finger that moves in a hurried step, where keys may be left down: it decides between what is else alike."""
+GLISSANDO_COST = 6.0
+"""A step of a glissando in which the slide does not go the way of the pitch, or a lever is turned."""
 LIFTED_S = 0.12
 """In a silence this long a finger is free: it goes from key to key for nothing."""
 KEY_TO_KEY_MOVES = 2
@@ -67,9 +75,10 @@ SLIDE_EASY = 0.7
 """A slide that needs at most this part of the time it has costs nothing."""
 SLIDE_COST = 3.0
 """Cost of using all the time there is, above `SLIDE_EASY`."""
-SLIDE_LATE = 8.0
-"""Cost of not arriving in time: more than any alternate's."""
-SLIDE_LATE_RATE = 10.0
+SLIDE_LATE = 1.8
+"""Cost of not arriving in time, ..."""
+SLIDE_LATE_RATE = 3.0
+"""... and for each time more that it would need."""
 SLIDE_MAX_SPEED_M_S = 2.5
 """Where the map does not say: speed of a trombonist's arm in fast passages."""
 LEGATO_COST = 1.25
@@ -100,6 +109,8 @@ class Table:
         Which are meant for a trill, for fast, loud or soft notes.
     register : (P,) int64
         How many breaks lie below the pitch.
+    leaves_down : bool
+        Whether any fingering of the instrument leaves a key down that its note does not need (tag "held").
     places : FingerPlaces
         Where every finger is in each of them.
     """
@@ -111,6 +122,7 @@ class Table:
     valid: BoolArray
     meant_for: dict[str, BoolArray]
     register: IntArray
+    leaves_down: bool
     places: FingerPlaces
 
 
@@ -182,26 +194,38 @@ class FingeringProblem:
         heard = np.minimum(times.duration_s / HEARD_OUT_S, 1.0)[:, None]
         cost = table.cost[index]
         if table.meant_for:
-            step_s = np.diff(times.onset_s)
-            quick = _either_side(step_s <= QUICK_S + TOLERANCE, len(index))
-            places = {
-                "trill": _either_side(self.in_trill, len(index)),
-                "fast": quick,
-                "forte": times.loudness >= LOUD,
-                "piano": times.loudness <= SOFT,
-            }
-            meant, fits = np.zeros(cost.shape, dtype=bool), np.zeros(cost.shape, dtype=bool)
+            least = np.full(cost.shape, np.inf)
+            meant = np.zeros(cost.shape, dtype=bool)
             for tag, which in table.meant_for.items():
                 meant |= which[index]
-                fits |= which[index] & places[tag][:, None]
-            cost = np.where(meant, np.where(fits, IN_PLACE_COST, cost + OUT_OF_PLACE_COST), cost)
+                fits = which[index] & self._where(tag)[:, None]
+                least = np.where(fits, np.minimum(least, IN_PLACE_COST[tag]), least)
+            cost = np.where(meant, np.where(np.isfinite(least), least, cost + OUT_OF_PLACE_COST), cost)
         cost = cost + out_of_tune[index] * heard
         return np.where(self.allowed, cost, np.inf)
+
+    def _where(self, tag: str) -> BoolArray:
+        """(N,): the notes that fingerings with this tag are meant for."""
+        times = self.times
+        match tag:
+            case "trill":
+                return _either_side(self.in_trill, len(times.pitch))
+            case "fast":
+                quick = np.diff(times.onset_s) <= QUICK_S + TOLERANCE
+                return _either_side(quick & ~self.in_trill, len(times.pitch))
+            case "chromatic":
+                return chromatic_notes(times)
+            case "attack":
+                return attacked_notes(times, self.table.register[self.pitch_index])
+            case "forte":
+                return times.loudness >= LOUD
+            case _:
+                return times.loudness <= SOFT
 
     @cached_property
     def motions(self) -> Motions:
         """What every step takes."""
-        times, index, count = self.times, self.pitch_index, len(self.table.choices)
+        table, times, index, count = self.table, self.times, self.pitch_index, len(self.table.choices)
         gap = np.maximum(times.onset_s[1:] - times.played_end_s[:-1], 0.0)
         step = np.maximum(times.onset_s[1:] - times.onset_s[:-1], 1e-3)
         pairs, pair = np.unique(index[:-1] * count + index[1:], return_inverse=True)
@@ -210,6 +234,8 @@ class FingeringProblem:
         crossing = self.table.register[before] != self.table.register[after]
         crossed = np.where(crossing[:, None, None], np.maximum(fingers.moves - BREAK_FINGERS, 0.0), 0.0)
         awkward = ROLL_COST * fingers.rolls + TOGETHER_COST * fingers.together + BREAK_COST * crossed
+        if table.leaves_down:
+            awkward += MOVE_COST * fingers.moves
         hurry = np.maximum(FAST_S / step - 1.0, 0.0)
         trill_hurry = TRILL_COST * np.maximum(TRILL_S / step - 1.0, 0.0)
         hurry = np.where(self.in_trill, np.maximum(trill_hurry, hurry), hurry)
@@ -220,13 +246,27 @@ class FingeringProblem:
         for amount, rate in ((fingers.weighted, hurry), (awkward, pace), (fingers.key_to_key, touching * trill)):
             if amount.any() and rate.any():
                 cost += amount[pair] * rate[:, None, None]
-        moves = fingers.moves + KEY_TO_KEY_MOVES * (fingers.key_to_key > 0.0)
+        if self.in_trill.any():
+            still = (fingers.moves == 0.0) & (before != after)[:, None, None]
+            more = LIP_TRILL_WEIGHT * still + LEVER_TRILL_WEIGHT * fingers.levers
+            cost += more[pair] * np.where(self.in_trill, hurry, 0.0)[:, None, None]
+        moves = fingers.moves + KEY_TO_KEY_MOVES * fingers.apart
         nothing = np.zeros((len(pair), 1, 1))
         if not self.has_slide:
             return Motions(pair, moves, nothing, nothing, nothing, cost)
         slide_m, needed_s, share, slide_cost = self._slides(gap)
+        gliding = glissando_steps(times)
+        if gliding.any():
+            away = (self._slide_change() * np.diff(times.pitch)[:, None, None] >= 0.0) | (moves[pair] > 0.0)
+            slide_cost = np.where(gliding[:, None, None], GLISSANDO_COST * away, slide_cost)
         cost += slide_cost * trill[:, None, None]
         return Motions(pair, moves, slide_m, needed_s, share, cost)
+
+    def _slide_change(self) -> FloatArray:
+        """(N-1, K, K): how far the slides go out, as a part of their travel."""
+        places = [place for place, control in enumerate(self.controls) if control.kind == "slide"]
+        values = self.table.values[self.pitch_index][:, :, places].sum(axis=2)
+        return np.asarray(values[1:, None, :] - values[:-1, :, None], dtype=np.float64)
 
     def _slides(self, gap: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
         """Travel, time, share of the available time and cost of the slides' ways, each (N-1, K, K)."""
@@ -283,23 +323,6 @@ class FingeringProblem:
         return cost
 
 
-def trill_steps(times: LineTimes) -> BoolArray:
-    """(N-1,): whether the step to the next note belongs to a trill (see `TRILL_S`, `TRILL_NOTES`)."""
-    count = len(times.pitch)
-    steps = max(count - 1, 0)
-    result = np.zeros(steps, dtype=bool)
-    if count < TRILL_NOTES:
-        return result
-    interval = np.diff(times.pitch)
-    quick = (np.diff(times.onset_s) <= TRILL_S + TOLERANCE) & (np.abs(interval) >= 1) & (np.abs(interval) <= 2)
-    turns = quick[1:] & quick[:-1] & (interval[1:] == -interval[:-1])
-    need = TRILL_NOTES - 2
-    windows: BoolArray = np.asarray(np.lib.stride_tricks.sliding_window_view(turns, need).all(axis=1))
-    for shift in range(need + 1):
-        result[shift : shift + len(windows)] |= windows
-    return result
-
-
 def fingering_problem(
     notes: tuple[Note, ...], times: LineTimes, instrument: InstrumentMap, pins: dict[str, str]
 ) -> FingeringProblem:
@@ -334,16 +357,20 @@ def table_of(pitches: tuple[int, ...], instrument: InstrumentMap) -> Table:
         for column, fingering in enumerate(ranked):
             values[row, column] = [fingering.controls.get(item.name, item.rest_value) for item in controls]
             forked = FORKED_COST if fingering.rank > 1 and "forked" in fingering.tags else 0.0
-            cost[row, column] = RANK_COST * min(fingering.rank - 1, MOST_RANKS) + forked
+            rare = RARE_COST if fingering.rank > 1 and "rare" in fingering.tags else 0.0
+            cost[row, column] = RANK_COST * min(fingering.rank - 1, MOST_RANKS) + forked + rare
+            if fingering.rank > 1 and "held" in fingering.tags:
+                cost[row, column] = HELD_COST
             cents[row, column] = fingering.cents
             valid[row, column] = True
-            for tag in CONTEXTS:
+            for tag in IN_PLACE_COST:
                 if fingering.rank > 1 and tag in fingering.tags:
                     meant_for.setdefault(tag, np.zeros(shape, dtype=bool))[row, column] = True
     written = np.array([ranked[0].written_pitch for ranked in choices], dtype=np.int64)
     register = np.searchsorted(np.sort(np.array(instrument.breaks, dtype=np.int64)), written, side="right")
     places = finger_places(choices, shape, controls)
-    return Table(choices, values, cost, cents, valid, meant_for, register.astype(np.int64), places)
+    leaves_down = any("held" in fingering.tags for fingering in instrument.fingerings)
+    return Table(choices, values, cost, cents, valid, meant_for, register.astype(np.int64), leaves_down, places)
 
 
 def _either_side(steps: BoolArray, count: int) -> BoolArray:

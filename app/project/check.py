@@ -298,7 +298,8 @@ def _comp_faults(recorded: PlayerTakes, place: str) -> Iterator[Fault]:
 def _setting_faults(project: Project) -> Iterator[Fault]:
     yield from _between("seed", project.seed, limits.SEED)
     yield from _between("preroll_beats", project.preroll_beats, limits.PREROLL_BEATS)
-    yield from _between("felt_beat_quarters", project.felt_beat_quarters, limits.FELT_BEAT_QUARTERS)
+    if project.felt_beat_quarters is not None:
+        yield from _between("felt_beat_quarters", project.felt_beat_quarters, limits.FELT_BEAT_QUARTERS)
     if not limits.FPS[0] <= project.fps <= limits.FPS[1]:
         yield "fps", f"must be from {limits.FPS[0]} to {limits.FPS[1]}"
     yield from _text("source", project.source)

@@ -52,11 +52,11 @@ def merged(rows: Sequence[ImportRow], places: Sequence[int]) -> tuple[ImportRow,
 def separated(rows: Sequence[ImportRow], place: int) -> tuple[ImportRow, ...]:
     """The rows with the one at a place taken apart into its tracks."""
     row = rows[place]
-    parts = tuple(
+    alone = tuple(
         msgspec.structs.replace(row, wish=msgspec.structs.replace(row.wish, streams=(stream,), name=""))
         for stream in row.wish.streams
     )
-    return (*rows[:place], *parts, *rows[place + 1 :])
+    return (*rows[:place], *alone, *rows[place + 1 :])
 
 
 class Outcome(msgspec.Struct, frozen=True):

@@ -37,7 +37,19 @@ def _with_markers(raw: Raw) -> Raw:
     return {**raw, "score": {**raw["score"], "markers": []}}
 
 
-MIGRATIONS: Final[tuple[Migration, ...]] = (_with_read_notes, _with_transpositions, _with_takes, _with_markers)
+def _with_breath_need(raw: Raw) -> Raw:
+    """5 to 6: rests are breathed in as air is needed; before, players breathed in every rest."""
+    players = [{**player, "parameters": {**player["parameters"], "breath_need": 0.0}} for player in raw["players"]]
+    return {**raw, "players": players}
+
+
+MIGRATIONS: Final[tuple[Migration, ...]] = (
+    _with_read_notes,
+    _with_transpositions,
+    _with_takes,
+    _with_markers,
+    _with_breath_need,
+)
 """In order."""
 
 CURRENT: Final = len(MIGRATIONS) + 1

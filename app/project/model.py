@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
@@ -12,6 +13,7 @@ import numpy as np
 
 from app.errors import UsageError
 from app.plan.corrections import Correction
+from app.plan.felt_beat import felt_beats
 from app.plan.generate import PREROLL_BEATS
 from app.plan.model import PlayerParameters
 from app.project.casting import StagePosition, amplitude, choose_characters, player_seed, stage_seats, usual_posture
@@ -132,8 +134,8 @@ class Project:
         Another seed is another performance of the same plan.
     preroll_beats : float
         Before the first note, in felt beats.
-    felt_beat_quarters : float
-        The beat that is felt, in quarters: 1.5 where a fast 6/8 is felt in two.
+    felt_beat_quarters : float or None
+        The beat that is felt throughout, in quarters: 1.5 where a fast 6/8 is felt in two. None: metre and tempo say.
     fps : Fraction
         Frames per second of the picture: what the ruler counts, a step is, and an export starts from.
     audio : AudioTrack or None
@@ -154,7 +156,7 @@ class Project:
     corrections: Mapping[str, tuple[Correction, ...]] = field(default_factory=dict)
     seed: int = 0
     preroll_beats: float = PREROLL_BEATS
-    felt_beat_quarters: float = 1.0
+    felt_beat_quarters: float | None = None
     fps: Fraction = Fraction(60)
     audio: AudioTrack | None = None
     expressions: tuple[Expression, ...] = ()
@@ -162,10 +164,18 @@ class Project:
     read_notes: Mapping[str, Mapping[str, Note]] = field(default_factory=dict)
     takes: Mapping[str, PlayerTakes] = field(default_factory=dict)
 
-    @property
-    def felt_beat_ticks(self) -> int:
-        """The felt beat in whole ticks, at least one."""
-        return max(round(self.felt_beat_quarters * self.score.ticks_per_quarter), 1)
+    @cached_property
+    def felt_beats(self) -> tuple[tuple[int, int], ...]:
+        """The beat that is felt from each tick on, as (tick, whole ticks, at least one)."""
+        score = self.score
+        if self.felt_beat_quarters is not None:
+            return ((0, max(round(self.felt_beat_quarters * score.ticks_per_quarter), 1)),)
+        return felt_beats(score.tempo_map, score.metres, score.bar_starts)
+
+    def felt_beat_ticks(self, tick: float) -> int:
+        """The beat that is felt at a tick, in ticks."""
+        beats = self.felt_beats
+        return beats[max(bisect_right(beats, tick, key=lambda beat: beat[0]) - 1, 0)][1]
 
     def part(self, player: Player) -> Part:
         """What a player plays."""
@@ -190,7 +200,7 @@ def project_from_score(
     *,
     seed: int = 0,
     preroll_beats: float = PREROLL_BEATS,
-    felt_beat_quarters: float = 1.0,
+    felt_beat_quarters: float | None = None,
 ) -> Project:
     """Cast a score: a player for every part, with a name, a character, a place and a size of motion of their own.
 
@@ -200,7 +210,8 @@ def project_from_score(
     maps : mapping of str to InstrumentMap
         By id; every part names one of them.
     seed : int
-    preroll_beats, felt_beat_quarters : float
+    preroll_beats : float
+    felt_beat_quarters : float or None
     """
     parts = score.parts
     instruments = [maps[part.map_id] for part in parts]

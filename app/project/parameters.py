@@ -26,6 +26,7 @@ _BOUNDS: Final[Mapping[str, tuple[float, float]]] = {
     "breath_min_beats": (0.0, 64.0),
     "breath_last_beat_beats": (0.0, 64.0),
     "breath_prepare_beats": (0.0, 64.0),
+    "breath_need": (0.0, 1.0),
     "lung_s": (1.0, 60.0),
     "embouchure_tension": (0.0, 2.0),
     "sway": (0.0, 2.0),

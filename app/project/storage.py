@@ -64,7 +64,7 @@ class _Content(msgspec.Struct, forbid_unknown_fields=True):
     fps: str
     seed: int
     preroll_beats: float
-    felt_beat_quarters: float
+    felt_beat_quarters: float | None
     audio: AudioTrack | None
     players: tuple[Player, ...]
     corrections: dict[str, list[Any]]

@@ -6,21 +6,24 @@ A, else to that of a clarinet; one for a recorder to the size its notes fit.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Sequence
 from enum import Enum
 from operator import sub
 
 import msgspec
 
-from app.errors import Message
+from app.errors import Argument, Message
 from app.score.model import ControllerCurve, Note
 from instrument_maps.vocabulary import Instrument, vocabulary
 
 PERCUSSION_CHANNEL = 9
 _NEEDED_SHARE = 0.5
-_OWN_SHARE = 0.97
+_OWN_SHARE = 0.96
+_FEW = 3
+_FEW_SHARE = 0.9
 """A part for an instrument is played on just this one where it has nearly all notes, not on another size or key of it
-for the sake of one."""
+for the sake of a few; three in a short part may be more."""
 
 
 class MapChoice(msgspec.Struct, frozen=True):
@@ -89,6 +92,32 @@ class Stream(msgspec.Struct, frozen=True):
         return list(map(Note, ids, self.onset_ticks, durations, self.pitches, self.velocities))
 
 
+_ORDINAL = r"(?:1[0-6]|[1-9]|VIII|VII|VI|IV|V|III|II|I)(?:st|nd|rd|th|er|[.aoºª°])?"
+_PLAYERS = re.compile(
+    rf"(?<![A-Za-z\d♭♯#]){_ORDINAL}(?:\s*(?:[.,/&+・–-]|\b(?:and|und|et|ed?|y)\b)\s*{_ORDINAL})+(?![A-Za-z\d♭♯#])"
+)
+_SAYS_NOTHING = re.compile(
+    r"(?:midi|new|part|track|staff|voice|channel|untitled|パート|トラック|[\W\d_])*", re.IGNORECASE
+)
+"""What programs call a track that nobody has named."""
+_UNISON = re.compile(r"(?<!\w)[aà] ?([2-4])(?!\w)")
+_NUMERALS = ("I", "II", "III", "IV", "V", "VI", "VII", "VIII")
+
+
+def players_named(name: str) -> int:
+    """How many players a track's name says it is for: 2 in "Horn 1.2", "Cl. I/II" and "Trumpet a2", 4 in "Trb. 1-4"; 1
+    where it says nothing about it."""
+    together = _UNISON.search(name)
+    if together:
+        return int(together[1])
+    found = _PLAYERS.search(name)
+    if not found:
+        return 1
+    said = [_NUMERALS.index(one) + 1 if one in _NUMERALS else int(one) for one in re.findall(r"\d+|[IV]+", found[0])]
+    through = len(said) == 2 and re.search(r"[–-]", found[0]) and said[0] < said[1]
+    return min(said[1] - said[0] + 1 if through else len(set(said)), 16)
+
+
 class How(Enum):
     """What chose the maps a track may go to."""
 
@@ -111,12 +140,15 @@ class Candidates(msgspec.Struct, frozen=True):
     maps : tuple of MapChoice
     exact : frozenset of str
         Ids of the maps that play just this instrument, not a kind of it.
+    unknown : bool
+        The track has a name, and nothing says what it means: any of the maps might play it, so a person must say.
     """
 
     how: How
     instrument: Instrument | None
     maps: tuple[MapChoice, ...]
     exact: frozenset[str] = frozenset()
+    unknown: bool = False
 
     def best(self, pitches: Sequence[int], written: bool = False) -> MapChoice:
         """The map that plays just this instrument where it has the notes; else the one that reaches most of them, among
@@ -135,7 +167,13 @@ class Candidates(msgspec.Struct, frozen=True):
             share = _share(pitches, choice, written)
             shift = choice.transposition_semitones if written else 0
             below, above = lowest - shift - choice.concert_low, choice.concert_high - highest + shift
-            return choice.map_id in self.exact and share >= _OWN_SHARE, share, -abs(below - above), min(below, above)
+            few = (1.0 - share) * len(pitches) < _FEW + 0.5 and share >= _FEW_SHARE
+            return (
+                choice.map_id in self.exact and (few or share >= _OWN_SHARE),
+                share,
+                -abs(below - above),
+                min(below, above),
+            )
 
         return max(self.maps, key=rank)
 
@@ -199,21 +237,24 @@ def candidates(streams: Sequence[Stream], maps: Sequence[MapChoice]) -> Candidat
     section = said or next((one for one in named if one.any_pitch), None)
     families = () if section is None else section.families
     usual = _where(maps, lambda one: not one.by_name_only and (not families or one.family in families))
-    return Candidates(How.RANGE, section, tuple(usual or maps))
+    named_so = any(not _SAYS_NOTHING.fullmatch(name) for one in streams for name in (one.name, one.instrument_name))
+    return Candidates(How.RANGE, section, tuple(usual or maps), unknown=section is None and named_so)
 
 
 def refusal(stream: Stream, maps: Sequence[MapChoice]) -> Message | None:
     """Why nobody plays a track; None if somebody does."""
     instrument = _said(stream)
+    found = candidates([stream], maps)
     if instrument is not None and not instrument.any_pitch:
         if instrument.kind != "wind":
             id_ = "score.percussion" if instrument.kind == "percussion" else "score.not_wind"
             return Message(id_, {"instrument": instrument.names[0]})
-        found = candidates([stream], maps).maps
-        return None if found else Message("score.no_map", {"instrument": instrument.names[0]})
-    choices = candidates([stream], maps).maps
-    if max((_share(stream.pitches, choice) for choice in choices), default=0.0) <= _NEEDED_SHARE:
-        return Message("score.outside_ranges", {"lowest": min(stream.pitches), "highest": max(stream.pitches)})
+        return None if found.maps else Message("score.no_map", {"instrument": instrument.names[0]})
+    range_: dict[str, Argument] = {"lowest": min(stream.pitches), "highest": max(stream.pitches)}
+    if found.unknown:
+        return Message("score.unknown_instrument", range_)
+    if max((_share(stream.pitches, choice) for choice in found.maps), default=0.0) <= _NEEDED_SHARE:
+        return Message("score.outside_ranges", range_)
     return None
 
 

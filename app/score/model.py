@@ -209,6 +209,10 @@ class Score(msgspec.Struct, frozen=True, dict=True):
             )
         return np.concatenate(starts)
 
+    def metre_at(self, tick: int) -> Metre:
+        """The metre that holds at a tick."""
+        return self.metres[max(bisect_right(self._metre_ticks, tick) - 1, 0)]
+
     def tick_of_bar(self, bar: int) -> int:
         """The tick at which a bar begins. Bars count from 1, a pickup is bar 0; before and after, the metre goes on."""
         index = max(bisect_right(self._first_bars, bar) - 1, 0)

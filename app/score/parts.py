@@ -14,42 +14,55 @@ score.not_wind : instrument
 score.outside_ranges : lowest, highest
     "neither its name nor its program says what it is, and no instrument map reaches its notes ({lowest} to {highest})"
 
+score.unknown_instrument : lowest, highest
+    "nothing says which instrument plays it ({lowest} to {highest}); choose one"
+score.stray_notes : part, count, bar, beat, pitch
+    "{count} notes sound together with others, the first at ...; too few and too short for another player"
+score.key_switches : part, count, bar, beat, pitch
+    "{count} notes far from the instrument's range are key switches, the first at ..."
+
 Warnings
 --------
+Those about notes name the first of them: ``bar``, ``beat`` and ``pitch``.
+
 score.substituted : part, instrument, map
     "{part}: there is no instrument map for {instrument}; {map} plays it instead"
 score.told_by_file : part, map
     "{part}: neither its name nor its program says what it is; the file's name does, so {map} plays it"
 score.chosen_by_range : part, map
     "{part}: neither its name nor its program says what it is; {map} plays it because the range fits"
-score.chosen_by_range_partly : part, map, outside, total
+score.chosen_by_range_partly : part, map, outside, total, bar, beat, pitch
     "{part}: neither its name nor its program says what it is; {map} plays it, though {outside} of {total} notes lie
-    outside its range"
-score.looks_written : part, map, outside, total
-    "{part}: {outside} of {total} notes lie outside the range of {map}, but all fit as written pitches: the part looks
-    untransposed; import its pitches as written"
+    outside its range, the first at ..."
+score.looks_written : part, map, outside, total, bar, beat, pitch
+    "{part}: {outside} of {total} notes lie outside the range of {map}, the first at ..., but all fit as written
+    pitches: the part looks untransposed; import its pitches as written"
 score.left_out : (a reason)
     "left out on import"
 score.too_many_players : most (a reason)
     "the piece has {most} players already, and more cannot play"
-score.voices : part, voices
-    "{part}: up to {voices} notes sound together, so {voices} players share it"
-score.notes_left_out : part, most, count
-    "{part}: more than {most} notes sound together; {most} players share it, and {count} notes are left out"
+score.voices : part, voices, count, bar, beat, pitch
+    "{part}: {voices} players share it, for {count} notes sound together with others, the first at ..."
+score.notes_left_out : part, most, count, bar, beat, pitch
+    "{part}: {most} players share it, and {count} notes that sound together with theirs are left out, the first at ..."
+score.slurred : part, count, bar, beat, pitch
+    "{count} notes last into the next one and end there as slurred notes, the first in {part} at ..."
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from typing import Literal, TypeAlias
 
 import msgspec
 
 from app.errors import Argument, Cancelled, Message
-from app.score.choose import Candidates, How, MapChoice, Stream, candidates, plays, recognised, refusal
+from app.score.choose import Candidates, How, MapChoice, Stream, candidates, players_named, plays, recognised, refusal
 from app.score.limits import MOST_PARTS
-from app.score.model import Note, Part, UnplayedPart
+from app.score.model import Note, Part, Score, UnplayedPart
+from app.score.switches import without_key_switches
 from app.score.tempo import TempoMap
-from app.score.voices import MOST_VOICES, split_voices
+from app.score.voices import MOST_VOICES, Shared, split_voices
 from instrument_maps.vocabulary import Instrument, vocabulary
 
 LEAST_OUTSIDE = 0.01
@@ -57,7 +70,7 @@ LEAST_OUTSIDE = 0.01
 
 
 def parts_of(
-    streams: Sequence[Stream], maps: Sequence[MapChoice], tempo_map: TempoMap
+    streams: Sequence[Stream], maps: Sequence[MapChoice], piece: Score
 ) -> tuple[tuple[Part, ...], tuple[UnplayedPart, ...], tuple[Message, ...]]:
     """Sort tracks into parts with players and parts without, and say what was guessed.
 
@@ -66,9 +79,13 @@ def parts_of(
     streams : sequence of Stream
     maps : sequence of MapChoice
         Earlier ones are preferred where all else is equal.
-    tempo_map : TempoMap
+    piece : Score
+        Its tempo and metres.
     """
-    return wished_parts(streams, usual_wishes(streams, maps), maps, tempo_map)
+    return wished_parts(streams, usual_wishes(streams, maps), maps, piece)
+
+
+Split: TypeAlias = Literal["sustained", "every", "never"]
 
 
 class PartWish(msgspec.Struct, frozen=True):
@@ -82,8 +99,8 @@ class PartWish(msgspec.Struct, frozen=True):
         The instrument map that plays it; None: what the names, programs and ranges say.
     name : str
         Of the part; empty: what the file calls it.
-    split : bool
-        Share notes that sound together among players; without it one player has them all.
+    split : {"sustained", "every", "never"}
+        Another player for notes that go on sounding together; for every note that does; or one player has them all.
     written : bool
         The file has the pitches that stand in the part of a transposing instrument, not those that sound.
     """
@@ -91,7 +108,7 @@ class PartWish(msgspec.Struct, frozen=True):
     streams: tuple[int, ...]
     map_id: str | None = None
     name: str = ""
-    split: bool = True
+    split: Split = "sustained"
     written: bool = False
 
 
@@ -104,7 +121,7 @@ def wished_parts(
     streams: Sequence[Stream],
     wishes: Sequence[PartWish],
     maps: Sequence[MapChoice],
-    tempo_map: TempoMap,
+    piece: Score,
     stop_wanted: Callable[[], bool] = lambda: False,
 ) -> tuple[tuple[Part, ...], tuple[UnplayedPart, ...], tuple[Message, ...]]:
     """Sort tracks into the parts that a person wants and those nobody plays, and say what was guessed.
@@ -115,7 +132,8 @@ def wished_parts(
     wishes : sequence of PartWish
         A stream is asked for at most once.
     maps : sequence of MapChoice
-    tempo_map : TempoMap
+    piece : Score
+        Its tempo and metres.
     stop_wanted : callable
         Asked before each part.
 
@@ -126,56 +144,127 @@ def wished_parts(
     """
     parts: list[Part] = []
     warnings: list[Message] = []
+    slurred: list[tuple[str, Note]] = []
+    silent: list[UnplayedPart] = []
     asked: set[int] = set()
+    crowded: set[int] = set()
     for wish in wishes:
         if stop_wanted():
             raise Cancelled("work.stopped")
         room = MOST_PARTS - len(parts)
         if not room:
-            break
+            crowded.update(wish.streams)
+            continue
+        found = _found([streams[index] for index in wish.streams], wish.map_id, maps)
+        if found.unknown:
+            continue
+        read = [without_key_switches(streams[index], found, maps, piece.tempo_map) for index in wish.streams]
+        chosen = [stream for stream, _ in read]
+        if any(places for _, places in read):
+            found = _found(chosen, wish.map_id, maps)
         asked.update(wish.streams)
-        chosen = [streams[index] for index in wish.streams]
-        found = _found(chosen, wish.map_id, maps)
-        instrument = found.instrument
         notes = [note for stream in chosen for note in stream.notes()]
         notes.sort(key=lambda note: (note.onset_tick, note.pitch))
-        voices = split_voices(notes, tempo_map, min(MOST_VOICES, room)) if wish.split else [tuple(notes)]
+        shared = _shared(wish, chosen, notes, piece.tempo_map, min(MOST_VOICES, room))
         curves = next((stream.curves for stream in chosen if stream.curves), ())
         name = wish.name or chosen[0].name or chosen[0].instrument_name
         lead = msgspec.structs.replace(chosen[0], curves=curves)
-        mine = _parts(lead, name, instrument, voices, found, wish.written)
+        mine = _parts(lead, name, found, shared.voices, wish.written)
         parts += mine
-        left_out = len(notes) - sum(map(len, voices))
-        if left_out:
-            arguments: dict[str, Argument] = {"part": mine[0].name, "most": len(mine), "count": left_out}
-            warnings.append(Message("score.notes_left_out", arguments))
-        elif len(mine) > 1:
-            warnings.append(Message("score.voices", {"part": mine[0].name, "voices": len(mine)}))
-        if found.how is not How.RANGE and not wish.written:
-            warnings += _written_warnings(mine, maps)
-        if wish.map_id is not None:
-            continue
-        if found.how is How.RANGE:
-            warnings += [_range_warning(part, maps) for part in mine]
-            continue
-        if found.how is How.FILE:
-            warnings.append(Message("score.told_by_file", {"part": mine[0].name, "map": mine[0].map_id}))
-        if instrument is not None:
-            warnings += _substitutions(mine, instrument, maps)
-    crowded = {index for wish in wishes for index in wish.streams} - asked
+        slurred += [(mine[0].name, note) for note in shared.shortened]
+        switches = _switches(streams, wish.streams, [places for _, places in read])
+        silent += _silent("score.key_switches", mine[0].name, switches, piece)
+        if len(mine) > 1:
+            warnings.append(_about("score.voices", mine[0].name, shared.together, piece, voices=len(mine)))
+        if len(mine) == MOST_VOICES and shared.left_out:
+            warnings.append(_about("score.notes_left_out", mine[0].name, shared.left_out, piece, most=len(mine)))
+        else:
+            silent += _silent("score.stray_notes", mine[0].name, shared.left_out, piece)
+        warnings += _instrument_warnings(mine, found, wish, maps, piece)
+    if slurred:
+        part, first = min(slurred, key=lambda row: row[1].onset_tick)
+        warnings.append(_about("score.slurred", part, [first], piece, count=len(slurred)))
     unplayed = tuple(
         UnplayedPart(
-            stream_name(stream),
-            Message("score.too_many_players", {"most": MOST_PARTS})
-            if index in crowded
-            else refusal(stream, maps) or Message("score.left_out"),
-            len(stream.pitches),
-            max(stream.end_ticks),
+            stream_name(stream), _reason(stream, index in crowded, maps), len(stream.pitches), max(stream.end_ticks)
         )
         for index, stream in enumerate(streams)
         if index not in asked
     )
-    return tuple(parts), unplayed, tuple(warnings)
+    return tuple(parts), (*unplayed, *silent), tuple(_once(warnings))
+
+
+def _once(messages: Sequence[Message]) -> list[Message]:
+    """The messages without repetitions."""
+    return [message for place, message in enumerate(messages) if message not in messages[:place]]
+
+
+def _shared(wish: PartWish, chosen: Sequence[Stream], notes: Sequence[Note], tempo_map: TempoMap, most: int) -> Shared:
+    """The notes among their players."""
+    if wish.split == "never":
+        return Shared([tuple(notes)], [], [], [])
+    alone = len(chosen) == 1
+    said = vocabulary().by_name(chosen[0].name or chosen[0].instrument_name) if alone else None
+    return split_voices(
+        notes,
+        tempo_map,
+        most,
+        least=players_named(chosen[0].name) if said is not None else 1,
+        every_chord=wish.split == "every",
+        unison=said is not None and not said.vague,
+    )
+
+
+def _reason(stream: Stream, crowded: bool, maps: Sequence[MapChoice]) -> Message:
+    """Why nobody plays a stream."""
+    if crowded:
+        return Message("score.too_many_players", {"most": MOST_PARTS})
+    return refusal(stream, maps) or Message("score.left_out")
+
+
+def _about(id_: str, part: str, notes: Sequence[Note], piece: Score, **more: Argument) -> Message:
+    """A message about some notes: how many, and where the first one is."""
+    first = notes[0]
+    bar = piece.bar_of_tick(first.onset_tick)
+    metre = piece.metre_at(first.onset_tick)
+    beats = (first.onset_tick - piece.tick_of_bar(bar)) * metre.denominator / (4 * piece.ticks_per_quarter)
+    place: dict[str, Argument] = {"bar": bar, "beat": round(beats + 1.0, 1), "pitch": first.pitch}
+    return Message(id_, {"part": part, "count": len(notes), **place, **more})
+
+
+def _switches(streams: Sequence[Stream], own: Sequence[int], places: Sequence[Sequence[int]]) -> list[Note]:
+    """The key switches of some streams, by onset."""
+    found = []
+    for index, switches in zip(own, places, strict=True):
+        if switches:
+            notes = streams[index].notes()
+            found += [notes[place] for place in switches]
+    return sorted(found, key=lambda note: note.onset_tick)
+
+
+def _silent(id_: str, part: str, notes: Sequence[Note], piece: Score) -> list[UnplayedPart]:
+    """The notes of a part that its players leave out, as something that nobody plays."""
+    if not notes:
+        return []
+    return [UnplayedPart(part, _about(id_, part, notes, piece), len(notes), max(note.end_tick for note in notes))]
+
+
+def _instrument_warnings(
+    parts: Sequence[Part], found: Candidates, wish: PartWish, maps: Sequence[MapChoice], piece: Score
+) -> list[Message]:
+    """What was guessed about the instrument."""
+    warnings = []
+    if found.how is not How.RANGE and not wish.written:
+        warnings += _written_warnings(parts, maps, piece)
+    if wish.map_id is not None:
+        return warnings
+    if found.how is How.RANGE:
+        return [*warnings, *(_range_warning(part, maps, piece) for part in parts)]
+    if found.how is How.FILE:
+        warnings.append(Message("score.told_by_file", {"part": parts[0].name, "map": parts[0].map_id}))
+    if found.instrument is not None:
+        warnings += _substitutions(parts, found.instrument, maps)
+    return warnings
 
 
 def _substitutions(parts: Sequence[Part], instrument: Instrument, maps: Sequence[MapChoice]) -> list[Message]:
@@ -192,8 +281,8 @@ def _found(chosen: Sequence[Stream], map_id: str | None, maps: Sequence[MapChoic
     named = tuple(choice for choice in maps if choice.map_id == map_id)
     found = candidates(chosen, maps)
     if not named and not found.maps:
-        # A person wants it played though no map is for it.
-        return Candidates(How.RANGE, found.instrument, tuple(maps))
+        # A person wants it played though no map is for it, and must say what plays it.
+        return Candidates(How.RANGE, None, tuple(maps), unknown=True)
     return Candidates(How.SAID, found.instrument, named) if named else found
 
 
@@ -204,15 +293,11 @@ def stream_name(stream: Stream) -> str:
 
 
 def _parts(
-    stream: Stream,
-    name: str,
-    instrument: Instrument | None,
-    voices: Sequence[tuple[Note, ...]],
-    found: Candidates,
-    written: bool,
+    stream: Stream, name: str, found: Candidates, voices: Sequence[tuple[Note, ...]], written: bool
 ) -> list[Part]:
     """A part for every voice."""
     parts = []
+    instrument = found.instrument
     for voice, notes in enumerate(voices):
         chosen = found.best([note.pitch for note in notes], written)
         shift = -chosen.transposition_semitones if written else 0
@@ -241,7 +326,7 @@ def transposed(notes: tuple[Note, ...], semitones: int) -> tuple[Note, ...]:
     return tuple(msgspec.structs.replace(note, pitch=min(max(note.pitch + semitones, 0), 127)) for note in notes)
 
 
-def _written_warnings(parts: Sequence[Part], maps: Sequence[MapChoice]) -> list[Message]:
+def _written_warnings(parts: Sequence[Part], maps: Sequence[MapChoice], piece: Score) -> list[Message]:
     """Of parts that the instrument has no notes for unless they are read as they are written."""
     choices = {choice.map_id: choice for choice in maps}
     found = []
@@ -250,24 +335,21 @@ def _written_warnings(parts: Sequence[Part], maps: Sequence[MapChoice]) -> list[
         outside, total = choice.outside(pitches), len(pitches)
         # A wrong note or two in a long part says nothing.
         if outside >= LEAST_OUTSIDE * total and outside and not choice.outside(pitches, written=True):
-            found.append(
-                Message(
-                    "score.looks_written",
-                    {"part": part.name, "map": part.map_id, "outside": outside, "total": total},
-                )
-            )
+            found.append(_outside("score.looks_written", part, choice, piece))
     return found
 
 
-def _range_warning(part: Part, maps: Sequence[MapChoice]) -> Message:
+def _range_warning(part: Part, maps: Sequence[MapChoice], piece: Score) -> Message:
     choice = next(choice for choice in maps if choice.map_id == part.map_id)
-    outside = choice.outside([note.pitch for note in part.notes])
-    if outside == 0:
-        return Message("score.chosen_by_range", {"part": part.name, "map": part.map_id})
-    return Message(
-        "score.chosen_by_range_partly",
-        {"part": part.name, "map": part.map_id, "outside": outside, "total": len(part.notes)},
-    )
+    if choice.outside([note.pitch for note in part.notes]):
+        return _outside("score.chosen_by_range_partly", part, choice, piece)
+    return Message("score.chosen_by_range", {"part": part.name, "map": part.map_id})
+
+
+def _outside(id_: str, part: Part, choice: MapChoice, piece: Score) -> Message:
+    """A message about the notes of a part that its instrument does not reach."""
+    notes = [note for note in part.notes if choice.outside([note.pitch])]
+    return _about(id_, part.name, notes, piece, map=part.map_id, outside=len(notes), total=len(part.notes))
 
 
 def _name_of(choice: MapChoice) -> str:

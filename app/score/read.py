@@ -129,7 +129,7 @@ def read_midi(path: Path, *, encoding: str | None = None, maps: Sequence[MapChoi
         If it cannot be read; what can be read in part opens, and the score's warnings say what was left out.
     """
     contents = read_contents(path, encoding=encoding)
-    parts, unplayed, warnings = parts_of(contents.streams, maps, contents.tempo_map)
+    parts, unplayed, warnings = parts_of(contents.streams, maps, _score(contents))
     return _score(contents, parts, unplayed, (*contents.warnings, *warnings))
 
 
@@ -140,15 +140,15 @@ def wished_score(
     stop_wanted: Callable[[], bool] = lambda: False,
 ) -> Score:
     """The score in which the parts are those that the user requests. Raises Cancelled as `wished_parts`."""
-    parts, unplayed, warnings = wished_parts(contents.streams, wishes, maps, contents.tempo_map, stop_wanted)
+    parts, unplayed, warnings = wished_parts(contents.streams, wishes, maps, _score(contents), stop_wanted)
     return _score(contents, parts, unplayed, (*contents.warnings, *warnings))
 
 
 def _score(
     contents: MidiContents,
-    parts: tuple[Part, ...],
-    unplayed: tuple[UnplayedPart, ...],
-    warnings: tuple[Message, ...],
+    parts: tuple[Part, ...] = (),
+    unplayed: tuple[UnplayedPart, ...] = (),
+    warnings: tuple[Message, ...] = (),
 ) -> Score:
     return Score(
         title=contents.title,

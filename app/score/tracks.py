@@ -18,6 +18,10 @@ CONTROLLERS: Final[dict[CurveKind, int]] = {"breath": 2, "volume": 7, "expressio
 LEAST_TEMPO: Final = 10_000
 """Microseconds per quarter: nothing is played at 6000 quarters a minute, so less is damage."""
 _KINDS: Final = {number: kind for kind, number in CONTROLLERS.items()}
+_MODULATION: Final = 1
+"""Controller 1: the dynamics of sampled winds and strings, or the depth of a vibrato."""
+_PLAYED_SHARE: Final = 0.8
+"""It is dynamics where it is up under such a share of the notes; a vibrato comes and goes."""
 _NOTES_OFF = frozenset({120, 123})
 
 
@@ -51,6 +55,8 @@ class TrackEvents(msgspec.Struct):
         Channels with notes.
     controls : dict of (channel, kind) to dict of tick to value
         The last value of each tick.
+    modulation : dict of channel to dict of tick to value
+        The same of controller 1, which may mean either of two things (`curves`).
     hanging, zero_length : int
         Notes without an end, notes without a length.
     beyond : int
@@ -68,6 +74,7 @@ class TrackEvents(msgspec.Struct):
     programs: dict[int, list[tuple[int, int]]] = {}
     channels: dict[int, ChannelNotes] = {}
     controls: dict[tuple[int, CurveKind], dict[int, float]] = {}
+    modulation: dict[int, dict[int, float]] = {}
     hanging: int = 0
     zero_length: int = 0
     beyond: int = 0
@@ -104,15 +111,37 @@ class TrackEvents(msgspec.Struct):
         return True
 
     def curves(self, channels: Collection[int]) -> tuple[ControllerCurve, ...]:
-        """The controller curves of some channels, by kind; where several speak, the last one holds."""
+        """The controller curves of some channels, by kind; where several speak, the last one holds.
+
+        Controller 1 is the expression where it is up while notes sound and neither breath nor expression moves.
+        """
         kinds: dict[CurveKind, dict[int, float]] = {}
         for (owner, kind), points in sorted(self.controls.items(), key=itemgetter(0)):
             if owner in channels:
                 kinds.setdefault(kind, {}).update(points)
+        modulation = {tick: value for channel in channels for tick, value in self.modulation.get(channel, {}).items()}
+        spoken: tuple[CurveKind, ...] = ("breath", "expression")
+        if not any(_moves(kinds.get(kind, {})) for kind in spoken) and self._is_dynamics(modulation, channels):
+            kinds["expression"] = modulation
         return tuple(
             ControllerCurve(kind, tuple(sorted(points)), tuple(points[tick] for tick in sorted(points)))
             for kind, points in sorted(kinds.items())
         )
+
+    def _is_dynamics(self, modulation: Mapping[int, float], channels: Collection[int]) -> bool:
+        """Whether controller 1 moves and is up under most notes."""
+        if not _moves(modulation):
+            return False
+        ticks = sorted(modulation)
+        onsets = [tick for channel in channels for tick in self.channels[channel].onset_ticks]
+        up = sum(
+            modulation[ticks[place - 1]] > 0.0 for place in (bisect_right(ticks, tick) for tick in onsets) if place
+        )
+        return up >= _PLAYED_SHARE * len(onsets)
+
+
+def _moves(points: Mapping[int, float]) -> bool:
+    return len(set(points.values())) > 1
 
 
 def gather(messages: Iterable[Any], begin_tick: int, most_unended_ticks: int) -> TrackEvents:
@@ -176,7 +205,9 @@ def _note_other(events: TrackEvents, message: Any, kind: str, tick: int) -> None
     """Keep a message that is about no note."""
     if kind == "control_change":
         curve = _KINDS.get(message.control)
-        if curve is not None:
+        if message.control == _MODULATION:
+            events.modulation.setdefault(message.channel, {})[tick] = message.value / 127
+        elif curve is not None:
             events.controls.setdefault((message.channel, curve), {})[tick] = message.value / 127
     elif kind == "pitchwheel":
         events.controls.setdefault((message.channel, "pitch_bend"), {})[tick] = message.pitch / 8192

@@ -1,34 +1,67 @@
-"""Voice leading: the notes of one track to the players who share it.
+"""Who plays what in one track: how many players share its notes, and which notes are whose.
 
-Two notes sound together if one is struck while the other still sounds for more than 30 ms; a shorter overlap is legato.
-As many voices as notes ever sound together share the notes, voice 0 being the highest. Notes struck together go to
-voices in their order, so player 1 has the upper note of a chord of two. Where one line sounds in a track of two voices,
-MIDI does not say whether it is meant for one player or for both: it goes to *one* voice, so that no note is lost or
-doubled, namely to the one that makes the least movement in all: a line stays with its player until a chord forces
-otherwise, and the other rests.
+Notes that overlap are legato: a player of keys or of a wind controller holds a note some way into the next. Only where
+notes go on sounding together beyond that, over several notes and for a while, or in much of the track, somebody else
+plays too (`_players`). A note that lasts into the next of its player is shortened to a legato overlap that planning
+accepts (`LEGATO_OVERLAP_S`), so that the slur can still be seen. What nobody can play is left out: the notes struck
+together with those of the players there are, the lowest first. `split_voices` tells both.
 
-At most `MOST_VOICES` players share a track. Where more notes sound at once, those struck first stay, of those struck
-together the highest, and the rest is left out: no section divides further, so the track is none.
+Voice 0 is the highest. Notes struck together go to voices in their order, so player 1 has the upper note of a chord of
+two; a line stays with its player until a chord forces otherwise (the least movement in all). A line that goes on
+alone for a quarter or longer is played by all the players of a section (*a2*); of several lines on one staff it is one
+player's, and the others rest.
+
+At most `MOST_VOICES` players share a track: no section divides further.
 """
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Sequence
 from functools import cache
 from heapq import heappop, heappush
 from itertools import chain, combinations, pairwise
-from math import comb
+from math import comb, inf
 from operator import getitem
 from typing import Final, NamedTuple, TypeAlias
 
+import msgspec
 import numpy as np
 import numpy.typing as npt
 
 from app.score.model import Note
 from app.score.tempo import TempoMap
 
-LEGATO_OVERLAP_S = 0.030
+LEGATO_OVERLAP_S: Final = 0.030
+"""As long as a note still sounds into the next of its player, at most."""
 MOST_VOICES: Final = 16
+
+# How long two notes of one player may sound together as they are played. Pianists overlap legato notes the longer the
+# slower they play, by a seventh to a fifth of the time between onsets (Repp 1995, J. Acoust. Soc. Am. 97, 3862; Bresin
+# and Battel 2000, J. New Music Res. 29, 211); wind controllers and fast keys by some 60 ms at any tempo. Never by
+# half a note: that is a chord.
+_LEGATO_LEAST_S: Final = 0.080
+_LEGATO_SHARE: Final = 0.25
+_LEGATO_MOST_S: Final = 0.200
+_LEGATO_MOST_SHARE: Final = 0.5
+_CHORD_S: Final = 0.045
+"""Notes struck together by two players or two fingers begin so near to one another: ensembles keep together within 30
+to 50 ms (Rasch 1979, Acustica 43, 121)."""
+
+SEVERAL: Final = 4
+"""So many notes in a row must sound together with others before another player is there..."""
+SUSTAINED_S: Final = 0.4
+"""... and for so long altogether: two quarters of a fast march, where an accident of the fingers lasts a tenth."""
+_SEVERAL_DOUBLED: Final = 8
+"""Of octaves and unisons twice as many: editions give a bass an octave to choose from for a cadence."""
+_MUCH: Final = 0.25
+"""Where such a share of the track's notes sounds together, another player is there however short the track is."""
+_LEGATO_OF_A_QUARTER: Final = 8
+"""What sounds beside another voice for less than such a part of a quarter is legato."""
+_HOMOPHONIC: Final = 0.5
+"""Players move together where such a share of the notes that sound together begins together."""
+
+_UNISON_NUMBERS: Final = 10_000_000
 _ROUNDING_TICKS = 1e-6
 
 # In semitones of movement: for a voice that comes in while another could have gone on, and for one that crosses a held
@@ -53,8 +86,8 @@ class _Voice(NamedTuple):
     """What a player did last: pitch (-1 before the first note), when the player is free, when the note ended."""
 
     pitch: int
-    free_tick: float
-    end_tick: float
+    free_s: float
+    end_s: float
 
 
 class _Hypothesis(NamedTuple):
@@ -65,33 +98,75 @@ class _Hypothesis(NamedTuple):
     history: _History
 
 
+class Shared(NamedTuple):
+    """The notes of a track as players have them.
+
+    Attributes
+    ----------
+    voices : list of tuple of Note
+        Voice 0, the highest, first; none empty, each by onset. A note that several players have has an id
+        of its own with each of the others (`unison_id`).
+    together : list of Note
+        The notes that call for another player: those struck while others sound, beyond what is legato.
+    left_out : list of Note
+        Those nobody plays, by onset.
+    shortened : list of Note
+        Those that lasted further into the next note of their player than legato notes do, as they were.
+    """
+
+    voices: list[tuple[Note, ...]]
+    together: list[Note]
+    left_out: list[Note]
+    shortened: list[Note]
+
+
 class _Spans(NamedTuple):
-    """When notes sound, in ticks: a note's release is where another one may begin in its voice."""
+    """When notes sound, in seconds, by onset: a note's release is where another one may begin in its voice."""
 
     onsets: Floats
     ends: Floats
     releases: Floats
 
-    def together(self) -> int:
-        """How many notes sound at once at most."""
+    def depths(self) -> npt.NDArray[np.intp]:
+        """How many notes sound when each begins, itself among them."""
         started = np.searchsorted(self.onsets, self.onsets, side="right")
-        return int((started - np.searchsorted(np.sort(self.releases), self.onsets, side="right")).max())
+        return started - np.searchsorted(np.sort(self.releases), self.onsets, side="right")
+
+    def of(self, kept: npt.NDArray[np.bool_] | npt.NDArray[np.intp]) -> _Spans:
+        """Those of some notes."""
+        return _Spans(self.onsets[kept], self.ends[kept], self.releases[kept])
 
 
 def _spans(notes: Sequence[Note], tempo_map: TempoMap) -> _Spans:
-    onsets = np.array([note.onset_tick for note in notes], np.float64)
-    ends = onsets + np.array([note.duration_tick for note in notes], np.float64)
-    releases = tempo_map.ticks(tempo_map.seconds(ends) - LEGATO_OVERLAP_S) - _ROUNDING_TICKS
-    return _Spans(onsets, ends, np.maximum(releases, onsets + 0.5))
+    onset_ticks = np.array([note.onset_tick for note in notes], np.float64)
+    end_ticks = onset_ticks + np.array([note.duration_tick for note in notes], np.float64)
+    onsets, ends = tempo_map.seconds(onset_ticks), tempo_map.seconds(end_ticks)
+    lengths = ends - onsets
+    legato = np.clip(_LEGATO_SHARE * lengths, _LEGATO_LEAST_S, _LEGATO_MOST_S)
+    return _Spans(onsets, ends, ends - np.minimum(legato, _LEGATO_MOST_SHARE * lengths))
 
 
 def is_one_voice(notes: Sequence[Note], tempo_map: TempoMap) -> bool:
-    """Whether one player can play the notes, which are by onset."""
-    return not notes or _spans(notes, tempo_map).together() == 1
+    """Whether one player can play the notes, which are by onset, and plays all of them."""
+    return not notes or int(_spans(notes, tempo_map).depths().max()) == 1
 
 
-def split_voices(notes: Sequence[Note], tempo_map: TempoMap, most: int = MOST_VOICES) -> list[tuple[Note, ...]]:
-    """Share the notes of one track among as few players as can play them.
+def unison_id(id: str, voice: int) -> str:
+    """The id of a note of the file that the player of another voice has too: numbered beyond every note-on."""
+    track, _, number = id.rpartition(":")
+    return f"{track}:{int(number) + _UNISON_NUMBERS * (voice + 1)}"
+
+
+def split_voices(
+    notes: Sequence[Note],
+    tempo_map: TempoMap,
+    most: int = MOST_VOICES,
+    *,
+    least: int = 1,
+    every_chord: bool = False,
+    unison: bool = False,
+) -> Shared:
+    """Share the notes of one track among those who play it.
 
     Parameters
     ----------
@@ -100,51 +175,252 @@ def split_voices(notes: Sequence[Note], tempo_map: TempoMap, most: int = MOST_VO
     tempo_map : TempoMap
     most : int
         Voices.
-
-    Returns
-    -------
-    list of tuple of Note
-        Voice 0, the highest, first; every note in exactly one voice (in none where more than ``most`` sound at once),
-        no voice empty. Within a voice by onset.
+    least : int
+        Players there are where notes are ever struck together, as a name says ("Horn 1.2"); what one of them could
+        play alone is played by all.
+    every_chord : bool
+        A player for every note that ever sounds together with others, however short.
+    unison : bool
+        The players are of one section: what one of them could play alone is played by all, if they move together.
     """
     if not notes:
-        return []
+        return Shared([], [], [], [])
     spans = _spans(notes, tempo_map)
-    count = spans.together()
-    if count == 1:
-        return [tuple(notes)]
-    onsets, ends, releases = spans
+    depths = spans.depths()
+    deepest = int(depths.max())
+    if deepest == 1:
+        line, shortened = _legato(notes, spans, tempo_map)
+        return Shared([line], [], [], shortened)
     pitches = np.array([note.pitch for note in notes])
-    order = np.lexsort((-pitches, onsets))
-    if count > most:
-        order, count = order[_first(onsets[order], releases[order], most)], most
-    begins = np.flatnonzero(np.diff(onsets[order], prepend=-1.0))
-    played = list(map(_Voice, pitches[order].tolist(), releases[order].tolist(), ends[order].tolist()))
-    groups = [played[begin:end] for begin, end in pairwise([*begins.tolist(), len(order)])]
-    struck = onsets[order][begins].tolist()
-    rest_ticks = _REST_QUARTERS * tempo_map.ticks_per_quarter
-    voices: list[list[Note]] = [[] for _ in range(count)]
-    players = chain.from_iterable(_assign(struck, groups, count, rest_ticks))
-    for index, voice in zip(order.tolist(), players, strict=True):
-        voices[voice].append(notes[index])
-    return [tuple(voice) for voice in voices if voice]
+    struck_together = bool(np.any((np.diff(spans.onsets) <= _CHORD_S) & (depths[1:] > 1)))
+    count = max(deepest if every_chord else _players(spans, depths, pitches), least if struck_together else 1)
+    count = min(count, most)
+    order = np.lexsort((-pitches, spans.onsets))
+    kept = (_first if count == most else _playable)(spans, pitches, order, count)
+    left_out = [notes[index] for index in sorted(set(order.tolist()) - set(kept))]
+    together = [notes[index] for index in np.flatnonzero(depths > 1).tolist()]
+    places = [kept] if count == 1 else _voices(spans, pitches, kept, count, tempo_map)
+    voices: list[tuple[Note, ...]] = []
+    shortened = []
+    for own in filter(None, places):
+        voice, too_long = _legato([notes[index] for index in own], spans.of(np.array(own)), tempo_map)
+        voices.append(voice)
+        shortened += too_long
+    shared = [voice for voice in voices if voice]
+    if count > 1 and (least > 1 or (unison and _move_together(spans, np.array(kept)))):
+        shared = _with_unisons(shared + [()] * (count - len(shared)), tempo_map)
+    return Shared(shared, together, left_out, sorted(shortened, key=lambda note: note.onset_tick))
 
 
-def _first(onsets: Floats, releases: Floats, most: int) -> list[int]:
-    """The notes, by onset, that find a free voice if each takes one until its release."""
+def _players(spans: _Spans, depths: npt.NDArray[np.intp], pitches: npt.NDArray[np.int64]) -> int:
+    """How many players the simultaneity of the notes calls for."""
+    doubled = _doubled(spans, pitches)
+    plain = spans.of(~doubled)
+    plain_depths = plain.depths() if doubled.any() else depths
+    deepest = min(int(depths.max()), MOST_VOICES)
+    for more in range(2, deepest + 1):
+        much = np.count_nonzero(_within(spans, depths, more)) >= _MUCH * len(depths)
+        if not (
+            much or _sustained(plain, plain_depths, more, SEVERAL) or _sustained(spans, depths, more, _SEVERAL_DOUBLED)
+        ):
+            return more - 1
+    return deepest
+
+
+def _within(spans: _Spans, depths: npt.NDArray[np.intp], more: int) -> npt.NDArray[np.bool_]:
+    """Which notes sound where so many sound together."""
+    counts = np.concatenate(([0], np.cumsum(depths >= more)))
+    first = np.searchsorted(spans.onsets, spans.onsets, side="left")
+    last = np.searchsorted(spans.onsets, spans.releases, side="left")
+    return np.asarray(counts[np.maximum(last, first + 1)] > counts[first])
+
+
+def _sustained(spans: _Spans, depths: npt.NDArray[np.intp], more: int, several: int) -> bool:
+    """Whether so many players are needed over several notes in a row and for a while."""
+    struck = depths >= more
+    if np.count_nonzero(struck) < several:
+        return False
+    within = _within(spans, depths, more)
+    runs = np.cumsum(~within)
+    first = np.flatnonzero(struck & np.append(True, spans.onsets[1:] > spans.onsets[:-1]))
+    # A note struck while others sound does so until the first of them is released or the next one is struck.
+    following = np.append(spans.onsets[first[1:]], np.inf)
+    lengths_s = np.minimum(spans.releases[first], following) - spans.onsets[first]
+    notes = np.bincount(runs[first])
+    seconds = np.bincount(runs[first], weights=lengths_s)
+    return bool(np.any((notes >= several) & (seconds >= SUSTAINED_S)))
+
+
+def _doubled(spans: _Spans, pitches: npt.NDArray[np.int64]) -> npt.NDArray[np.bool_]:
+    """Which notes only double the one before or after them in the unison or in octaves."""
+    doubled = np.zeros(len(pitches), bool)
+    order = np.lexsort((pitches, spans.onsets))
+    for step in range(1, 3):
+        one, other = order[:-step], order[step:]
+        pairs = (
+            (np.abs(spans.onsets[other] - spans.onsets[one]) <= _CHORD_S)
+            & (np.abs(spans.ends[other] - spans.ends[one]) <= _LEGATO_LEAST_S)
+            & ((pitches[other] - pitches[one]) % 12 == 0)
+        )
+        doubled[one[pairs]] = True
+    return doubled
+
+
+def _first(spans: _Spans, _: npt.NDArray[np.int64], order: npt.NDArray[np.intp], count: int) -> list[int]:
+    """The notes that find a free voice if each takes one until its release: no section is larger, so what sounds
+    beyond it is no music that could be saved."""
     sounding: list[float] = []
     kept = []
-    for index, (onset, release) in enumerate(zip(onsets.tolist(), releases.tolist(), strict=True)):
+    onsets, releases = spans.onsets[order].tolist(), spans.releases[order].tolist()
+    for index, onset, release in zip(order.tolist(), onsets, releases, strict=True):
         while sounding and sounding[0] <= onset:
             heappop(sounding)
-        if len(sounding) < most:
+        if len(sounding) < count:
             heappush(sounding, release)
             kept.append(index)
     return kept
 
 
+def _playable(spans: _Spans, pitches: npt.NDArray[np.int64], order: npt.NDArray[np.intp], count: int) -> list[int]:
+    """The notes that so many players can play, by onset and from the highest; releases are brought forward, in place,
+    where a player must leave a note for the next one.
+
+    Of more notes struck together than there are players the lowest are left out, and the lower of two that double each
+    other; else the note that ends first ends where the next one begins.
+    """
+    onsets, _, releases = spans
+    sounding: list[int] = []
+    gone: set[int] = set()
+    begin, release, pitch = onsets.tolist(), releases.tolist(), pitches.tolist()
+    for index in order.tolist():
+        now = begin[index]
+        sounding = [other for other in sounding if release[other] > now]
+        if len(sounding) == count:
+            chord = [other for other in sounding if now - begin[other] <= _CHORD_S]
+            if len(chord) == count:
+                lowest = min((*chord, index), key=lambda other: pitch[other])
+                gone.add(lowest)
+                if lowest == index:
+                    continue
+                sounding.remove(lowest)
+            elif any((pitch[other] - pitch[index]) % 12 == 0 for other in chord):
+                gone.add(index)
+                continue
+            else:
+                first = min((other for other in sounding if other not in chord), key=release.__getitem__)
+                release[first] = now
+                sounding.remove(first)
+        sounding.append(index)
+    releases[:] = release
+    return [index for index in order.tolist() if index not in gone]
+
+
+def _voices(
+    spans: _Spans, pitches: npt.NDArray[np.int64], kept: list[int], count: int, tempo_map: TempoMap
+) -> list[list[int]]:
+    """The notes of each voice, by onset."""
+    onsets, ends, releases = (column[kept] for column in spans)
+    struck = _chords(onsets, releases)
+    # A voice that is free before the last note of a chord begins is free for the first one.
+    following = np.minimum(np.searchsorted(onsets, releases), len(onsets) - 1)
+    releases = np.where(onsets[following] >= releases, np.minimum(releases, struck[following]), releases)
+    order = np.lexsort((-pitches[kept], struck))
+    begins = np.flatnonzero(np.diff(struck[order], prepend=-1.0))
+    played = list(map(_Voice, pitches[kept][order].tolist(), releases[order].tolist(), ends[order].tolist()))
+    groups = [played[begin:end] for begin, end in pairwise([*begins.tolist(), len(order)])]
+    at = struck[order][begins]
+    rests_s = tempo_map.seconds(tempo_map.ticks(at) + _REST_QUARTERS * tempo_map.ticks_per_quarter) - at
+    players = chain.from_iterable(_assign(at.tolist(), groups, count, rests_s.tolist()))
+    voices: list[list[int]] = [[] for _ in range(count)]
+    for place, voice in zip(order.tolist(), players, strict=True):
+        voices[voice].append(kept[place])
+    return [sorted(voice, key=spans.onsets.__getitem__) for voice in voices]
+
+
+def _chords(onsets: Floats, releases: Floats) -> Floats:
+    """Where the chord begins that each note belongs to; a note alone is its own."""
+    struck = onsets.tolist()
+    begin, free = -1.0, -1.0
+    for place, (onset, release) in enumerate(zip(struck.copy(), releases.tolist(), strict=True)):
+        if onset - begin <= _CHORD_S and free > onset:
+            struck[place], free = begin, min(free, release)
+        else:
+            begin, free = onset, release
+    return np.array(struck)
+
+
+def _legato(notes: Sequence[Note], spans: _Spans, tempo_map: TempoMap) -> tuple[tuple[Note, ...], list[Note]]:
+    """The notes of one player, none of which lasts into the next for longer than legato; and those that did."""
+    long = np.flatnonzero(spans.ends[:-1] > spans.onsets[1:] + LEGATO_OVERLAP_S)
+    if not len(long):
+        return tuple(notes), []
+    line, shortened = list(notes), []
+    latest = np.floor(tempo_map.ticks(spans.onsets[1:][long] + LEGATO_OVERLAP_S) + _ROUNDING_TICKS)
+    for index, end in zip(long.tolist(), latest.tolist(), strict=True):
+        note = notes[index]
+        if note.end_tick > end:
+            shortened.append(note)
+            line[index] = Note(note.id, note.onset_tick, max(int(end) - note.onset_tick, 1), note.pitch, note.velocity)
+    return tuple(line), shortened
+
+
+def _move_together(spans: _Spans, kept: npt.NDArray[np.intp]) -> bool:
+    """Whether notes that sound together mostly begin together."""
+    own = spans.of(kept)
+    together = np.flatnonzero(own.depths() > 1)
+    begun = own.onsets[together] - own.onsets[np.maximum(together - 1, 0)] <= _CHORD_S
+    before = np.append(own.onsets[1:] - own.onsets[:-1] <= _CHORD_S, False)[together]
+    return len(together) > 0 and bool(np.count_nonzero(begun | before) >= _HOMOPHONIC * len(together))
+
+
+def _with_unisons(voices: list[tuple[Note, ...]], tempo_map: TempoMap) -> list[tuple[Note, ...]]:
+    """The voices with what one of them plays alone for a quarter or longer played by all."""
+    quarter = tempo_map.ticks_per_quarter
+    rows = sorted(
+        ((note.onset_tick, voice, note) for voice, notes in enumerate(voices) for note in notes),
+        key=lambda row: row[:2],
+    )
+    reach = [0] * len(voices)
+    onsets = [[note.onset_tick for note in notes] for notes in voices]
+    runs: list[list[tuple[int, Note]]] = [[]]
+    for onset, voice, note in rows:
+        legato = min(quarter // _LEGATO_OF_A_QUARTER, note.duration_tick // 2)
+        beside = any(
+            reach[other] > onset + legato or _next(onsets[other], onset) < note.end_tick - legato
+            for other in range(len(voices))
+            if other != voice
+        )
+        if beside or (runs[-1] and runs[-1][-1][0] != voice):
+            runs.append([])
+        if not beside:
+            runs[-1].append((voice, note))
+        reach[voice] = max(reach[voice], note.end_tick)
+    more: list[list[Note]] = [[] for _ in voices]
+    for run in runs:
+        if run and run[-1][1].end_tick - run[0][1].onset_tick >= quarter:
+            for voice, own in enumerate(more):
+                own += [
+                    msgspec.structs.replace(note, id=unison_id(note.id, voice)) for owner, note in run if owner != voice
+                ]
+    joined = (
+        _joined(notes, copies, tempo_map) if copies else notes for notes, copies in zip(voices, more, strict=True)
+    )
+    return [notes for notes in joined if notes]
+
+
+def _next(onsets: list[int], tick: int) -> float:
+    """The first onset at a tick or after it."""
+    place = bisect_left(onsets, tick)
+    return onsets[place] if place < len(onsets) else inf
+
+
+def _joined(notes: tuple[Note, ...], copies: list[Note], tempo_map: TempoMap) -> tuple[Note, ...]:
+    together = sorted((*notes, *copies), key=lambda note: (note.onset_tick, note.pitch))
+    return _legato(together, _spans(together, tempo_map), tempo_map)[0]
+
+
 def _assign(
-    onsets: Sequence[float], groups: Sequence[list[_Voice]], count: int, rest_ticks: float
+    onsets: Sequence[float], groups: Sequence[list[_Voice]], count: int, rests_s: Sequence[float]
 ) -> list[tuple[int, ...]]:
     """For each group of notes struck together, highest first, the voices that play them.
 
@@ -152,14 +428,14 @@ def _assign(
     """
     everybody = tuple(range(count))
     beam = [_Hypothesis(0.0, (_Voice(-1, -1.0, -1.0),) * count, None)]
-    for onset, sounding in zip(onsets, groups, strict=True):
+    for onset, sounding, rest_s in zip(onsets, groups, rests_s, strict=True):
         if len(sounding) == count and len(beam) == 1:  # no choice, no rival: nothing to weigh
             beam = [_Hypothesis(0.0, tuple(sounding), (beam[0].history, everybody))]
             continue
         candidates: list[tuple[float, int, tuple[int, ...]]] = []
         for number, (so_far, voices, _) in enumerate(beam):
-            free = [place for place in everybody if voices[place].free_tick <= onset]
-            costs = _costs(voices, free, sounding, onset, rest_ticks)
+            free = [place for place in everybody if voices[place].free_s <= onset]
+            costs = _costs(voices, free, sounding, onset, rest_s)
             for places in _choices(len(free), costs):
                 cost = so_far + sum(map(getitem, costs, places))
                 candidates.append((cost, number, tuple([free[place] for place in places])))
@@ -209,22 +485,22 @@ def _choices(free: int, costs: list[list[float]]) -> tuple[tuple[int, ...], ...]
 
 
 def _costs(
-    voices: tuple[_Voice, ...], free: list[int], sounding: list[_Voice], onset: float, rest_ticks: float
+    voices: tuple[_Voice, ...], free: list[int], sounding: list[_Voice], onset: float, rest_s: float
 ) -> list[list[float]]:
     """The cost of each note of a group (rows) in each free voice (columns)."""
     lines: list[tuple[float, float, int]] = []  # per voice: cost = constant + weight * distance
     for voice in free:
-        pitch, _, end_tick = voices[voice]
+        pitch, _, end_s = voices[voice]
         if pitch < 0:
             lines.append((_ENTRY_COST + 0.1 * voice, 0.0, pitch))
-        elif onset - end_tick > rest_ticks:
+        elif onset - end_s > rest_s:
             lines.append((_ENTRY_COST, _AFTER_REST_WEIGHT, pitch))
         else:
             lines.append((0.0, 1.0, pitch))
     rows = [[constant + weight * abs(note[0] - last) for constant, weight, last in lines] for note in sounding]
     if len(free) < len(voices):
         for other, held in enumerate(voices):
-            if held.free_tick > onset:
+            if held.free_s > onset:
                 for note, row in zip(sounding, rows, strict=True):
                     for place, voice in enumerate(free):
                         if (other < voice) == (held.pitch < note.pitch) and held.pitch != note.pitch:

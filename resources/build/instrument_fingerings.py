@@ -29,7 +29,7 @@ TRUMPET_FIRST = {
     89: "1",
 }  # fmt: skip
 TROMBONE_FIRST = {
-    36: "T6", 37: "T5", 38: "T4", 39: "T3", 40: "7", 41: "6", 42: "5", 43: "4", 44: "3", 45: "2", 46: "1", 47: "7",
+    36: "T6", 37: "T5", 38: "T4", 39: "T3", 40: "T2", 41: "6", 42: "5", 43: "4", 44: "3", 45: "2", 46: "1", 47: "T2",
     48: "6", 49: "5", 50: "4", 51: "3", 52: "2", 53: "1", 54: "5", 55: "4", 56: "3", 57: "2", 58: "1", 59: "4",
     60: "3", 61: "2", 62: "1", 63: "3", 64: "2", 65: "1", 66: "3", 67: "2", 68: "3", 69: "2", 70: "1", 71: "2",
     72: "1", 73: "2", 74: "1", 75: "3", 76: "2", 77: "1",
@@ -187,10 +187,27 @@ def trombone(
                     "controls": controls,
                     "cents": round(float(row["cents"])),
                     "correction": {},
-                    "tags": tags + (["alternate"] if rank > 1 else []),
+                    "tags": tags + (_reasons(row, label, written, found) if rank > 1 else []),
                 }
             )
     return rows
+
+
+TRIGGER_TRILLS = {(55, "T6")}
+"""Written pitch and place that a trill of the trigger alone reaches: F 3 in the sixth place, G 3 with the trigger."""
+FARTHEST_WITH_TRIGGER, FARTHEST_WITHOUT = 3, 5
+"""A trigger is taken near, and where the slide alone would be far out."""
+
+
+def _reasons(row: dict[str, object], label: str, written: int, found: dict[str, dict[str, object]]) -> list[str]:
+    """Why a player would take an alternate; "rare" where hardly anybody does."""
+    if (written, label) in TRIGGER_TRILLS:
+        return ["trill"]
+    rare = row["partial"] == 7
+    if row["side"].sign:
+        near = any(place.isdigit() and int(place) <= FARTHEST_WITHOUT for place in found)
+        rare = near or int(label[-1]) > FARTHEST_WITH_TRIGGER
+    return ["alternate", *(["rare"] if rare else [])]
 
 
 def unfamiliar(row: dict[str, object]) -> float:
@@ -242,6 +259,8 @@ def valved(instrument: Valves) -> list[dict[str, object]]:
         others = sorted((label for label in found if label != first), key=lambda label: _rarity(found[label][0], label))
         for rank, label in enumerate((first, *others[:MOST_ALTERNATES]), start=1):
             tags = [] if rank == 1 else ["trill"] if rank == 2 else ["fast"]
+            if rank > 1 and instrument.compensator == "T" and found[label][1] == 5 and "T" in label:
+                tags = ["rare"]
             rows.append({"written_pitch": written, "rank": rank, "label": label, "controls": {}, "correction": {},
                          "cents": round(found[label][0]), "tags": tags})  # fmt: skip
     return rows

@@ -18,39 +18,50 @@ BOTH = f"{LEFT} {RIGHT}"
 
 # Written pitch -> first choice, then alternates as (keys, tag). T is the thumb's hole, R the register key.
 ROWS: dict[int, tuple[str, tuple[tuple[str, str], ...]]] = {
-    52: (f"T {BOTH} LE", ((f"T {BOTH} RE", "alternate"),)),
+    52: (
+        f"T {BOTH} LE",
+        ((f"T {BOTH} RE", "alternate"), (f"T {BOTH} LE RF", "held"), (f"T {BOTH} LF# RE", "held")),
+    ),
     53: (f"T {BOTH} RF", ((f"T {BOTH} LF", "alternate"),)),
     54: (f"T {BOTH} LF#", ((f"T {BOTH} RF#", "alternate"),)),
     55: (f"T {BOTH}", ()),
     56: (f"T {BOTH} RG#", ()),
     57: (f"T {LEFT} R1 R2", ()),
     58: (f"T {LEFT} R1", ()),
-    59: (f"T {LEFT} R2", ((f"T {LEFT} R1 RB", "fast"),)),
+    59: (f"T {LEFT} R2", ((f"T {LEFT} R1 RB", "trill chromatic"),)),
     60: (f"T {LEFT}", ()),
     61: (f"T {LEFT} LC#", ()),
     62: ("T L1 L2", ()),
     63: ("T L1 L2 S4", (("T L1 L2 LEb", "alternate"), ("T L1 R1", "forked"))),
     64: ("T L1", ()),
-    65: ("T", ()),
-    66: ("L1", (("T S3 S4", "fast"),)),
-    67: ("(open)", ()),
-    68: ("G#", ()),
-    69: ("A", (("A R2 R3 RF", "alternate"),)),
-    70: ("A R", (("A S2", "trill"), ("A R L3 R3 RF", "alternate"))),
-    71: (f"T R {BOTH} LE", ((f"T R {BOTH} RE", "alternate"), ("A S1", "trill"))),
+    65: ("T", (("T S4", "held"),)),
+    66: ("L1", (("T S3 S4", "trill chromatic"),)),
+    67: ("(open)", (("R2 R3 RF", "held"),)),
+    68: ("G#", (("G# R2 R3 RF", "held"),)),
+    69: ("A", (("A R2 R3 RF", "held"),)),
+    70: ("A R", (("A S2", "trill"), ("A R L3 R3 RF", "alternate"), ("A R R2 R3 RF", "held"))),
+    71: (
+        f"T R {BOTH} LE",
+        (
+            (f"T R {BOTH} RE", "alternate"),
+            ("A S1", "trill"),
+            (f"T R {BOTH} LE RF", "held"),
+            (f"T R {BOTH} LF# RE", "held"),
+        ),
+    ),
     72: (f"T R {BOTH} RF", ((f"T R {BOTH} LF", "alternate"), ("A R S1 S2", "trill"))),
     73: (f"T R {BOTH} LF#", ((f"T R {BOTH} RF#", "alternate"),)),
     74: (f"T R {BOTH}", ()),
     75: (f"T R {BOTH} RG#", ()),
     76: (f"T R {LEFT} R1 R2", ()),
     77: (f"T R {LEFT} R1", ()),
-    78: (f"T R {LEFT} R2", ((f"T R {LEFT} R1 RB", "fast"),)),
+    78: (f"T R {LEFT} R2", ((f"T R {LEFT} R1 RB", "trill chromatic"),)),
     79: (f"T R {LEFT}", ()),
     80: (f"T R {LEFT} LC#", (("T R L1 L2 R1 R2", "forked"),)),
     81: ("T R L1 L2", ()),
     82: ("T R L1 L2 S4", (("T R L1 L2 LEb", "alternate"), ("T R L1 R1", "forked"))),
-    83: ("T R L1", (("T R S3 S4", "fast"), (f"T R L2 L3 {RIGHT} LF#", "alternate"))),
-    84: ("T R", ((f"T R L2 L3 {RIGHT}", "alternate"),)),
+    83: ("T R L1", ((f"T R L2 L3 {RIGHT} LF#", "alternate"),)),
+    84: ("T R", ((f"T R L2 L3 {RIGHT}", "alternate"), ("T R S4", "held"))),
     85: ("T R L2 L3 R1 R2", (("T R S3 S4", "trill"),)),
     86: ("T R L2 L3 R1 RG#", (("T R S2", "trill"),)),
     87: ("T R L2 L3 R1 RB RG#", (("T R L2 L3 R3 RG#", "forked"), ("T R L2 L3 R2 RG#", "forked"))),
@@ -79,7 +90,7 @@ def label(keys: str) -> str:
 def rows(written: int) -> list[tuple[str, tuple[str, ...]]]:
     """Labels and tags of a note of the B flat clarinet, first choice first."""
     first, alternates = ROWS[written]
-    return [(label(first), ()), *((label(keys), (tag,)) for keys, tag in alternates)]
+    return [(label(first), ()), *((label(keys), tuple(tag.split())) for keys, tag in alternates)]
 
 
 def bass_rows(written: int) -> list[tuple[str, tuple[str, ...]]]:

@@ -21,15 +21,15 @@ ROWS_OF = dict[int, tuple[str, tuple[tuple[str, str], ...]]]
 def _octave(low: int) -> ROWS_OF:
     """From E to C sharp: the same in the first octave and the second."""
     return {
-        low: (f"Eb T {LEFT} R1 R2", ()),
-        low + 1: (f"Eb T {LEFT} R1", ()),
-        low + 2: (f"Eb T {LEFT} R3", ((f"Eb T {LEFT} R2", "fast"),)),
-        low + 3: (f"Eb T {LEFT}", ()),
-        low + 4: (f"Eb G# T {LEFT}", ()),
-        low + 5: ("Eb T L1 L2", ()),
+        low: (f"Eb T {LEFT} R1 R2", ((f"Eb TBb {LEFT} R1 R2", "held"),)),
+        low + 1: (f"Eb T {LEFT} R1", ((f"Eb TBb {LEFT} R1", "held"),)),
+        low + 2: (f"Eb T {LEFT} R3", ((f"Eb T {LEFT} R2", "fast trill"), (f"Eb TBb {LEFT} R3", "held"))),
+        low + 3: (f"Eb T {LEFT}", ((f"Eb TBb {LEFT}", "held"),)),
+        low + 4: (f"Eb G# T {LEFT}", ((f"Eb G# TBb {LEFT}", "held"),)),
+        low + 5: ("Eb T L1 L2", (("Eb TBb L1 L2", "held"), ("Eb G# T L1 L2", "held"), ("Eb T L1 L2 R1", "held"))),
         low + 6: ("Eb L1 TBb", (("Eb T L1 R1", "alternate"), ("Eb L1 T trA#", "trill"))),
         low + 7: ("Eb T L1", ()),
-        low + 8: ("Eb L1", ()),
+        low + 8: ("Eb L1", (("Eb L1 R1", "held"),)),
         low + 9: ("Eb", ()),
     }
 
@@ -38,14 +38,17 @@ def _octave(low: int) -> ROWS_OF:
 FLUTE: ROWS_OF = {
     60: (f"C {BOTH}", ()),
     61: (f"C# {BOTH}", ()),
-    62: (BOTH, ()),
+    62: (BOTH, ((f"TBb {LEFT} {RIGHT}", "held"),)),
     63: (f"Eb {BOTH}", ()),
     **_octave(64),
-    74: (f"T L2 L3 {RIGHT}", ()),
-    75: (f"Eb T L2 L3 {RIGHT}", ()),
+    74: (
+        f"T L2 L3 {RIGHT}",
+        ((f"TBb L2 L3 {RIGHT}", "held"), ("Eb L1 tr1", "trill"), ("Eb tr1", "trill"), (BOTH, "trill")),
+    ),
+    75: (f"Eb T L2 L3 {RIGHT}", ((f"Eb TBb L2 L3 {RIGHT}", "held"), ("Eb tr2", "trill"))),
     **_octave(76),
-    86: ("Eb T L2 L3", ()),
-    87: (f"Eb G# {BOTH}", (("Eb L2 L3 T tr2", "trill"),)),
+    86: ("Eb T L2 L3", (("Eb L1 tr1", "trill"), ("Eb tr1", "trill"))),
+    87: (f"Eb G# {BOTH}", (("Eb L2 L3 T tr2", "trill"), ("Eb tr2", "trill"))),
     88: ("Eb T L1 L2 R1 R2", (("T L1 L2 R1 R2", "piano"),)),
     89: ("Eb T L1 L3 R1", ()),
     90: ("Eb T L1 L3 R3", (("Eb T L1 L3 R2", "fast"),)),
@@ -104,7 +107,7 @@ def label(keys: str) -> str:
 def rows(table: ROWS_OF, written: int) -> list[tuple[str, tuple[str, ...]]]:
     """Labels and tags of a note, first choice first."""
     first, alternates = table[written]
-    return [(label(first), ()), *((label(keys), (tag,)) for keys, tag in alternates)]
+    return [(label(first), ()), *((label(keys), tuple(tag.split())) for keys, tag in alternates)]
 
 
 def toml(written: int, found: list[tuple[str, tuple[str, ...]]]) -> list[str]:

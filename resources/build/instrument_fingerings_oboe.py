@@ -22,24 +22,24 @@ ROWS: dict[int, tuple[str, tuple[tuple[str, str], ...]]] = {
     61: (f"{BOTH} Rp_cis", ()),
     62: (BOTH, ()),
     63: (f"{BOTH} Rp_ees", ((f"{BOTH} Lp_ees", "alternate"),)),
-    64: (f"{LEFT} R1 R2", ()),
+    64: (f"{LEFT} R1 R2", ((f"{LEFT} R1 R2 Lp_gis", "held"),)),
     65: (f"{LEFT} R1 R2 Rr_f", ((f"{LEFT} R1 R2 Lp_f", "alternate"), (f"{LEFT} R1 R3", "forked"))),
-    66: (f"{LEFT} R1", ()),
+    66: (f"{LEFT} R1", ((f"{LEFT} R1 Lp_gis", "held"),)),
     67: (LEFT, ((f"{LEFT} Lp_b", "piano"),)),
     68: (f"{LEFT} Lp_gis", ()),
-    69: ("L1 L2", ()),
+    69: ("L1 L2", (("L1 L2 Lp_gis", "held"),)),
     70: ("L1 L2 R1", ((f"L1 L2 {RIGHT}", "alternate"),)),
     71: ("L1", ()),
     72: ("L1 R1", ()),
     73: (f"{HALF} {RIGHT} Rp_cis", (("R1", "trill"), ("L3 R2 R3 oct1", "alternate"))),
     74: (f"{HALF} {RIGHT}", ((f"L2 L3 {RIGHT}", "alternate"),)),
     75: (f"{HALF} {RIGHT} Rp_ees", ()),
-    76: (f"{LEFT} R1 R2 oct1", ()),
+    76: (f"{LEFT} R1 R2 oct1", ((f"{LEFT} R1 R2 Lp_gis oct1", "held"),)),
     77: (f"{LEFT} R1 R2 Rr_f oct1", ((f"{LEFT} R1 R2 Lp_f oct1", "alternate"), (f"{LEFT} R1 R3 oct1", "forked"))),
-    78: (f"{LEFT} R1 oct1", ()),
+    78: (f"{LEFT} R1 oct1", ((f"{LEFT} R1 Lp_gis oct1", "held"),)),
     79: (f"{LEFT} oct1", ((f"{LEFT} Lp_b oct1", "piano"),)),
     80: (f"{LEFT} Lp_gis oct1", ()),
-    81: ("L1 L2 oct2", ((f"{BOTH} oct2", "piano"),)),
+    81: ("L1 L2 oct2", ((f"{BOTH} oct2", "piano"), ("L1 L2 Lp_gis oct2", "held"))),
     82: ("L1 L2 R1 oct2", (("L1 L3 oct2", "forked"),)),
     83: ("L1 oct2", ((f"L1 L3 {RIGHT} oct2", "piano"),)),
     84: ("L1 R1 oct2", (("L2 L3 R1 R2", "alternate"),)),
@@ -66,8 +66,8 @@ def toml(rows: dict[int, tuple[str, tuple[tuple[str, str], ...]]]) -> list[str]:
     lines = []
     for written, (first, alternates) in rows.items():
         lines.append(f"  # {NAMES[written % 12]} {written // 12 - 1}")
-        for rank, (keys, tag) in enumerate([(first, ""), *alternates], start=1):
-            more = f', tags = ["{tag}"]' if tag else ""
+        for rank, (keys, tags) in enumerate([(first, ""), *alternates], start=1):
+            more = f", tags = [{', '.join(f'{chr(34)}{tag}{chr(34)}' for tag in tags.split())}]" if tags else ""
             lines.append(f'  {{ written_pitch = {written}, rank = {rank}, label = "{label(keys)}"{more} }},')
     return lines
 

@@ -24,31 +24,31 @@ ROWS: dict[int, tuple[str, tuple[tuple[str, str], ...]]] = {
     59: (f"{BOTH} lb lc", ()),
     60: (f"{BOTH} lc", ()),
     61: (f"{BOTH} cs lc", ()),
-    62: (BOTH, ()),
+    62: (BOTH, ((f"{BOTH} gs", "held"),)),
     63: (f"{BOTH} leb", ()),
-    64: (f"{LEFT} 1R 2R", ()),
-    65: (f"{LEFT} 1R", ()),
-    66: (f"{LEFT} 2R", ((f"{LEFT} 1R afs", "trill"),)),
+    64: (f"{LEFT} 1R 2R", ((f"{LEFT} 1R 2R gs", "held"),)),
+    65: (f"{LEFT} 1R", ((f"{LEFT} 1R gs", "held"),)),
+    66: (f"{LEFT} 2R", ((f"{LEFT} 1R afs", "trill chromatic"), (f"{LEFT} 2R gs", "held"))),
     67: (LEFT, ()),
     68: (f"{LEFT} gs", ()),
-    69: ("1L 2L", ()),
-    70: ("1L 2L sbb", (("1L bbb", "fast"), ("1L 1R", "alternate"))),
+    69: ("1L 2L", (("1L 2L gs", "held"),)),
+    70: ("1L 2L sbb", (("1L bbb", "fast trill"), ("1L 1R", "alternate"))),
     71: ("1L", ()),
-    72: ("2L", (("1L sc", "trill"),)),
+    72: ("2L", (("1L sc", "trill chromatic"), ("1L bbb sc", "trill"))),
     73: ("(open)", ()),
-    74: (f"{BOTH} oct", ()),
+    74: (f"{BOTH} oct", (("pd", "trill"), ("2L pd", "trill"), (f"{BOTH} gs oct", "held"))),
     75: (f"{BOTH} leb oct", (("se", "trill"),)),
-    76: (f"{LEFT} 1R 2R oct", ()),
-    77: (f"{LEFT} 1R oct", ()),
-    78: (f"{LEFT} 2R oct", ((f"{LEFT} 1R afs oct", "trill"),)),
+    76: (f"{LEFT} 1R 2R oct", ((f"{LEFT} 1R 2R gs oct", "held"), ("2L pd peb se", "trill"))),
+    77: (f"{LEFT} 1R oct", ((f"{LEFT} 1R gs oct", "held"),)),
+    78: (f"{LEFT} 2R oct", ((f"{LEFT} 1R afs oct", "trill chromatic"), (f"{LEFT} 2R gs oct", "held"))),
     79: (f"{LEFT} oct", ()),
     80: (f"{LEFT} gs oct", ()),
-    81: ("1L 2L oct", ()),
-    82: ("1L 2L oct sbb", (("1L bbb oct", "fast"), ("1L 1R oct", "alternate"))),
+    81: ("1L 2L oct", (("1L 2L gs oct", "held"),)),
+    82: ("1L 2L oct sbb", (("1L bbb oct", "fast trill"), ("1L 1R oct", "alternate"))),
     83: ("1L oct", ()),
-    84: ("2L oct", (("1L oct sc", "trill"),)),
+    84: ("2L oct", (("1L oct sc", "trill chromatic"), ("1L bbb oct sc", "trill"))),
     85: ("oct", ()),
-    86: ("oct pd", ()),
+    86: ("oct pd", (("2L oct pd", "trill"),)),
     87: ("oct pd peb", ()),
     88: ("oct pd peb se", (("2L 3L ff oct", "fast"),)),
     89: ("oct pd peb pf se", (("2L ff oct", "fast"),)),
@@ -64,14 +64,14 @@ def label(keys: str) -> str:
 def rows(written: int) -> list[tuple[str, tuple[str, ...]]]:
     """Labels and tags of a note, first choice first."""
     first, alternates = ROWS[written]
-    return [(label(first), ()), *((label(keys), (tag,)) for keys, tag in alternates)]
+    return [(label(first), ()), *((label(keys), tuple(tag.split())) for keys, tag in alternates)]
 
 
 def toml(written: int) -> list[str]:
     """Lines of the map."""
     lines = [f"  # {NAMES[written % 12]} {written // 12 - 1}"]
     for rank, (keys, tags) in enumerate(rows(written), start=1):
-        more = "".join(f', tags = ["{tag}"]' for tag in tags)
+        more = f", tags = [{', '.join(f'{chr(34)}{tag}{chr(34)}' for tag in tags)}]" if tags else ""
         lines.append(f'  {{ written_pitch = {written}, rank = {rank}, label = "{keys}"{more} }},')
     return lines
 

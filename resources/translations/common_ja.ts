@@ -199,6 +199,22 @@
         <translation>速い音形</translation>
     </message>
     <message>
+        <source>chromatic</source>
+        <translation>半音階</translation>
+    </message>
+    <message>
+        <source>attack</source>
+        <translation>発音</translation>
+    </message>
+    <message>
+        <source>held</source>
+        <translation>押さえたまま</translation>
+    </message>
+    <message>
+        <source>rare</source>
+        <translation>まれ</translation>
+    </message>
+    <message>
         <source>forked</source>
         <translation>フォーク</translation>
     </message>

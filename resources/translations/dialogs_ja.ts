@@ -435,8 +435,16 @@ Unreal で「Suisou &gt; 演奏をインポート」を選んでください。�
         <translation>1 人で演奏</translation>
     </message>
     <message>
+        <source>Automatic: another player for notes that go on sounding together; overlaps of one player are slurs</source>
+        <translation>自動: 重なって鳴り続ける音があれば別のプレイヤーに分けます。一人の音の短い重なりはスラーと見なします</translation>
+    </message>
+    <message>
         <source>Automatic: {name}</source>
         <translation>自動: {name}</translation>
+    </message>
+    <message>
+        <source>Choose an instrument</source>
+        <translation>楽器を選んでください</translation>
     </message>
     <message>
         <source>Sounding</source>
@@ -453,6 +461,10 @@ Unreal で「Suisou &gt; 演奏をインポート」を選んでください。�
     <message>
         <source>Automatic</source>
         <translation>自動</translation>
+    </message>
+    <message>
+        <source>Choose an instrument for {name}</source>
+        <translation>{name} の楽器を選んでください</translation>
     </message>
     <message>
         <source>Players: {count}</source>

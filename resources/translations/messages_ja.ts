@@ -372,6 +372,10 @@
             <translation>予備動作を付ける下限: {count} 人</translation>
         </message>
         <message>
+            <source>air used up before a short rest is breathed in, players: {count}</source>
+            <translation>短い休符で吸うまでに使う息: {count} 人</translation>
+        </message>
+        <message>
             <source>lungs of players: {count}</source>
             <translation>一息の長さ: {count} 人</translation>
         </message>
@@ -928,6 +932,22 @@
             <translation>--written は MIDI ファイルの音高の読み方を指定します。{file} はプロジェクトで、音符の移調はエディターで行えます</translation>
         </message>
         <message>
+            <source>--assign gives instruments to the parts of a MIDI file; {file} is a project; there use --set 'PLAYER.instrument=ID'</source>
+            <translation>--assign は MIDI ファイルのパートに楽器を割り当てます。{file} はプロジェクトです。--set 'PLAYER.instrument=ID' を使ってください</translation>
+        </message>
+        <message>
+            <source>--assign: {assignment!r} is not PART=INSTRUMENT, for instance 'Lead=trumpet_Bb'</source>
+            <translation>--assign: {assignment!r} は「パート=楽器」の形ではありません（例: 'Lead=trumpet_Bb'）</translation>
+        </message>
+        <message>
+            <source>--assign: there is no instrument {instrument!r}; there are: {possible}</source>
+            <translation>--assign: 楽器 {instrument!r} はありません。使える楽器: {possible}</translation>
+        </message>
+        <message>
+            <source>{reason} with --assign '{part}=INSTRUMENT'</source>
+            <translation>{reason}。--assign '{part}=INSTRUMENT' で指定できます</translation>
+        </message>
+        <message>
             <source>--encoding says how the texts of a MIDI file are read; {file} is a project and needs none</source>
             <translation>--encoding は MIDI ファイルの文字の読み方を指定するものです。{file} はプロジェクトなので不要です</translation>
         </message>
@@ -1308,24 +1328,40 @@
             <translation>{part}: 名前からもプログラム番号からも楽器が分かりません。音域が合う {map} で演奏します</translation>
         </message>
         <message>
-            <source>{part}: neither its name nor its program says what it is; {map} plays it, though {outside} of {total} notes lie outside its range</source>
-            <translation>{part}: 名前からもプログラム番号からも楽器が分かりません。{map} で演奏しますが、{total} 音中 {outside} 音が音域外です</translation>
+            <source>{part}: neither its name nor its program says what it is; {map} plays it, though {outside} of {total} notes lie outside its range, the first at bar {bar}, beat {beat:g} ({pitch})</source>
+            <translation>{part}: 名前からもプログラム番号からも楽器が分かりません。{map} で演奏しますが、{total} 音中 {outside} 音が音域外です（最初は {bar} 小節 {beat:g} 拍目の {pitch}）</translation>
         </message>
         <message>
-            <source>{part}: {outside} of {total} notes lie outside the range of {map}, but all fit as written pitches: the part looks untransposed; import its pitches as written</source>
-            <translation>{part}: {total} 音のうち {outside} 音が{map}の音域から外れていますが、記譜音と見なすとすべて収まります。記譜音のまま書き出されたパートのようです。「記譜音」として読み込んでください</translation>
+            <source>{part}: {outside} of {total} notes lie outside the range of {map}, the first at bar {bar}, beat {beat:g} ({pitch}), but all fit as written pitches: the part looks untransposed; import its pitches as written</source>
+            <translation>{part}: {total} 音のうち {outside} 音が{map}の音域から外れていますが（最初は {bar} 小節 {beat:g} 拍目の {pitch}）、記譜音と見なすとすべて収まります。記譜音のまま書き出されたパートのようです。「記譜音」として読み込んでください</translation>
         </message>
         <message>
             <source>the piece has {most} players already, and more cannot play</source>
             <translation>奏者がすでに {most} 人いて、これ以上は演奏できません</translation>
         </message>
         <message>
-            <source>{part}: more than {most} notes sound together; {most} players share it, and {count} {count:note is|notes are} left out</source>
-            <translation>{part}: 同時に {most} 音を超えて鳴ります。{most} 人で分担し、{count} 音を省きました</translation>
+            <source>nothing says which instrument plays it ({lowest} to {highest}); choose one</source>
+            <translation>楽器が分かりません（{lowest}～{highest}）。楽器を選んでください</translation>
         </message>
         <message>
-            <source>{part}: up to {voices} notes sound together, so {voices} players share it</source>
-            <translation>{part}: 最大 {voices} 音が重なるため、{voices} 人で分担します</translation>
+            <source>{part}: {most} players share it, and {count} {count:note that sounds|notes that sound} together with theirs {count:is|are} left out, the first at bar {bar}, beat {beat:g} ({pitch})</source>
+            <translation>{part}: {most} 人で分担し、それ以上に重なる {count} 音を省きました（最初は {bar} 小節 {beat:g} 拍目の {pitch}）</translation>
+        </message>
+        <message>
+            <source>{count} {count:note sounds|notes sound} together with others, the first at bar {bar}, beat {beat:g} ({pitch}); too few and too short for another player</source>
+            <translation>{count} 音がほかの音と重なります（最初は {bar} 小節 {beat:g} 拍目の {pitch}）。別のプレイヤーに分けるには少なく短いため、省きました</translation>
+        </message>
+        <message>
+            <source>{count} {count:note lasts|notes last} into the next one and {count:ends|end} there, slurred; the first in {part} at bar {bar}, beat {beat:g} ({pitch})</source>
+            <translation>{count} 音が次の音に重なるため、スラーとして次の音の始めまで縮めました（最初は {part} の {bar} 小節 {beat:g} 拍目の {pitch}）</translation>
+        </message>
+        <message>
+            <source>{count} {count:note|notes} far from the range of the instrument {count:is a key switch|are key switches}, the first at bar {bar}, beat {beat:g} ({pitch})</source>
+            <translation>楽器の音域から遠い {count} 音はキースイッチと見なしました（最初は {bar} 小節 {beat:g} 拍目の {pitch}）</translation>
+        </message>
+        <message>
+            <source>{part}: {voices} players share it, for {count} {count:note goes|notes go} on sounding together with others, the first at bar {bar}, beat {beat:g} ({pitch})</source>
+            <translation>{part}: {count} 音がほかの音と重なって鳴り続けるため、{voices} 人で分担します（最初は {bar} 小節 {beat:g} 拍目の {pitch}）</translation>
         </message>
         <message>
             <source>{file} has several root bones ({bones}); Unreal takes only one, so the bone {root} was put above them</source>

@@ -153,6 +153,14 @@
         <translation>この長さ以上の休符では構え直してから最後の拍で吸います</translation>
     </message>
     <message>
+        <source>Air spent first</source>
+        <translation>ブレスまでに使う息</translation>
+    </message>
+    <message>
+        <source>Part of the lungs that is used up before the player breathes in a rest too short to prepare in: 0 every such rest, 1 only with empty lungs</source>
+        <translation>構え直せない短い休符で吸うまでに使う息の割合。0 ではどの休符でも吸い、1 では息が尽きたときだけ吸います</translation>
+    </message>
+    <message>
         <source>A full lung lasts</source>
         <translation>一息の長さ</translation>
     </message>

@@ -7,6 +7,7 @@ from what mido reads, without a line of the program.
 from __future__ import annotations
 
 import io
+import math
 import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
@@ -35,8 +36,8 @@ def _upwards(labels: str, lowest: int) -> dict[int, str]:
 FIRST = {
     "trumpet": _upwards("123 13 23 12 1 2 0 123 13 23 12 1 2 0 23 12 1 2 0 12 1 2 0 1 2 0 23 12 1 2 0", 52),
     "trombone": {
-        **_upwards("T6 T5 T4 T3 7 6 5 4 3 2 1", 36),
-        **_upwards("7 6 5 4 3 2 1 5 4 3 2 1 4 3 2 1 3 2 1 3 2 3 2 1", 47),
+        **_upwards("T6 T5 T4 T3 T2 6 5 4 3 2 1", 36),
+        **_upwards("T2 6 5 4 3 2 1 5 4 3 2 1 4 3 2 1 3 2 1 3 2 3 2 1", 47),
     },
 }
 HELD_S = 0.35
@@ -284,6 +285,10 @@ def _breaths(
             if abs(seconds(event[f"{end}_beat"] * quarter) - event[f"{end}_s"]) > 1e-5:
                 wrong.append(f"the {end} of the breath at {event['end_s']} in beats: {event[f'{end}_beat']}")
     reach = 0
+    shares = [math.nan] * len(notes)
+    for index, (one, other) in enumerate(pairwise(notes), 1):
+        if one["onset_tick"] + one["duration_tick"] < other["onset_tick"]:
+            shares[index] = 1.0 - one["duration_tick"] / (other["onset_tick"] - one["onset_tick"])
     for index, note in enumerate(notes):
         onset = note["onset_tick"]
         if index == 0:
@@ -297,6 +302,10 @@ def _breaths(
             reach = max(reach, onset + note["duration_tick"])
             continue
         breath = served.get(index)
+        # Detached notes have no rests between them: nothing is said where three have the same part of silence.
+        if rest < 1.0 and sum(abs(share - shares[index]) < 0.13 for share in shares) >= 3:
+            reach = max(reach, onset + note["duration_tick"])
+            continue
         wanted: tuple[float, ...] = ()
         if prepare <= rest:
             wanted = (onset - 2 * beat, onset - beat, onset)

@@ -377,7 +377,7 @@ def prepare(folder: Path, seed: int) -> None:
     files.mkdir(parents=True)
     shutil.copy(QUARTET, files / "quartet.mid")
     _write_short_piece(files / FIRST)
-    shutil.copy(seeds.DATA / "projects" / "version_5.suisou", files / "work.suisou")
+    shutil.copy(seeds.DATA / "projects" / "version_6.suisou", files / "work.suisou")
     for kind, suffix in (("midi", ".mid"), ("project", ".suisou"), ("audio", ".flac")):
         spec = KINDS[kind]
         good = spec.seeds()

@@ -233,7 +233,7 @@ def record(film: Film) -> None:
     end_s = score.tempo_map.seconds(float(score.tick_of_bar(LAST_BAR)))
     session.viewport.set_view("hands")
     session.listening.set(click=True)
-    beat_s = score.tempo_map.seconds(float(session.project.felt_beat_ticks))
+    beat_s = score.tempo_map.seconds(float(session.project.felt_beat_ticks(0)))
     player = session.project.players[0].id
     for number in range(3):
         session.set_playhead(start_s)

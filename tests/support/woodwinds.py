@@ -58,7 +58,7 @@ def clarinet() -> InstrumentMap:
         (57, "T L1 L2 L3 R1 R2"), (58, "T L1 L2 L3 R1"), (59, "T L1 L2 L3 R2"), (59, "T L1 L2 L3 R1 sl", "trill"),
         (60, "T L1 L2 L3"), (61, "T L1 L2 L3 sb", "alternate"), (62, "T L1 L2"), (63, "T L1 L2 sb"), (64, "T L1"),
         (65, "T"), (66, "L1"), (66, "T sb", "trill"), (67, "(open)"), (68, "Gs"), (69, "A"),
-        (69, "A R1 R2 R3", "fast"), (70, "A R"), (70, "A R R1 R2 R3", "fast"), (70, "A sb", "trill"),
+        (69, "A R1 R2 R3", "held"), (70, "A R"), (70, "A R R1 R2 R3", "held"), (70, "A sb", "trill"),
         (71, f"{six} LE"), (71, f"{six} RE", "alternate"), (72, f"{six} RF"), (72, f"{six} LF", "alternate"),
         (73, f"{six} LFs"), (73, f"{six} RFs", "alternate"), (74, six), (75, f"{six} RGs"),
         (76, "R T L1 L2 L3 R1 R2"), (77, "R T L1 L2 L3 R1"), (78, "R T L1 L2 L3 R2"), (79, "R T L1 L2 L3"),

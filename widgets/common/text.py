@@ -23,7 +23,12 @@ NOTES = frozenset({"note", "other", "after_note", "anchor"})
 """Arguments that name a note by its id; an anchor may also be an event or a name."""
 
 
-def message_text(message: Message, session: Session | None = None, player_id: str | None = None) -> str:
+def message_text(
+    message: Message,
+    session: Session | None = None,
+    player_id: str | None = None,
+    name_pitch: Callable[[int], str] = "MIDI {}".format,
+) -> str:
     """A message as a sentence in the language of the editor.
 
     Parameters
@@ -33,9 +38,15 @@ def message_text(message: Message, session: Session | None = None, player_id: st
         With it notes are told by pitch and place, as the person wants pitches named; without it by their ids.
     player_id : str or None
         Whose message it is; None: that of the player in front.
+    name_pitch : callable
+        What a pitch is called without a session.
     """
     template = QCoreApplication.translate("Message", TEMPLATES[message.id])
-    return filled(template, {name: _told(message, name, session, player_id) for name in message.arguments})
+    arguments = {name: _told(message, name, session, player_id) for name in message.arguments}
+    if session is None:
+        named = PITCHES.get(message.id, ())
+        arguments |= {name: name_pitch(int(message.arguments[name])) for name in named}
+    return filled(template, arguments)
 
 
 def sentence(message: Message, session: Session | None = None, player_id: str | None = None) -> str:
@@ -63,8 +74,6 @@ def _told(message: Message, name: str, session: Session | None, player_id: str |
             return _pitch(session, float(value), player)
         if name in NOTES and isinstance(value, str):
             return _anchor(session, value, player, is_anchor=name == "anchor")
-    elif name in PITCHES.get(message.id, ()):
-        return f"MIDI {value}"
     words = _WORDS.get(name)
     return words().get(str(value), str(value).replace("_", " ")) if words is not None else value
 

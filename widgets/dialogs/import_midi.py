@@ -287,10 +287,16 @@ class ImportDialog(QDialog):
 
         split = ComboBox()
         split.setObjectName(f"split_{place}")
-        split.addItem(self.tr("Share among players"), True)
-        split.addItem(self.tr("One player"), False)
-        split.setCurrentIndex(0 if row.wish.split else 1)
-        split.currentIndexChanged.connect(lambda _, box=split: self._wish(place, split=bool(box.currentData())))
+        split.addItem(self.tr("Automatic"), "sustained")
+        split.addItem(self.tr("Share among players"), "every")
+        split.addItem(self.tr("One player"), "never")
+        split.setCurrentIndex(split.findData(row.wish.split))
+        split.setToolTip(
+            self.tr(
+                "Automatic: another player for notes that go on sounding together; overlaps of one player are slurs"
+            )
+        )
+        split.currentIndexChanged.connect(lambda _, box=split: self._wish(place, split=box.currentData()))
         self._table.setCellWidget(place, _SPLIT, split)
 
         instrument = ComboBox()
@@ -301,7 +307,7 @@ class ImportDialog(QDialog):
         for text, id_ in self._instruments:
             instrument.addItem(text, id_)
         instrument.setCurrentIndex(max(instrument.findData(row.wish.map_id), 0))
-        instrument.currentIndexChanged.connect(lambda _, box=instrument: self._wish(place, map_id=box.currentData()))
+        instrument.currentIndexChanged.connect(lambda _, box=instrument: self._choose(place, box.currentData()))
         instrument.setToolTip(instrument.currentText())
         instrument.currentTextChanged.connect(instrument.setToolTip)
         self._table.setCellWidget(place, _INSTRUMENT, instrument)
@@ -332,6 +338,10 @@ class ImportDialog(QDialog):
         """What a row is played on, were it wanted; nothing where that is not known yet."""
         return [] if self._outcome is None else [self._maps[id_] for id_ in self._outcome.instruments_of(wish)]
 
+    def _asks(self, row: ImportRow) -> bool:
+        """Whether nothing says what plays a row."""
+        return self._outcome is not None and row.wish.map_id is None and not self._played_on(row.wish)
+
     def _show_instruments(self, place: int) -> None:
         """Say which instruments a row's names, programs and ranges choose, and whether its pitches can be written."""
         row = self._rows[place]
@@ -341,12 +351,24 @@ class ImportDialog(QDialog):
         names = dict.fromkeys(map(instrument_name, self._played_on(automatic(row.wish))))
         if names:
             instrument.setItemText(0, self.tr("Automatic: {name}").format(name=" + ".join(names)))
+        elif self._outcome is not None and not row.wish.map_id:
+            instrument.setItemText(0, self.tr("Choose an instrument"))
+        instrument.setEnabled(row.wanted or self._asks(row))
         # Only there is a difference.
         transposes = any(table.transposition_semitones for table in self._played_on(row.wish))
         pitches.setEnabled(row.wanted and transposes)
 
     def _name(self, row: ImportRow) -> str:
         return " + ".join(stream_name(self._contents.streams[stream]) for stream in row.wish.streams)
+
+    def _choose(self, place: int, map_id: str | None) -> None:
+        """Take an instrument for a row; one that was asked for is what lets it be played."""
+        asked = self._asks(self._rows[place])
+        self._wish(place, map_id=map_id)
+        tick = self._table.cellWidget(place, _USE)
+        box = tick.findChild(QCheckBox) if tick is not None else None
+        if asked and map_id is not None and box is not None:
+            box.setChecked(True)
 
     def _wish(self, place: int, **changes: object) -> None:
         self._set(place, wish=msgspec.structs.replace(self._rows[place].wish, **changes))
@@ -358,10 +380,12 @@ class ImportDialog(QDialog):
         self._work_out(self._rows)
 
     def _enable(self, place: int) -> None:
+        row = self._rows[place]
         for column in (_NAME, _PREVIEW, _NOTES, _SPLIT, _INSTRUMENT, _CHARACTER):
             widget = self._table.cellWidget(place, column)
             if widget is not None:
-                widget.setEnabled(self._rows[place].wanted)
+                # Where nothing says what the instrument is, it is asked for.
+                widget.setEnabled(row.wanted or (column == _INSTRUMENT and self._asks(row)))
 
     def _show_tools(self) -> None:
         places = self._selected()
@@ -371,18 +395,22 @@ class ImportDialog(QDialog):
     def _show_outcome(self) -> None:
         """Say what will come of it: the reader's warnings where nothing was changed, the players in any case."""
         outcome = self._outcome
-        self._buttons.button(QDialogButtonBox.StandardButton.Ok).setEnabled(outcome is not None)
+        asking = [row for row in self._rows if row.wanted and self._asks(row)]
+        self._buttons.button(QDialogButtonBox.StandardButton.Ok).setEnabled(outcome is not None and not asking)
         self._warnings.clear()
         if outcome is not None:
-            self._summary.setText(
-                self.tr("Players: {count}").format(count=outcome.players)
-                if outcome.players
-                else self.tr("Nobody plays: tick a track, or import an empty stage")
-            )
-            self._warnings.addItems([message_text(message) for message in outcome.warnings])
+            if asking:
+                self._summary.setText(self.tr("Choose an instrument for {name}").format(name=self._name(asking[0])))
+            elif outcome.players:
+                self._summary.setText(self.tr("Players: {count}").format(count=outcome.players))
+            else:
+                self._summary.setText(self.tr("Nobody plays: tick a track, or import an empty stage"))
+            self._warnings.addItems([message_text(message, name_pitch=pitch_name) for message in outcome.warnings])
             self._warnings.addItems(
                 [
-                    self.tr("{name} is not played: {reason}").format(name=part.name, reason=message_text(part.reason))
+                    self.tr("{name} is not played: {reason}").format(
+                        name=part.name, reason=message_text(part.reason, name_pitch=pitch_name)
+                    )
                     for part in outcome.unplayed
                 ]
             )

@@ -263,7 +263,7 @@ class EventSection(QWidget):
 
         def changed(project: Project, plan: PlayerPlan) -> Project:
             for event in events:
-                start = event.end_tick - round(LEAD_BEATS * value * project.felt_beat_ticks)
+                start = event.end_tick - round(LEAD_BEATS * value * project.felt_beat_ticks(event.end_tick))
                 project = edit.resize(project, plan, (event.id,), start_ticks=start - event.start_tick)
             return project
 
@@ -345,4 +345,4 @@ class EventSection(QWidget):
 
 
 def _cue_beats(event: CueEvent, project: Project) -> float:
-    return round((event.end_tick - event.start_tick) / LEAD_BEATS / project.felt_beat_ticks, 2)
+    return round((event.end_tick - event.start_tick) / LEAD_BEATS / project.felt_beat_ticks(event.end_tick), 2)

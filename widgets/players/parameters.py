@@ -54,6 +54,7 @@ _SLIDERS = (
     _Slider("breath_min_beats", "breath", 64.0, 4.0, 0.25),
     _Slider("breath_last_beat_beats", "breath", 64.0, 8.0, 0.25),
     _Slider("breath_prepare_beats", "breath", 64.0, 8.0, 0.25),
+    _Slider("breath_need", "breath", 1.0, 1.0, 0.05),
     _Slider("lung_s", "breath", 60.0, 20.0, 0.5, minimum=1.0, decimals=1),
     _Slider("embouchure_tension", "face", 2.0, 2.0, 0.05),
 )
@@ -326,6 +327,13 @@ class ParameterSections(QWidget):
             "breath_prepare_beats": (
                 self.tr("Prepared from"), beats,
                 self.tr("In a rest from this length on, the player gets ready, then breathes on the last beat"),
+            ),
+            "breath_need": (
+                self.tr("Air spent first"), "",
+                self.tr(
+                    "Part of the lungs that is used up before the player breathes in a rest too short to prepare in: "
+                    "0 every such rest, 1 only with empty lungs"
+                ),
             ),
             "lung_s": (
                 self.tr("A full lung lasts"),

@@ -228,8 +228,8 @@ class TransportBar(QWidget):
         recording, text = self._session.recording, ""
         if recording.running and playhead_s < recording.start_s - 1e-6:
             project = self._session.project
-            ticks = project.score.tempo_map.ticks
-            beats = (ticks(recording.start_s) - ticks(playhead_s)) / project.felt_beat_ticks
+            now, start = map(project.score.tempo_map.ticks, (playhead_s, recording.start_s))
+            beats = (start - now) / project.felt_beat_ticks(start)
             text = f"−{ceil(beats - 1e-6)}"
         elif recording.running:
             text = self.tr("REC") if recording.passes < 2 else self.tr("REC {number}").format(number=recording.passes)

@@ -39,9 +39,10 @@ class BeatLight(QWidget):
         if not session.playing or not (session.listening.click or session.recording.running):
             return _OFF
         project = session.project
-        score, felt = project.score, project.felt_beat_ticks
+        score = project.score
         tick = score.tempo_map.ticks(playhead_s)
         first = score.tick_of_bar(score.bar_of_tick(floor(tick)))
+        felt = project.felt_beat_ticks(first)
         beat = floor((tick - first) / felt + 1e-6)
         since_s = playhead_s - score.tempo_map.seconds(float(first + beat * felt))
         if since_s > FLASH_S * session.listening.speed:

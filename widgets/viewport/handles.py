@@ -155,10 +155,11 @@ class Span:
 def span_of(project: Project, chosen: tuple[int, int] | None, playhead_tick: int) -> Span:
     """The chosen span, else the bar at the playhead; faded over a felt beat."""
     if chosen is not None:
-        return Span(chosen[0], chosen[1], project.felt_beat_ticks)
+        return Span(chosen[0], chosen[1], project.felt_beat_ticks(chosen[0]))
     score = project.score
     bar = score.bar_of_tick(max(playhead_tick, 0))
-    return Span(score.tick_of_bar(bar), score.tick_of_bar(bar + 1), project.felt_beat_ticks)
+    start = score.tick_of_bar(bar)
+    return Span(start, score.tick_of_bar(bar + 1), project.felt_beat_ticks(start))
 
 
 def correction_at(

@@ -63,8 +63,10 @@ def set_preroll(project: Project, beats: float) -> Project:
     return _with(project, preroll_beats=float(beats))
 
 
-def set_felt_beat(project: Project, quarters: float) -> Project:
-    """The beat that is felt, in quarters."""
+def set_felt_beat(project: Project, quarters: float | None) -> Project:
+    """The beat that is felt, in quarters; None: metre and tempo say."""
+    if quarters is None:
+        return _with(project, felt_beat_quarters=None)
     _check("felt_beat_quarters", quarters, limits.FELT_BEAT_QUARTERS)
     return _with(project, felt_beat_quarters=float(quarters))
 

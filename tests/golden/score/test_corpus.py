@@ -11,7 +11,7 @@ import pytest
 from app.project.importing import import_project, usual_rows
 from app.project.model import map_choices
 from app.project.storage import decode, encode
-from app.score.model import Score
+from app.score.model import Note, Score
 from app.score.read import read_contents, read_midi
 from instrument_maps.load import bundled_maps
 from resources.build import arrange_example
@@ -30,6 +30,12 @@ def players(score: Score) -> list[tuple[str, str, int]]:
     return [(part.name, part.map_id, len(part.notes)) for part in score.parts]
 
 
+def notes_of_file(score: Score) -> list[Note]:
+    """The notes of the players, but each only once that several of them play in unison."""
+    notes = [note for part in score.parts for note in part.notes]
+    return [note for note in notes if int(note.id.split(":")[1]) < 10_000_000]
+
+
 @pytest.mark.parametrize("path", READABLE, ids=lambda path: path.stem)
 def test_every_file_opens_and_no_note_is_lost(path: Path) -> None:
     score = read_midi(path, maps=MAPS)
@@ -46,7 +52,7 @@ def test_every_file_opens_and_no_note_is_lost(path: Path) -> None:
             tick += message.time
             if message.type == "note_on" and message.velocity:
                 onsets[message.note] += 1
-    played = Counter(note.pitch for part in score.parts for note in part.notes)
+    played = Counter(note.pitch for note in notes_of_file(score))
     assert sum(played.values()) + unplayed == sum(onsets.values())
     assert not played - onsets
 
@@ -75,7 +81,7 @@ def test_a_project_that_was_saved_and_loaded_is_saved_as_the_same_bytes(path: Pa
 )
 def test_what_mido_refuses_opens_with_all_its_notes(path: str, notes: int) -> None:
     score = read_midi(DATA / path, maps=MAPS)
-    assert sum(len(part.notes) for part in score.parts) + sum(part.note_count for part in score.unplayed) == notes
+    assert len(notes_of_file(score)) + sum(part.note_count for part in score.unplayed) == notes
 
 
 @pytest.mark.parametrize("name", ["brass_quartet_lutkin_2tpt_tbn_tuba", "trombone_quartet_bach_air"])
@@ -97,8 +103,8 @@ def test_the_lutkin_quartet_waits_for_a_tuba() -> None:
 def test_pezel_five_part_sonata_in_three_tracks() -> None:
     score = score_of("brass_quintet_pezel_sonata21")
     by_name = Counter((part.name, part.map_id) for part in score.parts)
-    # Two sopranos, one tenor; the bass track doubles its bass in octaves, so it needs three.
-    assert by_name == {("Sopran", "trumpet"): 2, ("Tenor", "trombone"): 1, ("Bass", "trombone"): 3}
+    # Two sopranos, one tenor, two basses: that the lower doubles some cadences in octaves makes no sixth.
+    assert by_name == {("Sopran", "trumpet"): 2, ("Tenor", "trombone"): 1, ("Bass", "trombone"): 2}
     means = [sum(note.pitch for note in part.notes) / len(part.notes) for part in score.parts if part.name == "Bass"]
     assert means == sorted(means, reverse=True)
 
@@ -169,7 +175,7 @@ def test_the_bundled_quartet() -> None:
 WINDS = {
     "brass_quartet_lutkin_2tpt_tbn_tuba": ["trumpet_Bb", "trumpet_Bb", "trombone_tenor_F_attachment", "tuba_"],
     "concert_band_hall_tenth_regiment_march": [
-        *["flute"] * 3, "oboe", "bassoon", *["clarinet_Bb"] * 5, "sax_alto_Eb", "sax_tenor_Bb", "sax_baritone_Eb",
+        *["flute"] * 2, "oboe", "bassoon", *["clarinet_Bb"] * 5, "sax_alto_Eb", "sax_tenor_Bb", "sax_baritone_Eb",
         *["trumpet_Bb"] * 6, *["horn_double_F_Bb"] * 4, *["trombone_tenor_F_attachment"] * 4, "tuba_BBb",
     ],
     "cornets_sackbuts_speer_sonata": ["cornet_Bb"] * 2 + ["trombone_tenor_F_attachment"] * 3,
@@ -202,5 +208,5 @@ def test_every_wind_of_the_ensembles_finds_its_instrument(name: str, expected: l
         assert not Counter(known) - Counter(found)
         return
     assert all(one.startswith(wanted) for one, wanted in zip(found, expected, strict=True))
-    assert {part.reason.id for part in score.unplayed} <= {"score.percussion", "score.not_wind"}
+    assert {part.reason.id for part in score.unplayed} <= {"score.percussion", "score.not_wind", "score.stray_notes"}
     assert not [warning for warning in score.warnings if warning.id == "score.substituted"]

@@ -109,7 +109,7 @@ def test_tracks_are_merged_and_taken_apart(dialog: ImportDialog) -> None:
     )
     QTest.mouseClick(dialog.findChild(QPushButton, "merge"), Qt.MouseButton.LeftButton)
     assert [row.wish.streams for row in dialog.rows] == [(0, 1), (2,), (3,)]
-    choose(dialog, "split_0", False)
+    choose(dialog, "split_0", "never")
     assert len(imported(dialog).players) == 2
     table.selectRow(0)
     QTest.mouseClick(dialog.findChild(QPushButton, "separate"), Qt.MouseButton.LeftButton)
@@ -244,7 +244,7 @@ def test_many_tracks_are_shown_turn_by_turn(
     monkeypatch.setattr(importing, "_instruments", lambda contents, wish, *more: looked.append(wish) or ("flute",))
     name = dialog.findChild(QLineEdit, "name_39")
     assert name is not None
-    choose(dialog, "split_39", False)
+    choose(dialog, "split_39", "every")
     assert [wish.streams for wish in looked] == [(39,)]  # type: ignore[attr-defined]
     QTest.keyClicks(name, "x")
     assert len(looked) == 1
@@ -267,3 +267,28 @@ def test_the_preview_draws_what_sounds(qt_app: QApplication, qtbot: QtBot) -> No
                 or (onset * 100 < (column + 1) * end_tick and column * end_tick < end * 100)
             }
     assert drawn == expected
+
+
+def test_an_unknown_name_is_asked_about(qt_app: QApplication, qtbot: QtBot, tmp_path: Path) -> None:
+    path = piece(tmp_path, {"Lead": (60, 62, 64), "Flute": (72, 74, 76)})
+    dialog = ImportDialog(read_contents(path), bundled_maps(), DARK, ImmediateTasks())
+    qtbot.addWidget(dialog)
+    dialog.show()
+    play, instrument = dialog.findChild(QCheckBox, "play_0"), dialog.findChild(QComboBox, "instrument_0")
+    ok = dialog.findChild(QDialogButtonBox).button(QDialogButtonBox.StandardButton.Ok)
+    # Left alone it is left out; nothing is chosen for it.
+    assert (play.isChecked(), ok.isEnabled(), instrument.isEnabled()) == (False, True, True)
+    assert (instrument.currentData(), instrument.currentText()) == (None, "Choose an instrument")
+    assert [part.name for part in imported(dialog).score.parts] == ["Flute"]
+    # Ticked, it must be answered before anything is imported.
+    QTest.mouseClick(play, Qt.MouseButton.LeftButton)
+    assert not ok.isEnabled()
+    assert "Lead" in dialog.findChild(QLabel, "import_summary").text()
+    QTest.mouseClick(play, Qt.MouseButton.LeftButton)
+    assert ok.isEnabled()
+    # Whoever answers wants it played.
+    choose(dialog, "instrument_0", "trumpet_Bb")
+    assert (play.isChecked(), ok.isEnabled()) == (True, True)
+    assert [part.map_id for part in imported(dialog).score.parts] == ["trumpet_Bb", "flute"]
+    choose(dialog, "instrument_0", None)
+    assert not ok.isEnabled()

@@ -245,6 +245,7 @@ def test_escape_gives_everybody_their_own_value_back(panel: PlayersPanel, sessio
         ("breath_min_beats", "1/3", 0.33),
         ("breath_last_beat_beats", "16", 16.0),
         ("breath_prepare_beats", "3", 3.0),
+        ("breath_need", "0.5", 0.5),
         ("lung_s", "12.5", 12.5),
         ("embouchure_tension", "0.9", 0.9),
         ("seed", "77", 77),

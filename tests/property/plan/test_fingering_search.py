@@ -50,19 +50,42 @@ def trill_of(notes: tuple[PlainNote, ...], onset: list[float]) -> list[bool]:
     for start in range(len(notes) - 3):
         pitches = [note.pitch for note in notes[start : start + 4]]
         quick = all(onset[start + k + 1] - onset[start + k] <= 0.15 + 1e-9 for k in range(3))
-        if quick and pitches[0] == pitches[2] and pitches[1] == pitches[3] and 1 <= abs(pitches[0] - pitches[1]) <= 2:
+        width = abs(pitches[0] - pitches[1])
+        if width > 2:
+            quick = all(onset[start + k + 1] - onset[start + k] <= 0.09 + 1e-9 for k in range(3))
+        if quick and pitches[0] == pitches[2] and pitches[1] == pitches[3] and 1 <= width <= 12:
             trill[start : start + 3] = [True] * 3
     return trill
 
 
-def choice_cost(fingering: Fingering, first: Fingering, length: float, in_trill: bool, fast: bool) -> float:
-    """All notes of these tests are of a middling loudness."""
+def glide_of(notes: tuple[PlainNote, ...], onset: list[float], end: list[float]) -> list[bool]:
+    """Steps of three or more quick slurred semitones in one direction."""
+    glide = [False] * max(len(notes) - 1, 0)
+    for start in range(len(notes) - 3):
+        steps = [notes[start + k + 1].pitch - notes[start + k].pitch for k in range(3)]
+        quick = all(onset[start + k + 1] - onset[start + k] <= 0.15 + 1e-9 for k in range(3))
+        slurred = all(onset[start + k + 1] - end[start + k] < 0.01 for k in range(3))
+        if quick and slurred and steps in ([1, 1, 1], [-1, -1, -1]):
+            glide[start : start + 3] = [True] * 3
+    return glide
+
+
+def is_chromatic(notes: tuple[PlainNote, ...], onset: list[float], index: int) -> bool:
+    sides = [(at, at + 1) for at in (index - 1, index) if 0 <= at < len(notes) - 1]
+    near = [abs(notes[b].pitch - notes[a].pitch) for a, b in sides if onset[b] - onset[a] <= 0.3 + 1e-9]
+    return bool(near) and all(width == 1 for width in near)
+
+
+def choice_cost(fingering: Fingering, first: Fingering, length: float, places: set[str]) -> float:
+    """All notes of these tests are of a middling loudness; ``places`` are the tags that are right here."""
     cost = float(min(fingering.rank - 1, 3))
     if fingering.rank > 1:
         cost += 0.5 if "forked" in fingering.tags else 0.0
-        meant = set(fingering.tags) & {"trill", "fast", "forte", "piano"}
-        if ("trill" in meant and in_trill) or ("fast" in meant and fast):
-            cost = 0.5
+        cost += 4.0 if "rare" in fingering.tags else 0.0
+        cost = 0.2 if "held" in fingering.tags else cost
+        meant = set(fingering.tags) & {"trill", "fast", "forte", "piano", "chromatic", "attack"}
+        if meant & places:
+            cost = min({"chromatic": -0.5, "attack": -4.0}.get(tag, 0.5) for tag in meant & places)
         elif meant:
             cost += 6.0
     return cost + max(abs(fingering.cents) - abs(first.cents), 0.0) / 20.0 * min(length / 0.25, 1.0)
@@ -79,12 +102,14 @@ def held(fingering: Fingering, instrument: InstrumentMap) -> dict[str, frozenset
     return {finger: frozenset(keys) for finger, keys in result.items()}
 
 
-def fingers_cost(a: Fingering, b: Fingering, instrument: InstrumentMap, step: float, gap: float, hurry: float) -> float:
+def fingers_cost(
+    a: Fingering, b: Fingering, instrument: InstrumentMap, step: float, gap: float, hurry: float, trill: bool
+) -> float:
     """What the fingers' way from one fingering to another costs."""
     levers = {one.name for one in instrument.controls if one.kind == "lever" and one.finger.endswith("thumb")}
     before, after = held(a, instrument), held(b, instrument)
     nothing: frozenset[tuple[str, bool]] = frozenset()
-    moved, weighted, jumps, rolls, turned = 0, 0.0, 0.0, 0, False
+    moved, weighted, jumps, rolls, turned = 0, 0.0, 0.0, 0, 0
     rise, fall = False, False
     for finger in before.keys() | after.keys():
         here, there = before.get(finger, nothing), after.get(finger, nothing)
@@ -93,9 +118,9 @@ def fingers_cost(a: Fingering, b: Fingering, instrument: InstrumentMap, step: fl
         moved += 1
         if {name for name, whole in here ^ there if whole} & levers:
             weighted += 0.5
-            turned = True
+            turned += 1
         else:
-            weighted += 1.0
+            weighted += {"thumb": 1.25, "little": 1.25, "ring": 1.1}.get(finger.split(".")[1], 1.0)
             rise |= bool({name for name, _ in here} - {name for name, _ in there})
             fall |= bool({name for name, _ in there} - {name for name, _ in here})
         if here and there:
@@ -107,7 +132,11 @@ def fingers_cost(a: Fingering, b: Fingering, instrument: InstrumentMap, step: fl
     flips = 1.0 if turned and rise | fall else 0.0
     crosses = any((a.written_pitch >= edge) != (b.written_pitch >= edge) for edge in instrument.breaks)
     pace = min(max((0.5 - step) / 0.38, 0.0), 1.0)
-    awkward = 0.8 * rolls + 0.9 * flips + (0.25 * max(moved - 3, 0) if crosses else 0.0)
+    if trill:
+        weighted += 0.75 * turned
+        weighted += 1.1 if moved == 0 and a.written_pitch != b.written_pitch else 0.0
+    leaves_down = any("held" in one.tags for one in instrument.fingerings)
+    awkward = 0.15 * moved * leaves_down + 0.8 * rolls + 0.9 * flips + (0.25 * max(moved - 3, 0) if crosses else 0.0)
     return weighted * hurry + awkward * pace + jumps * max(1.0 - gap / 0.12, 0.0)
 
 
@@ -117,14 +146,20 @@ def naive_cost(notes: tuple[PlainNote, ...], choice: list[Fingering], instrument
     onset = [seconds(note.onset_tick) for note in notes]
     end = [seconds(note.onset_tick + note.duration_tick) for note in notes]
     slides = [control for control in instrument.controls if control.role == "pitch" and control.kind == "slide"]
-    trill = trill_of(notes, onset)
+    trill, glide = trill_of(notes, onset), glide_of(notes, onset, end)
+    registers = [sum(edge <= one.written_pitch for edge in instrument.breaks) for one in choice]
     steps = [onset[index + 1] - onset[index] for index in range(len(notes) - 1)]
     cost = 0.0
     for index, fingering in enumerate(choice):
         first = instrument.fingerings_for(notes[index].pitch)[0]
         sides = [side for side in (index - 1, index) if 0 <= side < len(steps)]
-        in_trill, fast = any(trill[side] for side in sides), any(steps[side] <= 0.15 + 1e-9 for side in sides)
-        cost += choice_cost(fingering, first, end[index] - onset[index], in_trill, fast)
+        places = {"chromatic"} if is_chromatic(notes, onset, index) else set()
+        places |= {"trill"} if any(trill[side] for side in sides) else set()
+        places |= {"fast"} if any(steps[side] <= 0.15 + 1e-9 and not trill[side] for side in sides) else set()
+        tongued = index == 0 or onset[index] - end[index - 1] >= 0.01
+        lifted = index > 0 and registers[index] > registers[index - 1]
+        places |= {"attack"} if index == 0 or ((tongued or lifted) and not trill[index - 1]) else set()
+        cost += choice_cost(fingering, first, end[index] - onset[index], places)
     hurried, moved_by = [], []
     for index, step in enumerate(steps):
         a, b = choice[index], choice[index + 1]
@@ -139,11 +174,15 @@ def naive_cost(notes: tuple[PlainNote, ...], choice: list[Fingering], instrument
             share = distance / 2.5 / (gap + 0.5 * (end[index] - onset[index]))
             smear = 1.0 if gap > 0.0 else 1.25
             slide_cost += smear * 3.0 * min(max(share - 0.7, 0.0), 0.3)
-            slide_cost += 8.0 + 10.0 * (share - 1.0) if share > 1.0 else 0.0
+            slide_cost += 1.8 + 3.0 * (share - 1.0) if share > 1.0 else 0.0
             change = delta
+        if slides and glide[index]:
+            along = change * (notes[index + 1].pitch - notes[index].pitch) < 0.0
+            still = held(a, instrument) == held(b, instrument)
+            slide_cost = 0.0 if along and still else 6.0
         cost += slide_cost * (3.0 if trill[index] else 1.0)
-        jumps = fingers_cost(a, b, instrument, 9.0, gap, 0.0)
-        cost += fingers_cost(a, b, instrument, step, gap, hurry) + jumps * (2.0 if trill[index] else 0.0)
+        jumps = fingers_cost(a, b, instrument, 9.0, gap, 0.0, False)
+        cost += fingers_cost(a, b, instrument, step, gap, hurry, trill[index]) + jumps * (2.0 if trill[index] else 0.0)
         hurried.append(max(share - 0.7, 0.0))
         moved_by.append(change)
     for index in range(len(notes) - 2):

@@ -29,9 +29,9 @@ def test_common_time_with_the_preroll() -> None:
 
 def test_six_eight_is_counted_as_it_is_felt() -> None:
     project = piece(melody((0, 1440, 70)), metres=(Metre(0, 6, 8),))
-    assert [at for at, _ in beats(click_track(project, 0.0, 1.5))] == pytest.approx([0.0, 0.5, 1.0])
-    felt = replace(project, felt_beat_quarters=1.5)
-    assert beats(click_track(felt, 0.0, 1.5)) == [(0.0, True), (0.75, False)]
+    assert beats(click_track(project, 0.0, 1.5)) == [(0.0, True), (0.75, False)]
+    quarters = replace(project, felt_beat_quarters=1.0)
+    assert [at for at, _ in beats(click_track(quarters, 0.0, 1.5))] == pytest.approx([0.0, 0.5, 1.0])
 
 
 def test_where_the_felt_beat_does_not_fit_the_metre_counts() -> None:

@@ -231,3 +231,39 @@ def test_a_player_may_use_several_channels_in_turn(
     found = json.loads(capsys.readouterr().out)
     assert len(found["players"]) == players
     assert sorted(note["pitch"] for player in found["players"] for note in player["notes"]) == [65, 66, 67, 68, 69]
+
+
+def test_an_unknown_name_is_listed_with_the_remedy_and_the_remedy_works(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "one.mid"
+    (part,) = inspected(path, capsys, b"Zugpfeife")["unplayed"]
+    assert "--assign 'Zugpfeife=INSTRUMENT'" in part["reason"]
+    assert main(["inspect", str(path), "--json", "--assign", "zug*=oboe"]) == 0
+    (player,) = json.loads(capsys.readouterr().out)["players"]
+    assert (player["name"], player["instrument"]) == ("Zugpfeife", "oboe")
+
+
+@pytest.mark.parametrize(
+    ("assignment", "said"),
+    [("Zugpfeife", "PART=INSTRUMENT"), ("Zugpfeife=zither", "zither"), ("Oboe=oboe", "'Oboe'"), ("=oboe", "PART=")],
+)
+def test_a_wrong_assignment_is_told(
+    assignment: str, said: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    inspected(tmp_path / "one.mid", capsys, b"Zugpfeife")
+    assert main(["inspect", str(tmp_path / "one.mid"), "--assign", assignment]) == 2
+    assert said in capsys.readouterr().err
+
+
+def test_how_notes_begin_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    track = mido.MidiTrack([mido.MetaMessage("track_name", name="Flute")])
+    before = 0
+    for pitch, length in ((72, 480), (74, 480), (76, 432), (77, 240), (79, 432)):
+        track.append(mido.Message("note_on", note=pitch, velocity=80, time=before))
+        track.append(mido.Message("note_off", note=pitch, time=length))
+        before = 480 - length
+    mido.MidiFile(type=1, tracks=[mido.MidiTrack(), track]).save(tmp_path / "one.mid")
+    assert main(["inspect", str(tmp_path / "one.mid"), "--json"]) == 0
+    notes = json.loads(capsys.readouterr().out)["players"][0]["notes"]
+    assert [note["articulation"] for note in notes] == ["tongued", "slurred", "slurred", "staccato", "tongued"]

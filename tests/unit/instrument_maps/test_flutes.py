@@ -43,7 +43,9 @@ def test_first_choices_are_the_charts_majority(written: int) -> None:
 
 def test_every_fingering_is_in_a_chart_possible_and_has_a_reason() -> None:
     for fingering in FLUTE.fingerings:
-        assert fingering.label in CHARTS.notes[fingering.written_pitch], fingering
+        # The charts know neither trills nor what is left down between notes.
+        if not {"trill", "held"} & set(fingering.tags):
+            assert fingering.label in CHARTS.notes[fingering.written_pitch], fingering
         assert not twice(FLUTE, fingering.label), fingering
         assert bool(fingering.tags) == (fingering.rank > 1), fingering
 
@@ -71,7 +73,7 @@ def test_the_piccolo_is_fingered_as_the_flute_without_a_foot_and_sounds_an_octav
         found = [(one.label, one.tags) for one in PICCOLO.fingerings_for(written + 12)]
         assert found == table.rows({**table.FLUTE, **table.PICCOLO}, written), written
         assert not any(twice(PICCOLO, label) for label, _ in found)
-        assert all(label in CHARTS.notes[written] for label, _ in found)
+        assert all(label in CHARTS.notes[written] for label, tags in found if not {"trill", "held"} & set(tags))
 
 
 @pytest.mark.parametrize(("name", "length_m", "tolerance_m"), [("flute", 0.670, 0.012), ("piccolo", 0.320, 0.012)])

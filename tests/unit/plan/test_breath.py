@@ -26,7 +26,7 @@ def plan(
 ) -> PlayerPlan:
     clock = clock or PlainClock()
     piece = Piece(clock, METRE, felt)
-    line = Line("p", notes, valves(), PlayerParameters(**parameters))  # type: ignore[arg-type]
+    line = Line("p", notes, valves(), PlayerParameters(**{"breath_need": 0.0, **parameters}))  # type: ignore[arg-type]
     return make_plans(piece, (line,), time_frame((line,), clock, preroll, felt))["p"]
 
 
@@ -209,26 +209,31 @@ def test_an_instrument_that_takes_little_air_is_breathed_for_seldom() -> None:
         made = make_plans(Piece(clock, METRE), (line,), time_frame((line,), clock))["p"]
         return [event for event in made.breaths if event.kind == "breath"]
 
-    oboe, flute, tuba = Air(40.0, 32.0, 25.0), Air(14.0, 9.0, 6.0), Air(10.0, 6.5, 4.0)
-    counts = [len(breaths(notes, air)) for air in (oboe, flute, tuba)]
+    clarinet, flute, tuba = Air(15.0, 12.0, 9.0), Air(14.0, 9.0, 6.0), Air(10.0, 6.5, 4.0)
+    counts = [len(breaths(notes, air)) for air in (clarinet, flute, tuba)]
     assert counts == sorted(counts)
     assert len(set(counts)) == 3
-    # 60 s: 32 on the first breath, 12.8 on each of 0.2 s out of a quarter (a full one takes 0.5 s).
-    assert counts[0] == 4
+    # 60 s: 12 on the first breath, 6 on each of 0.25 s out of a quarter (a full one takes 0.5 s).
+    assert counts[0] == 9
+    # However little air is taken, it goes stale.
+    assert breaths(notes, Air(40.0, 32.0, 25.0)) == breaths(notes, Air(12.0, 12.0, 12.0))
     assert breaths(notes, Air(9.0, 9.0, 9.0)) == breaths(notes, None)
     # What a map says is about usual lungs; larger ones last longer in proportion.
     assert len(breaths(notes, tuba, lung_s=18.0)) == len(breaths(notes, Air(20.0, 13.0, 8.0)))
     soft = tuple(PlainNote(n.id, n.onset_tick, n.duration_tick, n.pitch, 40 + i % 2) for i, n in enumerate(notes))
     assert len(breaths(soft, flute)) < len(breaths(notes, flute))
     (message,) = {
-        event.reason.arguments["lung_s"] for event in breaths(notes, oboe) if event.reason.id == "breath.catch"
+        event.reason.arguments["lung_s"] for event in breaths(notes, clarinet) if event.reason.id == "breath.catch"
     }
-    assert message == 32.0
+    assert message == 12.0
 
 
-def test_players_of_one_part_breathe_in_different_places() -> None:
+@pytest.mark.parametrize("octave", [0, 12])
+def test_players_of_one_line_breathe_in_different_places(octave: int) -> None:
     notes = even([65 + index % 5 for index in range(60)], Q)
-    twin = tuple(PlainNote(f"2:{index + 1}", n.onset_tick, n.duration_tick, n.pitch) for index, n in enumerate(notes))
+    twin = tuple(
+        PlainNote(f"2:{index + 1}", n.onset_tick, n.duration_tick, n.pitch + octave) for index, n in enumerate(notes)
+    )
     clock = PlainClock()
     lines = (Line("a", notes, valves()), Line("b", twin, valves()))
     plans = make_plans(Piece(clock, METRE), lines, time_frame(lines, clock))

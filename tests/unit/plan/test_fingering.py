@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import pytest
 
+from app.plan.figures import trill_steps
 from app.plan.fingering import plan_fingerings
 from app.plan.generate import Line
 from app.plan.line import line_times
 from app.plan.model import FingeringEvent, Problem
-from app.plan.search import PHRASE_SILENCE_S, trill_steps
+from app.plan.search import PHRASE_SILENCE_S
 from instrument_maps.load import bundled_maps
 from instrument_maps.model import InstrumentMap
 from tests.support.plan import PlainClock, PlainNote, even, line_of, slide, valves

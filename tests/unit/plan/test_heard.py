@@ -132,7 +132,7 @@ def test_a_breath_within_a_note_is_moved_and_taken_out_by_hand() -> None:
 
 
 def test_without_the_curve_they_are_guessed_from_the_rests() -> None:
-    plan = plan_of(take(NOTES))
+    plan = plan_of(take(NOTES), breath_need=0.0)
     assert [event.id for event in breaths(plan)] == ["breath:1:3", "breath:1:7", "breath:1:8"]
     assert plan.traces is None
 

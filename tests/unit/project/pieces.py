@@ -79,7 +79,7 @@ def full_project(folder: str = "/music") -> Project:
         markers=(Marker(0, "はじめ"), Marker(960, "A"), Marker(960, "Più mosso"), Marker(9600, "Coda")),
     )
     trumpet, trombone = small.players
-    parameters = PlayerParameters(0.1, 0.6, 1.1, 2.1, 8.5, 0.9, 0.8, 0.7, 0.6, "seated", False, 7)
+    parameters = PlayerParameters(0.1, 0.6, 1.1, 2.1, 8.5, 0.9, 0.8, 0.7, 0.6, "seated", False, 7, 0.2)
     corrections = {
         trumpet.id: (
             PinFingering("1:1", "1·3"),

@@ -155,7 +155,7 @@ def test_settings_of_the_piece(project: Project) -> None:
         edit.set_title(project, project.score.title),
         edit.set_fps(project, Fraction(60)),
         edit.set_preroll(project, project.preroll_beats),
-        edit.set_felt_beat(project, 1.0),
+        edit.set_felt_beat(project, None),
         edit.set_seed(project, 0),
         edit.set_audio(project, None),
     ):

@@ -89,7 +89,7 @@ def test_an_own_map_goes_before_a_substitute() -> None:
     ],
 )
 def test_a_part_that_says_nothing_goes_to_the_map_whose_range_fits(pitches: tuple[int, ...], map_id: str) -> None:
-    score = one_part(*pitches, name="Sopran")
+    score = one_part(*pitches)
     assert (score.parts[0].map_id, score.parts[0].instrument) == (map_id, None)
     assert ids(score) == ["score.chosen_by_range"]
 
@@ -97,7 +97,16 @@ def test_a_part_that_says_nothing_goes_to_the_map_whose_range_fits(pitches: tupl
 def test_a_range_that_fits_mostly_is_said_so_and_one_that_does_not_is_refused() -> None:
     mostly = one_part(80, 81, 82, 83)
     assert mostly.parts[0].map_id == "trumpet"
-    assert mostly.warnings[0].arguments == {"part": "Trumpet", "map": "trumpet", "outside": 1, "total": 4}
+    assert mostly.warnings[0].arguments == {
+        "part": "Trumpet",
+        "map": "trumpet",
+        "outside": 1,
+        "total": 4,
+        "count": 1,
+        "bar": 1,
+        "beat": 2.5,
+        "pitch": 83,
+    }
     refused = one_part(82, 83, 84, 85)
     assert refused.parts == ()
     assert refused.unplayed[0].reason.id == "score.outside_ranges"
@@ -129,7 +138,16 @@ def test_a_part_beyond_its_range_that_fits_as_written_is_said_so() -> None:
     score = one_part(52, 60, 72, name="Clarinet", maps=(CLARINET,))
     (warning,) = score.warnings
     assert warning.id == "score.looks_written"
-    assert warning.arguments == {"part": "Clarinet", "map": "clarinet", "outside": 1, "total": 3}
+    assert warning.arguments == {
+        "part": "Clarinet",
+        "map": "clarinet",
+        "outside": 1,
+        "total": 3,
+        "count": 1,
+        "bar": 1,
+        "beat": 2.0,
+        "pitch": 72,
+    }
     # Nothing is changed before somebody says so.
     assert [note.pitch for note in score.parts[0].notes] == [52, 60, 72]
     # Beyond both, or within as it sounds: nothing is known.

@@ -275,7 +275,7 @@ def test_names_programs_and_titles() -> None:
 
 def test_the_encoding_can_be_given() -> None:
     data = header() + chunk(b"MTrk", meta(3, "Труба".encode("cp1251")) + SCALE_BYTES + END)
-    assert score_of(data, encoding="cp1251").parts[0].name == "Труба"
+    assert score_of(data, encoding="cp1251").unplayed[0].name == "Труба"
 
 
 def test_programs_belong_to_tracks_not_to_channels() -> None:
@@ -440,10 +440,17 @@ def test_more_notes_at_once_than_any_section_plays_are_left_out() -> None:
     # The highest stay.
     assert sorted(note.pitch for part in score.parts for note in part.notes) == sorted([*range(54, 70), 60])
     (warning,) = [warning for warning in score.warnings if warning.id == "score.notes_left_out"]
-    assert warning.arguments == {"part": score.parts[0].name, "most": MOST_VOICES, "count": 4}
+    assert warning.arguments == {
+        "part": score.parts[0].name,
+        "most": MOST_VOICES,
+        "count": 4,
+        "bar": 1,
+        "beat": 1.0,
+        "pitch": 50,
+    }
 
 
 def test_names_are_cut_to_what_can_be_shown() -> None:
     long = b"\0\xff\x03" + bytes([0x90, 0x00]) + b"T" * 2048
     score = score_of(header(1, 2) + chunk(b"MTrk", long + END) + chunk(b"MTrk", long + note(60) + END))
-    assert len(score.title) == len(score.parts[0].name) == MOST_NAME
+    assert len(score.title) == len(score.unplayed[0].name) == MOST_NAME

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from typing import Any
+
+import pytest
+
 from app.score.model import Note
-from app.score.tempo import TempoChange, TempoMap
-from app.score.voices import split_voices
+from app.score.tempo import TempoMap
+from app.score.voices import LEGATO_OVERLAP_S, split_voices
 
 TEMPO = TempoMap(1000)  # 120 beats per minute: a tick is half a millisecond
 
@@ -17,24 +21,93 @@ def notes(*rows: tuple[float, float, int]) -> list[Note]:
     ]
 
 
-def pitches(*rows: tuple[float, float, int]) -> list[list[int]]:
-    return [[note.pitch for note in voice] for voice in split_voices(notes(*rows), TEMPO)]
+def pitches(*rows: tuple[float, float, int], **options: Any) -> list[list[int]]:
+    return [[note.pitch for note in voice] for voice in split_voices(notes(*rows), TEMPO, **options).voices]
 
 
 def test_a_line_is_one_voice() -> None:
     assert pitches((0, 1, 60), (1, 1, 72), (2, 1, 48)) == [[60, 72, 48]]
-    assert split_voices([], TEMPO) == []
+    assert split_voices([], TEMPO).voices == []
 
 
-def test_an_overlap_of_30_ms_is_legato_and_a_longer_one_is_two_voices() -> None:
-    assert pitches((0, 1.06, 60), (1, 1, 62)) == [[60, 62]]
-    assert len(pitches((0, 1.062, 60), (1, 1, 62))) == 2
+def scale(count: int, length: float = 1.0) -> list[tuple[float, float, int]]:
+    """So many notes in a row that touch, as (onset, duration in quarters, pitch)."""
+    return [(index * length, length, 60 + index % 8) for index in range(count)]
 
 
-def test_how_long_30_ms_are_depends_on_the_tempo() -> None:
-    rows = notes((0, 1.1, 60), (1, 1, 62))
-    assert len(split_voices(rows, TEMPO)) == 2
-    assert len(split_voices(rows, TempoMap(1000, (TempoChange(0, 250_000),)))) == 1
+@pytest.mark.parametrize("overlap_s", [0.005, 0.038, 0.06, 0.12, 0.4])
+def test_one_overlap_in_many_notes_is_a_slur(overlap_s: float) -> None:
+    rows = scale(64)
+    rows[20] = (20, 1 + 2 * overlap_s, rows[20][2])
+    shared = split_voices(notes(*rows), TEMPO)
+    (line,) = shared.voices
+    assert [note.pitch for note in line] == [pitch for _, _, pitch in rows]
+    assert shared.left_out == []
+    # It still lasts into the next note, so that the slur can be seen, but no longer than planning takes for legato.
+    assert 0 < line[20].end_tick - line[21].onset_tick <= 60
+    assert [note.id for note in shared.shortened] == (["1:21"] if overlap_s > LEGATO_OVERLAP_S else [])
+
+
+@pytest.mark.parametrize("overlap_s", [0.02, 0.06])
+@pytest.mark.parametrize("length", [0.125, 0.25, 1.0, 4.0])
+def test_legato_throughout_is_one_player(overlap_s: float, length: float) -> None:
+    rows = [(onset, lasts + 2 * min(overlap_s, 0.3 * lasts), pitch) for onset, lasts, pitch in scale(40, length)]
+    assert len(split_voices(notes(*rows), TEMPO).voices) == 1
+
+
+@pytest.mark.parametrize(("chords", "players"), [(1, 1), (3, 1), (4, 2), (12, 2)])
+def test_a_second_player_is_there_for_several_notes_in_a_row(chords: int, players: int) -> None:
+    rows = scale(64)
+    rows += [(onset, length, pitch - 4) for onset, length, pitch in rows[30 : 30 + chords]]
+    shared = split_voices(notes(*rows), TEMPO)
+    assert len(shared.voices) == players
+    assert len(shared.left_out) == (chords if players == 1 else 0)
+    assert all(note.pitch < 64 for note in shared.left_out)
+    assert len(split_voices(notes(*rows), TEMPO, every_chord=True).voices) == 2
+
+
+def test_scattered_chords_make_no_player_and_leave_the_upper_notes() -> None:
+    rows = scale(64)
+    rows += [(onset, length, pitch - 5) for onset, length, pitch in rows[::10]]
+    shared = split_voices(notes(*rows), TEMPO)
+    assert [note.pitch for note in shared.voices[0]] == [pitch for _, _, pitch in scale(64)]
+    assert len(shared.voices) == 1
+    assert len(shared.left_out) == 7
+
+
+def test_a_choice_of_octaves_at_cadences_makes_no_player_but_octaves_throughout_do() -> None:
+    rows = scale(64)
+    cadence = [(onset, length, pitch - 12) for onset, length, pitch in rows[28:33]]
+    assert len(split_voices(notes(*rows, *cadence), TEMPO).voices) == 1
+    octaves = [(onset, length, pitch - 12) for onset, length, pitch in rows]
+    assert pitches(*rows, *octaves) == [[pitch for _, _, pitch in rows], [pitch - 12 for _, _, pitch in rows]]
+
+
+def test_players_who_strike_a_chord_a_little_apart_keep_their_lines() -> None:
+    upper = [(onset + (0.03 if index % 2 else 0.0), length - 0.1, pitch + 5) for index, (onset, length, pitch) in
+             enumerate(scale(20))]  # fmt: skip
+    lower = [(onset + (0.0 if index % 3 else 0.05), length - 0.1, pitch) for index, (onset, length, pitch) in
+             enumerate(scale(20))]  # fmt: skip
+    assert pitches(*upper, *lower) == [[row[2] for row in upper], [row[2] for row in lower]]
+
+
+def test_the_players_of_a_section_play_a_long_line_together() -> None:
+    thirds = [row for onset, length, pitch in scale(8) for row in ((onset, length, pitch), (onset, length, pitch - 3))]
+    line = [(8 + index, 1, 70 + index) for index in range(4)]
+    upper, lower = split_voices(notes(*thirds, *line), TEMPO, unison=True).voices
+    assert [note.pitch for note in upper[8:]] == [note.pitch for note in lower[8:]] == [70, 71, 72, 73]
+    assert len({note.id for note in (*upper, *lower)}) == 24
+    # Of lines that merely share a staff, one goes on and the other rests.
+    assert sorted(map(len, split_voices(notes(*thirds, *line), TEMPO).voices)) == [8, 12]
+
+
+def test_players_whom_a_name_counts_are_there_for_a_single_chord_and_play_a_line_together() -> None:
+    shared = split_voices(notes(*scale(16), (16, 1, 72), (16, 1, 69)), TEMPO, least=2)
+    line = [row[2] for row in scale(16)]
+    assert [[note.pitch for note in voice] for voice in shared.voices] == [[*line, 72], [*line, 69]]
+    assert len({note.id for voice in shared.voices for note in voice}) == 34
+    # Nothing but a line: the file holds one player's notes, whatever it is called.
+    assert len(split_voices(notes(*scale(16)), TEMPO, least=2).voices) == 1
 
 
 def test_short_notes_struck_together_are_two_voices() -> None:
@@ -51,14 +124,16 @@ def test_the_first_player_has_the_upper_note_of_a_chord() -> None:
 def test_a_line_stays_with_the_player_who_began_it() -> None:
     # A chord, then one line that leaps: no hopping between the players.
     line = [(1 + index, 1, pitch) for index, pitch in enumerate([71, 64, 72, 62, 69])]
-    upper, lower = pitches((0, 1, 72), (0, 1, 60), *line)
+    upper, lower = pitches((0, 1, 72), (0, 1, 60), *line, every_chord=True)
     assert upper == [72, 71, 64, 72, 62, 69]
     assert lower == [60]
 
 
 def test_a_line_that_ends_in_the_lower_note_of_a_chord_is_the_lower_players() -> None:
     # After a rest a line begins; only the chord it leads to shows whose it is.
-    upper, lower = pitches((0, 1, 64), (0, 1, 60), (4, 1, 66), (5, 1, 64), (6, 1, 62), (7, 1, 76), (7, 1, 64))
+    upper, lower = pitches(
+        (0, 1, 64), (0, 1, 60), (4, 1, 66), (5, 1, 64), (6, 1, 62), (7, 1, 76), (7, 1, 64), every_chord=True
+    )
     assert upper == [64, 76]
     assert lower == [60, 66, 64, 62, 64]
 

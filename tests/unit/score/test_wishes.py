@@ -37,7 +37,7 @@ def test_a_track_nobody_would_play_can_be_given_to_somebody() -> None:
 
 def test_merged_tracks_are_one_line_and_lose_no_note() -> None:
     contents = read_contents(MIDI / "brass_quartet_lutkin_2tpt_tbn_tuba.mid")
-    score = wished_score(contents, [PartWish((0, 1), split=False), PartWish((2,))], MAPS)
+    score = wished_score(contents, [PartWish((0, 1), split="never"), PartWish((2,))], MAPS)
     assert len(score.parts) == 2
     notes = score.parts[0].notes
     assert len(notes) == len(contents.streams[0].pitches) + len(contents.streams[1].pitches)

@@ -110,7 +110,7 @@ def test_a_correction_covers_the_chosen_span_or_the_bar_at_the_playhead() -> Non
     start = score.tick_of_bar(3)
     span = span_of(project, None, start + 5)
     assert (span.start_tick, span.end_tick) == (start, score.tick_of_bar(4))
-    assert span.fade_ticks == project.felt_beat_ticks
+    assert span.fade_ticks == project.felt_beat_ticks(span.start_tick)
     before_music = span_of(project, None, -500)
     assert before_music.start_tick == score.tick_of_bar(score.bar_of_tick(0))
 

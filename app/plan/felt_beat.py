@@ -1,0 +1,85 @@
+"""The beat that is felt, by metre and tempo.
+
+A metre's lower number says what is written, not what is counted: six eighths at a walking pace are two beats, a quick
+waltz has one to the bar, a slow alla breve has four. Beats are felt between about 40 and 200 in a minute (London,
+Hearing in Time, 2nd ed. 2012, ch. 2: 200 to 1500 ms); within that a quick triple bar is one beat sooner than a quick
+duple one is halved.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Sequence
+
+import numpy as np
+
+from app.plan.line import IntArray
+from app.plan.model import Clock, FloatArray, Metre
+
+SLOWEST_BPM = 40.0
+"""Slower beats are divided, if they are longer than a quarter."""
+FASTEST_BPM = 208.0
+"""Faster beats are taken two at a time; the quickest mark of a metronome."""
+FASTEST_IN_THREE_BPM = 160.0
+"""Faster beats of a bar of three are taken all three at a time."""
+STEADY_BARS = 9
+"""The tempo is the median over so many bars, so that a ritardando or a fermata does not change how one counts."""
+
+
+def felt_beats(clock: Clock, metres: Sequence[Metre], bars: IntArray) -> tuple[tuple[int, int], ...]:
+    """The beat that is felt from each tick on, as (tick, ticks), wherever it changes.
+
+    Parameters
+    ----------
+    metres : sequence of Metre
+        At least one, by tick.
+    bars : (B,) int64
+        Where the bars of the piece begin, B >= 1.
+    """
+    places = np.maximum(np.searchsorted([metre.tick for metre in metres], bars, side="right") - 1, 0)
+    quarters = np.array([4.0 * metre.numerator / metre.denominator for metre in metres])[places]
+    ends = np.append(bars[1:], bars[-1] + round(quarters[-1] * clock.ticks_per_quarter)).astype(np.float64)
+    lasts_s = np.maximum(clock.seconds(ends) - clock.seconds(bars.astype(np.float64)), 1e-9)
+    bpm = 60.0 * (ends - bars) / clock.ticks_per_quarter / lasts_s
+    found: list[tuple[int, int]] = []
+    for bar, place, quarters_bpm in zip(bars.tolist(), places.tolist(), _steady(bpm, places).tolist(), strict=True):
+        metre = metres[place]
+        beat = felt_beat_ticks(metre.numerator, metre.denominator, quarters_bpm, clock.ticks_per_quarter)
+        if not found or found[-1][1] != beat:
+            found.append((bar, beat))
+    return tuple(found)
+
+
+def felt_beat_ticks(numerator: int, denominator: int, quarters_bpm: float, ticks_per_quarter: int) -> int:
+    """The beat felt in a metre at a tempo, ticks.
+
+    Parameters
+    ----------
+    quarters_bpm : float
+        Quarters in a minute, whatever the metre counts in.
+    """
+    unit = 4.0 / denominator
+    compound = numerator % 3 == 0 and (numerator > 3 or denominator > 8) and denominator >= 8
+    quick_three = numerator == 3 and quarters_bpm / unit > FASTEST_IN_THREE_BPM
+    if quick_three or (compound and quarters_bpm / (3.0 * unit) >= SLOWEST_BPM):
+        quarters = 3.0 * unit
+    else:
+        quarters = unit
+        while quarters_bpm / quarters > FASTEST_BPM and quarters < 1.0:
+            quarters *= 2.0
+        while quarters_bpm / quarters > FASTEST_BPM and (numerator * unit) % (2.0 * quarters) == 0.0:
+            quarters *= 2.0
+        while quarters_bpm / quarters < SLOWEST_BPM and quarters > 1.0:
+            quarters /= 2.0
+    return max(round(quarters * ticks_per_quarter), 1)
+
+
+def _steady(bpm: FloatArray, metres: IntArray) -> FloatArray:
+    """The tempo of each bar, by those around it in the same metre (by its number)."""
+    result = bpm.copy()
+    half = STEADY_BARS // 2
+    edges = [0, *(np.flatnonzero(np.diff(metres)) + 1).tolist(), len(metres)]
+    for start, end in itertools.pairwise(edges):
+        padded = np.pad(bpm[start:end], half, mode="edge")
+        result[start:end] = np.median(np.lib.stride_tricks.sliding_window_view(padded, STEADY_BARS), axis=1)
+    return result

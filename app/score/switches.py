@@ -1,0 +1,92 @@
+"""Key switches: notes far from an instrument's range with which a sequencer tells a sampler how to play.
+
+They choose an articulation, sound nothing, and nobody plays them: short notes before a phrase, or held below it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Final
+
+import msgspec
+import numpy as np
+import numpy.typing as npt
+
+from app.score.choose import Candidates, How, MapChoice, Stream, candidates
+from app.score.tempo import TempoMap
+
+_AWAY: Final = 5
+"""Semitones beyond the instrument's range, at least: a wrong note or a pedal note lies nearer."""
+_APART: Final = 7
+"""Semitones between them and the music, at least: samplers leave half an octave free."""
+_MOST_PITCHES: Final = 24
+"""Two octaves of articulations."""
+_MOST_SHARE: Final = 0.4
+"""Of the notes: several follow one."""
+_SHORT_S: Final = 0.25
+"""A note that lasts no longer may be a key switch; a longer one is, if it is held while the music sounds."""
+_BEFORE_S: Final = 2.0
+"""So long before the next note of the music, at most."""
+_MOST_ODD: Final = 0.2
+"""Share of them that may be neither short nor held."""
+
+
+def without_key_switches(
+    stream: Stream, found: Candidates, maps: Sequence[MapChoice], tempo_map: TempoMap
+) -> tuple[Stream, tuple[int, ...]]:
+    """A stream without its key switches, and their places among its notes; the very same stream where it has none.
+
+    Parameters
+    ----------
+    stream : Stream
+    found : Candidates
+        The maps it may go to.
+    maps : sequence of MapChoice
+        All there are.
+    tempo_map : TempoMap
+    """
+    pitches = np.array(stream.pitches)
+    for away in _far(pitches):
+        rest = _kept(stream, ~away)
+        # Where nothing but the range chose them, what was found fits the switches too.
+        own = found if found.how is not How.RANGE else candidates([rest], maps)
+        choice = own.best(rest.pitches)
+        low, high = choice.concert_low - _AWAY, choice.concert_high + _AWAY
+        if ((pitches[away] <= low) | (pitches[away] >= high)).all() and _switch(stream, away, tempo_map):
+            return rest, tuple(np.flatnonzero(away).tolist())
+    return stream, ()
+
+
+def _far(pitches: npt.NDArray[np.int64]) -> list[npt.NDArray[np.bool_]]:
+    """The few notes below and above the widest gap of a stream's pitches."""
+    used = np.unique(pitches)
+    gaps = np.diff(used)
+    if not len(gaps) or gaps.max() < _APART:
+        return []
+    at = used[int(gaps.argmax())]
+    parts = (pitches <= at, pitches > at)
+    few = [part for part in parts if np.count_nonzero(part) <= _MOST_SHARE * len(pitches)]
+    return [part for part in few if len(np.unique(pitches[part])) <= _MOST_PITCHES]
+
+
+def _switch(stream: Stream, away: npt.NDArray[np.bool_], tempo_map: TempoMap) -> bool:
+    """Whether notes are played as key switches are: short, before the music, or held while it sounds."""
+    onsets = tempo_map.seconds(np.array(stream.onset_ticks))
+    ends = tempo_map.seconds(np.array(stream.end_ticks))
+    music_onsets, music_ends = onsets[~away], np.maximum.accumulate(ends[~away])
+    following = np.append(music_onsets, np.inf)[np.searchsorted(music_onsets, onsets[away])]
+    sounding_until = np.append(-np.inf, music_ends)[np.searchsorted(music_onsets, onsets[away], side="right")]
+    begun = (following - onsets[away] <= _BEFORE_S) | (sounding_until > onsets[away])
+    held = (following < ends[away]) | (sounding_until > onsets[away])
+    short = ends[away] - onsets[away] <= _SHORT_S
+    odd = ~(begun & (short | held))
+    return bool(np.count_nonzero(odd) <= _MOST_ODD * len(odd))
+
+
+def _kept(stream: Stream, kept: npt.NDArray[np.bool_]) -> Stream:
+    """Some notes of a stream."""
+    places = np.flatnonzero(kept).tolist()
+    columns = ("onset_ticks", "end_ticks", "pitches", "velocities", "numbers")
+    return msgspec.structs.replace(
+        stream, **{name: [getattr(stream, name)[place] for place in places] for name in columns}
+    )

@@ -1,0 +1,176 @@
+"""An engraved MIDI file as somebody might have played it into a sequencer. Synthetic: made by rule and by chance.
+
+Every note begins up to 20 ms early or late; some legato notes last 5 to 60 ms into the next; velocities follow a phrase
+arch; controllers 1, 2 and 11 move; the tempo bends by 8 % and slows down at the end; some long notes have a
+grace note; key switches far below the range stand before phrases.
+"""
+
+from __future__ import annotations
+
+import io
+import math
+import random
+from pathlib import Path
+from typing import Final, NamedTuple
+
+import mido
+import numpy as np
+
+from app.score.read import read_contents
+from app.score.tempo import TempoChange, TempoMap
+
+PERCUSSION: Final = 9
+_CONTROL_EVERY_S: Final = 0.2
+
+
+class Manner(NamedTuple):
+    """What a player does; shares of the notes are 0..1."""
+
+    overlapped: float = 0.3
+    overlap_s: tuple[float, float] = (0.005, 0.060)
+    early_or_late_s: float = 0.020
+    graced: float = 0.02
+    key_switches: bool = True
+    controllers: tuple[int, ...] = (1, 2, 11)
+    rubato: float = 0.08
+
+
+class _Sounding(NamedTuple):
+    begin_s: float
+    end_s: float
+    pitch: int
+    velocity: int
+
+
+def played(path: Path, seed: int = 0, manner: Manner | None = None) -> bytes:
+    """The bytes of a played version of a file: the same tracks, names, programs and metres."""
+    manner = manner or Manner()
+    by_chance = random.Random(f"{seed}:{path.stem}")
+    contents = read_contents(path)
+    file = mido.MidiFile(type=1, ticks_per_beat=960)
+    scale = 960 / contents.tempo_map.ticks_per_quarter
+    conductor = mido.MidiTrack()
+    file.tracks.append(conductor)
+    end_tick = max(max(stream.end_ticks) for stream in contents.streams)
+    events: list[tuple[int, mido.MetaMessage]] = [
+        (
+            round(metre.tick * scale),
+            mido.MetaMessage("time_signature", numerator=metre.numerator, denominator=metre.denominator),
+        )
+        for metre in contents.metres
+    ]
+    tempi = _bent(contents.tempo_map, end_tick, manner.rubato)
+    events += [(round(tick * scale), mido.MetaMessage("set_tempo", tempo=tempo)) for tick, tempo in tempi]
+    _write(conductor, [(tick, 0, message) for tick, message in events])
+    bent = TempoMap.of_changes(contents.tempo_map.ticks_per_quarter, [TempoChange(*tempo) for tempo in tempi])
+    for index in range(contents.streams[-1].track + 1):
+        streams = [stream for stream in contents.streams if stream.track == index]
+        track = mido.MidiTrack()
+        file.tracks.append(track)
+        rows: list[tuple[int, int, mido.Message | mido.MetaMessage]] = []
+        for stream in streams:
+            if stream is streams[0]:
+                rows.append((0, 0, mido.MetaMessage("track_name", name=stream.name)))
+                rows.append((0, 0, mido.MetaMessage("instrument_name", name=stream.instrument_name)))
+            if stream.program is not None:
+                rows.append((0, 1, mido.Message("program_change", channel=stream.channel, program=stream.program)))
+            notes = [
+                _Sounding(bent.seconds(float(on)), bent.seconds(float(off)), pitch, velocity)
+                for on, off, pitch, velocity in zip(
+                    stream.onset_ticks, stream.end_ticks, stream.pitches, stream.velocities, strict=True
+                )
+            ]
+            if stream.channel != PERCUSSION:
+                notes = _performed(notes, manner, by_chance)
+                rows += _controllers(notes, stream.channel, manner, bent, scale)
+            for note in notes:
+                on, off = (max(round(float(bent.ticks(at_s)) * scale), 0) for at_s in (note.begin_s, note.end_s))
+                rows.append((on, 3, _message("note_on", stream.channel, note)))
+                rows.append((max(off, on + 1), 2, _message("note_off", stream.channel, note)))
+        _write(track, rows)
+    stored = io.BytesIO()
+    file.save(file=stored)
+    return stored.getvalue()
+
+
+def _performed(notes: list[_Sounding], manner: Manner, by_chance: random.Random) -> list[_Sounding]:
+    """The notes of a track with onsets, ends and velocities as played, grace notes and key switches among them."""
+    notes = sorted(notes)
+    begins = {round(note.begin_s, 4) for note in notes}
+    shifts = [by_chance.uniform(-1.0, 1.0) * manner.early_or_late_s for _ in notes]
+    lowest = min(note.pitch for note in notes)
+    result: list[_Sounding] = []
+    last_end_s = -10.0
+    for note, shift_s in zip(notes, shifts, strict=True):
+        begin_s, end_s = max(note.begin_s + shift_s, 0.0), note.end_s
+        touches = round(note.end_s, 4) in begins
+        length_s = end_s - note.begin_s
+        if touches and by_chance.random() < manner.overlapped:
+            end_s += manner.early_or_late_s + by_chance.uniform(*manner.overlap_s)
+        else:
+            end_s -= min(0.025 + 0.04 * length_s, 0.3 * length_s)
+        arch = math.sin(math.pi * (note.begin_s % 6.0) / 6.0)
+        velocity = min(max(round(55 + 40 * arch + by_chance.gauss(0.0, 5.0)), 1), 127)
+        if length_s > 0.4 and by_chance.random() < manner.graced and begin_s > 0.2:
+            before_s = by_chance.uniform(0.06, 0.09)
+            result.append(
+                _Sounding(begin_s - before_s, begin_s + 0.01, note.pitch + by_chance.choice((1, 2)), velocity)
+            )
+        if manner.key_switches and begin_s - last_end_s > 0.3 and begin_s > 0.15:
+            switch = max(min(24, (lowest - 18) // 12 * 12), 0) + by_chance.choice((0, 1, 2, 4))
+            result.append(_Sounding(begin_s - 0.1, begin_s - 0.04, switch, 100))
+        result.append(_Sounding(begin_s, end_s, note.pitch, velocity))
+        last_end_s = max(last_end_s, note.end_s)
+    return _one_key_each(sorted(result))
+
+
+def _one_key_each(notes: list[_Sounding]) -> list[_Sounding]:
+    """The notes with each ended before its own key is struck again; two players in unison on one key excepted."""
+    following: dict[int, float] = {}
+    result = []
+    for note in reversed(notes):
+        again_s = following.get(note.pitch, math.inf)
+        end_s = note.end_s if again_s - note.begin_s < 0.045 else min(note.end_s, again_s - 0.005)
+        following[note.pitch] = note.begin_s
+        result.append(note._replace(end_s=max(end_s, note.begin_s + 0.01)))
+    return result[::-1]
+
+
+def _controllers(
+    notes: list[_Sounding], channel: int, manner: Manner, bent: TempoMap, scale: float
+) -> list[tuple[int, int, mido.Message]]:
+    rows = []
+    times_s = np.arange(0.0, max(note.end_s for note in notes), _CONTROL_EVERY_S)
+    ticks = np.rint(bent.ticks(times_s) * scale).astype(int).tolist()
+    for number in manner.controllers:
+        levels = 70 + 40 * np.sin(np.pi * (times_s % 6.0) / 6.0) + 5 * np.sin(times_s * number)
+        for tick, level in zip(ticks, np.rint(levels).astype(int).tolist(), strict=True):
+            rows.append((tick, 1, mido.Message("control_change", channel=channel, control=number, value=level)))
+    return rows
+
+
+def _bent(tempo_map: TempoMap, end_tick: int, rubato: float) -> list[tuple[int, int]]:
+    """The tempi, bent a little every two quarters, and slower in the last eight quarters."""
+    quarter = tempo_map.ticks_per_quarter
+    ticks = sorted({change.tick for change in tempo_map.changes} | set(range(0, end_tick, 2 * quarter)))
+    tempi, place = [], 0
+    for tick in ticks:
+        while place + 1 < len(tempo_map.changes) and tempo_map.changes[place + 1].tick <= tick:
+            place += 1
+        plain = tempo_map.changes[place].microseconds_per_quarter
+        bend = 1.0 + rubato * math.sin(tick / (7.0 * quarter))
+        slowing = 1.0 + 0.4 * max(1.0 - (end_tick - tick) / (8.0 * quarter), 0.0)
+        tempi.append((tick, round(plain * bend * slowing)))
+    return tempi
+
+
+def _message(kind: str, channel: int, note: _Sounding) -> mido.Message:
+    velocity = note.velocity if kind == "note_on" else 0
+    return mido.Message(kind, channel=channel, note=note.pitch, velocity=velocity)
+
+
+def _write(track: mido.MidiTrack, rows: list[tuple[int, int, mido.Message | mido.MetaMessage]]) -> None:
+    before = 0
+    for tick, _, message in sorted(rows, key=lambda row: row[:2]):
+        track.append(message.copy(time=tick - before))
+        before = tick
