@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from app.cli.instruments import note_name
 from app.cli.options import Commands, add_source_options, open_project
 from app.cli.progress import find_holds
 from app.cli.status import tell_left_out
@@ -17,11 +16,23 @@ from app.cli.terminal import say, say_json
 from app.encoding import shown
 from app.errors import Message
 from app.messages import filled, text
+from app.messages.pitches import pitch_name
 from app.performance.cast import attempt
 from app.performance.ensemble import Performance
+from app.performance.loudness import heard
 from app.performance.reach import carried_controls
-from app.plan.line import staccato
-from app.plan.model import BreathEvent, Clock, CueEvent, FingeringEvent, GestureEvent, Note, PoseEvent
+from app.plan.bends import bends
+from app.plan.line import dynamic_mark, staccato
+from app.plan.model import (
+    BreathEvent,
+    Clock,
+    CueEvent,
+    ExpressionEvent,
+    FingeringEvent,
+    GestureEvent,
+    Note,
+    PoseEvent,
+)
 from app.project.model import Player
 from app.score.model import UnplayedPart
 from instrument_maps.model import InstrumentMap
@@ -126,6 +137,8 @@ def _player(performance: Performance, player: Player, instrument: InstrumentMap)
     part = performance.project.part(player)
     fingerings = {event.note_id: event for event in plan.fingerings}
     played = [note for note in part.notes if note.id in fingerings]
+    loudness = {event.note_id: event.air for event in plan.embouchures}
+    blown = heard(part)
     articulation = _articulations(played, {event.note_id for event in plan.tongues}, clock.ticks_per_quarter)
     table = {
         "name": player.name,
@@ -133,8 +146,16 @@ def _player(performance: Performance, player: Player, instrument: InstrumentMap)
         "part": part.name,
         # Of notes struck together only one is played; the others are among what to look at.
         "notes": [
-            _note(note, fingerings[note.id], instrument, clock) | {"articulation": said}
-            for note, said in zip(played, articulation, strict=True)
+            _note(note, fingerings[note.id], instrument, clock)
+            | {
+                "articulation": said,
+                "bend": list(bent),
+                "loudness": loudness[note.id],
+                "dynamic": dynamic_mark(loudness[note.id]),
+            }
+            for note, said, bent in zip(
+                played, articulation, bends(played, None if blown is None else blown.bend), strict=True
+            )
         ],
         "breaths": [
             {"kind": event.kind, **span, "reason": reason(event.reason)}
@@ -149,6 +170,17 @@ def _player(performance: Performance, player: Player, instrument: InstrumentMap)
             for event, span in zip(plan.gestures, _spans(plan.gestures, clock), strict=True)
         ],
     }
+    table["expressions"] = [
+        {
+            "expression": event.expression,
+            **span,
+            "strength": event.strength,
+            "fade_in_s": event.fade_in_s,
+            "fade_out_s": event.fade_out_s,
+            "reason": reason(event.reason),
+        }
+        for event, span in zip(plan.expressions, _spans(plan.expressions, clock), strict=True)
+    ]
     if plan.poses:
         # Only where the animator held something differently: nothing else has any.
         table["poses"] = [
@@ -195,7 +227,9 @@ def _note(note: Note, fingering: FingeringEvent, instrument: InstrumentMap, cloc
     }
 
 
-def _spans(events: Sequence[BreathEvent | CueEvent | GestureEvent | PoseEvent], clock: Clock) -> list[Table]:
+def _spans(
+    events: Sequence[BreathEvent | CueEvent | ExpressionEvent | GestureEvent | PoseEvent], clock: Clock
+) -> list[Table]:
     """When the events are, in seconds and in quarters."""
     seconds = np.array([(event.start_s, event.end_s) for event in events]).reshape(-1, 2)
     beats = clock.ticks(seconds) / clock.ticks_per_quarter
@@ -244,7 +278,7 @@ FIRST, FIRST_WORDS = 10, 3
 
 def _row(player: Table) -> tuple[str, ...]:
     pitches = [note["pitch"] for note in player["notes"]]
-    span = f"{note_name(min(pitches))}-{note_name(max(pitches))}" if pitches else "-"
+    span = f"{pitch_name(min(pitches))}-{pitch_name(max(pitches))}" if pitches else "-"
     breaths = sum(breath["kind"] == "breath" for breath in player["breaths"])
     return (
         player["name"],

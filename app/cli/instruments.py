@@ -11,8 +11,7 @@ from app.cli.terminal import say
 from app.encoding import shown
 from app.errors import AppError
 from app.messages import text
-
-_NOTES = ("C", "C#", "D", "Eb", "E", "F", "F#", "G", "Ab", "A", "Bb", "B")
+from app.messages.pitches import pitch_name
 
 
 class InvalidMapError(AppError):
@@ -56,7 +55,7 @@ def list_maps(arguments: argparse.Namespace) -> None:
         (
             f"{instrument.id}{'*' if instrument.id in known.own else ''}",
             instrument.name.en,
-            f"{note_name(instrument.range.low)} - {note_name(instrument.range.high)}",
+            f"{pitch_name(instrument.range.low)} - {pitch_name(instrument.range.high)}",
             transposition(instrument.transposition_semitones),
             ", ".join(control.label or control.name for control in instrument.controls),
         )
@@ -80,8 +79,8 @@ def print_scale(arguments: argparse.Namespace) -> None:
             first = fingering.rank == 1
             rows.append(
                 (
-                    note_name(pitch) if first else "",
-                    note_name(fingering.written_pitch) if first else "",
+                    pitch_name(pitch) if first else "",
+                    pitch_name(fingering.written_pitch) if first else "",
                     str(fingering.rank),
                     fingering.label,
                     f"{fingering.cents:+.0f}" if round(fingering.cents) else "",
@@ -119,8 +118,3 @@ def check_map(arguments: argparse.Namespace) -> None:
     if problems:
         raise InvalidMapError("instruments.invalid", file=arguments.file.name, count=len(problems))
     say(f"{shown(arguments.file.name)}: valid")
-
-
-def note_name(pitch: int) -> str:
-    """A concert pitch in scientific notation; 60 is C4."""
-    return f"{_NOTES[pitch % 12]}{pitch // 12 - 1}"

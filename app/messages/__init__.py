@@ -31,6 +31,7 @@ from app.messages import (
     unreal,
     work,
 )
+from app.messages.pitches import pitch_name
 
 TEMPLATES: Final[dict[str, str]] = {
     **audio.TEMPLATES,
@@ -70,7 +71,7 @@ PITCHES: Final[dict[str, tuple[str, ...]]] = {
     "score.key_switches": ("pitch",),
     "score.voices": ("pitch",),
 }
-"""Arguments that are MIDI numbers of pitches: here they are told as such, the editor names them."""
+"""Arguments that are MIDI numbers of pitches: they are named, in the editor as its user chose."""
 
 
 class _Filling(Formatter):
@@ -96,7 +97,7 @@ def text(message: Message) -> str:
     """The message as an English sentence."""
     arguments = dict(message.arguments)
     for name in PITCHES.get(message.id, ()):
-        arguments[name] = f"MIDI {arguments[name]}"
+        arguments[name] = pitch_name(float(arguments[name]))
     return filled(TEMPLATES[message.id], arguments)
 
 

@@ -3,8 +3,8 @@ tongue's stroke before each attack.
 
 Messages
 --------
-embouchure.register(pitch, low, high, loudness): "MIDI {pitch} in a range of {low}-{high}, loudness {loudness}."
-embouchure.heard(pitch, low, high, loudness): "MIDI {pitch} in a range of {low}-{high}; loudness, heard in the breath,
+embouchure.register(pitch, low, high, loudness): "{pitch} in a range of {low}-{high}, loudness {loudness}."
+embouchure.heard(pitch, low, high, loudness): "{pitch} in a range of {low}-{high}; loudness, heard in the breath,
     {loudness} on average."
 """
 

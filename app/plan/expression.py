@@ -5,7 +5,7 @@ Messages
 --------
 expression.default(): "The face at rest."
 expression.effort(effort, threshold): "Effort {effort} (from {threshold}): high, loud or long."
-expression.low_loud(pitch, easy_low, loudness): "MIDI {pitch} lies below {easy_low} and is loud ({loudness})."
+expression.low_loud(pitch, easy_low, loudness): "{pitch} lies below {easy_low} and is loud ({loudness})."
 expression.gives_entry(): "Gives the entry."
 expression.takes_entry(rest_s): "Comes in after {rest_s} s of rest."
 expression.end(): "The last note is over."

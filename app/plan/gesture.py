@@ -15,7 +15,7 @@ Messages
 --------
 gesture.sway(beats, beat_s): "Half a swing in {beats} beats of {beat_s} s."
 gesture.weight_shift(side): "A shift of weight to the {side} foot."
-gesture.bell_height(pitch, mean_pitch): "The melody is around MIDI {pitch}; the line's mean is {mean_pitch}."
+gesture.bell_height(pitch, mean_pitch): "The melody is around {pitch}; the line's mean is {mean_pitch}."
 gesture.lower_instrument(rest_s): "{rest_s} s of rest: the instrument comes down and is up again before the entry."
 gesture.lower_at_end(after_s): "{after_s} s after the last note the instrument comes down."
 gesture.lower_at_start(rest_s): "The entry is {rest_s} s away: the instrument is still down."

@@ -20,6 +20,14 @@ IntArray = npt.NDArray[np.int64]
 MEZZOFORTE = 0.63
 """Loudness 0..1 of mezzoforte: MIDI velocity 80 of 127."""
 
+DYNAMICS = (("ppp", 16), ("pp", 33), ("p", 49), ("mp", 64), ("mf", 80), ("f", 96), ("ff", 112), ("fff", 126))
+"""Dynamic marks and the velocities with which notation programs play them."""
+
+
+def dynamic_mark(loudness: float) -> str:
+    """The dynamic mark nearest to a loudness 0..1."""
+    return min(DYNAMICS, key=lambda row: abs(row[1] - 127.0 * loudness))[0]
+
 
 @dataclass(frozen=True, eq=False)
 class Steps:

@@ -328,7 +328,7 @@ def _breaths(
         if not wanted and breath is not None:
             before = notes[index - 1]
             cut_s = before["onset_s"] + min(before["duration_s"], note["onset_s"] - before["onset_s"])
-            if breath["start_s"] < before["onset_s"] + 0.5 * (cut_s - before["onset_s"]):
+            if breath["start_s"] < before["onset_s"] + 0.5 * (cut_s - before["onset_s"]) - 1e-9:
                 wrong.append(f"the catch breath at {breath['end_s']} takes most of the note before")
         reach = max(reach, onset + note["duration_tick"])
     for event in player["breaths"]:

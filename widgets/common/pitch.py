@@ -2,43 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 from PySide6.QtCore import QCoreApplication
 
+from app.messages.pitches import LETTERS, pitch_name
 from widgets.common.session import PitchDisplay
 
-LETTERS = ("C", "D", "E", "F", "G", "A", "B")
-SPELLING = (
-    (0, ""),
-    (0, "♯"),
-    (1, ""),
-    (2, "♭"),
-    (2, ""),
-    (3, ""),
-    (3, "♯"),
-    (4, ""),
-    (5, "♭"),
-    (5, ""),
-    (6, "♭"),
-    (6, ""),
-)
-"""Step of the scale and accidental of each pitch class: the signs that winds read most often."""
 BLACK = frozenset({1, 3, 6, 8, 10})
-
-
-def pitch_name(pitch: int, middle_c_octave: int = 4, steps: Sequence[str] = LETTERS) -> str:
-    """A MIDI pitch by name: 60 is C4, or C3 where middle C is in octave 3.
-
-    Parameters
-    ----------
-    pitch : int
-    middle_c_octave : int
-    steps : sequence of str
-        What C, D, E, F, G, A and B are called.
-    """
-    step, accidental = SPELLING[pitch % 12]
-    return f"{steps[step]}{accidental}{pitch // 12 - 5 + middle_c_octave}"
 
 
 def syllables() -> tuple[str, ...]:

@@ -9,6 +9,7 @@ from PySide6.QtCore import QCoreApplication
 
 from app.errors import Argument, Message
 from app.messages import PITCHES, TEMPLATES, filled
+from app.messages.pitches import pitch_name
 from app.project.model import Player
 from app.score.model import Note, Score
 from instrument_maps.library import all_maps
@@ -23,29 +24,22 @@ NOTES = frozenset({"note", "other", "after_note", "anchor"})
 """Arguments that name a note by its id; an anchor may also be an event or a name."""
 
 
-def message_text(
-    message: Message,
-    session: Session | None = None,
-    player_id: str | None = None,
-    name_pitch: Callable[[int], str] = "MIDI {}".format,
-) -> str:
+def message_text(message: Message, session: Session | None = None, player_id: str | None = None) -> str:
     """A message as a sentence in the language of the editor.
 
     Parameters
     ----------
     message : Message
     session : Session or None
-        With it notes are told by pitch and place, as the person wants pitches named; without it by their ids.
+        With it notes are told by pitch and place, as the person wants pitches named; without it notes by their ids.
     player_id : str or None
         Whose message it is; None: that of the player in front.
-    name_pitch : callable
-        What a pitch is called without a session.
     """
     template = QCoreApplication.translate("Message", TEMPLATES[message.id])
     arguments = {name: _told(message, name, session, player_id) for name in message.arguments}
     if session is None:
         named = PITCHES.get(message.id, ())
-        arguments |= {name: name_pitch(int(message.arguments[name])) for name in named}
+        arguments |= {name: pitch_name(float(message.arguments[name])) for name in named}
     return filled(template, arguments)
 
 

@@ -29,6 +29,7 @@ from PySide6.QtWidgets import (
 )
 
 from app.errors import Message
+from app.messages.pitches import pitch_name
 from app.project.importing import ImportRow, Outcome, automatic, merged, outcome_of, separated, usual_rows
 from app.rig.character_library import characters
 from app.score.choose import Stream
@@ -36,7 +37,6 @@ from app.score.parts import PartWish, stream_name
 from app.score.read import MidiContents
 from instrument_maps.model import InstrumentMap
 from widgets.common.instrument_name import character_name, instrument_name
-from widgets.common.pitch import pitch_name
 from widgets.common.plain import ComboBox, Label
 from widgets.common.tasks import Progress, StopWanted, Tasks
 from widgets.common.text import message_text
@@ -405,12 +405,10 @@ class ImportDialog(QDialog):
                 self._summary.setText(self.tr("Players: {count}").format(count=outcome.players))
             else:
                 self._summary.setText(self.tr("Nobody plays: tick a track, or import an empty stage"))
-            self._warnings.addItems([message_text(message, name_pitch=pitch_name) for message in outcome.warnings])
+            self._warnings.addItems([message_text(message) for message in outcome.warnings])
             self._warnings.addItems(
                 [
-                    self.tr("{name} is not played: {reason}").format(
-                        name=part.name, reason=message_text(part.reason, name_pitch=pitch_name)
-                    )
+                    self.tr("{name} is not played: {reason}").format(name=part.name, reason=message_text(part.reason))
                     for part in outcome.unplayed
                 ]
             )

@@ -32,6 +32,7 @@ from PySide6.QtWidgets import (
 )
 
 from app.errors import AppError
+from app.messages.pitches import LETTERS, pitch_name
 from instrument_maps import fingering_table as edit
 from instrument_maps.library import library
 from instrument_maps.model import Fingering, InstrumentMap
@@ -40,7 +41,7 @@ from widgets.common.fingering_tags import tag_words, tags_of_text, words_of_tags
 from widgets.common.icons import icon
 from widgets.common.instrument_name import instrument_name
 from widgets.common.paths import show_folder
-from widgets.common.pitch import LETTERS, pitch_name, syllables
+from widgets.common.pitch import syllables
 from widgets.common.plain import Label, MessageBox
 from widgets.common.session import Session, Severity
 from widgets.common.text import message_text

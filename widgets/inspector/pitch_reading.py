@@ -5,7 +5,8 @@ from __future__ import annotations
 import re
 import unicodedata
 
-from widgets.common.pitch import LETTERS, syllables
+from app.messages.pitches import LETTERS
+from widgets.common.pitch import syllables
 from widgets.common.session import PitchDisplay
 
 _STEP_SEMITONES = (0, 2, 4, 5, 7, 9, 11)

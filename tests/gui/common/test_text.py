@@ -51,9 +51,9 @@ def test_pitches_are_named_as_the_person_wants(session: Session, note: Note) -> 
     assert "B2 lies outside the range of this instrument, A♭3 to C6" in message_text(message, session)
 
 
-def test_the_command_line_keeps_ids_and_numbers(note: Note) -> None:
+def test_the_command_line_keeps_ids_and_names_pitches(note: Note) -> None:
     told = text(Message("fingering.out_of_range", {"note": note.id, "pitch": 45, **OUTSIDE}))
-    assert told.startswith(f"note {note.id}: MIDI 45 lies outside the range of this instrument, MIDI 54 to MIDI 82")
+    assert told.startswith(f"note {note.id}: A2 lies outside the range of this instrument, F♯3 to B♭5")
 
 
 def test_a_note_of_another_player_is_found(session: Session) -> None:

@@ -23,6 +23,7 @@ from PySide6.QtWidgets import (
 
 from app.capture.protocol import Back, Lost, Opened, Ports, Refused
 from app.errors import Message
+from app.messages.pitches import pitch_name
 from app.score.take import Wiring
 from app.shell.recording import recorder_of
 from instrument_maps.library import all_maps
@@ -30,7 +31,6 @@ from metadata.load import load_controllers
 from tests.gui.japanese import FromFiles, texts_of
 from tests.support.recorder import EWI
 from tests.support.studio import Studio
-from widgets.common.pitch import pitch_name
 from widgets.dialogs.latency import CLICKS_S, LEAD, LatencyDialog
 from widgets.dialogs.midi_devices import MidiDevicesDialog
 

@@ -153,14 +153,20 @@ def test_inspect_has_exactly_these_keys(run: Run) -> None:
     }  # fmt: skip
     assert set(found["tempo"][0]) == {"tick", "bpm"}
     for player in found["players"]:
-        assert set(player) == {"name", "instrument", "part", "notes", "breaths", "cues", "gestures"}
+        assert set(player) == {"name", "instrument", "part", "notes", "breaths", "cues", "gestures", "expressions"}
         assert player["notes"]
         for note in player["notes"]:
             assert set(note) == {
                 "id", "onset_tick", "duration_tick", "onset_s", "duration_s", "pitch", "velocity", "fingering",
-                "controls",
+                "controls", "articulation", "bend", "loudness", "dynamic",
             }  # fmt: skip
-            assert all(0.0 <= value <= 1.0 for value in note["controls"].values())
+            assert all(0.0 <= value <= 1.0 for value in (*note["controls"].values(), note["loudness"]))
+            assert note["articulation"] in ("tongued", "slurred", "staccato")
+        for expression in player["expressions"]:
+            assert set(expression) == {
+                "expression", "start_s", "end_s", "start_beat", "end_beat", "strength", "fade_in_s", "fade_out_s",
+                "reason",
+            }  # fmt: skip
         for breath in player["breaths"]:
             assert {"kind", "start_s", "end_s", "start_beat", "end_beat"} <= set(breath)
             assert breath["kind"] in ("preparation", "breath")
@@ -168,6 +174,25 @@ def test_inspect_has_exactly_these_keys(run: Run) -> None:
             assert breath["start_beat"] < breath["end_beat"]
     assert found["first_frame_s"] <= -2.0
     assert [len(player["cues"]) > 0 for player in found["players"]].count(True) >= 1
+
+
+def test_inspect_tells_articulation_bends_and_dynamics(run: Run, tmp_path: Path) -> None:
+    track = mido.MidiTrack([mido.MetaMessage("track_name", name="Trumpet")])
+    # Tongued, slurred into the next, staccato, and one that is soft and falls.
+    for pitch, velocity, lasts, pause in (
+        (67, 96, 440, 40), (69, 96, 480, 0), (67, 96, 440, 40), (69, 96, 200, 280), (67, 33, 400, 0),
+    ):  # fmt: skip
+        track.append(mido.Message("note_on", note=pitch, velocity=velocity))
+        track.append(mido.Message("pitchwheel", pitch=-8192 if velocity == 33 else 0, time=lasts - 60))
+        track.append(mido.Message("note_off", note=pitch, time=60))
+        track.append(mido.Message("pitchwheel", pitch=0, time=pause))
+    path = tmp_path / "piece.mid"
+    mido.MidiFile(tracks=[track]).save(path)
+    (player,) = json.loads(run("inspect", path, "--json")[1])["players"]
+    notes = player["notes"]
+    assert [note["articulation"] for note in notes] == ["tongued", "tongued", "slurred", "staccato", "tongued"]
+    assert [note["bend"] for note in notes] == [[], [], [], [], ["fall"]]
+    assert [note["dynamic"] for note in notes] == ["f", "f", "f", "f", "pp"]
 
 
 def test_seconds_follow_the_tempo_that_mido_reads(run: Run) -> None:

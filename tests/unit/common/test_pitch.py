@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from widgets.common.pitch import pitch_name, pitch_text
+from app.messages.pitches import pitch_name
+from widgets.common.pitch import pitch_text
 from widgets.common.session import PitchDisplay
 
 

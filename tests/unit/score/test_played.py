@@ -107,7 +107,7 @@ def test_key_switches_are_left_out_and_told() -> None:
     warning = silent.reason
     assert (score.warnings, warning.id, silent.note_count) == ((), "score.key_switches", 4)
     assert warning.arguments == {"part": "Trumpet", "count": 4, "bar": 1, "beat": 1.0, "pitch": 24}
-    assert "bar 1, beat 1 (MIDI 24)" in text(warning)
+    assert "bar 1, beat 1 (C1)" in text(warning)
 
 
 def test_a_key_switch_that_is_held_below_the_music_is_no_player() -> None:
