@@ -7,7 +7,6 @@ is counted in `app.plan.finger_ways`.
 
 from __future__ import annotations
 
-import itertools
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -152,21 +151,6 @@ class Motions:
 
 
 @dataclass(frozen=True)
-class Travel:
-    """What a path of fingerings takes over a span of notes: travel of slides, moves of fingers where there is no slide
-    (beside one, a lever's moves are no travel), and the fastest motion, as a part of the time it has."""
-
-    slide_m: float
-    moves: float
-    peak_share: float
-
-    def exceeds(self, other: Travel) -> bool:
-        """Whether this path goes further or needs a faster motion than the other."""
-        further = self.slide_m > other.slide_m + TOLERANCE or self.moves > other.moves + TOLERANCE
-        return further or self.peak_share > other.peak_share + TOLERANCE
-
-
-@dataclass(frozen=True)
 class FingeringProblem:
     """The search as arrays: what each note may be played with, and what that costs."""
 
@@ -302,16 +286,27 @@ class FingeringProblem:
         both = np.minimum(hurried[:-1, :, :, None], hurried[1:, None, :, :])
         return np.asarray(turns * np.minimum(both, 1.0) * REVERSAL_COST, dtype=np.float64)
 
-    def travel(self, path: IntArray, first: int, last: int) -> Travel:
-        """What a path takes from note ``first`` to note ``last`` inclusive."""
-        steps = np.arange(first, last)
-        a, b = path[first:last], path[first + 1 : last + 1]
-        motions = self.motions
+    def goes_further(self, path: IntArray, other: IntArray, starts: IntArray, ends: IntArray) -> BoolArray:
+        """Of spans of notes ``starts[i]``..``ends[i]``: whether a path goes further in them than another, or faster.
+
+        Compared are the travel of slides and the fastest of their motions, as a part of the time it has; where there is
+        no slide, the moves of fingers (beside one, a lever's moves are no travel).
+        """
+        inside = ends > starts
+        spans = np.stack((starts, ends), axis=1).ravel()
+        motions, steps = self.motions, np.arange(len(path) - 1)
+
+        def along(amount: FloatArray, rows: IntArray, way: IntArray) -> FloatArray:
+            # One more, for a span that begins at the last note.
+            return np.append(amount[rows, way[:-1], way[1:]], 0.0)
+
         if not self.has_slide:
-            return Travel(0.0, float(motions.moves[motions.pair[steps], a, b].sum()), 0.0)
-        return Travel(
-            float(motions.slide_m[steps, a, b].sum()), 0.0, float(motions.share[steps, a, b].max(initial=0.0))
-        )
+            more = along(motions.moves, motions.pair, path) - along(motions.moves, motions.pair, other)
+            return np.asarray(inside & (np.add.reduceat(more, spans)[::2] > TOLERANCE))
+        more = along(motions.slide_m, steps, path) - along(motions.slide_m, steps, other)
+        further = np.add.reduceat(more, spans)[::2] > TOLERANCE
+        fastest, allowed = (np.maximum.reduceat(along(motions.share, steps, way), spans)[::2] for way in (path, other))
+        return np.asarray(inside & (further | (fastest > allowed + TOLERANCE)))
 
     def path_cost(self, path: IntArray) -> float:
         """What the search pays for a path, over the whole line."""
@@ -451,18 +446,34 @@ def _search(problem: FingeringProblem, path: IntArray, first: int, last: int) ->
 
 
 def _chain(local: FloatArray, cost: FloatArray) -> IntArray:
-    """The cheapest way through a chain of choices."""
-    total = local[0]
-    back = np.empty((len(cost), local.shape[1]), dtype=np.int64)
-    ways = np.empty(cost.shape[1:])
-    for step, (there, own) in enumerate(zip(cost, local[1:], strict=True)):
-        np.add(total[:, None], there, out=ways)
-        ways.argmin(axis=0, out=back[step])
-        total = ways.min(axis=0) + own
-    chosen = [int(total.argmin())]
-    for origin in back[::-1]:
-        chosen.append(int(origin[chosen[-1]]))
-    return np.array(chosen[::-1], dtype=np.int64)
+    """The cheapest way through a chain of choices; of equal ways the one with the lower ranks.
+
+    Two neighbouring steps are joined to one by the best choice of the note between them, for all pairs of steps at
+    once, until one step is left: as many rounds as the logarithm of the number of notes.
+    """
+    steps = cost + local[1:, None, :]
+    steps[0] += local[0][:, None]
+    rounds: list[IntArray] = []
+    while len(steps) > 1:
+        joined = len(steps) // 2 * 2
+        before, after = steps[0:joined:2], steps[1:joined:2]
+        best = before[:, :, :1] + after[:, :1, :]
+        middle = np.zeros(best.shape, dtype=np.int64)
+        for choice in range(1, local.shape[1]):
+            ways = before[:, :, choice : choice + 1] + after[:, choice : choice + 1, :]
+            better = ways < best - TOLERANCE
+            np.copyto(best, ways, where=better)
+            middle[better] = choice
+        rounds.append(middle)
+        steps = np.concatenate((best, steps[joined:]))
+    first, last = np.unravel_index(int(steps[0].argmin()), steps[0].shape)
+    chosen = np.array([first, last], dtype=np.int64)
+    for middle in reversed(rounds):
+        # An odd step at the end of a round was joined to nothing.
+        joined = len(middle)
+        between = middle[np.arange(joined), chosen[:joined], chosen[1 : joined + 1]]
+        chosen = np.concatenate((np.stack((chosen[:joined], between), axis=1).ravel(), chosen[joined:]))
+    return chosen
 
 
 def _chain_of_pairs(local: FloatArray, cost: FloatArray, reversal: FloatArray) -> IntArray:
@@ -481,22 +492,28 @@ def _chain_of_pairs(local: FloatArray, cost: FloatArray, reversal: FloatArray) -
 
 
 def never_worse(problem: FingeringProblem, path: IntArray) -> IntArray:
-    """Fall back to first choices wherever the path travels further or slower than they do, alternate run by run and
+    """Fall back to first choices wherever the path travels further or faster than they do, alternate run by run and
     phrase by phrase. What a correction pins stays in both."""
     first_path = np.argmin(problem.local_cost, axis=1)
-    path = path.copy()
     different = np.flatnonzero(path != first_path)
     if len(different) == 0:
         return path
     count = len(path)
-    for run in np.split(different, np.flatnonzero(np.diff(different) > 1) + 1):
-        low, high = max(int(run[0]) - 1, 0), min(int(run[-1]) + 1, count - 1)
-        if problem.travel(path, low, high).exceeds(problem.travel(first_path, low, high)):
-            path[run] = first_path[run]
+    breaks = np.flatnonzero(np.diff(different) > 1)
+    starts, ends = different[np.append(0, breaks + 1)], different[np.append(breaks, len(different) - 1)]
+    # With the notes on either side, which runs may share: no step belongs to two of them.
+    worse = problem.goes_further(path, first_path, np.maximum(starts - 1, 0), np.minimum(ends + 1, count - 1))
+    path = _with_first_choices(path, first_path, starts[worse], ends[worse])
     silence = problem.times.onset_s[1:] - problem.times.played_end_s[:-1]
-    edges = [0, *(np.flatnonzero(silence >= PHRASE_SILENCE_S) + 1).tolist(), count]
-    for start, end in itertools.pairwise(edges):
-        same = (path[start:end] == first_path[start:end]).all()
-        if not same and problem.travel(path, start, end - 1).exceeds(problem.travel(first_path, start, end - 1)):
-            path[start:end] = first_path[start:end]
-    return path
+    starts = np.append(0, np.flatnonzero(silence >= PHRASE_SILENCE_S) + 1)
+    ends = np.append(starts[1:], count) - 1
+    worse = problem.goes_further(path, first_path, starts, ends)
+    return _with_first_choices(path, first_path, starts[worse], ends[worse])
+
+
+def _with_first_choices(path: IntArray, first_path: IntArray, starts: IntArray, ends: IntArray) -> IntArray:
+    """The path with the first choices in the spans of notes ``starts[i]``..``ends[i]``."""
+    edges = np.zeros(len(path) + 1, dtype=np.int64)
+    edges[starts] += 1
+    edges[ends + 1] -= 1
+    return np.where(np.cumsum(edges[:-1]) > 0, first_path, path)
