@@ -238,10 +238,10 @@ def _read_score(arguments: argparse.Namespace, maps: Sequence[MapChoice]) -> Sco
     if not arguments.written:
         return score
     chosen = select_players(arguments.written, unique_names(part.name for part in score.parts))
-    places = {(score.parts[index].track, score.parts[index].channel) for index in chosen}
+    places = {score.parts[index].place for index in chosen}
     streams = [contents.streams[wish.streams[0]] for wish in wishes]
     asked = [
-        msgspec.structs.replace(wish, written=(stream.track, stream.channel) in places)
+        msgspec.structs.replace(wish, written=stream.place in places)
         for wish, stream in zip(wishes, streams, strict=True)
     ]
     return wished_score(contents, asked, maps)

@@ -70,6 +70,7 @@ PITCHES: Final[dict[str, tuple[str, ...]]] = {
     "score.slurred": ("pitch",),
     "score.key_switches": ("pitch",),
     "score.voices": ("pitch",),
+    "score.doubling": ("pitch",),
 }
 """Arguments that are MIDI numbers of pitches: they are named, in the editor as its user chose."""
 

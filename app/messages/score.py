@@ -112,6 +112,10 @@ TEMPLATES: Final[dict[str, str]] = {
         "{part}: {most} players share it, and {count} {count:note that sounds|notes that sound} together with theirs "
         "{count:is|are} left out, the first at bar {bar}, beat {beat:g} ({pitch})"
     ),
+    "score.doubling": (
+        "{part}: the player of this track changes to {instrument} for {count} {count:note|notes}, the first at bar "
+        "{bar}, beat {beat:g} ({pitch}); a player has one instrument here, so another one plays {count:it|them}"
+    ),
     "score.stray_notes": (
         "{count} {count:note sounds|notes sound} together with others, the first at bar {bar}, beat {beat:g} "
         "({pitch}); too few and too short for another player"

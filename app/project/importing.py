@@ -157,10 +157,10 @@ def import_project(
     for row in rows:
         if row.wanted and row.character_id is not None:
             first = contents.streams[row.wish.streams[0]]
-            characters[first.track, first.channel] = row.character_id
+            characters[first.place] = row.character_id
     players = []
     for player in project.players:
         part = project.part(player)
-        character = characters.get((part.track, part.channel), player.character_id)
+        character = characters.get(part.place, player.character_id)
         players.append(msgspec.structs.replace(player, character_id=character))
     return replace(project, players=tuple(players), source=source)

@@ -70,6 +70,11 @@ class Stream(msgspec.Struct, frozen=True):
     curves : tuple of ControllerCurve
     told : tuple of str
         Of a track that says nothing itself: ids of the instruments that the file's name says it may be for.
+    played_on : str
+        Id of the instrument that its player changes to for these notes (`app.score.doublings`); empty: that of the
+        track.
+    change : int
+        Which of its player's instruments that is, from 0.
     """
 
     track: int
@@ -84,6 +89,13 @@ class Stream(msgspec.Struct, frozen=True):
     numbers: list[int]
     curves: tuple[ControllerCurve, ...]
     told: tuple[str, ...] = ()
+    played_on: str = ""
+    change: int = 0
+
+    @property
+    def place(self) -> tuple[int, int, int]:
+        """Track, channel and instrument, as of the parts that come of it."""
+        return self.track, self.channel, self.change
 
     def notes(self) -> list[Note]:
         """The notes, in the same order."""
@@ -187,6 +199,8 @@ def recognised(stream: Stream) -> Instrument | None:
 def _said(stream: Stream) -> Instrument | None:
     """What a track says of itself."""
     words = vocabulary()
+    if stream.played_on:
+        return words.instruments[stream.played_on]
     named = [words.by_name(text) for text in (stream.name, stream.instrument_name) if text]
     telling = next((found for found in named if found is not None and not found.vague), None)
     if telling is not None:

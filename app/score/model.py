@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from functools import cached_property
-from typing import Literal, TypeAlias
+from typing import Final, Literal, TypeAlias
 
 import msgspec
 import numpy as np
@@ -12,6 +12,9 @@ import numpy.typing as npt
 
 from app.errors import Message
 from app.score.tempo import TempoMap
+
+MOST_VOICES: Final = 16
+"""Players who share a track."""
 
 CurveKind: TypeAlias = Literal["breath", "volume", "expression", "aftertouch", "pitch_bend", "bite"]
 
@@ -90,7 +93,8 @@ class Part(msgspec.Struct, frozen=True, dict=True):
     track : int
         The track in the file, counted from 0.
     voice : int
-        Counted from 0, the highest; 0 in a track with one voice.
+        Counted from 0, the highest; 0 in a track with one voice. What its player has on a second instrument is counted
+        from `MOST_VOICES`, on a third from twice as many.
     channel : int
         0..15.
     program : int or None
@@ -118,6 +122,11 @@ class Part(msgspec.Struct, frozen=True, dict=True):
     notes: tuple[Note, ...]
     curves: tuple[ControllerCurve, ...] = ()
     transposed_semitones: int = 0
+
+    @property
+    def place(self) -> tuple[int, int, int]:
+        """Track, channel, and which of its player's instruments: that of the stream it was read from."""
+        return self.track, self.channel, self.voice // MOST_VOICES
 
     @cached_property
     def note_ids(self) -> frozenset[str]:

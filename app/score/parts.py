@@ -43,6 +43,9 @@ score.too_many_players : most (a reason)
     "the piece has {most} players already, and more cannot play"
 score.voices : part, voices, count, bar, beat, pitch
     "{part}: {voices} players share it, for {count} notes sound together with others, the first at ..."
+score.doubling : part, instrument, count, bar, beat, pitch
+    "{part}: the player of this track changes to {instrument} for {count} notes, the first at ...; a player has one
+    instrument here, so another one plays them"
 score.notes_left_out : part, most, count, bar, beat, pitch
     "{part}: {most} players share it, and {count} notes that sound together with theirs are left out, the first at ..."
 score.slurred : part, count, bar, beat, pitch
@@ -59,10 +62,10 @@ import msgspec
 from app.errors import Argument, Cancelled, Message
 from app.score.choose import Candidates, How, MapChoice, Stream, candidates, players_named, plays, recognised, refusal
 from app.score.limits import MOST_PARTS
-from app.score.model import Note, Part, Score, UnplayedPart
+from app.score.model import MOST_VOICES, Note, Part, Score, UnplayedPart
 from app.score.switches import without_key_switches
 from app.score.tempo import TempoMap
-from app.score.voices import MOST_VOICES, Shared, split_voices
+from app.score.voices import Shared, split_voices
 from instrument_maps.vocabulary import Instrument, vocabulary
 
 LEAST_OUTSIDE = 0.01
@@ -174,6 +177,9 @@ def wished_parts(
         slurred += [(mine[0].name, note) for note in shared.shortened]
         switches = _switches(streams, wish.streams, [places for _, places in read])
         silent += _silent("score.key_switches", mine[0].name, switches, piece)
+        if lead.change and len(chosen) == 1:
+            instrument = vocabulary().instruments[lead.played_on].names[0]
+            warnings.append(_about("score.doubling", mine[0].name, notes, piece, instrument=instrument))
         if len(mine) > 1:
             warnings.append(_about("score.voices", mine[0].name, shared.together, piece, voices=len(mine)))
         if len(mine) == MOST_VOICES and shared.left_out:
@@ -298,7 +304,7 @@ def _parts(
     """A part for every voice."""
     parts = []
     instrument = found.instrument
-    for voice, notes in enumerate(voices):
+    for voice, notes in enumerate(voices, stream.change * MOST_VOICES):
         chosen = found.best([note.pitch for note in notes], written)
         shift = -chosen.transposition_semitones if written else 0
         parts.append(

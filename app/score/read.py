@@ -64,6 +64,7 @@ from app.encoding import shown
 from app.errors import FileError, Message
 from app.score.choose import PERCUSSION_CHANNEL, MapChoice, Stream, told_by_file
 from app.score.chunks import Container, Track, read_container
+from app.score.doublings import doubled_instruments
 from app.score.limits import MOST_NAME, MOST_STREAMS, too_long
 from app.score.model import Marker, Metre, Part, Score, UnplayedPart
 from app.score.parts import PartWish, parts_of, wished_parts
@@ -347,7 +348,7 @@ def _title(tracks: Sequence[TrackEvents], encoding: str | None) -> str:
 
 
 def _streams(tracks: Sequence[TrackEvents], encoding: str | None) -> list[Stream]:
-    lilypond = any(b"LilyPond" in text for text in tracks[0].texts)
+    lilypond = any(b"LilyPond" in text for _, text in tracks[0].texts)
     given: dict[int, set[int]] = {}
     for events in tracks:
         for channel, changes in events.programs.items():
@@ -359,25 +360,39 @@ def _streams(tracks: Sequence[TrackEvents], encoding: str | None) -> list[Stream
             name = "" if match[1].startswith("\\") else match[1].strip()
         if len(tracks) == 1:
             name = name if len(events.channels) == 1 else ""
-        for channels in _players_channels(events, name if len(tracks) > 1 else ""):
+        groups = _players_channels(events, name if len(tracks) > 1 else "")
+        said = [(tick, decoded(text, encoding)) for tick, text in (*events.texts, *events.markers)]
+        for channels in groups:
             notes = events.notes(channels)
             first = min(channels, key=lambda channel: events.channels[channel].numbers[0])
-            streams.append(
-                Stream(
-                    track=index,
-                    channel=first,
-                    name=name,
-                    instrument_name=decoded(events.instrument_name, encoding)[:MOST_NAME],
-                    program=_program(events, first, notes.onset_ticks[0], given),
-                    onset_ticks=notes.onset_ticks,
-                    end_ticks=notes.end_ticks,
-                    pitches=notes.pitches,
-                    velocities=notes.velocities,
-                    numbers=notes.numbers,
-                    curves=events.curves(channels),
+            curves = events.curves(channels)
+            played_on = doubled_instruments(events, channels, name, said if len(groups) == 1 else (), notes.onset_ticks)
+            for change, instrument in enumerate(sorted(dict.fromkeys(played_on), key=bool)):
+                own = notes.where([one == instrument for one in played_on])
+                streams.append(
+                    Stream(
+                        track=index,
+                        channel=first,
+                        name=_doubled_name(name, instrument)[:MOST_NAME] if change else name,
+                        instrument_name=decoded(events.instrument_name, encoding)[:MOST_NAME],
+                        program=_program(events, first, own.onset_ticks[0], given),
+                        onset_ticks=own.onset_ticks,
+                        end_ticks=own.end_ticks,
+                        pitches=own.pitches,
+                        velocities=own.velocities,
+                        numbers=own.numbers,
+                        curves=curves,
+                        played_on=instrument,
+                        change=change,
+                    )
                 )
-            )
     return streams
+
+
+def _doubled_name(name: str, instrument: str) -> str:
+    """The name of what a track's player plays on another instrument, which comes first and so is what it is read as."""
+    spoken = vocabulary().instruments[instrument].names[0]
+    return f"{spoken} ({name})" if name else spoken
 
 
 def _players_channels(events: TrackEvents, name: str) -> list[tuple[int, ...]]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections import deque
 from collections.abc import Collection, Iterable, Mapping
+from itertools import compress
 from operator import itemgetter
 from typing import Any, Final
 
@@ -37,6 +38,12 @@ class ChannelNotes(msgspec.Struct):
     velocities: list[int] = []
     numbers: list[int] = []
 
+    def where(self, kept: list[bool]) -> ChannelNotes:
+        """Some of the notes; the very same object if that is all of them."""
+        if all(kept):
+            return self
+        return ChannelNotes(*(list(compress(column, kept)) for column in msgspec.structs.astuple(self)))
+
 
 class TrackEvents(msgspec.Struct):
     """What one track says.
@@ -45,7 +52,7 @@ class TrackEvents(msgspec.Struct):
     ----------
     name, instrument_name : bytes
         The first of each.
-    texts : list of bytes
+    texts : list of (tick, text)
     tempos : list of (tick, microseconds per quarter)
     metres : list of (tick, numerator, denominator)
     markers : list of (tick, text)
@@ -67,7 +74,7 @@ class TrackEvents(msgspec.Struct):
 
     name: bytes = b""
     instrument_name: bytes = b""
-    texts: list[bytes] = []
+    texts: list[tuple[int, bytes]] = []
     tempos: list[tuple[int, int]] = []
     metres: list[tuple[int, int, int]] = []
     markers: list[tuple[int, bytes]] = []
@@ -224,7 +231,7 @@ def _note_other(events: TrackEvents, message: Any, kind: str, tick: int) -> None
     elif kind == "instrument_name":
         events.instrument_name = events.instrument_name or message.name.encode("latin-1")
     elif kind == "text":
-        events.texts.append(message.text.encode("latin-1"))
+        events.texts.append((tick, message.text.encode("latin-1")))
     elif kind in ("marker", "cue_marker"):
         events.markers.append((tick, message.text.encode("latin-1")))
 

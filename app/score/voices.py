@@ -29,12 +29,11 @@ import msgspec
 import numpy as np
 import numpy.typing as npt
 
-from app.score.model import Note
+from app.score.model import MOST_VOICES, Note
 from app.score.tempo import TempoMap
 
 LEGATO_OVERLAP_S: Final = 0.030
 """As long as a note still sounds into the next of its player, at most."""
-MOST_VOICES: Final = 16
 
 # How long two notes of one player may sound together as they are played. Pianists overlap legato notes the longer the
 # slower they play, by a seventh to a fifth of the time between onsets (Repp 1995, J. Acoust. Soc. Am. 97, 3862; Bresin

@@ -1348,6 +1348,10 @@
             <translation>{part}: {most} 人で分担し、それ以上に重なる {count} 音を省きました（最初は {bar} 小節 {beat:g} 拍目の {pitch}）</translation>
         </message>
         <message>
+            <source>{part}: the player of this track changes to {instrument} for {count} {count:note|notes}, the first at bar {bar}, beat {beat:g} ({pitch}); a player has one instrument here, so another one plays {count:it|them}</source>
+            <translation>{part}: このトラックの奏者は {count} 音を {instrument} に持ち替えて吹きます（最初は {bar} 小節 {beat:g} 拍目の {pitch}）。ここでは 1 人の奏者は楽器を 1 つしか持たないため、別の奏者が担当します</translation>
+        </message>
+        <message>
             <source>{count} {count:note sounds|notes sound} together with others, the first at bar {bar}, beat {beat:g} ({pitch}); too few and too short for another player</source>
             <translation>{count} 音がほかの音と重なります（最初は {bar} 小節 {beat:g} 拍目の {pitch}）。別のプレイヤーに分けるには少なく短いため、省きました</translation>
         </message>

@@ -29,7 +29,7 @@ VIBRATO = [(480 + 10 * k, 0.2 * float(np.sin(k))) for k in range(48)]
         ([(0, 0.0), (800, -0.2), (850, -0.6), (900, -1.0), (960, 0.0)], ("fall",)),
         ([(0, 0.0), (800, 0.2), (900, 1.0), (960, 0.0)], ("doit",)),
         ([(470, -0.6), (540, 0.0), (900, -1.0), (960, 0.0)], ("scoop", "fall")),
-        # A channel that is tuned elsewhere is bent nowhere; a vibrato comes back; another note's fall is not this one's.
+        # A channel that is tuned elsewhere is not bent; a vibrato comes back; another note's fall is not this one's.
         ([(0, -0.5)], ()),
         (VIBRATO, ()),
         ([(100, -0.8), (470, 0.0), (960, -0.9)], ()),

@@ -8,9 +8,8 @@ import pytest
 
 from app.errors import FileError
 from app.score.limits import LAST_TICK, MOST_NAME, MOST_PARTS, MOST_STREAMS
-from app.score.model import Marker, Metre
+from app.score.model import MOST_VOICES, Marker, Metre
 from app.score.read import read_midi
-from app.score.voices import MOST_VOICES
 from tests.unit.score.midi_bytes import END, MAPS, chunk, header, heard, ids, meta, note, one_track, score_of
 
 SCALE = [60, 62, 64, 65]

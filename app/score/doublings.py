@@ -1,0 +1,77 @@
+"""Doublings: the player of one track changes to another instrument and back, as flutists change to the piccolo.
+
+A change of program says so, or a text of the track ("to Picc.", "muta in Ob.", ピッコロに持ち替え). A change to another
+sound of the same instrument, as a muted trumpet's, is none, nor is one to a section ("brass") or to what is no wind.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from app.score.choose import PERCUSSION_CHANNEL
+from app.score.limits import MOST_NAME
+from app.score.tracks import TrackEvents
+from instrument_maps.vocabulary import Instrument, vocabulary
+
+_CHANGE = re.compile(
+    r"(?:change to|changes to|switch to|to|muta(?:no)? in|muta|nimmt|wechselt zu|wechsel zu|prend|prenez|changez en|"
+    r"passe à|toma|cambia a|cambia in|muda para|passa a) (?P<after>.+)|"
+    r"(?P<before>.+?)(?:に|へ)?(?:持ち?替え?|もちかえ)",
+    re.IGNORECASE,
+)
+
+
+def doubled_instruments(
+    events: TrackEvents, channels: Sequence[int], name: str, texts: Sequence[tuple[int, str]], onset_ticks: list[int]
+) -> list[str]:
+    """The instrument of each note, as an id in the vocabulary; empty for the one the track is for.
+
+    Parameters
+    ----------
+    events : TrackEvents
+    channels : sequence of int
+        Of the notes.
+    name : str
+        The track's.
+    texts : sequence of (tick, text)
+        What the track says where.
+    onset_ticks : list of int
+        Of the notes, ascending.
+    """
+    if PERCUSSION_CHANNEL in channels:
+        return [""] * len(onset_ticks)
+    programs = sorted({row for channel in channels for row in events.programs.get(channel, [])})
+    changes = [(tick, 0, found) for tick, program in programs if (found := _doubling(vocabulary().by_program(program)))]
+    changes += [(tick, 1, found) for tick, text in texts if (found := _requested(text))]
+    changes.sort(key=lambda row: row[:2])
+    if not changes:
+        return [""] * len(onset_ticks)
+    # What the track begins with is what it is for, whatever its name calls that ("Cornet" with a trumpet's program),
+    # unless it names that as the second ("Flute / Piccolo") or changes to what it names later.
+    begun = [found for tick, _, found in changes if tick <= onset_ticks[0]]
+    named = vocabulary().by_name(name)
+    first = begun[-1] if begun else named
+    mine = {found.id for found in (first, named) if found is not None}
+    if first is not None and named is not None and first.id != named.id:
+        own = {one.id for one in vocabulary().all_by_name(name)}
+        if first.id in own or any(found.id == named.id for _, _, found in changes):
+            mine = {named.id}
+    played, place, current = [], 0, "" if first is None or first.id in mine else first.id
+    for tick in onset_ticks:
+        while place < len(changes) and changes[place][0] <= tick:
+            found = changes[place][2]
+            current = "" if found.id in mine else found.id
+            place += 1
+        played.append(current)
+    return played
+
+
+def _requested(text: str) -> Instrument | None:
+    """The instrument that a text asks the player to change to."""
+    match = _CHANGE.fullmatch(" ".join(text[:MOST_NAME].split()).strip("()[]"))
+    return _doubling(vocabulary().by_name(match["after"] or match["before"])) if match else None
+
+
+def _doubling(found: Instrument | None) -> Instrument | None:
+    return found if found is not None and found.kind == "wind" and not (found.vague or found.any_pitch) else None
