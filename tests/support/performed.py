@@ -8,7 +8,9 @@ from app.performance import motion
 from app.performance.cast import performer_of
 from app.performance.ensemble import Performance
 from app.performance.span import FrameSpan
-from app.project.model import Player
+from app.plan.corrections import PinFingering
+from app.project.edit.corrections import put
+from app.project.model import Player, Project
 
 
 def playing_of(performance: Performance, player: Player, before: Playing | None = None) -> Playing:
@@ -19,3 +21,9 @@ def playing_of(performance: Performance, player: Player, before: Playing | None 
 def player_motion(performance: Performance, player: Player, span: FrameSpan) -> Motion:
     """The player's motion over some frames."""
     return motion.player_motion(performance, performer_of(performance, player), span)
+
+
+def in_seventh(project: Project, player: Player) -> Project:
+    """The project with a tenor trombone's low E and B natural pinned to the seventh position, as without a trigger."""
+    pins = [PinFingering(note.id, "7") for note in project.part(player).notes if note.pitch in (40, 47)]
+    return put(project, player.id, pins)

@@ -27,7 +27,7 @@ from app.rig.skeleton import forward
 from app.rig.skinning import deform, mesh_named, patch
 from app.score.read import read_midi
 from instrument_maps.load import bundled_maps
-from tests.support.performed import player_motion, playing_of
+from tests.support.performed import in_seventh, player_motion, playing_of
 
 ENSEMBLES = Path(__file__).parents[2] / "data" / "midi" / "ensemble"
 AIR = ENSEMBLES / "trombone_quartet_bach_air.mid"
@@ -68,7 +68,7 @@ def test_a_correction_that_breaks_a_contact_is_told_where_it_does(
 ) -> None:
     project = project_of(path)
     player = project.players[index]
-    performance = Performance(put(project, player.id, [correction]))
+    performance = Performance(put(in_seventh(project, player), player.id, [correction]))
     problems = judged(performance, player)
     assert problems
     seconds = project.score.tempo_map.seconds

@@ -23,7 +23,7 @@ from app.rig.skeleton import forward
 from app.score.read import read_midi
 from instrument_maps.load import bundled_maps
 from instrument_maps.model import InstrumentMap
-from tests.support.performed import player_motion
+from tests.support.performed import in_seventh, player_motion
 
 AIR = Path(__file__).parents[2] / "data" / "midi" / "ensemble" / "trombone_quartet_bach_air.mid"
 FPS = Fraction(25)
@@ -34,6 +34,12 @@ def played_by(character_id: str) -> Project:
     project = project_from_score(read_midi(AIR, maps=map_choices(maps.values())), maps)
     players = tuple(msgspec.structs.replace(player, character_id=character_id) for player in project.players)
     return replace(project, players=players)
+
+
+def short_arms() -> Project:
+    """Players with short arms, of whom the last has notes in seventh position."""
+    project = played_by("woman_adult")
+    return in_seventh(project, project.players[3])
 
 
 def unreached(project: Project, player_id: str) -> set[str | None]:
@@ -53,7 +59,7 @@ def test_long_arms_reach_everything() -> None:
 @pytest.mark.parametrize("index", [0, 3])
 def test_what_is_told_is_what_the_motion_shows(index: int) -> None:
     """In the motion itself, the slide stops as short as is told at the notes told, and at no other; the hand has it."""
-    project = played_by("woman_adult")
+    project = short_arms()
     player = project.players[index]
     performance = Performance(project)
     motion = player_motion(performance, player, whole_span(performance.time_frame, FPS))
@@ -79,7 +85,7 @@ def test_what_is_told_is_what_the_motion_shows(index: int) -> None:
 
 
 def test_another_fingering_settles_it() -> None:
-    project = played_by("woman_adult")
+    project = short_arms()
     player = project.players[3]
     instrument = Performance(project).instrument(player)
     pitches = {note.id: note.pitch for note in project.part(player).notes}
@@ -114,7 +120,7 @@ def test_a_model_that_cannot_be_read_is_a_problem_of_its_player_alone(monkeypatc
 
 
 def test_after_an_edit_nobody_is_posed_again_for_places_that_were_judged(monkeypatch: pytest.MonkeyPatch) -> None:
-    project = played_by("woman_adult")
+    project = short_arms()
     performance = Performance(project)
     player = next(player for player in project.players if unreached_at(performance, player))
     told = unreached_at(performance, player)
