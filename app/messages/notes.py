@@ -22,6 +22,7 @@ TEMPLATES: Final[dict[str, str]] = {
     "edit.move_tempo": "move a tempo",
     "edit.move_metre": "move a metre change",
     "edit.remove_tempo": "remove a tempo",
+    "edit.set_felt_beat": "set the felt beat",
     "edit.set_metre": "set the metre",
     "edit.remove_metre": "remove a metre",
     "note.before_start": "A note would begin before the piece.",

@@ -19,6 +19,7 @@ from app.motion.curve import Curve, FloatArray, Noise, bump, moves, rows_changed
 from app.motion.gaze import Look
 from app.motion.pose import Offset, Poses, hold_body
 from app.motion.seed import generator
+from app.plan.line import FeltBeats, beat_ticks_at
 from app.plan.model import BreathEvent, CueEvent, GestureEvent, PlayerParameters, PlayerPlan, PoseTarget, same_events
 from app.plan.pose import BELL_LEFT, BELL_UP, NECK_SHARES, TRUNK_SHARES
 from metadata.model import AmplitudeScale, Body, Posture, at_amplitude
@@ -200,7 +201,7 @@ class Bobbing:
     level: Curve
 
     @classmethod
-    def of(cls, events: Sequence[GestureEvent], beat_ticks: int) -> Bobbing:
+    def of(cls, events: Sequence[GestureEvent], felt_beats: FeltBeats) -> Bobbing:
         """From the sways among a player's gestures."""
         found = [event for event in events if event.kind == "sway" and event.end_s > event.start_s]
         # Of those that begin together the last one counts, as in `follow`.
@@ -210,7 +211,9 @@ class Bobbing:
             return cls(nothing, nothing, nothing, moves(()))
         start_s = np.array([event.start_s for event in swings])
         length_s = np.array([event.end_s for event in swings]) - start_s
-        beats = np.maximum(1.0, np.round([(event.end_tick - event.start_tick) / beat_ticks for event in swings]))
+        start_tick = np.array([event.start_tick for event in swings])
+        lasts_tick = np.array([event.end_tick for event in swings]) - start_tick
+        beats = np.maximum(1.0, np.round(lasts_tick / beat_ticks_at(felt_beats, start_tick)))
         size = np.square(np.minimum(1.0, length_s / beats / QUICK_S))
         size *= 0.4 + 0.6 * np.abs([event.amount for event in swings])
         end_s = start_s + length_s
@@ -407,7 +410,7 @@ class Layers:
 
     @classmethod
     def of(
-        cls, plan: PlayerPlan, body: Body, beat_ticks: int, before: tuple[Layers, PlayerPlan] | None = None
+        cls, plan: PlayerPlan, body: Body, felt_beats: FeltBeats, before: tuple[Layers, PlayerPlan] | None = None
     ) -> Layers:
         """From a whole plan, or from what is the same as in the plan ``before``."""
         if before is not None:
@@ -438,7 +441,7 @@ class Layers:
             if shift
             else follow(gestures["weight_shift"], "weight_shift", body.weight_shift.transition_s),
             height=bell.height if bell else follow(gestures["bell_height"], "bell_height", 0.5),
-            bobbing=swing.bobbing if swing else Bobbing.of(gestures["sway"], beat_ticks),
+            bobbing=swing.bobbing if swing else Bobbing.of(gestures["sway"], felt_beats),
             lowered=low.lowered
             if low
             else lowering(gestures["lower_instrument"], body.bell.lower_s, body.bell.raise_s),

@@ -15,6 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from app.motion.curve import Curve, minimum_jerk, moves
+from app.plan.line import FeltBeats, beat_ticks_at
 from app.plan.model import FingeringEvent
 from instrument_maps.model import Control
 
@@ -85,7 +86,7 @@ def _phase(share: float) -> float:
     return float(np.interp(share, minimum_jerk(_PHASES), _PHASES))
 
 
-def control_curve(fingerings: Sequence[FingeringEvent], control: Control, beat_ticks: int) -> Curve:
+def control_curve(fingerings: Sequence[FingeringEvent], control: Control, felt_beats: FeltBeats) -> Curve:
     """The value 0..1 of one control through a player's notes.
 
     Parameters
@@ -93,23 +94,23 @@ def control_curve(fingerings: Sequence[FingeringEvent], control: Control, beat_t
     fingerings : sequence of FingeringEvent
         In order; each starts at its note's onset and ends with it. A control they do not name is at rest.
     control : Control
-    beat_ticks : int
-        A rest of this many ticks brings the control back to rest.
+    felt_beats : tuple of (tick, ticks)
+        A rest of the beat that is felt where it ends brings the control back to rest.
     """
-    return control_curves(fingerings, (control,), beat_ticks)[control.name]
+    return control_curves(fingerings, (control,), felt_beats)[control.name]
 
 
 def control_curves(
     fingerings: Sequence[FingeringEvent],
     controls: Iterable[Control],
-    beat_ticks: int,
+    felt_beats: FeltBeats,
     farthest: Mapping[str, float] = MappingProxyType({}),
 ) -> dict[str, Curve]:
     """Curves of all controls of an instrument, by name; some go no farther than ``farthest`` (values by name)."""
     starts = np.array([event.start_tick for event in fingerings], np.int64)
     ends = np.array([event.end_tick for event in fingerings], np.int64)
     rests = np.zeros(len(starts), dtype=np.bool_)
-    rests[1:] = starts[1:] - ends[:-1] >= beat_ticks
+    rests[1:] = starts[1:] - ends[:-1] >= beat_ticks_at(felt_beats, starts[1:])
     return {control.name: _curve(fingerings, control, rests, farthest.get(control.name, 1.0)) for control in controls}
 
 

@@ -21,6 +21,7 @@ from app.motion.posture import hips_path, stance, trunk
 from app.motion.solve import Curves, Player, padding, solve
 from app.motion.splice import changed_stretch, spliced
 from app.motion.stations import raised_curve, sampled, station_curves
+from app.plan.line import FeltBeats
 from app.plan.model import PlayerParameters, PlayerPlan, TimeFrame, same_events
 from app.rig.carriage import carrying
 from app.rig.hold import Hold, Lips, Placed, giving_for
@@ -82,7 +83,7 @@ class Playing:
     ----------
     plan : PlayerPlan
     instrument_map : InstrumentMap
-    beat_ticks : int
+    felt_beats : tuple of (tick, ticks)
     parameters : PlayerParameters
         As set, with less sway where the instrument lies still.
     posture : Posture
@@ -103,7 +104,7 @@ class Playing:
 
     plan: PlayerPlan
     instrument_map: InstrumentMap
-    beat_ticks: int
+    felt_beats: FeltBeats
     parameters: PlayerParameters
     posture: Posture
     body: Body
@@ -213,7 +214,7 @@ def prepare(
     hold: Hold,
     body: Body,
     *,
-    beat_ticks: int,
+    felt_beats: FeltBeats,
     expressions: Mapping[str, Expression] | None = None,
     before: Playing | None = None,
 ) -> Playing:
@@ -222,7 +223,7 @@ def prepare(
     Curves of events that are the very same tuples in ``before`` (the player as it was prior to an edit) are taken from
     there.
     """
-    if before is not None and not _comparable(before, plan, parameters, instrument_map, body, beat_ticks):
+    if before is not None and not _comparable(before, plan, parameters, instrument_map, body, felt_beats):
         before = None
     known = load_expressions() if expressions is None else expressions
     carriage = instrument_map.hold.carriage(parameters.posture)
@@ -231,25 +232,25 @@ def prepare(
     tension = parameters.embouchure_tension
     player = _player(parameters, instrument_map, character, hold, body, posture, before)
     if before is None:
-        face, layers = Face.of(plan, tension), Layers.of(plan, body, beat_ticks)
+        face, layers = Face.of(plan, tension), Layers.of(plan, body, felt_beats)
         gaze = plan_gaze(plan, parameters.seed)
-        fingers = _fingers(plan, instrument_map, beat_ticks, player)
+        fingers = _fingers(plan, instrument_map, felt_beats, player)
     else:
         old = before.plan
         face = Face.of(plan, tension, (before.face, old, before.parameters.embouchure_tension))
-        layers = Layers.of(plan, body, beat_ticks, (before.layers, old))
+        layers = Layers.of(plan, body, felt_beats, (before.layers, old))
         looks_same = looks_alike(plan, old)
         seed = before.parameters.seed
         gaze = before.gaze if looks_same and seed == parameters.seed else plan_gaze(plan, parameters.seed)
         fingers = (before.controls, before.stations, before.raised)
         if before.player.farthest != player.farthest:
-            fingers = _fingers(plan, instrument_map, beat_ticks, player)
+            fingers = _fingers(plan, instrument_map, felt_beats, player)
         elif not same_events(plan, old, "fingerings"):
-            fingers = _fingers(plan, instrument_map, beat_ticks, player, before)
+            fingers = _fingers(plan, instrument_map, felt_beats, player, before)
     return Playing(
         plan=plan,
         instrument_map=instrument_map,
-        beat_ticks=beat_ticks,
+        felt_beats=felt_beats,
         parameters=parameters,
         posture=posture,
         body=body,
@@ -294,21 +295,25 @@ def _player(
 
 
 def _fingers(
-    plan: PlayerPlan, instrument_map: InstrumentMap, beat_ticks: int, player: Player, before: Playing | None = None
+    plan: PlayerPlan,
+    instrument_map: InstrumentMap,
+    felt_beats: FeltBeats,
+    player: Player,
+    before: Playing | None = None,
 ) -> tuple[dict[str, Curve], dict[str, Curve], Curve]:
     """Curves of the controls, of the places of the fingers and of how high they wait."""
     notes = plan.fingerings
-    stretch = None if before is None else changed_stretch(before.plan.fingerings, notes, beat_ticks)
+    stretch = None if before is None else changed_stretch(before.plan.fingerings, notes, felt_beats)
     controls = stations = None
     if before is not None and stretch is not None:
         own = stretch.notes(notes)
         controls = spliced(
-            before.controls, control_curves(own, instrument_map.controls, beat_ticks, player.farthest), stretch
+            before.controls, control_curves(own, instrument_map.controls, felt_beats, player.farthest), stretch
         )
         if controls is not None:
             stations = spliced(before.stations, station_curves(own, instrument_map, controls), stretch)
     if controls is None:
-        controls = control_curves(notes, instrument_map.controls, beat_ticks, player.farthest)
+        controls = control_curves(notes, instrument_map.controls, felt_beats, player.farthest)
     if stations is None:
         stations = station_curves(notes, instrument_map, controls)
     hovers = any(control.hover_m for control in instrument_map.controls)
@@ -334,10 +339,10 @@ def _comparable(
     parameters: PlayerParameters,
     instrument_map: InstrumentMap,
     body: Body,
-    beat_ticks: int,
+    felt_beats: FeltBeats,
 ) -> bool:
     """Whether curves of the same events are the same curves."""
-    same = before.instrument_map is instrument_map and before.body is body and before.beat_ticks == beat_ticks
+    same = before.instrument_map is instrument_map and before.body is body and before.felt_beats == felt_beats
     return same and before.player_id == plan.player_id
 
 
@@ -349,7 +354,7 @@ def perform(
     hold: Hold,
     body: Body,
     *,
-    beat_ticks: int,
+    felt_beats: FeltBeats,
     fps: Fraction,
     frames: int | None = None,
     first_frame: int = 0,
@@ -368,7 +373,7 @@ def perform(
         Fitted for this character and instrument.
     body : Body
         Sizes, limits and postures.
-    beat_ticks : int
+    felt_beats : tuple of (tick, ticks)
         Ticks of a beat; a rest as long brings controls back to rest.
     fps : Fraction
     frames : int, optional
@@ -386,7 +391,7 @@ def perform(
     if frames is None:
         frames = max(0, frame_count(plan.time_frame, fps) - first_frame)
     playing = prepare(
-        plan, parameters, instrument_map, character, hold, body, beat_ticks=beat_ticks, expressions=expressions
+        plan, parameters, instrument_map, character, hold, body, felt_beats=felt_beats, expressions=expressions
     )
     return playing.motion(fps, first_frame, frames)
 

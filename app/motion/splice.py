@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.motion.curve import Curve
+from app.plan.line import FeltBeats, beat_ticks_at
 from app.plan.model import FingeringEvent
 
 APART_S = 3.0
@@ -40,16 +41,16 @@ class Stretch:
 
 
 def changed_stretch(
-    before: Sequence[FingeringEvent], after: Sequence[FingeringEvent], beat_ticks: int
+    before: Sequence[FingeringEvent], after: Sequence[FingeringEvent], felt_beats: FeltBeats
 ) -> Stretch | None:
     """The shortest stretch that holds everything in which two lines differ; None where it is the whole line."""
     most = min(len(before), len(after))
     head = _alike(before[:most], after[:most])
     tail = _alike(before[head:][::-1], after[head:][::-1])
     # Both notes of a silence are to be the same before and after.
-    first = next((index for index in range(head - 1, 0, -1) if _apart(after, index, beat_ticks)), 0)
+    first = next((index for index in range(head - 1, 0, -1) if _apart(after, index, felt_beats)), 0)
     count = len(after)
-    last = next((index for index in range(count - tail + 1, count) if _apart(after, index, beat_ticks)), count)
+    last = next((index for index in range(count - tail + 1, count) if _apart(after, index, felt_beats)), count)
     if first == 0 and last == count:
         return None
     return Stretch(
@@ -67,8 +68,9 @@ def _alike(before: Sequence[FingeringEvent], after: Sequence[FingeringEvent]) ->
     return next(differ, min(len(before), len(after)))
 
 
-def _apart(fingerings: Sequence[FingeringEvent], index: int, beat_ticks: int) -> bool:
+def _apart(fingerings: Sequence[FingeringEvent], index: int, felt_beats: FeltBeats) -> bool:
     before, after = fingerings[index - 1], fingerings[index]
+    beat_ticks = int(beat_ticks_at(felt_beats, np.array(after.start_tick)))
     return after.start_s - before.end_s >= APART_S and after.start_tick - before.end_tick >= beat_ticks
 
 

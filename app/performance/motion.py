@@ -30,7 +30,7 @@ _PLAYING: IdentityCache[Playing] = IdentityCache(8)
 
 def playing_of(performance: Performance, performer: Performer, before: Playing | None = None) -> Playing:
     """A player's plan made ready to be seen; made once for each plan, and from what is still right of ``before``."""
-    player, plan, beat_ticks = performer.player, performance.plan(performer.player), performance.piece.beat_ticks
+    player, plan, felt_beats = performer.player, performance.plan(performer.player), performance.piece.beat_changes
     instrument, character, hold, body = performer.instrument, performer.character, performer.hold, performer.body
     keys = (plan, player.parameters, instrument, character, hold, body, performance.expressions)
     return _PLAYING.get(
@@ -42,7 +42,7 @@ def playing_of(performance: Performance, performer: Performer, before: Playing |
             character,
             hold,
             body,
-            beat_ticks=beat_ticks,
+            felt_beats=felt_beats,
             expressions=performance.expressions,
             before=before,
         ),

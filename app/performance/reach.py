@@ -114,7 +114,7 @@ def _gaps_m(player: Player, instrument: InstrumentMap, plan: PlayerPlan, example
     still = PlayerPlan(plan.player_id, frame, held, (), (), (), (), (), (), ())
     parameters = PlayerParameters(amplitude=0.0, posture=player.parameters.posture, sway=0.0, weight_shift=0.0)
     character, hold = character_of(player), hold_of(player, instrument)
-    playing = prepare(still, parameters, instrument, character, hold, body_of(player), beat_ticks=1)
+    playing = prepare(still, parameters, instrument, character, hold, body_of(player), felt_beats=((0, 1),))
     # One frame in the middle of each note.
     fps = Fraction(1, round(_NOTE_S / 2.0))
     motion = playing.motion(fps, 0, round((frame.end_s - frame.first_frame_s) * fps))

@@ -93,6 +93,18 @@ class Line(msgspec.Struct, frozen=True):
     heard: Heard | None = None
 
 
+FeltBeats = tuple[tuple[int, int], ...]
+"""The beat that is felt from each tick on, as (tick, ticks), by tick; at least one."""
+
+
+def beat_ticks_at(beats: FeltBeats, ticks: IntArray) -> IntArray:
+    """Ticks of the beat that is felt at each of some ticks; before the first known one it is felt too."""
+    if len(beats) == 1:
+        return np.full(np.shape(ticks), beats[0][1])
+    starts, lengths = np.array(beats, np.int64).T
+    return np.asarray(lengths[np.maximum(np.searchsorted(starts, ticks, side="right") - 1, 0)])
+
+
 class Piece(msgspec.Struct, frozen=True, dict=True):
     """What all players share.
 
@@ -112,27 +124,18 @@ class Piece(msgspec.Struct, frozen=True, dict=True):
     metres: tuple[Metre, ...] = ()
     felt_beat_ticks: int | None = None
     bar_ticks: tuple[int, ...] = ()
-    felt_beats: tuple[tuple[int, int], ...] = ()
-
-    @cached_property
-    def _beats_from(self) -> tuple[IntArray, IntArray]:
-        beats = self.felt_beats
-        if self.felt_beat_ticks or not beats:
-            beats = ((0, self.felt_beat_ticks or self.clock.ticks_per_quarter),)
-        ticks, lengths = np.array(beats, np.int64).T
-        return ticks, lengths
-
-    def beat_ticks_at(self, ticks: IntArray) -> IntArray:
-        """Ticks of the beat that is felt at each of some ticks; before the first known one it is felt too."""
-        starts, lengths = self._beats_from
-        if len(starts) == 1:
-            return np.full(np.shape(ticks), lengths[0])
-        return np.asarray(lengths[np.maximum(np.searchsorted(starts, ticks, side="right") - 1, 0)])
+    felt_beats: FeltBeats = ()
 
     @property
-    def beat_ticks(self) -> int:
-        """Ticks of the beat that is felt where the piece begins."""
-        return int(self._beats_from[1][0])
+    def beat_changes(self) -> FeltBeats:
+        """The beats that count: of ``felt_beat_ticks``, ``felt_beats`` and the quarter the first that is given."""
+        if self.felt_beat_ticks:
+            return ((0, self.felt_beat_ticks),)
+        return self.felt_beats or ((0, self.clock.ticks_per_quarter),)
+
+    def beat_ticks_at(self, ticks: IntArray) -> IntArray:
+        """Ticks of the beat that is felt at each of some ticks."""
+        return beat_ticks_at(self.beat_changes, ticks)
 
     @cached_property
     def _metre_ticks(self) -> tuple[int, ...]:

@@ -628,6 +628,10 @@
             <translation>テンポを削除</translation>
         </message>
         <message>
+            <source>set the felt beat</source>
+            <translation>拍の単位を変更</translation>
+        </message>
+        <message>
             <source>set the metre</source>
             <translation>拍子を設定</translation>
         </message>

@@ -710,6 +710,30 @@
         <source>Characters...</source>
         <translation>キャラクター...</translation>
     </message>
+    <message>
+        <source>Felt Beat from Metre and Tempo</source>
+        <translation>拍の単位：拍子とテンポから自動</translation>
+    </message>
+    <message>
+        <source>Felt Beat: Eighth</source>
+        <translation>拍の単位：8分音符</translation>
+    </message>
+    <message>
+        <source>Felt Beat: Quarter</source>
+        <translation>拍の単位：4分音符</translation>
+    </message>
+    <message>
+        <source>Felt Beat: Dotted Quarter</source>
+        <translation>拍の単位：付点4分音符</translation>
+    </message>
+    <message>
+        <source>Felt Beat: Half</source>
+        <translation>拍の単位：2分音符</translation>
+    </message>
+    <message>
+        <source>Felt Beat: Dotted Half</source>
+        <translation>拍の単位：付点2分音符</translation>
+    </message>
 </context>
 <context>
     <name>ActionTable</name>
@@ -906,6 +930,10 @@
     <message>
         <source>Breaths and Acting</source>
         <translation>ブレスと演技</translation>
+    </message>
+    <message>
+        <source>Felt Beat</source>
+        <translation>拍の単位</translation>
     </message>
     <message>
         <source>Add a Gesture</source>

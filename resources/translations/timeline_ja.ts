@@ -293,6 +293,10 @@
         <translation>この小節に拍子を追加</translation>
     </message>
     <message>
+        <source>Felt Beat</source>
+        <translation>拍の単位</translation>
+    </message>
+    <message>
         <source>Select This Bar</source>
         <translation>この小節を選択</translation>
     </message>

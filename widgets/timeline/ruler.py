@@ -352,6 +352,9 @@ class Ruler(Pictured):
         bar_tick = max(score.tick_of_bar(score.bar_of_tick(tick)), 0)
         menu.addAction(self.tr("Add Tempo Here")).triggered.connect(lambda: self.edit_mark("tempo", tick))
         menu.addAction(self.tr("Add Metre at This Bar")).triggered.connect(lambda: self.edit_mark("metre", bar_tick))
+        felt = [action for id, action in self.session.actions.items() if id.startswith("beat.")]
+        if felt:
+            menu.addMenu(self.tr("Felt Beat")).addActions(felt)
         menu.addSeparator()
         menu.addAction(self.tr("Select This Bar")).triggered.connect(lambda: self._select_bar(tick))
         for id in ("play.loop", "notes.select_span", "timeline.zoom_selection", "timeline.fit"):

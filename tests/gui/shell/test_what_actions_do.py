@@ -428,6 +428,8 @@ def reads_back(desk: Desk, path: Path) -> bool:
     ]
 
 
+FELT = {"eighth": 0.5, "quarter": 1.0, "dotted_quarter": 1.5, "half": 2.0, "dotted_half": 3.0}
+
 CASES: dict[str, Case] = {
     # Files
     "file.new": Case(lambda d: not d.project.players and d.program.editor.files.is_open),
@@ -614,6 +616,12 @@ CASES: dict[str, Case] = {
             command("timeline.count_seconds" if name == "bars" else "timeline.count_bars"),
         )
         for name in ("bars", "seconds", "frames")
+    },
+    # The felt beat
+    "beat.automatic": Case(lambda d: d.project.felt_beat_quarters is None, command("beat.half"), edits=True),
+    **{
+        f"beat.{name}": Case(lambda d, quarters=quarters: d.project.felt_beat_quarters == quarters, edits=True)  # type: ignore[misc]
+        for name, quarters in FELT.items()
     },
     # The viewport
     **{f"viewport.{name}": view(name) for name in ("ensemble", "front", "side", "top", "hands", "mouth", "feet")},

@@ -48,7 +48,7 @@ class Played:
         self.plan: PlayerPlan = plan_of(fingerings(rows, NOTE_S))
         parameters = PlayerParameters(seed=1)
         self.playing: Playing = prepare(
-            self.plan, parameters, self.instrument, self.character, self.hold, load_body(), beat_ticks=480
+            self.plan, parameters, self.instrument, self.character, self.hold, load_body(), felt_beats=((0, 480),)
         )
         self.motion: Motion = self.playing.motion(FPS, 0, int((rows[-1][1] + 3.0) * FPS))
         self.measures = self._measured()

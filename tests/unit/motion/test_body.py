@@ -28,7 +28,7 @@ def test_a_weight_shift_goes_over_in_its_transition_and_stays() -> None:
 def test_nothing_planned_is_nothing_done() -> None:
     times_s = np.linspace(0.0, 10.0, 50)
     assert not follow((), "sway").sample(times_s).any()
-    assert not Bobbing.of((), TICKS).sample(times_s).any()
+    assert not Bobbing.of((), ((0, TICKS),)).sample(times_s).any()
     assert not lowering((), 1.0, 1.0).sample(times_s).any()
     assert not lungs(())[0].sample(times_s).any()
 
@@ -38,16 +38,23 @@ def test_a_bob_is_lowest_and_accelerates_most_on_every_beat(beats) -> None:
     beat_s = 0.5
     swings = [gesture("sway", i * beats * beat_s, (i + 1) * beats * beat_s) for i in range(8)]
     times_s = np.arange(0.0, 8 * beats * beat_s, 1e-3)
-    down = Bobbing.of(swings, TICKS).sample(times_s)
+    down = Bobbing.of(swings, ((0, TICKS),)).sample(times_s)
     for beat in np.arange(1, 8 * beats - 2):
         near = np.abs(times_s - beat * beat_s) < 0.24
         assert times_s[near][down[near].argmax()] == pytest.approx(beat * beat_s, abs=0.02)
 
 
+def test_a_swing_has_the_beats_that_are_felt_where_it_begins() -> None:
+    swings = [gesture("sway", 2.0 * i, 2.0 * (i + 1)) for i in range(4)]
+    lasts_ticks = swings[0].end_tick - swings[0].start_tick
+    changes = ((0, lasts_ticks // 4), (swings[2].start_tick, lasts_ticks // 2))
+    np.testing.assert_array_equal(Bobbing.of(swings, changes).beats, [4, 4, 2, 2])
+
+
 def test_between_swings_far_apart_the_body_stands_upright() -> None:
     swings = [gesture("sway", float(i), float(i + 1)) for i in (0, 1, 2, 100, 101)]
     times_s = np.arange(-1.0, 104.0, 1e-3)
-    down = Bobbing.of(swings, TICKS).sample(times_s)
+    down = Bobbing.of(swings, ((0, TICKS),)).sample(times_s)
     assert not down[(times_s > 4.0) & (times_s < 99.0)].any()
     assert down[(times_s > 99.9) & (times_s < 100.9)].max() > 0.5
     # It comes up and goes down in a second each, without a jump.
@@ -71,7 +78,9 @@ def test_lowerings_that_overlap_are_one() -> None:
 def test_sways_that_begin_together_are_the_last_of_them() -> None:
     times_s = np.linspace(0.0, 10.0, 300)
     both = [gesture("sway", 1.0, 4.0, 0.2), gesture("sway", 1.0, 6.0)]
-    np.testing.assert_array_equal(Bobbing.of(both, TICKS).sample(times_s), Bobbing.of(both[1:], TICKS).sample(times_s))
+    np.testing.assert_array_equal(
+        Bobbing.of(both, ((0, TICKS),)).sample(times_s), Bobbing.of(both[1:], ((0, TICKS),)).sample(times_s)
+    )
     np.testing.assert_array_equal(follow(both, "sway").sample(times_s), follow(both[1:], "sway").sample(times_s))
 
 

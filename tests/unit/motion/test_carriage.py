@@ -43,7 +43,7 @@ def made(instrument: InstrumentMap, amplitude: float = 1.0, lowered: bool = Fals
     notes = fingerings([(0.5 * i, 0.5 * i + 0.5, {}) for i in range(24)] + [(20.0, 21.0, {})])
     plan = plan_of(notes, cues=(cue(0.0), cue(4.0)), gestures=gestures)
     parameters = PlayerParameters(amplitude=amplitude)
-    return perform(plan, parameters, instrument, CHARACTER, HOLD, BODY, beat_ticks=TICKS, fps=Fraction(60))
+    return perform(plan, parameters, instrument, CHARACTER, HOLD, BODY, felt_beats=((0, TICKS),), fps=Fraction(60))
 
 
 def angles_deg(motion: Motion) -> np.ndarray:

@@ -39,7 +39,7 @@ def judged_frame(onset_s: float, fps: Fraction) -> int:
 def sampled(events, control, fps):
     frames = int((events[-1].end_s + 3.0 - FIRST_FRAME_S) * fps) + 1
     times_s = frame_times(FIRST_FRAME_S, fps, 0, frames)
-    return times_s, control_curve(events, control, TICKS).sample(times_s)
+    return times_s, control_curve(events, control, ((0, TICKS),)).sample(times_s)
 
 
 @pytest.mark.parametrize("fps", RATES)
@@ -79,7 +79,7 @@ def test_a_slide_is_exact_at_the_judged_frame_and_until_its_window(fps, events) 
 @given(events=passages("slide", st.floats(0.0, 1.0), 0.06))
 @settings(max_examples=100, deadline=None)
 def test_between_two_notes_a_control_goes_one_way_and_no_further(events) -> None:
-    curve = control_curve(events, slide(), TICKS)
+    curve = control_curve(events, slide(), ((0, TICKS),))
     for event, following in itertools.pairwise(events):
         if following.start_tick - event.end_tick >= TICKS:
             continue
@@ -95,7 +95,7 @@ def test_between_two_notes_a_control_goes_one_way_and_no_further(events) -> None
 def test_in_a_rest_of_a_beat_or_more_a_control_is_at_rest(control, beats, quarter_s) -> None:
     onset_s = 1.0 + beats * quarter_s
     events = fingerings([(0.0, 1.0, {"valve_1": 1.0}), (onset_s, onset_s + 1.0, {"valve_1": 0.8})], quarter_s)
-    curve = control_curve(events, control, TICKS)
+    curve = control_curve(events, control, ((0, TICKS),))
     values = curve.sample(np.linspace(1.0, onset_s, 500))
     assert values.min() == pytest.approx(0.0, abs=1e-6)
     assert values[0] == 1.0
@@ -104,19 +104,26 @@ def test_in_a_rest_of_a_beat_or_more_a_control_is_at_rest(control, beats, quarte
 
 def test_in_a_rest_below_a_beat_a_control_stays_and_moves_late() -> None:
     events = fingerings([(0.0, 1.0, {"valve_1": 1.0}), (1.4, 2.0, {"valve_1": 1.0}), (2.4, 3.0, {})])
-    values = control_curve(events, press(), TICKS).sample(np.array([0.5, 1.2, 1.39, 2.2, 2.339, 2.4]))
+    values = control_curve(events, press(), ((0, TICKS),)).sample(np.array([0.5, 1.2, 1.39, 2.2, 2.339, 2.4]))
     np.testing.assert_allclose(values, [1.0, 1.0, 1.0, 1.0, 1.0, 0.0], atol=0.08)
+
+
+def test_the_beat_of_a_rest_is_the_one_felt_there() -> None:
+    events = fingerings([(at, at + 1.0, {"valve_1": 1.0}) for at in (0.0, 1.5, 3.0)], 0.5)
+    changes = ((0, TICKS), (events[2].start_tick, 2 * TICKS))
+    values = control_curve(events, press(), changes).sample(np.array([1.25, 2.75]))
+    np.testing.assert_allclose(values, [0.0, 1.0], atol=1e-6)
 
 
 def test_before_the_first_note_and_after_the_last_a_control_is_at_its_own_rest_value() -> None:
     control = press(rest_value=0.25)
-    curve = control_curve(fingerings([(1.0, 2.0, {"valve_1": 1.0})]), control, TICKS)
+    curve = control_curve(fingerings([(1.0, 2.0, {"valve_1": 1.0})]), control, ((0, TICKS),))
     np.testing.assert_array_equal(curve.sample(np.array([-1.0, 0.9, 1.0, 2.0, 2.5])), [0.25, 0.25, 1.0, 1.0, 0.25])
 
 
 def test_repeated_notes_do_not_lift() -> None:
     events = fingerings([(0.3 * i, 0.3 * i + 0.25, {"valve_1": 1.0}) for i in range(8)])
-    values = control_curve(events, press(), TICKS).sample(np.linspace(0.0, events[-1].end_s, 3000))
+    values = control_curve(events, press(), ((0, TICKS),)).sample(np.linspace(0.0, events[-1].end_s, 3000))
     np.testing.assert_array_equal(values, 1.0)
 
 
@@ -131,7 +138,7 @@ def test_a_slide_too_far_for_half_its_note_starts_earlier_but_leaves_the_first_f
 def test_a_long_move_gathers_speed_while_it_still_looks_in_place() -> None:
     events = fingerings([(0.0, 1.0, {"slide": 0.0}), (1.0, 2.0, {"slide": 1.0})])
     times_s = np.linspace(0.6, 1.0, 40001)
-    place_m = control_curve(events, slide(), TICKS).sample(times_s) * 0.6
+    place_m = control_curve(events, slide(), ((0, TICKS),)).sample(times_s) * 0.6
     assert 0.0 < place_m[np.searchsorted(times_s, 1.0 - 0.24)] < 0.0045
     assert place_m[np.searchsorted(times_s, 1.0 - 0.30)] == 0.0
     speed_m_s = np.gradient(place_m, times_s)

@@ -103,7 +103,7 @@ def played(name: str, character_id: str) -> Played:
     plan = make_plans(Piece(clock, (PlainMetre(0, 4, 4),)), (line,), time_frame((line,), clock))["p"]
     hold = hold_for(character, bundled_instrument(trumpet), trumpet, BODY)
     hold = replace(hold, lips=fit_lips(character, instrument, BODY))
-    motion = perform(plan, line.parameters, instrument, character, hold, BODY, beat_ticks=480, fps=FPS)
+    motion = perform(plan, line.parameters, instrument, character, hold, BODY, felt_beats=((0, 480),), fps=FPS)
     return Played(character, instrument, plan, motion)
 
 

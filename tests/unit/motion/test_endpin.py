@@ -80,7 +80,7 @@ def test_what_hangs_before_a_standing_player_has_its_pin_pushed_in() -> None:
     drawn = {}
     for posture in ("standing", "seated"):
         parameters = PlayerParameters(posture=posture)
-        playing = prepare(plan, parameters, instrument, character, hold, body, beat_ticks=480)
+        playing = prepare(plan, parameters, instrument, character, hold, body, felt_beats=((0, 480),))
         drawn[posture] = playing.motion(Fraction(24), 0, 3).controls.get("endpin")
     assert drawn["standing"] is None
     assert drawn["seated"] is not None

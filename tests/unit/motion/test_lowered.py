@@ -81,7 +81,7 @@ def case(instrument_id: str, posture: Posture, character_id: str) -> Case:
     down = GestureEvent("down", "lower_instrument", 0, 1, LOWERED_S, 100.0, 1.0, Message("test.reason"))
     plan = PlayerPlan("player", TimeFrame(0.0, END_S), (), (), (), (), (), (down,), (), ())
     parameters = PlayerParameters(amplitude=0.0, posture=posture, sway=0.0, weight_shift=0.0)
-    playing = prepare(plan, parameters, instrument, character, hold, body, beat_ticks=480)
+    playing = prepare(plan, parameters, instrument, character, hold, body, felt_beats=((0, 480),))
     return Case(instrument, character, hold, playing.motion(FPS, 0, round(3.0 * FPS)))
 
 

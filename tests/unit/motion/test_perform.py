@@ -79,7 +79,7 @@ def made(plan: PlayerPlan | None = None, fps: Fraction = FPS, **changes: object)
         CHARACTER,
         HOLD,
         BODY,
-        beat_ticks=TICKS,
+        felt_beats=((0, TICKS),),
         fps=fps,
         **window,  # type: ignore[arg-type]
     )

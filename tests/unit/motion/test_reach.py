@@ -30,7 +30,7 @@ def played(slide_m: float, note_s: float) -> Motion:
     hold = figure.hold(CHARACTER.skeleton, slide_m)
     return perform(
         plan_of(fingerings(rows)), PlayerParameters(amplitude=0.0), instrument, CHARACTER, hold, load_body(),
-        beat_ticks=TICKS, fps=Fraction(60),
+        felt_beats=((0, TICKS),), fps=Fraction(60),
     )  # fmt: skip
 
 

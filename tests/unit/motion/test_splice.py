@@ -55,14 +55,14 @@ def test_what_is_put_together_is_what_is_made_of_the_whole(data: st.DataObject) 
     index = st.integers(0, NOTES - 1)
     kind = data.draw(st.sampled_from(["other", "shorter", "later", "gone"]))
     after = edited(line, data.draw(index), data.draw(index), kind)
-    controls = control_curves(line, instrument.controls, BEAT_TICKS)
+    controls = control_curves(line, instrument.controls, ((0, BEAT_TICKS),))
     places = station_curves(line, instrument, controls)
-    stretch = changed_stretch(line, after, BEAT_TICKS)
+    stretch = changed_stretch(line, after, ((0, BEAT_TICKS),))
     if stretch is None:
         return
     own = stretch.notes(after)
-    whole = control_curves(after, instrument.controls, BEAT_TICKS)
-    put_controls = spliced(controls, control_curves(own, instrument.controls, BEAT_TICKS), stretch)
+    whole = control_curves(after, instrument.controls, ((0, BEAT_TICKS),))
+    put_controls = spliced(controls, control_curves(own, instrument.controls, ((0, BEAT_TICKS),)), stretch)
     assert put_controls is not None
     put_places = spliced(places, station_curves(own, instrument, put_controls), stretch)
     assert put_places is not None
@@ -78,7 +78,7 @@ def test_one_note_is_a_stretch_between_two_long_rests() -> None:
     line = lines()["clarinet_Bb"]
     lengths = []
     for at in range(0, NOTES, 10):
-        stretch = changed_stretch(line, edited(line, at, (at + 7) % NOTES, "shorter"), BEAT_TICKS)
+        stretch = changed_stretch(line, edited(line, at, (at + 7) % NOTES, "shorter"), ((0, BEAT_TICKS),))
         assert stretch is not None
         assert stretch.first <= at < stretch.last
         lengths.append(stretch.last - stretch.first)
@@ -90,16 +90,16 @@ def test_a_line_without_long_rests_is_made_whole() -> None:
     touching = tuple(
         msgspec.structs.replace(note, start_s=0.5 * index, end_s=0.5 * index + 0.5) for index, note in enumerate(line)
     )
-    assert changed_stretch(touching, edited(touching, 3, 1, "shorter"), BEAT_TICKS) is None
+    assert changed_stretch(touching, edited(touching, 3, 1, "shorter"), ((0, BEAT_TICKS),)) is None
 
 
 def test_curves_that_move_in_the_silence_are_not_put_together() -> None:
     line, instrument = lines()["clarinet_Bb"], find_map("clarinet_Bb")
     after = edited(line, 100, 107, "shorter")
-    stretch = changed_stretch(line, after, BEAT_TICKS)
+    stretch = changed_stretch(line, after, ((0, BEAT_TICKS),))
     assert stretch is not None
-    controls = control_curves(line, instrument.controls, BEAT_TICKS)
-    own = control_curves(stretch.notes(after), instrument.controls, BEAT_TICKS)
+    controls = control_curves(line, instrument.controls, ((0, BEAT_TICKS),))
+    own = control_curves(stretch.notes(after), instrument.controls, ((0, BEAT_TICKS),))
     key, curve = next((key, curve) for key, curve in controls.items() if not curve.still)
     at_s = stretch.start_s if np.isfinite(stretch.start_s) else stretch.end_s
     slow = replace(curve, end_s=np.where(curve.end_s < at_s, at_s + 0.1, curve.end_s))
@@ -122,5 +122,5 @@ def test_how_long_a_rest_must_be(seconds: float) -> None:
         for i, note in enumerate(line[4:])
     ]
     notes = tuple(row)
-    stretch = changed_stretch(notes, edited(notes, 6, 1, "shorter"), BEAT_TICKS)
+    stretch = changed_stretch(notes, edited(notes, 6, 1, "shorter"), ((0, BEAT_TICKS),))
     assert (stretch is not None) == (seconds - 0.5 >= 3.0)

@@ -31,7 +31,7 @@ def made_up(tmp_path_factory: pytest.TempPathFactory) -> InstrumentMap:
 def little(
     events: tuple[FingeringEvent, ...], instrument: InstrumentMap, times_s: np.ndarray, name: str = "right.little"
 ):
-    curves = control_curves(events, instrument.controls, TICKS)
+    curves = control_curves(events, instrument.controls, ((0, TICKS),))
     where = sampled(station_curves(events, instrument, curves)[name], times_s)
     return where, {name: curves[name].sample(times_s) for name in LITTLE}
 
@@ -125,7 +125,7 @@ def test_a_hand_has_given_way_by_the_onset_of_a_key_that_came_up_in_a_rest(made_
     """The note before works the same key together with others: it comes up with them and goes down alone."""
     rows = [(0.0, 0.25, {"hole_T": 1.0, "key_Reg": 1.0}), (1.0, 2.0, {"key_Reg": 1.0})]
     events = fingerings(rows)
-    controls = control_curves(events, made_up.controls, TICKS)
+    controls = control_curves(events, made_up.controls, ((0, TICKS),))
     assert controls["key_Reg"].sample(np.array([0.6]))[0] == 0.0
     curves = station_curves(events, made_up, controls)
     at_s = np.array([0.6, 1.0, 1.5])
@@ -139,7 +139,7 @@ def test_a_hand_does_not_stay_where_another_finger_goes_away_from_home_meanwhile
 ) -> None:
     lever = {"hole_T": 1.0, "key_D": 1.0}
     events = fingerings([(0.0, 0.12, lever), (0.12, 0.24, between), (0.24, 0.36, lever)])
-    controls = control_curves(events, made_up.controls, TICKS)
+    controls = control_curves(events, made_up.controls, ((0, TICKS),))
     curve = station_curves(events, made_up, controls)[giving_for("left.little")]
     assert share_at(sampled(curve, np.array([0.06, 0.14, 0.30])), 1).round(3).tolist() == [1.0, float(kept), 1.0]
 

@@ -29,7 +29,7 @@ def played(slide_m: float, places: list[float], note_s: float = 0.5) -> Motion:
     rows = [(i * note_s, (i + 1) * note_s, {"slide": place}) for i, place in enumerate(places)]
     return perform(
         plan_of(fingerings(rows)), PlayerParameters(amplitude=0.3), figure.instrument_map(press(), slide()), CHARACTER,
-        figure.hold(CHARACTER.skeleton, slide_m), load_body(), beat_ticks=TICKS, fps=Fraction(FPS),
+        figure.hold(CHARACTER.skeleton, slide_m), load_body(), felt_beats=((0, TICKS),), fps=Fraction(FPS),
     )  # fmt: skip
 
 
