@@ -469,7 +469,8 @@ class Fingering(_Table, frozen=True):
     correction : dict of str to float
         Values of the intonation controls for a note that is held.
     tags : tuple of str
-        Why one would take it: ``"trill"``, ``"fast"``, ``"raised"`` ...
+        Why one would take it: ``"trill"``, ``"fast"``, ``"raised"`` ...; ``"obsolete"`` marks an alternate that earlier
+        versions had by mistake: old projects keep it where it was set by hand, nothing else takes it.
     """
 
     written_pitch: int
@@ -480,6 +481,11 @@ class Fingering(_Table, frozen=True):
     correction: dict[str, float] = {}
     fingers: dict[str, str] = {}
     tags: tuple[str, ...] = ()
+
+    @property
+    def is_obsolete(self) -> bool:
+        """Whether it is kept only for corrections of old projects; a first choice never is."""
+        return self.rank > 1 and "obsolete" in self.tags
 
 
 class Air(_Table, frozen=True):
@@ -592,6 +598,11 @@ class InstrumentMap(_Table, frozen=True):
         """
         written = self.nearest_playable(concert_pitch) + self.transposition_semitones
         return tuple(fingering for fingering in self.fingerings if fingering.written_pitch == written)
+
+    def offered_for(self, concert_pitch: int, shown: str) -> tuple[Fingering, ...]:
+        """Those of a concert pitch that a user may choose: obsolete ones only where one has the label ``shown``."""
+        every = self.fingerings_for(concert_pitch)
+        return tuple(item for item in every if not item.is_obsolete or item.label == shown)
 
     def values(self, fingering: Fingering, *, held: bool = False) -> dict[str, float]:
         """Return the value of every control under a fingering; ``held`` adds the intonation controls."""

@@ -104,6 +104,7 @@ class Table:
         What each costs by its rank.
     cents : (P, K) float64
     valid : (P, K) bool
+        Which the search may choose; obsolete ones only a correction may.
     meant_for : dict of str to (P, K) bool
         Which are meant for a trill, for fast, loud or soft notes.
     register : (P,) int64
@@ -357,7 +358,7 @@ def table_of(pitches: tuple[int, ...], instrument: InstrumentMap) -> Table:
             if fingering.rank > 1 and "held" in fingering.tags:
                 cost[row, column] = HELD_COST
             cents[row, column] = fingering.cents
-            valid[row, column] = True
+            valid[row, column] = not fingering.is_obsolete
             for tag in IN_PLACE_COST:
                 if fingering.rank > 1 and tag in fingering.tags:
                     meant_for.setdefault(tag, np.zeros(shape, dtype=bool))[row, column] = True

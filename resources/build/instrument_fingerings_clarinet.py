@@ -60,7 +60,8 @@ ROWS: dict[int, tuple[str, tuple[tuple[str, str], ...]]] = {
     80: (f"T R {LEFT} LC#", (("T R L1 L2 R1 R2", "forked"),)),
     81: ("T R L1 L2", ()),
     82: ("T R L1 L2 S4", (("T R L1 L2 LEb", "alternate"), ("T R L1 R1", "forked"))),
-    83: ("T R L1", ((f"T R L2 L3 {RIGHT} LF#", "alternate"),)),
+    # The last is C sharp 6, once listed here by mistake; projects of that time may hold it.
+    83: ("T R L1", ((f"T R L2 L3 {RIGHT} LF#", "alternate"), ("T R S3 S4", "obsolete"))),
     84: ("T R", ((f"T R L2 L3 {RIGHT}", "alternate"), ("T R S4", "held"))),
     85: ("T R L2 L3 R1 R2", (("T R S3 S4", "trill"),)),
     86: ("T R L2 L3 R1 RG#", (("T R S2", "trill"),)),

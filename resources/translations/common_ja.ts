@@ -230,6 +230,10 @@
         <source>piano</source>
         <translation>ピアノ</translation>
     </message>
+    <message>
+        <source>obsolete</source>
+        <translation>廃止</translation>
+    </message>
 </context>
 <context>
     <name>Language</name>

@@ -24,6 +24,7 @@ def tag_words() -> dict[str, str]:
         "raised": QCoreApplication.translate("FingeringTag", "raised"),
         "forte": QCoreApplication.translate("FingeringTag", "forte"),
         "piano": QCoreApplication.translate("FingeringTag", "piano"),
+        "obsolete": QCoreApplication.translate("FingeringTag", "obsolete"),
     }
 
 

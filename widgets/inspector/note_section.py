@@ -183,7 +183,7 @@ class NoteSection(QWidget):
             return
         made = fingering_of(bare, shown.note.id) if bare is not None else None
         same_pitch = len({note.pitch for note in shown.notes}) == 1
-        self._make_chips(instrument.fingerings_for(shown.note.pitch) if same_pitch else (), event, made)
+        self._make_chips(instrument.offered_for(shown.note.pitch, event.label) if same_pitch else (), event, made)
         self._chips_box.setVisible(same_pitch)
         self._diagram.show_fingering(instrument, event.controls)
         pinned = self._pin_label(shown)

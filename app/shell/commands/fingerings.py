@@ -106,7 +106,8 @@ def cycle_fingering(session: Session) -> None:
         plan = plan_of(session, player.id)
         now = {event.note_id: event.label for event in plan.fingerings} if plan is not None else {}
         for note in notes:
-            labels = [fingering.label for fingering in choices(session, player, note)]
+            known = choices(session, player, note)
+            labels = [fingering.label for fingering in known if not fingering.is_obsolete]
             if len(labels) > 1:
                 place = labels.index(now[note.id]) if now.get(note.id) in labels else -1
                 pins.setdefault(player.id, {})[note.id] = labels[(place + 1) % len(labels)]

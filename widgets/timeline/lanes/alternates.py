@@ -41,7 +41,8 @@ class Alternates(QFrame):
         project = self._session.project
         player = project.player(player_id)
         note = next((note for note in project.part(player).notes if note.id == event.note_id), None)
-        return () if note is None else self._session.performance.instrument(player).fingerings_for(note.pitch)
+        instrument = self._session.performance.instrument(player)
+        return () if note is None else instrument.offered_for(note.pitch, event.label)
 
     def note_text(self, fingering: Fingering) -> str:
         """What is told of a fingering beside its label: how far out of tune, and why one would take it."""
