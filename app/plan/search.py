@@ -37,7 +37,7 @@ IN_PLACE_COST = {"trill": 0.5, "fast": 0.5, "forte": 0.5, "piano": 0.5, "chromat
 whatever its rank, ..."""
 OUT_OF_PLACE_COST = 6.0
 """... and so much more than its rank elsewhere."""
-HELD_COST = 0.2
+HELD_COST = 0.1
 """A key left down that the note does not need (tag "held") costs this, whatever its rank."""
 RARE_COST = 4.0
 """A fingering that players know and hardly ever take (tag "rare") costs this beside its rank."""

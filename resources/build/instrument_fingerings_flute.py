@@ -36,10 +36,10 @@ def _octave(low: int) -> ROWS_OF:
 
 # Written pitch -> first choice, then alternates as (keys, tag). T is the thumb's B key, TBb its B flat key.
 FLUTE: ROWS_OF = {
-    60: (f"C {BOTH}", ()),
-    61: (f"C# {BOTH}", ()),
+    60: (f"C {BOTH}", ((f"C TBb {LEFT} {RIGHT}", "held"),)),
+    61: (f"C# {BOTH}", ((f"C# TBb {LEFT} {RIGHT}", "held"),)),
     62: (BOTH, ((f"TBb {LEFT} {RIGHT}", "held"),)),
-    63: (f"Eb {BOTH}", ()),
+    63: (f"Eb {BOTH}", ((f"Eb TBb {LEFT} {RIGHT}", "held"),)),
     **_octave(64),
     74: (
         f"T L2 L3 {RIGHT}",

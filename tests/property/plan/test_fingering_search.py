@@ -82,7 +82,7 @@ def choice_cost(fingering: Fingering, first: Fingering, length: float, places: s
     if fingering.rank > 1:
         cost += 0.5 if "forked" in fingering.tags else 0.0
         cost += 4.0 if "rare" in fingering.tags else 0.0
-        cost = 0.2 if "held" in fingering.tags else cost
+        cost = 0.1 if "held" in fingering.tags else cost
         meant = set(fingering.tags) & {"trill", "fast", "forte", "piano", "chromatic", "attack"}
         if meant & places:
             cost = min({"chromatic": -0.5, "attack": -4.0}.get(tag, 0.5) for tag in meant & places)
