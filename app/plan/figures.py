@@ -85,6 +85,6 @@ def attacked_notes(times: LineTimes, register: IntArray) -> BoolArray:
         How many breaks lie below each note.
     """
     result = np.ones(len(times.pitch), dtype=bool)
-    tongued = times.onset_s[1:] - times.played_end_s[:-1] >= TOUCHING_S
+    tongued = ~times.slurs_next[:-1]
     result[1:] = (tongued | (register[1:] > register[:-1])) & ~trill_steps(times)
     return result
