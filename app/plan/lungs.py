@@ -53,6 +53,8 @@ LIKE_ENTRIES = 1.5
 AGAIN = 2.0
 """Where what came after a rest comes again."""
 AGAIN_NOTES = 4
+WRITTEN_SHARE = 0.9
+"""Where so many notes lie on fractions of a quarter, nobody played them into the file."""
 SHORTER = 0.5
 """Before a note half as long as the one before."""
 SLURRED = -40.0
@@ -286,6 +288,8 @@ def _place_costs(
     long = np.clip(np.log2(longer), 0.0, 2.0)
     good: FloatArray = REST * rest + LONG_NOTE * long
     bars = piece.bars(int(onsets[0]), int(onsets[-1]) + 1)
+    onsets = written_onsets(onsets, piece.clock.ticks_per_quarter)
+    onset = onsets[at]
     strength = _strength(onsets, bars, piece.beat_ticks_at(onsets))
     falls = strength[at - 1] - strength[at]
     steps = np.diff(onsets, append=onsets[-1] + max(beat.max(), 1))
@@ -306,6 +310,16 @@ def _place_costs(
     good += JITTER * seeds.chances_at("catch", onset)
     good -= TAKEN_COST * np.array([notes[index].id in taken for index in places])
     return np.asarray(np.maximum(PLACE_COST - good, LEAST_COST), dtype=np.float64)
+
+
+def written_onsets(onsets: IntArray, quarter_ticks: int) -> IntArray:
+    """(N,): where notes that somebody played would stand in a score: on triplets of sixteenths.
+
+    Onsets that mostly lie on fractions of a quarter are written ones, and are kept as they are.
+    """
+    if np.count_nonzero(onsets * 24 % quarter_ticks == 0) >= WRITTEN_SHARE * len(onsets):
+        return onsets
+    return np.asarray(np.rint(np.rint(onsets * 12 / quarter_ticks) * quarter_ticks / 12), np.int64)
 
 
 def _strength(ticks: IntArray, bars: IntArray, beat_ticks: IntArray) -> IntArray:
