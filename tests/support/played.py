@@ -33,8 +33,8 @@ class Manner(NamedTuple):
     key_switches: bool = True
     controllers: tuple[int, ...] = (1, 2, 11)
     rubato: float = 0.08
-    arched: float = 40.0
-    """Velocity between the softest and the loudest note of a phrase of six seconds."""
+    arched: float | None = 40.0
+    """Velocity between the softest and the loudest note of a phrase of six seconds; None: as in the file."""
 
 
 class _Sounding(NamedTuple):
@@ -112,7 +112,8 @@ def _performed(notes: list[_Sounding], manner: Manner, by_chance: random.Random)
         else:
             end_s -= min(0.025 + 0.04 * length_s, 0.3 * length_s)
         arch = math.sin(math.pi * (note.begin_s % 6.0) / 6.0)
-        velocity = min(max(round(75 + manner.arched * (arch - 0.5) + by_chance.gauss(0.0, 5.0)), 1), 127)
+        level = note.velocity if manner.arched is None else 75 + manner.arched * (arch - 0.5)
+        velocity = min(max(round(level + by_chance.gauss(0.0, 5.0)), 1), 127)
         if length_s > 0.4 and by_chance.random() < manner.graced and begin_s > 0.2:
             before_s = by_chance.uniform(0.06, 0.09)
             result.append(

@@ -21,7 +21,13 @@ from instrument_maps.load import bundled_maps
 from tests.support.played import Manner, played
 
 MANNER: Final = Manner(
-    overlap_s=(0.020, 0.060), early_or_late_s=0.015, graced=0.0, key_switches=False, controllers=(11,), rubato=0.0
+    overlap_s=(0.020, 0.060),
+    early_or_late_s=0.015,
+    graced=0.0,
+    key_switches=False,
+    controllers=(11,),
+    rubato=0.0,
+    arched=None,
 )
 _Key = tuple[int, int, int]
 
