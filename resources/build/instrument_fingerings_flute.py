@@ -26,10 +26,10 @@ def _octave(low: int) -> ROWS_OF:
         low + 2: (f"Eb T {LEFT} R3", ((f"Eb T {LEFT} R2", "fast trill"), (f"Eb TBb {LEFT} R3", "held"))),
         low + 3: (f"Eb T {LEFT}", ((f"Eb TBb {LEFT}", "held"),)),
         low + 4: (f"Eb G# T {LEFT}", ((f"Eb G# TBb {LEFT}", "held"),)),
-        low + 5: ("Eb T L1 L2", (("Eb TBb L1 L2", "held"), ("Eb G# T L1 L2", "held"), ("Eb T L1 L2 R1", "held"))),
+        low + 5: ("Eb T L1 L2", (("Eb TBb L1 L2", "held"), ("Eb G# T L1 L2", "held"), ("Eb T L1 L2 R1", "trill"))),
         low + 6: ("Eb L1 TBb", (("Eb T L1 R1", "alternate"), ("Eb L1 T trA#", "trill"))),
         low + 7: ("Eb T L1", ()),
-        low + 8: ("Eb L1", (("Eb L1 R1", "held"),)),
+        low + 8: ("Eb L1", (("Eb L1 R1", "trill"),)),
         low + 9: ("Eb", ()),
     }
 
