@@ -9,6 +9,7 @@ from typing import NamedTuple
 import msgspec
 
 from app.errors import Cancelled
+from app.plan.bar_phase import with_felt_bars
 from app.plan.breath import breath_inputs, plan_breaths
 from app.plan.corrections import (
     AddExpression,
@@ -152,6 +153,7 @@ def plan_ensemble(
         _go_on(stop_wanted)
         playable.append(_playable(line, piece.clock, tuple(faces), frame.first_frame_s, own[line.player_id]))
     lines, all_times = tuple(line for line, _, _ in playable), tuple(times for _, times, _ in playable)
+    piece = shared.step("felt bars", lambda: with_felt_bars(piece, all_times), piece, all_times)
     rhythms = tuple(times.rhythm for times in all_times)
     entries = shared.step("entries", lambda: common_entries(all_times, piece), rhythms, piece)
     cues, cue_ids = shared.step(

@@ -44,6 +44,10 @@ SILENCE = 1.0
 """A short silence is there already."""
 BEFORE_UPBEAT = 0.8
 """Before a weak place after a note on a strong one, for every level between them: in running notes after the beat."""
+RUNNING = 0.75
+"""Notes of at most this part of a beat run: only out of those a breath after the first beat of a bar is usual."""
+SQUARE = 1.0
+"""Two bars after the line last came in; four bars twice as much: most phrases are as long."""
 AFTER_UPBEAT = -2.5
 """Between an upbeat and the place it leads to: never, unless the upbeat is a long note or before a rest."""
 BEFORE_TAIL = -7.0
@@ -296,11 +300,14 @@ def _place_costs(
     leads_to = strength[np.minimum(at + 1, len(onsets) - 1)]
     tail = ~rest & (2 * steps[at] <= beat - (leads_to == 3)) & (leads_to > 0) & (steps[at - 1] > 2 * steps[at])
     good += BEFORE_TAIL * tail
-    good += LIKE_ENTRIES * _like_entries(rests, onsets, at, bars)
+    like = _like_entries(rests, onsets, at, bars)
+    good += LIKE_ENTRIES * like
     good += AGAIN * _begins_again(steps, times.pitch, rests)[at]
-    # A long note or a rest ends what led to the next one.
-    leads = ~rest & (long < 1.0)
-    good += BEFORE_UPBEAT * np.maximum(falls, 0) + AFTER_UPBEAT * np.maximum(-falls, 0) * leads
+    # A long note or a rest ends what led to the next one, and where the line comes in on the beat nothing leads there.
+    leads = (~rest & (long < 1.0)) * (1.0 - like)
+    runs = steps[at - 1] <= RUNNING * beat
+    good += SQUARE * _squareness(rests, onsets, at, bars)
+    good += BEFORE_UPBEAT * np.clip(falls, 0, np.where(runs, 3, 1)) + AFTER_UPBEAT * np.maximum(-falls, 0) * leads
     good += SHORTER * np.clip(np.log2(np.maximum(before, EPSILON) / np.maximum(duration[at], EPSILON)), 0.0, 2.0)
     good += LEAP * times.leaps[at - 1]
     good += SILENCE * (times.silence_tick[at] > 0)
@@ -344,6 +351,15 @@ def _like_entries(rests: IntArray, onsets: IntArray, at: IntArray, bars: IntArra
     return shares
 
 
+def _squareness(rests: IntArray, onsets: IntArray, at: IntArray, bars: IntArray) -> FloatArray:
+    """(K,): 2 a multiple of four bars after the entry before each place, 1 an odd multiple of two bars, 0 elsewhere."""
+    entries = np.flatnonzero(rests > 0)
+    entry = onsets[entries[np.maximum(np.searchsorted(entries, at, side="right") - 1, 0)]]
+    bar = int(np.median(np.diff(bars))) if len(bars) > 1 else 1
+    since = onsets[at] - entry
+    return np.asarray((since > 0) * ((since % (2 * bar) == 0) + 1.0 * (since % (4 * bar) == 0)))
+
+
 def _begins_again(steps: IntArray, pitch: IntArray, rests: IntArray) -> npt.NDArray[np.bool_]:
     """(N,): whether the next notes have the rhythm and the direction of what came after a rest."""
     count = len(steps)
@@ -369,15 +385,13 @@ def _rest_follows(rests: IntArray, onsets: IntArray, at: IntArray, beat_ticks: I
 
 
 def _lengths_around(duration_s: FloatArray) -> FloatArray:
-    """(N,): the median length of the four notes before each and of four from it on, as far as there are any."""
+    """(N,): the median length of the eight notes before each, as far as there are any."""
     count = len(duration_s)
     around = np.empty(count)
-    if count >= 8:
-        windows = np.lib.stride_tricks.sliding_window_view(duration_s, 8)
-        around[4 : count - 3] = np.median(windows, axis=1)
-    edges = [*range(min(4, count)), *range(max(count - 3, 4), count)] if count >= 8 else range(count)
-    for index in edges:
-        around[index] = np.median(duration_s[max(index - 4, 0) : index + 4])
+    if count > 8:
+        around[8:] = np.median(np.lib.stride_tricks.sliding_window_view(duration_s[:-1], 8), axis=1)
+    for index in range(min(8, count)):
+        around[index] = np.median(duration_s[: max(index, 1)])
     return around
 
 

@@ -75,7 +75,7 @@ def measures(performance: Performance, line: Line, plan: PlayerPlan) -> Measures
     for (_, earlier, _), (start_s, here, _) in itertools.pairwise(places):
         cut_s = max(float(times.played_end_s[here - 1]) - start_s, 0.0)
         played_s = float(before_s[here] - before_s[earlier]) - cut_s
-        in_slur += bool(times.overlaps_next[here - 1])
+        in_slur += bool(times.slurs_next[here - 1])
         if played_s < SHORT_S:
             short += 1
             in_rest += line.notes[here].id in long_rest

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterable
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -77,6 +78,13 @@ def agreement(row: dict[str, Any], parameters: PlayerParameters = USUAL) -> Agre
         tuple(index for index in breaths if index not in rests | marks),
         tuple(sorted(marks - set(breaths))),
     )
+
+
+def share_at_phrase_ends(rows: Iterable[dict[str, Any]]) -> float:
+    """Of all breaths after the first, the part that is in rests and at engraved marks."""
+    found = [agreement(row) for row in rows]
+    right = sum(len(one.in_rests) + len(one.at_marks) for one in found)
+    return right / (right + sum(len(one.elsewhere) for one in found))
 
 
 if __name__ == "__main__":

@@ -1,0 +1,71 @@
+"""Where the bars begin that are felt: a MIDI file does not say that a piece begins with a pickup.
+
+Notes on the first beat of a bar are longer than others and the bass plays there (Lerdahl & Jackendoff, A Generative
+Theory of Tonal Music, 1983, ch. 4: metrical preference rules for long notes and a stable bass). Where the given
+bar lines fall on beats that are weaker than most, and one other beat is clearly the strongest, bars begin there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import msgspec
+import numpy as np
+
+from app.plan.line import IntArray, LineTimes, Piece
+from app.plan.model import FloatArray
+
+LEAST_NOTES = 24
+"""Fewer notes show no metre."""
+BASS_WEIGHT = 2.0
+"""What the lowest line counts, the others counting 1."""
+LAST_WEIGHT = 0.1
+"""What the last note of a line counts beside all the others: pieces end on a strong beat."""
+GIVEN_MOST = 0.9
+"""Bar lines are doubted where their weight is less than this; all beats of a bar have 1 on average."""
+BEST_LEAST = 1.5
+CLEAR = 1.3
+"""The beat that bars begin on instead has at least `BEST_LEAST`, and so many times the weight of any other."""
+
+
+def with_felt_bars(piece: Piece, lines: Sequence[LineTimes]) -> Piece:
+    """The piece with its bars where they are felt to begin: the very same where nothing speaks clearly against them.
+
+    Pieces that change their metre, or have a pickup already, keep their bars.
+    """
+    bars = np.array(piece.bar_ticks, np.int64)
+    if len(piece.metres) > 1 or len(bars) < 2:
+        return piece
+    unit = min(4 * piece.clock.ticks_per_quarter // _denominator(piece), piece.clock.ticks_per_quarter)
+    bar = piece.bar_length_tick(int(bars[0]))
+    if bar % unit or np.any(np.diff(bars) != bar):
+        return piece
+    beats = _weights(lines, int(bars[0]), unit, bar // unit)
+    best = int(np.argmax(beats))
+    others = np.delete(beats, best)
+    if beats[0] >= GIVEN_MOST or beats[best] < BEST_LEAST or beats[best] < CLEAR * others.max():
+        return piece
+    shifted = (bars[0] - bar + best * unit + bar * np.arange(len(bars) + 1)).tolist()
+    return msgspec.structs.replace(piece, bar_ticks=tuple(shifted))
+
+
+def _denominator(piece: Piece) -> int:
+    return piece.metres[0].denominator if piece.metres else 4
+
+
+def _weights(lines: Sequence[LineTimes], first_tick: int, unit_ticks: int, count: int) -> FloatArray:
+    """(count,): how strong each beat of the bar is, 1 on average; all alike where there is little to go by."""
+    played = [times for times in lines if len(times.onset_tick)]
+    if sum(len(times.onset_tick) for times in played) < LEAST_NOTES:
+        return np.ones(count)
+    lowest = min(float(times.pitch.mean()) for times in played)
+    total = np.zeros(count)
+    for times in played:
+        since = times.onset_tick - first_tick
+        place: IntArray = since // unit_ticks % count
+        on_beat = since % unit_ticks == 0
+        units = np.clip((times.played_end_tick - times.onset_tick) / unit_ticks, 0.0, count)
+        accents = np.bincount(place[on_beat], np.log2(1.0 + units[on_beat]), count)
+        total += accents / max(float(accents.sum()), 1e-9) * (BASS_WEIGHT if times.pitch.mean() == lowest else 1.0)
+        total[place[-1]] += LAST_WEIGHT * bool(on_beat[-1])
+    return np.asarray(total * count / max(float(total.sum()), 1e-9))

@@ -1,0 +1,42 @@
+"""Where players breathe when no rest comes in time: against engraved marks, and the single reasons for a place."""
+
+from __future__ import annotations
+
+import pytest
+
+from app.plan.generate import Line, Piece, make_plans, time_frame
+from app.plan.model import PlayerParameters
+from tests.support.engraved_breaths import marked_lines, share_at_phrase_ends
+from tests.support.plan import PlainClock, PlainMetre, PlainNote, line_of, valves
+
+Q = 480
+
+
+def catches(notes: tuple[PlainNote, ...], lung_s: float) -> list[float]:
+    """Quarters from the start at which breaths after the first one end, at 120."""
+    clock = PlainClock()
+    line = Line("p", notes, valves(), PlayerParameters(lung_s=lung_s))
+    plan = make_plans(Piece(clock, (PlainMetre(0, 4, 4),)), (line,), time_frame((line,), clock))["p"]
+    return [event.end_tick / Q for event in plan.breaths if event.kind == "breath"][1:]
+
+
+@pytest.mark.parametrize(("held_out", "least"), [(False, 0.8), (True, 0.75)])
+def test_most_breaths_are_where_engravers_mark_them(held_out: bool, least: float) -> None:
+    rows = [row for row in marked_lines() if row["held_out"] == held_out]
+    assert rows
+    assert share_at_phrase_ends(rows) >= least
+
+
+@pytest.mark.parametrize("after", [1, 2])
+def test_a_note_is_long_by_those_before_it(after: int) -> None:
+    """Bars of quarters, then a half note, then notes of any length."""
+    notes, at = [], 0
+    for length in (*[1] * 14, 2, *[after] * (16 // after)):
+        notes.append((at * Q, length * Q, 65 + at % 2))
+        at += length
+    assert catches(line_of(*notes), lung_s=10.0) == [16.0]
+
+
+def test_even_notes_are_breathed_between_in_phrases_of_four_bars() -> None:
+    notes = line_of(*((beat * Q, Q, 65 + beat % 2) for beat in range(32)))
+    assert catches(notes, lung_s=12.0) == [16.0]
