@@ -69,7 +69,7 @@ CLIPPED = -1.0
 """Out of a note so short that it loses more than the usual part."""
 JITTER = 0.2
 """Players differ where places are equally good."""
-TAKEN_COST = 3.0
+TAKEN_COST = 6.0
 """Where another player of the same line breathes: players stagger."""
 EARLY_COST = 1.0
 """Breathing in with lungs still full; with half a lungful a quarter of it."""

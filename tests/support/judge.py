@@ -250,6 +250,26 @@ def _fingerings(player: Mapping[str, Any]) -> list[str]:
     return wrong
 
 
+def _detached(notes: Sequence[Mapping[str, Any]]) -> list[bool]:
+    """Whether the silence before each note is how the one before was articulated: as in two neighbours of the same
+    step, or as after half of all the notes."""
+    steps = [math.nan, *(other["onset_tick"] - one["onset_tick"] for one, other in pairwise(notes))]
+    shares = [
+        math.nan,
+        *(1.0 - one["duration_tick"] / max(step, 1) for one, step in zip(notes, steps[1:], strict=False)),
+    ]
+    result = []
+    for index, share in enumerate(shares):
+        alike = [abs(other - share) < 0.13 for other in shares]
+        steady = [
+            same and abs(step - steps[index]) < 0.13 * steps[index] for same, step in zip(alike, steps, strict=True)
+        ]
+        runs = any(all(steady[max(first, 0) : first + 3]) for first in range(max(index - 2, 1), index + 1)
+                   if first + 3 <= len(steady))  # fmt: skip
+        result.append(runs or 2 * sum(alike) >= len(notes) - 1)
+    return result
+
+
 def _breaths(
     player: Mapping[str, Any],
     found: Inspection,
@@ -285,10 +305,7 @@ def _breaths(
             if abs(seconds(event[f"{end}_beat"] * quarter) - event[f"{end}_s"]) > 1e-5:
                 wrong.append(f"the {end} of the breath at {event['end_s']} in beats: {event[f'{end}_beat']}")
     reach = 0
-    shares = [math.nan] * len(notes)
-    for index, (one, other) in enumerate(pairwise(notes), 1):
-        if one["onset_tick"] + one["duration_tick"] < other["onset_tick"]:
-            shares[index] = 1.0 - one["duration_tick"] / (other["onset_tick"] - one["onset_tick"])
+    detached = _detached(notes)
     for index, note in enumerate(notes):
         onset = note["onset_tick"]
         if index == 0:
@@ -302,8 +319,8 @@ def _breaths(
             reach = max(reach, onset + note["duration_tick"])
             continue
         breath = served.get(index)
-        # Detached notes have no rests between them: nothing is said where three have the same part of silence.
-        if rest < 1.0 and sum(abs(share - shares[index]) < 0.13 for share in shares) >= 3:
+        # Detached notes have no rests between them: of those nothing is expected.
+        if rest < 1.0 and detached[index]:
             reach = max(reach, onset + note["duration_tick"])
             continue
         wanted: tuple[float, ...] = ()

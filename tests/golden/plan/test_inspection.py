@@ -21,3 +21,15 @@ FILES = [
 def test_everything_printed_about_real_music_is_true(path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["inspect", str(path), "--json", "--set", "*.breath_need=0", "--felt-beat", "1"]) == 0
     assert faults(path, json.loads(capsys.readouterr().out)) == []
+
+
+def test_a_rest_that_nobody_breathes_in_is_a_fault(capsys: pytest.CaptureFixture[str]) -> None:
+    path = next(path for path in FILES if "lutkin" in path.name)
+    assert main(["inspect", str(path), "--json", "--set", "*.breath_need=0", "--felt-beat", "1"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    for player in found["players"]:
+        # All but the first one, which needs no rest.
+        player["breaths"] = [event for event in player["breaths"] if event["end_s"] < 1.0]
+    wrong = faults(path, found)
+    assert {fault.split(":")[0] for fault in wrong} == {player["name"] for player in found["players"]}
+    assert all("no breath in" in fault or "no preparation" in fault for fault in wrong)
