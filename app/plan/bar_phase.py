@@ -13,6 +13,7 @@ import msgspec
 import numpy as np
 
 from app.plan.line import IntArray, LineTimes, Piece
+from app.plan.lungs import written_onsets
 from app.plan.model import FloatArray
 
 LEAST_NOTES = 24
@@ -40,7 +41,8 @@ def with_felt_bars(piece: Piece, lines: Sequence[LineTimes]) -> Piece:
     bar = piece.bar_length_tick(int(bars[0]))
     if bar % unit or np.any(np.diff(bars) != bar):
         return piece
-    beats = _weights(lines, int(bars[0]), unit, bar // unit)
+    onsets = [written_onsets(times.onset_tick, piece.clock.ticks_per_quarter) - bars[0] for times in lines]
+    beats = _weights(lines, onsets, unit, bar // unit)
     best = int(np.argmax(beats))
     others = np.delete(beats, best)
     if beats[0] >= GIVEN_MOST or beats[best] < BEST_LEAST or beats[best] < CLEAR * others.max():
@@ -53,15 +55,20 @@ def _denominator(piece: Piece) -> int:
     return piece.metres[0].denominator if piece.metres else 4
 
 
-def _weights(lines: Sequence[LineTimes], first_tick: int, unit_ticks: int, count: int) -> FloatArray:
-    """(count,): how strong each beat of the bar is, 1 on average; all alike where there is little to go by."""
-    played = [times for times in lines if len(times.onset_tick)]
-    if sum(len(times.onset_tick) for times in played) < LEAST_NOTES:
+def _weights(lines: Sequence[LineTimes], onsets: Sequence[IntArray], unit_ticks: int, count: int) -> FloatArray:
+    """(count,): how strong each beat of the bar is, 1 on average; all alike where there is little to go by.
+
+    Parameters
+    ----------
+    onsets : sequence of (N,) int64
+        Where the notes of each line begin, in ticks after the first bar line.
+    """
+    played = [(times, since) for times, since in zip(lines, onsets, strict=True) if len(since)]
+    if sum(len(since) for _, since in played) < LEAST_NOTES:
         return np.ones(count)
-    lowest = min(float(times.pitch.mean()) for times in played)
+    lowest = min(float(times.pitch.mean()) for times, _ in played)
     total = np.zeros(count)
-    for times in played:
-        since = times.onset_tick - first_tick
+    for times, since in played:
         place: IntArray = since // unit_ticks % count
         on_beat = since % unit_ticks == 0
         units = np.clip((times.played_end_tick - times.onset_tick) / unit_ticks, 0.0, count)

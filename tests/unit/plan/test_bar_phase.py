@@ -22,18 +22,20 @@ def piece_in(numerator: int, denominator: int, bars: int) -> Piece:
     return Piece(PlainClock(), (PlainMetre(0, numerator, denominator),), None, tuple(range(0, bars * bar, bar)))
 
 
-def waltz(pickup: int) -> LineTimes:
-    """Bars of a half and two eighths, after some quarters."""
+def waltz(pickup: int, late_ticks: int = 0) -> LineTimes:
+    """Bars of a half and two eighths, after some quarters; every other note comes late."""
     notes = [(beat * TICKS, TICKS, 67) for beat in range(pickup)]
     for bar in range(16):
         start = (pickup + 3 * bar) * TICKS
         notes += [(start, 2 * TICKS, 65), *((start + half * TICKS // 2, TICKS // 2, 67) for half in (4, 5))]
-    return times_of(*notes)
+    late = [(start + index % 2 * late_ticks, long, pitch) for index, (start, long, pitch) in enumerate(notes)]
+    return times_of(*late)
 
 
+@pytest.mark.parametrize("late_ticks", [0, 11])
 @pytest.mark.parametrize("pickup", [1, 2])
-def test_bars_begin_after_the_pickup(pickup: int) -> None:
-    felt = with_felt_bars(piece_in(3, 4, 18), (waltz(pickup),))
+def test_bars_begin_after_the_pickup(pickup: int, late_ticks: int) -> None:
+    felt = with_felt_bars(piece_in(3, 4, 18), (waltz(pickup, late_ticks),))
     assert {tick % (3 * TICKS) for tick in felt.bar_ticks} == {pickup * TICKS}
     assert felt.bar_ticks[0] <= 0
     assert felt.bar_ticks[-1] >= 17 * 3 * TICKS
