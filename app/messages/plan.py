@@ -96,6 +96,19 @@ TEMPLATES: Final[dict[str, str]] = {
     "breath.inside_note": "this breath, placed by hand, lies inside the sounding note {note}",
     # The plan: cues, gestures, faces
     "cue.start": "starts the piece ({leader_reason}); the preparatory beat lasts {beat_s:g} s",
+    "cue.after_pause": (
+        "brings everyone in after a general pause of {rest_s:g} s ({leader_reason}); "
+        "the preparatory beat lasts {beat_s:g} s"
+    ),
+    "cue.after_fermata": "goes on after a fermata ({leader_reason}); the preparatory beat lasts {beat_s:g} s",
+    "cue.tempo": (
+        "gives the new tempo of {bpm:g} beats a minute ({leader_reason}); the preparatory beat lasts {beat_s:g} s"
+    ),
+    "cue.section": (
+        "brings in {count} players after {rest_s:g} s of rest, while others play ({leader_reason}); "
+        "the preparatory beat lasts {beat_s:g} s"
+    ),
+    "cue.joins": "comes in after {rest_s:g} s of rest, while others play; the preparatory beat lasts {beat_s:g} s",
     "cue.after_rest": (
         "brings everyone in after {rest_s:g} s of common rest ({leader_reason}); "
         "the preparatory beat lasts {beat_s:g} s"

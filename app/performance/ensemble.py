@@ -88,12 +88,14 @@ class Performance:
                     metres=score.metres,
                     bar_ticks=tuple(score.bar_starts.tolist()),
                     felt_beats=felt_beats,
+                    accompaniment=score.accompaniment,
                 ),
                 score.tempo_map,
                 score.metres,
                 score.pickup_ticks,
                 score.end_tick,
                 felt_beats,
+                score.accompaniment,
             )
 
     @cached_property

@@ -1,17 +1,30 @@
 """Who gives the entries, and when.
 
-Without a conductor the lead player starts the piece, and starts it again after a rest that all share: body and
-instrument dip on the preparatory beat, one felt beat before the entry. The nod's acceleration peak marks that beat
-and its duration the tempo (Bishop and Goebl 2017).
+Without a conductor the players give the entries themselves, by body and instrument, with a preparatory beat: the start,
+and the new start after a rest or a general pause of all; going on after a fermata; a new tempo, in which that beat is
+given; and a player or a section that comes in after a long rest, or as the next voice of a canon, while others play.
+What an accompaniment plays that is not on stage sounds too: whoever comes in with it needs no cue.
+
+The nod's acceleration peak marks the preparatory beat and its duration the tempo (Bishop and Goebl 2017). It falls on a
+beat of the metre: before a pickup on the one before the beat that the pickup lies in.
 
 Messages
 --------
-cue.start(leader_reason, beat_s): "Starts the piece: {leader_reason}; the preparatory beat lasts {beat_s} s."
-cue.after_rest(leader_reason, beat_s, rest_s): "Brings everyone in after {rest_s} s of common rest: {leader_reason};
-    ..." ``leader_reason`` is "chosen" (by the player's parameter) or "highest" (the highest part of those that enter).
+All with ``leader_reason``, which is "chosen" (by the player's parameter) or "melody" (the first part of the section
+that has the melody), and ``beat_s``, how long the preparatory beat lasts.
+
+cue.start(): "Starts the piece."
+cue.after_rest(rest_s): "Brings everyone in after {rest_s} s of common rest."
+cue.after_pause(rest_s): "Brings everyone in after a general pause of {rest_s} s."
+cue.after_fermata(): "Goes on after a fermata."
+cue.tempo(bpm): "Gives the new tempo, {bpm} beats a minute."
+cue.section(count, rest_s): "Brings in {count} players who come in after {rest_s} s of rest, while others play."
+cue.joins(rest_s): "Comes in after {rest_s} s of rest, while others play."
 """
 
 from __future__ import annotations
+
+from typing import Literal, TypeAlias
 
 import msgspec
 import numpy as np
@@ -19,55 +32,100 @@ import numpy as np
 from app.errors import Argument, Message
 from app.plan.corrections import BY_HAND, RemoveEvent, SetBreath, SetCue, removed_ids
 from app.plan.line import IntArray, Line, LineTimes, Piece
-from app.plan.model import CueEvent, TimeFrame
+from app.plan.model import CueEvent, FloatArray, TimeFrame
+from instrument_maps.vocabulary import vocabulary
 
 COMMON_REST_BARS = 2
 COMMON_REST_S = 4.0
 """A rest of all players this long needs a new start: everyone has lost the beat (either is enough)."""
 COMMON_REST_LEAST_S = 2.0
 """Short bars rest quickly over: nobody has lost the beat by then."""
+PAUSE_LEAST_S = 1.5
+"""A silence of all for a whole bar, and so long, is a general pause."""
 LEAST_BEATS = 2.0
 """A cue needs the preparatory beat and room before it."""
 LEAD_BEATS = 1.5
 """The nod begins half a beat before the preparatory beat, so that it lasts one beat and peaks on it."""
 
+HELD_S, HELD_BEATS = 3.0, 3.0
+"""What all hold so long, in seconds and in beats, and leave together, was held by a fermata."""
+HELD_SILENCE_BEATS = 0.5
+"""From this silence on it was left; one of `LEAST_BEATS` is a rest that is counted."""
+OTHER_TEMPO = 1.15
+"""A tempo that is faster or slower by this factor is another one."""
+STEADY_TEMPO, STEADY_BEATS = 1.1, 4
+"""A new tempo holds for so many beats, within this factor; one that goes on changing is followed, not given."""
+HELD_TEMPO = 1.5
+"""A beat that is longer by this factor, for no more than `STEADY_BEATS`, is held by a fermata."""
+
+LONG_REST_S, LONG_REST_BARS = 8.0, 4
+"""After a rest of either length a player is brought in ..."""
+LONG_REST_LEAST_S, LONG_REST_LEAST_BARS = 4.0, 2
+"""... which is at least so long in both."""
+MELODY_BARS = 2
+"""Who has the melody is heard in so many bars."""
+DOUBLED_SHARE = 0.8
+"""Who plays so much of the melody, in any octave, has it too."""
+ON_BEAT = 0.12
+"""What is nearer to a beat, in beats, is on it: nobody plays more exactly."""
+
+Reason: TypeAlias = Literal[
+    "cue.start", "cue.after_rest", "cue.after_pause", "cue.after_fermata", "cue.tempo", "cue.joins"
+]
+
 
 class Entry(msgspec.Struct, frozen=True):
-    """A place where everyone starts: its tick, the silence before it (None before the first note), and who enters with
-    which note (line index, note index)."""
+    """A place where players come in together.
+
+    Attributes
+    ----------
+    tick : int
+    reason : str
+        Id of the message, but for a section.
+    number : float or None
+        What the message says: seconds of rest, or beats a minute.
+    players : tuple of (int, int)
+        Who comes in together, with which note: line index, note index.
+    """
 
     tick: int
-    rest_s: float | None
+    reason: Reason
+    number: float | None
     players: tuple[tuple[int, int], ...]
 
 
-def common_entries(all_times: tuple[LineTimes, ...], piece: Piece) -> tuple[Entry, ...]:
-    """The first entry, and those after long common rests: by the rhythm of the lines alone."""
+def entries(all_times: tuple[LineTimes, ...], piece: Piece) -> tuple[Entry, ...]:
+    """Every place that asks for a cue, in order: by the rhythm of the lines and the tempo alone."""
     sounding = [(line, times) for line, times in enumerate(all_times) if len(times.onset_tick)]
     if not sounding:
         return ()
-    stretches = [_stretches(times) for _, times in sounding]
-    onsets, ends = (np.concatenate(edges) for edges in zip(*stretches, strict=True))
-    order = np.argsort(onsets, kind="stable")
-    onsets, ends = onsets[order], np.maximum.accumulate(ends[order])
-    silences = np.flatnonzero(onsets[1:] > ends[:-1])
-    starts = [(int(onsets[0]), None)] + [(int(onsets[gap + 1]), int(ends[gap])) for gap in silences.tolist()]
-    result = []
-    for tick, end in starts:
-        rest_s = None
-        if end is not None:
-            rest_s = piece.clock.seconds(float(tick)) - piece.clock.seconds(float(end))
-            bars = (tick - end) / piece.bar_length_tick(end)
-            long = rest_s >= COMMON_REST_S or (bars >= COMMON_REST_BARS and rest_s >= COMMON_REST_LEAST_S)
-            if not long or tick - end < LEAST_BEATS * piece.beat_ticks_at(np.array([tick]))[0]:
-                continue
-        players = []
-        for line, times in sounding:
-            index = int(np.searchsorted(times.onset_tick, tick))
-            if index < len(times.onset_tick) and times.onset_tick[index] == tick:
-                players.append((line, index))
-        result.append(Entry(tick, rest_s, tuple(players)))
-    return tuple(result)
+    lines = _Spans.of([_stretches(times) for _, times in sounding])
+    found = {entry.tick: entry for entry in _tempo_entries(sounding, lines, piece)}
+    found |= {entry.tick: entry for entry in _common_entries(sounding, lines, piece)}
+    shared: list[Entry] = []
+    for entry in sorted(found.values(), key=lambda entry: entry.tick):
+        # A tempo that changes while they come in belongs to their entry.
+        if not shared or entry.tick - shared[-1].tick >= _beat(piece, shared[-1].tick):
+            shared.append(entry)
+    return tuple(sorted([*shared, *_joining(sounding, lines, shared, piece)], key=lambda entry: entry.tick))
+
+
+class _Spans(msgspec.Struct, frozen=True):
+    """Where something sounds: starts in order, and the latest end of those up to each."""
+
+    starts: IntArray
+    ends: IntArray
+
+    @classmethod
+    def of(cls, stretches: list[tuple[IntArray, IntArray]]) -> _Spans:
+        starts, ends = (np.concatenate(edges) for edges in zip(*stretches, strict=True))
+        order = np.argsort(starts, kind="stable")
+        return cls(starts[order], np.maximum.accumulate(ends[order]))
+
+    def sounds_before(self, tick: int, ticks: float) -> bool:
+        """Whether something that begins before a tick sounds on within so many ticks before it."""
+        index = int(np.searchsorted(self.starts, tick)) - 1
+        return index >= 0 and bool(self.ends[index] > tick - ticks)
 
 
 def _stretches(times: LineTimes) -> tuple[IntArray, IntArray]:
@@ -76,22 +134,173 @@ def _stretches(times: LineTimes) -> tuple[IntArray, IntArray]:
     return times.onset_tick[np.insert(stops, 0, True)], times.played_end_tick[np.append(stops, True)]
 
 
-def leader_of(entry: Entry, lines: tuple[Line, ...], all_times: tuple[LineTimes, ...]) -> tuple[int | None, str]:
-    """Index of the line that gives an entry, and why ("chosen" or "highest").
+def _beat(piece: Piece, tick: int) -> int:
+    return int(piece.beat_ticks_at(np.array([tick]))[0])
 
-    A player whose ``cue_leader`` is set gives every entry; of several, one who enters here, then the first.
-    Otherwise the highest part of those that enter (by the note there, then by its mean pitch, then the first),
-    leaving out who must not lead. None where nobody may.
+
+def _together(piece: Piece, tick: int) -> int:
+    """How long after a tick others still come in with it, ticks: within a beat, or of the bar line after a pickup."""
+    beat, bar = _beat(piece, tick), piece.bar_length_tick(tick)
+    bars = piece.bars(tick, tick + bar + 1)
+    following = int(bars[np.searchsorted(bars, tick, side="right")]) - tick if bars[-1] > tick else bar
+    return following + beat if following <= bar / 2 else beat
+
+
+def _coming_in(sounding: list[tuple[int, LineTimes]], tick: int, ticks: int) -> tuple[tuple[int, int], ...]:
+    """Who begins a note within so many ticks from a tick on, and which."""
+    found = []
+    for line, times in sounding:
+        index = int(np.searchsorted(times.onset_tick, tick))
+        if index < len(times.onset_tick) and times.onset_tick[index] < tick + ticks:
+            found.append((line, index))
+    return tuple(found)
+
+
+def _common_entries(sounding: list[tuple[int, LineTimes]], lines: _Spans, piece: Piece) -> list[Entry]:
+    """The first entry, and those after silences of everybody, on stage or not."""
+    accompaniment = np.array(piece.accompaniment, np.int64).reshape(-1, 2)
+    heard = _Spans.of([(lines.starts, lines.ends), (accompaniment[:, 0], accompaniment[:, 1])])
+    first = int(lines.starts[0])
+    found = []
+    if not heard.sounds_before(first, _beat(piece, first)):
+        found.append(Entry(first, "cue.start", None, _coming_in(sounding, first, _together(piece, first))))
+    for gap in np.flatnonzero(heard.starts[1:] > heard.ends[:-1]).tolist():
+        end, begin = int(heard.ends[gap]), int(heard.starts[gap + 1])
+        index = int(np.searchsorted(lines.starts, begin))
+        # What comes in later comes in with the accompaniment.
+        if end <= first or index == len(lines.starts) or lines.starts[index] - begin >= _beat(piece, begin):
+            continue
+        tick = int(lines.starts[index])
+        rest_s = piece.clock.seconds(float(tick)) - piece.clock.seconds(float(end))
+        reason = _silence(sounding, end, tick, rest_s, piece)
+        if reason is not None:
+            number = None if reason == "cue.after_fermata" else rest_s
+            found.append(Entry(tick, reason, number, _coming_in(sounding, tick, _together(piece, tick))))
+    return found
+
+
+def _silence(sounding: list[tuple[int, LineTimes]], end: int, tick: int, rest_s: float, piece: Piece) -> Reason | None:
+    """Why everybody needs a cue after a silence of all from ``end`` to ``tick``; None if nobody does."""
+    bars, beats = (tick - end) / piece.bar_length_tick(end), (tick - end) / _beat(piece, tick)
+    if beats >= LEAST_BEATS:
+        if rest_s >= COMMON_REST_S or (bars >= COMMON_REST_BARS and rest_s >= COMMON_REST_LEAST_S):
+            return "cue.after_rest"
+        if bars >= 1.0 and rest_s >= PAUSE_LEAST_S:
+            return "cue.after_pause"
+    if not HELD_SILENCE_BEATS <= beats < LEAST_BEATS:
+        return None
+    left = []
+    for _, times in sounding:
+        index = int(np.searchsorted(times.onset_tick, end)) - 1
+        if index >= 0 and times.played_end_tick[index] > end - _beat(piece, end):
+            left.append((times, index))
+    for times, index in left:
+        held = int(times.played_end_tick[index] - times.onset_tick[index])
+        if times.duration_s[index] < HELD_S or held < HELD_BEATS * _beat(piece, end):
+            return None
+    return "cue.after_fermata" if left else None
+
+
+def _tempo_entries(sounding: list[tuple[int, LineTimes]], lines: _Spans, piece: Piece) -> list[Entry]:
+    """Where a new tempo begins and stays, or the old one goes on after a fermata."""
+    beats = piece.beats(int(lines.starts[0]), int(lines.ends[-1]))
+    seconds = piece.clock.seconds(beats.astype(np.float64))
+    lasts_s: FloatArray = np.diff(seconds) / np.maximum(np.diff(beats), 1)
+    changes = np.abs(np.diff(np.log(np.maximum(lasts_s, 1e-12)))) >= np.log(OTHER_TEMPO)
+    accompaniment = _Spans.of([tuple(np.array(piece.accompaniment, np.int64).reshape(-1, 2).T)])  # type: ignore[list-item]
+    found = []
+    for place in (np.flatnonzero(changes) + 1).tolist():
+        tick, beat = int(beats[place]), _beat(piece, int(beats[place]))
+        reason = _new_tempo(lasts_s, place)
+        players = _coming_in(sounding, tick, beat)
+        # Somebody alone with an accompaniment goes with it.
+        carried = len(sounding) == 1 and accompaniment.sounds_before(tick, beat)
+        if reason is None or not players or carried or tick <= lines.starts[0]:
+            continue
+        bpm = 60.0 / (float(lasts_s[place]) * beat)
+        found.append(Entry(tick, reason, None if reason == "cue.after_fermata" else bpm, players))
+    return found
+
+
+def _new_tempo(lasts_s: FloatArray, place: int) -> Literal["cue.tempo", "cue.after_fermata"] | None:
+    """What begins at a beat, by how long a tick lasts in each beat."""
+    following = lasts_s[place : place + STEADY_BEATS]
+    if len(following) < 2 or following.max() > STEADY_TEMPO * following.min():
+        return None
+    here = float(np.median(following))
+    before = lasts_s[max(place - STEADY_BEATS - 1, 0) : place] / here
+    other = np.maximum(before, 1.0 / before) >= OTHER_TEMPO
+    if not other[-1]:
+        return None
+    stretch = int(np.argmin(other[::-1])) if not other.all() else len(other)
+    if stretch <= STEADY_BEATS and stretch < len(other):
+        # The tempo was the same shortly before: that was a fermata, or only a delay.
+        return "cue.after_fermata" if before[-stretch:].max() >= HELD_TEMPO else None
+    return "cue.tempo"
+
+
+def _joining(sounding: list[tuple[int, LineTimes]], lines: _Spans, shared: list[Entry], piece: Piece) -> list[Entry]:
+    """Where players come in after long rests of their own while others play; those within a bar are one entry."""
+    first = int(lines.starts[0])
+    rows: list[tuple[int, float, int, int]] = []
+    for line, times in sounding:
+        ends = np.insert(times.played_end_tick[:-1], 0, first)
+        ends_s = np.insert(times.played_end_s[:-1], 0, piece.clock.seconds(float(first)))
+        rests_s = times.onset_s - ends_s
+        # A voice that comes in first of all after the others needs no long rest for it.
+        for index in np.flatnonzero((rests_s >= LONG_REST_LEAST_S) | (np.arange(len(rests_s)) == 0)).tolist():
+            tick, rest_s = int(times.onset_tick[index]), float(rests_s[index])
+            bars = (tick - int(ends[index])) / piece.bar_length_tick(tick)
+            long = rest_s >= LONG_REST_S or bars >= LONG_REST_BARS
+            if bars >= 1.0 if index == 0 else long and bars >= LONG_REST_LEAST_BARS:
+                rows.append((tick, rest_s, line, index))
+    rows.sort()
+    given = [(entry.tick, entry.tick + piece.bar_length_tick(entry.tick)) for entry in shared]
+    found: list[Entry] = []
+    for tick, rest_s, line, index in rows:
+        if found and tick < found[-1].tick + piece.bar_length_tick(found[-1].tick):
+            last = found[-1]
+            found[-1] = msgspec.structs.replace(last, players=(*last.players, (line, index)))
+        elif not any(start <= tick < end for start, end in given) and lines.sounds_before(tick, _beat(piece, tick)):
+            found.append(Entry(tick, "cue.joins", rest_s, ((line, index),)))
+    return found
+
+
+def leader_of(
+    entry: Entry, lines: tuple[Line, ...], all_times: tuple[LineTimes, ...], piece: Piece
+) -> tuple[int | None, str]:
+    """Index of the line that gives an entry, and why ("chosen" or "melody").
+
+    A player whose ``cue_leader`` is set gives every entry of all; of several, one who comes in here, then the first.
+    Who comes in while others play is brought in by one of themselves. Otherwise it is the first part of the section
+    that has the melody, leaving out who must not lead. None where nobody may.
     """
     chosen = [index for index, line in enumerate(lines) if line.parameters.cue_leader]
     entering = {line for line, _ in entry.players}
-    if chosen:
+    if chosen and (entry.reason != "cue.joins" or entering.intersection(chosen)):
         return next((index for index in chosen if index in entering), chosen[0]), "chosen"
-    free = [(line, note) for line, note in entry.players if lines[line].parameters.cue_leader is not False]
-    if not free:
-        return None, "highest"
-    best = max(free, key=lambda item: (all_times[item[0]].pitch[item[1]], all_times[item[0]].pitch.mean(), -item[0]))
-    return best[0], "highest"
+    free = sorted(line for line in entering if lines[line].parameters.cue_leader is not False)
+    if len(free) <= 1:
+        return (free[0] if free else None), "melody"
+    end = entry.tick + MELODY_BARS * piece.bar_length_tick(entry.tick)
+    heights, tunes = {}, {}
+    for line in free:
+        times = all_times[line]
+        here = slice(*np.searchsorted(times.onset_tick, (entry.tick, end)).tolist())
+        heights[line] = float(np.average(times.pitch[here], weights=np.maximum(times.duration_s[here], 1e-3)))
+        tunes[line] = set(zip(times.onset_tick[here].tolist(), (times.pitch[here] % 12).tolist(), strict=True))
+    highest = max(free, key=lambda line: (heights[line], -line))
+    tune = tunes[highest]
+    sections = {line: _section(lines[line]) for line in free}
+    having = [line for line in free if len(tunes[line] & tune) >= DOUBLED_SHARE * max(len(tunes[line]), len(tune))]
+    counts = {line: sum(sections[other] == sections[line] for other in having) for line in having}
+    section = sections[max(having, key=lambda line: (counts[line], line == highest, -line))]
+    return next(line for line in free if sections[line] == section), "melody"
+
+
+def _section(line: Line) -> str:
+    """Who sits together: the family of the instrument, or the instrument."""
+    return vocabulary().family(line.instrument_map.plays) or line.instrument_map.id
 
 
 def cue_inputs(lines: tuple[Line, ...]) -> tuple[object, ...]:
@@ -100,6 +309,7 @@ def cue_inputs(lines: tuple[Line, ...]) -> tuple[object, ...]:
         (
             line.player_id,
             line.notes,
+            line.instrument_map.id,
             line.parameters.cue_leader,
             tuple(item for item in line.corrections if isinstance(item, SetCue | RemoveEvent | SetBreath)),
         )
@@ -108,28 +318,30 @@ def cue_inputs(lines: tuple[Line, ...]) -> tuple[object, ...]:
 
 
 def plan_cues(
-    entries: tuple[Entry, ...],
+    found: tuple[Entry, ...],
     lines: tuple[Line, ...],
     all_times: tuple[LineTimes, ...],
     piece: Piece,
     frame: TimeFrame,
 ) -> tuple[tuple[CueEvent, ...], frozenset[str]]:
-    """Every cue of the ensemble, corrections applied, and the ids of all that the rules made; ``entries`` are
-    `common_entries`.
+    """Every cue of the ensemble, corrections applied, and the ids of all that the rules made; ``found`` are
+    `entries`.
 
     A cue's id is ``cue:`` and the note it brings in, or ``cue:@`` and the tick for a leader who does not play there.
     """
-    generated = []
-    for entry in entries:
-        leader, why = leader_of(entry, lines, all_times)
+    generated: list[CueEvent] = []
+    busy_until_s: dict[int, float] = {}
+    for entry in found:
+        leader, why = leader_of(entry, lines, all_times, piece)
         if leader is None:
             continue
-        note = next((lines[line].notes[index].id for line, index in entry.players if line == leader), f"@{entry.tick}")
-        rule = "cue.start" if entry.rest_s is None else "cue.after_rest"
-        arguments: dict[str, Argument] = {"leader_reason": why}
-        if entry.rest_s is not None:
-            arguments["rest_s"] = round(entry.rest_s, 2)
-        generated.append(_cue(lines[leader].player_id, note, entry.tick, 1.0, piece, frame, Message(rule, arguments)))
+        own = next((lines[line].notes[index] for line, index in entry.players if line == leader), None)
+        note = own.id if own is not None and own.onset_tick == entry.tick else f"@{entry.tick}"
+        cue = _cue(lines[leader].player_id, note, entry, why, piece, frame)
+        # Nobody nods twice at once.
+        if cue.start_s >= busy_until_s.get(leader, -np.inf):
+            busy_until_s[leader] = cue.end_s
+            generated.append(cue)
     events = {event.id + event.player_id: event for event in generated}
     for line in lines:
         removed = removed_ids(line.corrections)
@@ -144,21 +356,45 @@ def plan_cues(
                 tick = onsets.get(item.note_id, item.tick)
                 if tick is None:
                     continue
-                event = _cue(line.player_id, item.note_id, tick, item.beats, piece, frame, BY_HAND)
-                events[event.id + event.player_id] = msgspec.structs.replace(event, corrected=True)
+                event = _cue_by_hand(line.player_id, item.note_id, tick, item.beats, piece, frame)
+                events[event.id + event.player_id] = event
     ordered = sorted(events.values(), key=lambda event: (event.start_s, event.player_id))
     return tuple(ordered), frozenset(event.id for event in generated)
 
 
-def _cue(
-    player_id: str, note: str, tick: int, beats: float, piece: Piece, frame: TimeFrame, reason: Message
-) -> CueEvent:
-    seconds, beat = piece.clock.seconds, float(piece.beat_ticks_at(np.array([tick]))[0]) * beats
-    peak_tick, start_tick = tick - beat, tick - LEAD_BEATS * beat
-    end_s, peak_s = seconds(float(tick)), seconds(peak_tick)
-    beat_s = end_s - peak_s
-    if reason is not BY_HAND:
-        reason = Message(reason.id, {**reason.arguments, "beat_s": round(beat_s, 3)})
+def _cue(player_id: str, note: str, entry: Entry, why: str, piece: Piece, frame: TimeFrame) -> CueEvent:
+    """The cue of an entry, in the tempo that begins there."""
+    clock, tick, beat = piece.clock, entry.tick, _beat(piece, entry.tick)
+    end_s = clock.seconds(float(tick))
+    beat_s = clock.seconds(float(tick + beat)) - end_s
+    beats = piece.beats(tick - 2 * beat, tick + 1)
+    late = (tick - int(beats[np.searchsorted(beats, tick, side="right") - 1])) / beat
+    peak_s = end_s - beat_s * (1.0 + (late if ON_BEAT < late < 1.0 - ON_BEAT else 0.0))
+    start_s = peak_s - (LEAD_BEATS - 1.0) * beat_s
+    arguments: dict[str, Argument] = {"leader_reason": why, "beat_s": round(beat_s, 3)}
+    if entry.number is not None:
+        arguments["bpm" if entry.reason == "cue.tempo" else "rest_s"] = round(entry.number, 2)
+    reason: str = entry.reason
+    if reason == "cue.joins" and len(entry.players) > 1:
+        reason, arguments["count"] = "cue.section", len(entry.players)
+    return CueEvent(
+        id=f"cue:{note}",
+        player_id=player_id,
+        start_tick=round(clock.ticks(start_s)),
+        end_tick=tick,
+        start_s=max(start_s, min(frame.first_frame_s, peak_s)),
+        peak_s=peak_s,
+        end_s=end_s,
+        beat_s=beat_s,
+        reason=Message(reason, arguments),
+    )
+
+
+def _cue_by_hand(player_id: str, note: str, tick: int, beats: float, piece: Piece, frame: TimeFrame) -> CueEvent:
+    """A cue whose preparatory beat lasts as many beats of the score as it was given."""
+    seconds, beat = piece.clock.seconds, _beat(piece, tick) * beats
+    start_tick = tick - LEAD_BEATS * beat
+    end_s, peak_s = seconds(float(tick)), seconds(tick - beat)
     return CueEvent(
         id=f"cue:{note}",
         player_id=player_id,
@@ -167,6 +403,7 @@ def _cue(
         start_s=max(seconds(start_tick), min(frame.first_frame_s, peak_s)),
         peak_s=peak_s,
         end_s=end_s,
-        beat_s=beat_s,
-        reason=reason,
+        beat_s=end_s - peak_s,
+        reason=BY_HAND,
+        corrected=True,
     )

@@ -30,7 +30,7 @@ from app.plan.corrections import (
     orphans,
     sound_corrections,
 )
-from app.plan.cue import common_entries, cue_inputs, plan_cues
+from app.plan.cue import cue_inputs, entries, plan_cues
 from app.plan.embouchure import plan_embouchures, plan_tongues
 from app.plan.expression import plan_expressions
 from app.plan.fingering import plan_fingerings
@@ -155,11 +155,11 @@ def plan_ensemble(
     lines, all_times = tuple(line for line, _, _ in playable), tuple(times for _, times, _ in playable)
     piece = shared.step("felt bars", lambda: with_felt_bars(piece, all_times), piece, all_times)
     rhythms = tuple(times.rhythm for times in all_times)
-    entries = shared.step("entries", lambda: common_entries(all_times, piece), rhythms, piece)
+    found = shared.step("entries", lambda: entries(all_times, piece), rhythms, piece)
     cues, cue_ids = shared.step(
         "cues",
-        lambda: plan_cues(entries, lines, all_times, piece, frame),
-        entries,
+        lambda: plan_cues(found, lines, all_times, piece, frame),
+        found,
         cue_inputs(lines),
         all_times,
         piece,

@@ -116,6 +116,8 @@ class Piece(msgspec.Struct, frozen=True, dict=True):
         The beat that is felt throughout; None: ``felt_beats`` say.
     felt_beats : tuple of (tick, ticks)
         The beat that is felt from each tick on, by tick (see `app.plan.felt_beat`); empty: the quarter.
+    accompaniment : tuple of (start tick, end tick)
+        Where parts sound that nobody plays, in order and apart from each other.
     bar_ticks : tuple of int
         Where the bars begin, where the score knows better than the metres (pickups); empty: the metres say.
     """
@@ -125,6 +127,7 @@ class Piece(msgspec.Struct, frozen=True, dict=True):
     felt_beat_ticks: int | None = None
     bar_ticks: tuple[int, ...] = ()
     felt_beats: FeltBeats = ()
+    accompaniment: tuple[tuple[int, int], ...] = ()
 
     @property
     def beat_changes(self) -> FeltBeats:

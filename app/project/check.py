@@ -75,6 +75,12 @@ def _score_faults(score: Score) -> Iterator[Fault]:
         yield from _text(f"unplayed[{index}].name", unplayed.name)
         yield from _between(f"unplayed[{index}].end_tick", unplayed.end_tick, (0, limits.LAST_TICK))
         yield from _between(f"unplayed[{index}].note_count", unplayed.note_count, (0, limits.LAST_TICK))
+        heard = f"unplayed[{index}].sounding"
+        free = 0
+        for number, (start, end) in enumerate(unplayed.sounding):
+            yield from _between(f"{heard}[{number}][0]", start, (free, limits.LAST_TICK))
+            yield from _between(f"{heard}[{number}][1]", end, (start, limits.LAST_TICK))
+            free = end
     long = too_long(score)
     if long is not None:
         yield "parts", "longer than {most_hours} hours, {most_quarters} quarters or {most_bars} bars".format_map(long)

@@ -38,9 +38,11 @@ def _with_markers(raw: Raw) -> Raw:
 
 
 def _with_breath_need(raw: Raw) -> Raw:
-    """5 to 6: rests are breathed in as air is needed; before, players breathed in every rest."""
+    """5 to 6: rests are breathed in as air is needed; before, players breathed in every rest. Where unplayed parts
+    sound is kept; a piece that was read before has it when it is read again."""
+    unplayed = [{**part, "sounding": []} for part in raw["score"]["unplayed"]]
     players = [{**player, "parameters": {**player["parameters"], "breath_need": 0.0}} for player in raw["players"]]
-    return {**raw, "players": players}
+    return {**raw, "players": players, "score": {**raw["score"], "unplayed": unplayed}}
 
 
 MIGRATIONS: Final[tuple[Migration, ...]] = (

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_right
+from collections.abc import Iterable
 from functools import cached_property
 from typing import Final, Literal, TypeAlias
 
@@ -140,12 +141,28 @@ class Part(msgspec.Struct, frozen=True, dict=True):
 
 
 class UnplayedPart(msgspec.Struct, frozen=True):
-    """A part that nobody plays, and why. Its last note ends at ``end_tick``."""
+    """A part that nobody plays, and why. Its last note ends at ``end_tick``.
+
+    ``sounding`` are the spans of ticks, in order, in which it is heard; pauses shorter than a quarter are not told
+    apart. Empty where nothing accompanies (key switches, stray notes), or where an old project did not keep it.
+    """
 
     name: str
     reason: Message
     note_count: int
     end_tick: int = 0
+    sounding: tuple[tuple[int, int], ...] = ()
+
+
+def sounding_spans(spans: Iterable[tuple[int, int]], quarter_ticks: int) -> tuple[tuple[int, int], ...]:
+    """Spans (start, end) of ticks in order, joined where less than a quarter lies between them."""
+    joined: list[tuple[int, int]] = []
+    for start, end in sorted(spans):
+        if joined and start - joined[-1][1] < quarter_ticks:
+            joined[-1] = (joined[-1][0], max(joined[-1][1], end))
+        else:
+            joined.append((start, end))
+    return tuple(joined)
 
 
 class Score(msgspec.Struct, frozen=True, dict=True):
@@ -182,6 +199,11 @@ class Score(msgspec.Struct, frozen=True, dict=True):
     def end_tick(self) -> int:
         """Where the last note of the parts ends; 0 without notes."""
         return max((part.end_tick for part in self.parts), default=0)
+
+    @cached_property
+    def accompaniment(self) -> tuple[tuple[int, int], ...]:
+        """Spans of ticks, in order, in which something sounds that nobody plays."""
+        return sounding_spans((span for part in self.unplayed for span in part.sounding), self.ticks_per_quarter)
 
     @property
     def sounding_end_tick(self) -> int:

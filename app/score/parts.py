@@ -62,7 +62,7 @@ import msgspec
 from app.errors import Argument, Cancelled, Message
 from app.score.choose import Candidates, How, MapChoice, Stream, candidates, players_named, plays, recognised, refusal
 from app.score.limits import MOST_PARTS
-from app.score.model import MOST_VOICES, Note, Part, Score, UnplayedPart
+from app.score.model import MOST_VOICES, Note, Part, Score, UnplayedPart, sounding_spans
 from app.score.switches import without_key_switches
 from app.score.tempo import TempoMap
 from app.score.voices import Shared, split_voices
@@ -192,7 +192,11 @@ def wished_parts(
         warnings.append(_about("score.slurred", part, [first], piece, count=len(slurred)))
     unplayed = tuple(
         UnplayedPart(
-            stream_name(stream), _reason(stream, index in crowded, maps), len(stream.pitches), max(stream.end_ticks)
+            stream_name(stream),
+            _reason(stream, index in crowded, maps),
+            len(stream.pitches),
+            max(stream.end_ticks),
+            sounding_spans(zip(stream.onset_ticks, stream.end_ticks, strict=True), piece.ticks_per_quarter),
         )
         for index, stream in enumerate(streams)
         if index not in asked
@@ -249,7 +253,8 @@ def _switches(streams: Sequence[Stream], own: Sequence[int], places: Sequence[Se
 
 
 def _silent(id_: str, part: str, notes: Sequence[Note], piece: Score) -> list[UnplayedPart]:
-    """The notes of a part that its players leave out, as something that nobody plays."""
+    """The notes of a part that its players leave out, as something that nobody plays or hears: few stray notes and key
+    switches accompany nobody."""
     if not notes:
         return []
     return [UnplayedPart(part, _about(id_, part, notes, piece), len(notes), max(note.end_tick for note in notes))]

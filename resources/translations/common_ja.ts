@@ -519,8 +519,8 @@
         <translation>リーダー指定</translation>
     </message>
     <message>
-        <source>the highest part</source>
-        <translation>最高声部</translation>
+        <source>first of the section with the melody</source>
+        <translation>旋律を担当するセクションの首席</translation>
     </message>
 </context>
 <context>
@@ -534,8 +534,8 @@
         <translation>右</translation>
     </message>
     <message>
-        <source>the highest part</source>
-        <translation>最も高いパート</translation>
+        <source>first of the section with the melody</source>
+        <translation>旋律を担当するセクションの首席</translation>
     </message>
     <message>
         <source>chosen as leader</source>

@@ -824,6 +824,26 @@
             <translation>曲を始める合図（{leader_reason}）。予備拍は {beat_s:g} 秒です</translation>
         </message>
         <message>
+            <source>brings everyone in after a general pause of {rest_s:g} s ({leader_reason}); the preparatory beat lasts {beat_s:g} s</source>
+            <translation>{rest_s:g} 秒のゲネラルパウゼの後に全員を入れる合図（{leader_reason}）。予備拍は {beat_s:g} 秒です</translation>
+        </message>
+        <message>
+            <source>goes on after a fermata ({leader_reason}); the preparatory beat lasts {beat_s:g} s</source>
+            <translation>フェルマータの後を続ける合図（{leader_reason}）。予備拍は {beat_s:g} 秒です</translation>
+        </message>
+        <message>
+            <source>gives the new tempo of {bpm:g} beats a minute ({leader_reason}); the preparatory beat lasts {beat_s:g} s</source>
+            <translation>1 分に {bpm:g} 拍の新しいテンポを示す合図（{leader_reason}）。予備拍は {beat_s:g} 秒です</translation>
+        </message>
+        <message>
+            <source>brings in {count} players after {rest_s:g} s of rest, while others play ({leader_reason}); the preparatory beat lasts {beat_s:g} s</source>
+            <translation>ほかの奏者の演奏中、{rest_s:g} 秒休んだ奏者 {count} 人を入れる合図（{leader_reason}）。予備拍は {beat_s:g} 秒です</translation>
+        </message>
+        <message>
+            <source>comes in after {rest_s:g} s of rest, while others play; the preparatory beat lasts {beat_s:g} s</source>
+            <translation>ほかの奏者の演奏中、{rest_s:g} 秒休んだ後に入る合図。予備拍は {beat_s:g} 秒です</translation>
+        </message>
+        <message>
             <source>brings everyone in after {rest_s:g} s of common rest ({leader_reason}); the preparatory beat lasts {beat_s:g} s</source>
             <translation>{rest_s:g} 秒の全休の後に全員を入れる合図（{leader_reason}）。予備拍は {beat_s:g} 秒です</translation>
         </message>

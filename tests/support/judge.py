@@ -181,11 +181,16 @@ def _cues(
         for cue in player["cues"]
         if abs(cue["end_s"] - first_s) < 1e-6
     ]
+    if found["unplayed"]:
+        # What nobody plays may have begun, and says when they come in.
+        return [] if len(leaders) <= 1 else [f"{len(leaders)} players give the start"]
     if len(leaders) != 1:
         return [f"{len(leaders)} players give the start"]
     cue = leaders[0][1]
-    beat_s = first_s - slow_seconds(first - felt_beat * quarter, changes, quarter)
-    if abs(cue["beat_s"] - beat_s) > 1e-6 or abs(cue["peak_s"] - (first_s - beat_s)) > 1e-6:
+    beat_s = slow_seconds(first + felt_beat * quarter, changes, quarter) - first_s
+    # Before a pickup that lies within a beat it is a beat before that one.
+    peak_s = (first_s - 2.0 * beat_s, first_s - beat_s)
+    if abs(cue["beat_s"] - beat_s) > 1e-6 or not peak_s[0] < cue["peak_s"] < peak_s[1] + 1e-6:
         wrong.append(f"the cue's beat is {cue['beat_s']} at {cue['peak_s']}, not {beat_s} before {first_s}")
     if cue["start_s"] < found["first_frame_s"] - 1e-9:
         wrong.append("the cue begins before the performance")
@@ -195,7 +200,9 @@ def _cues(
         for note in player["notes"]
     )
     reach = spans[0][1]
-    ends = [cue["end_s"] for player in found["players"] for cue in player["cues"]]
+    cues = [cue for player in found["players"] for cue in player["cues"]]
+    ends = [cue["end_s"] for cue in cues]
+    common = [cue["end_s"] for cue in cues if cue["reason"].startswith("brings everyone in")]
     for onset, end in spans[1:]:
         if onset > reach:
             rest_s = slow_seconds(onset, changes, quarter) - slow_seconds(reach, changes, quarter)
@@ -203,7 +210,8 @@ def _cues(
             given = any(abs(end_s - entry_s) < 1e-5 for end_s in ends)
             if rest_s >= 4.0 and onset - reach >= 2 * felt_beat * quarter and not given:
                 wrong.append(f"nobody gives the entry at {entry_s} after {rest_s} s of rest")
-            if rest_s < 2.0 and onset - reach < 4 * quarter and given:
+            given = any(abs(end_s - entry_s) < 1e-5 for end_s in common)
+            if rest_s < 1.5 and onset - reach < 4 * quarter and given:
                 wrong.append(f"a cue at {entry_s} after {rest_s} s of rest")
         reach = max(reach, end)
     return wrong

@@ -91,7 +91,7 @@ def test_in_japanese_no_english_word_is_left(session: Session, note: Note) -> No
     told = message_text(Message("breath.inside_note", {"note": note.id}), session)
     assert "F4（2 小節 2 拍）" in told
     for message in (
-        Message("cue.start", {"leader_reason": "highest", "beat_s": 0.5}),
+        Message("cue.start", {"leader_reason": "melody", "beat_s": 0.5}),
         Message("gesture.weight_shift", {"side": "left"}),
         Message("correction.orphaned", {"kind": "change_gesture", "anchor": f"sway:{note.id}"}),
         Message("pose.beyond_reach", {"target": "head", "angle": "roll", "asked_deg": 80.0, "most_deg": 30.0}),

@@ -30,10 +30,11 @@ def led(line: Line, leads: bool) -> Line:
     return Line(line.player_id, line.notes, line.instrument_map, PlayerParameters(cue_leader=leads))
 
 
-def test_the_highest_part_that_enters_leads_each_entry() -> None:
-    first, second = cues(LOW, HIGH, LATE)
+def test_the_first_part_of_the_melodys_section_leads_each_entry() -> None:
+    first, second = cues(HIGH, LOW, LATE)
     assert (first.player_id, first.id) == ("high", "cue:1:1")
-    assert (second.player_id, second.id) == ("low", "cue:2:2")
+    # The second part is higher here, and still the second part.
+    assert (second.player_id, second.id) == ("high", "cue:1:2")
     assert first.reason.id == "cue.start"
     assert second.reason.id == "cue.after_rest"
     assert second.reason.arguments["rest_s"] == 6.0
@@ -68,8 +69,10 @@ def test_who_must_not_lead_does_not() -> None:
     assert cues(led(HIGH, False)) == []
 
 
-@pytest.mark.parametrize(("rest_beats", "bpm", "expected"), [(7, 120.0, 1), (8, 120.0, 2), (4, 60.0, 2), (3, 60.0, 1)])
-def test_only_long_common_rests_need_a_new_start(rest_beats: int, bpm: float, expected: int) -> None:
+@pytest.mark.parametrize(
+    ("rest_beats", "bpm", "expected"), [(3, 120.0, 1), (4, 120.0, 2), (8, 120.0, 2), (4, 60.0, 2), (3, 60.0, 1)]
+)
+def test_long_common_rests_and_general_pauses_need_a_new_start(rest_beats: int, bpm: float, expected: int) -> None:
     line = Line("p", line_of((0, 4 * Q, 65), ((4 + rest_beats) * Q, Q, 65)), valves())
     assert len(cues(line, clock=PlainClock(((0, bpm),)))) == expected
     holding = Line("q", line_of((0, 40 * Q, 60), track=2), valves())

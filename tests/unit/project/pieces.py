@@ -74,7 +74,9 @@ def full_project(folder: str = "/music") -> Project:
         metres=(Metre(0, 4, 4), Metre(240, 4, 4), Metre(2160, 3, 8)),
         pickup_ticks=240,
         parts=(first, score.parts[1]),
-        unplayed=(UnplayedPart("../../etc/passwd", Message("score.percussion", {"instrument": "drums"}), 3, 960),),
+        unplayed=(
+            UnplayedPart("../../etc/passwd", Message("score.percussion", {"instrument": "drums"}), 3, 960, ((0, 960),)),
+        ),
         warnings=(Message("midi.zero_length_notes", {"track": 1, "count": 2}),),
         markers=(Marker(0, "はじめ"), Marker(960, "A"), Marker(960, "Più mosso"), Marker(9600, "Coda")),
     )

@@ -1,0 +1,237 @@
+"""Small pieces and the cues that musicians expect in them.
+
+Half of the rows (``HELD_OUT``) were written with the others and not looked at while the rules were made.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import pytest
+
+from app.plan.generate import Line, Piece, make_plans, time_frame
+from app.score.model import Metre, Note, sounding_spans
+from app.score.tempo import TempoChange, TempoMap
+from instrument_maps.load import bundled_maps
+
+Q = 480
+MAPS = bundled_maps()
+Notes = list[tuple[float, float, int]]
+"""Onset and length in quarters from the beginning, and the pitch."""
+
+
+def run(start: float, beats: int, pitch: int, step: float = 1.0) -> Notes:
+    """Notes of one length in a row, up and down a tone."""
+    count = round(beats / step)
+    return [(start + step * index, step, pitch + (0, 2, 4, 2)[index % 4]) for index in range(count)]
+
+
+@dataclass(frozen=True)
+class Row:
+    """A piece: players in score order as (name, map, notes), tempi as (quarter, beats a minute)."""
+
+    name: str
+    players: tuple[tuple[str, str, Notes], ...]
+    expected: tuple[tuple[float, str, float], ...]
+    """Every cue: the quarter of the entry, who gives it, and how long before the entry it peaks, s."""
+    tempi: tuple[tuple[float, float], ...] = ((0, 120),)
+    unplayed: Notes = ()  # type: ignore[assignment]
+    metre: tuple[int, int] = (4, 4)
+    pickup: float = 0.0
+
+
+TRUMPET, HORN, FLUTE, OBOE, CLARINET = "trumpet_Bb", "horn_double_F_Bb", "flute", "oboe", "clarinet_Bb"
+TROMBONE, TUBA = "trombone_tenor_F_attachment", "tuba_CC"
+
+TUNED = (
+    Row(
+        "the horn comes in alone after eight bars",
+        (("tpt", TRUMPET, run(0, 64, 72)), ("hn", HORN, run(0, 8, 60) + run(40, 24, 60))),
+        ((0, "tpt", 0.5), (40, "hn", 0.5)),
+    ),
+    Row(
+        "a rest of two bars at this tempo needs no cue",
+        (("tpt", TRUMPET, run(0, 32, 72)), ("hn", HORN, run(0, 8, 60) + run(16, 16, 60))),
+        ((0, "tpt", 0.5),),
+    ),
+    Row(
+        "the trombones come in together: their first gives it",
+        (
+            ("tpt", TRUMPET, run(0, 64, 72)),
+            ("tbn 1", TROMBONE, run(32, 32, 55)),
+            ("tbn 2", TROMBONE, run(32, 32, 57)),
+            ("tbn 3", TROMBONE, run(33, 31, 48)),
+        ),
+        ((0, "tpt", 0.5), (32, "tbn 1", 0.5)),
+    ),
+    Row(
+        "a canon of three voices, two bars apart",
+        (("a", FLUTE, run(0, 40, 76)), ("b", OBOE, run(8, 32, 74)), ("c", CLARINET, run(16, 24, 64))),
+        ((0, "a", 0.5), (8, "b", 0.5), (16, "c", 0.5)),
+    ),
+    Row(
+        "a general pause of a bar",
+        (("tpt", TRUMPET, run(0, 16, 72) + run(20, 16, 72)), ("hn", HORN, run(0, 16, 60) + run(20, 16, 60))),
+        ((0, "tpt", 0.5), (20, "tpt", 0.5)),
+    ),
+    Row(
+        "a beat's rest of all is no general pause",
+        (("tpt", TRUMPET, run(0, 15, 72) + run(16, 16, 72)), ("hn", HORN, run(0, 15, 60) + run(16, 16, 60))),
+        ((0, "tpt", 0.5),),
+    ),
+    Row(
+        "a fermata in the tempo map: three times as long, then on",
+        (("tpt", TRUMPET, run(0, 32, 72)), ("hn", HORN, run(0, 32, 60))),
+        ((0, "tpt", 0.5), (16, "tpt", 0.5)),
+        tempi=((0, 120), (15, 40), (16, 120)),
+    ),
+    Row(
+        "the Allegro after the Adagio is given in its own tempo",
+        (("fl", FLUTE, run(0, 48, 76)), ("cl", CLARINET, run(0, 48, 64))),
+        ((0, "fl", 1.2), (24, "fl", 60 / 140)),
+        tempi=((0, 50), (24, 140)),
+    ),
+    Row(
+        "a ritardando is followed, not given",
+        (("fl", FLUTE, run(0, 16, 76)), ("cl", CLARINET, run(0, 16, 64))),
+        ((0, "fl", 0.5),),
+        tempi=((0, 120), (10, 110), (11, 100), (12, 92), (13, 84), (14, 76), (15, 60)),
+    ),
+    Row(
+        "who has the pickup does not lead, and the beat before it is shown",
+        (
+            ("tpt 1", TRUMPET, run(1, 24, 74)),
+            ("tpt 2", TRUMPET, [(0.5, 0.5, 70), *run(1, 24, 70)]),
+            ("tbn", TROMBONE, run(1, 24, 50)),
+        ),
+        ((0.5, "tpt 1", 0.75),),
+        pickup=1.0,
+    ),
+    Row(
+        "an organ that is not on stage has begun: the trumpet just comes in",
+        (("tpt", TRUMPET, run(16, 16, 72) + run(48, 16, 72)),),
+        (),
+        unplayed=run(0, 64, 60),
+    ),
+    Row(
+        "they begin together with what nobody plays",
+        (("tpt", TRUMPET, run(0, 16, 72)),),
+        ((0, "tpt", 0.5),),
+        unplayed=run(0, 16, 60),
+    ),
+)
+
+HELD_OUT = (
+    Row(
+        "six eighths at a dotted quarter of 80: the felt beat is shown",
+        (("fl", FLUTE, run(0, 24, 76, 1.5)), ("ob", OBOE, run(0, 24, 71, 1.5))),
+        ((0, "fl", 0.75),),
+        tempi=((0, 120),),
+        metre=(6, 8),
+    ),
+    Row(
+        "the melody is in the trombones: their first leads, not the trumpet",
+        (
+            ("tpt", TRUMPET, run(0, 16, 60)),
+            ("tbn 1", TROMBONE, run(0, 16, 64)),
+            ("tbn 2", TROMBONE, run(0, 16, 66)),
+        ),
+        ((0, "tbn 1", 0.5),),
+    ),
+    Row(
+        "the second clarinet comes in after ten bars while the first plays",
+        (("cl 1", CLARINET, run(0, 64, 74)), ("cl 2", CLARINET, run(0, 8, 65) + run(48, 16, 65))),
+        ((0, "cl 1", 0.5), (48, "cl 2", 0.5)),
+    ),
+    Row(
+        "a long rest of everybody",
+        (("tpt", TRUMPET, run(0, 16, 72) + run(32, 8, 72)), ("tba", TUBA, run(0, 16, 40) + run(32, 8, 40))),
+        ((0, "tpt", 0.5), (32, "tpt", 0.5)),
+    ),
+    Row(
+        "all hold a last chord of four beats, and go on after a breath",
+        (
+            ("tpt", TRUMPET, [*run(0, 12, 72), (12, 4, 76), *run(17, 12, 72)]),
+            ("hn", HORN, [*run(0, 12, 60), (12, 4, 64), *run(17, 12, 60)]),
+        ),
+        ((0, "tpt", 60 / 72), (17, "tpt", 60 / 72)),
+        tempi=((0, 72),),
+    ),
+    Row(
+        "the old tempo after a ritardando",
+        (("fl", FLUTE, run(0, 32, 76)), ("cl", CLARINET, run(0, 32, 64))),
+        ((0, "fl", 0.5), (16, "fl", 0.5)),
+        tempi=((0, 120), (11, 108), (12, 98), (13, 88), (14, 78), (15, 68), (16, 120)),
+    ),
+    Row(
+        "a lingering last beat of a bar is no fermata",
+        (("fl", FLUTE, run(0, 32, 76)), ("cl", CLARINET, run(0, 32, 64))),
+        ((0, "fl", 0.5),),
+        tempi=((0, 120), (15, 92), (16, 120)),
+    ),
+    Row(
+        "a new tempo after a long rest is one cue, in the new tempo",
+        (("fl", FLUTE, run(0, 16, 76) + run(32, 16, 76)), ("cl", CLARINET, run(0, 16, 64) + run(32, 16, 64))),
+        ((0, "fl", 1.0), (32, "fl", 0.5)),
+        tempi=((0, 60), (32, 120)),
+    ),
+    Row(
+        "half a beat of upbeat by one voice alone",
+        (("ob", OBOE, [(3.5, 0.5, 74), *run(4, 16, 76)]), ("bsn", "bassoon", run(4, 16, 50))),
+        ((3.5, "ob", 0.75),),
+        pickup=4.0,
+    ),
+    Row(
+        "horns come in after a long rest while only a piano plays that is not on stage",
+        (("hn 1", HORN, run(0, 8, 65) + run(40, 8, 65)), ("hn 2", HORN, run(0, 8, 60) + run(40, 8, 60))),
+        ((0, "hn 1", 0.5),),
+        unplayed=run(0, 64, 48),
+    ),
+    Row(
+        "the piano stops as well: they need a cue",
+        (("hn 1", HORN, run(0, 8, 65) + run(40, 8, 65)), ("hn 2", HORN, run(0, 8, 60) + run(40, 8, 60))),
+        ((0, "hn 1", 0.5), (40, "hn 1", 0.5)),
+        unplayed=run(0, 32, 48),
+    ),
+    Row(
+        "a fugue in a quick two: voices four bars apart",
+        (
+            ("a", TRUMPET, run(0, 48, 74, 0.5)),
+            ("b", TRUMPET, run(8, 40, 69, 0.5)),
+            ("c", TROMBONE, run(16, 32, 57, 0.5)),
+            ("d", TUBA, run(24, 24, 40, 0.5)),
+        ),
+        ((0, "a", 0.6), (8, "b", 0.6), (16, "c", 0.6), (24, "d", 0.6)),
+        tempi=((0, 100),),
+        metre=(2, 4),
+    ),
+)
+
+
+def cues_of(row: Row) -> list[tuple[float, str, float]]:
+    clock = TempoMap(Q, tuple(TempoChange(round(at * Q), 60e6 / bpm) for at, bpm in row.tempi))
+    numerator, denominator = row.metre
+    bar = 4 * Q * numerator // denominator
+    first = round(row.pickup * Q)
+    metres = (Metre(0, numerator, denominator), *((Metre(first, numerator, denominator),) if first else ()))
+    felt = 3 * Q // 2 if denominator == 8 else Q
+    lines = []
+    for track, (name, map_id, notes) in enumerate(row.players, 1):
+        made = (
+            Note(f"{track}:{number}", round(onset * Q), round(length * Q), pitch, 80)
+            for number, (onset, length, pitch) in enumerate(notes, 1)
+        )
+        lines.append(Line(name, tuple(made), MAPS[map_id]))
+    heard = sounding_spans(((round(at * Q), round((at + length) * Q)) for at, length, _ in row.unplayed), Q)
+    starts = (*((0,) if first else ()), *range(first, 200 * Q, bar))
+    piece = Piece(clock, metres, felt, starts, accompaniment=heard)
+    plans = make_plans(piece, tuple(lines), time_frame(tuple(lines), clock))
+    cues = sorted((cue for plan in plans.values() for cue in plan.cues), key=lambda cue: cue.end_tick)
+    return [(cue.end_tick / Q, cue.player_id, cue.end_s - cue.peak_s) for cue in cues]
+
+
+@pytest.mark.parametrize("row", TUNED + HELD_OUT, ids=lambda row: row.name)
+def test_cues_are_where_musicians_expect_them(row: Row) -> None:
+    found = cues_of(row)
+    assert [(at, who) for at, who, _ in found] == [(at, who) for at, who, _ in row.expected]
+    assert [lead_s for _, _, lead_s in found] == pytest.approx([lead_s for _, _, lead_s in row.expected])
