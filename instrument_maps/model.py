@@ -83,10 +83,13 @@ class Embouchure(_Table, frozen=True):
         ``"fipple"``: a beak between relaxed lips.
     lips_apart_m : float
         Height of what lies between the lips where they close around it; 0 for a cup and an air jet.
+    puff : float
+        How far low and loud notes fill the cheeks: 1 as a brass player's may, 0 where cheeks stay flat.
     """
 
     kind: EmbouchureKind
     lips_apart_m: float = 0.0
+    puff: float = 1.0
 
 
 class Mouthpiece(_Table, frozen=True):

@@ -105,7 +105,7 @@ TEMPLATES: Final[dict[str, str]] = {
         "gives the new tempo of {bpm:g} beats a minute ({leader_reason}); the preparatory beat lasts {beat_s:g} s"
     ),
     "cue.section": (
-        "brings in {count} players after {rest_s:g} s of rest, while others play ({leader_reason}); "
+        "brings in {count} {count:player|players} after {rest_s:g} s of rest, while others play ({leader_reason}); "
         "the preparatory beat lasts {beat_s:g} s"
     ),
     "cue.joins": "comes in after {rest_s:g} s of rest, while others play; the preparatory beat lasts {beat_s:g} s",
@@ -116,6 +116,7 @@ TEMPLATES: Final[dict[str, str]] = {
     "gesture.sway": "half a swing in {beats:g} beats of {beat_s:g} s",
     "gesture.weight_shift": "a shift of weight to the {side} foot",
     "gesture.bell_height": "the melody is around {pitch}; the line's mean is {mean_pitch}",
+    "gesture.bell_accent": "an accent, {more:g} louder than the notes around it",
     "gesture.lower_instrument": "{rest_s:g} s of rest: the instrument comes down and is up again before the entry",
     "gesture.lower_at_end": "{after_s:g} s after the last note the instrument comes down",
     "gesture.lower_at_start": "the entry is {rest_s:g} s away: the instrument is still down",
@@ -126,7 +127,7 @@ TEMPLATES: Final[dict[str, str]] = {
     "expression.low_loud": "{pitch} lies below {easy_low} and is loud ({loudness:g})",
     "expression.gives_entry": "gives the entry",
     "expression.takes_entry": "comes in after {rest_s:g} s of rest",
-    "expression.end": "the last note is over",
+    "expression.end": "the last note is over: a bright end, in major, {bpm:g} beats a minute and not soft",
     # Corrections
     "correction.by_hand": "set by hand",
     "correction.orphaned": "the correction ({kind}) for {anchor} has lost its place: it is kept, but does nothing",

@@ -215,7 +215,8 @@ class Bobbing:
         lasts_tick = np.array([event.end_tick for event in swings]) - start_tick
         beats = np.maximum(1.0, np.round(lasts_tick / beat_ticks_at(felt_beats, start_tick)))
         size = np.square(np.minimum(1.0, length_s / beats / QUICK_S))
-        size *= 0.4 + 0.6 * np.abs([event.amount for event in swings])
+        # Who hardly sways hardly bobs: a body that is still is still.
+        size *= np.sqrt(np.abs([event.amount for event in swings]))
         end_s = start_s + length_s
         # Between swings far apart the body stands upright.
         far = np.flatnonzero(start_s[1:] - end_s[:-1] > 2.0 * UPRIGHT_S)
@@ -309,34 +310,36 @@ class Nods:
 
     Attributes
     ----------
-    peak_s, half_s : (N,) float64
+    peak_s, half_s, amount : (N,) float64
     """
 
     peak_s: FloatArray
     half_s: FloatArray
+    amount: FloatArray
 
     @classmethod
     def of(cls, cues: Sequence[CueEvent]) -> Nods:
         """From a player's cues."""
-        rows = [(cue.peak_s, min(0.6 * cue.beat_s, cue.peak_s - cue.start_s)) for cue in cues]
-        table = np.array([row for row in rows if row[1] > 0.0], dtype=np.float64).reshape(-1, 2)
-        return cls(table[:, 0], table[:, 1])
+        rows = [(cue.peak_s, min(0.6 * cue.beat_s, cue.peak_s - cue.start_s), cue.amount) for cue in cues]
+        table = np.array([row for row in rows if row[1] > 0.0], dtype=np.float64).reshape(-1, 3)
+        return cls(table[:, 0], table[:, 1], table[:, 2])
 
     def sample(self, times_s: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Dip and lift 0..1 at ascending times, each (F,) float64."""
+        """Dip and lift, 1 as usual, at ascending times, each (F,) float64."""
         dip, lift = np.zeros(len(times_s)), np.zeros(len(times_s))
         first = np.searchsorted(times_s, self.peak_s - self.half_s)
         last = np.searchsorted(times_s, self.peak_s + 2.0 * self.half_s)
         for index in np.flatnonzero(last > first):
             here = slice(first[index], last[index])
             peak_s, half_s = float(self.peak_s[index]), float(self.half_s[index])
-            np.maximum(dip[here], bump(times_s[here], peak_s, half_s), out=dip[here])
-            np.maximum(lift[here], bump(times_s[here], peak_s + LIFT_LAG * half_s, half_s), out=lift[here])
+            amount = float(self.amount[index])
+            np.maximum(dip[here], amount * bump(times_s[here], peak_s, half_s), out=dip[here])
+            np.maximum(lift[here], amount * bump(times_s[here], peak_s + LIFT_LAG * half_s, half_s), out=lift[here])
         return dip, lift
 
     def changed_s(self, other: Nods) -> FloatArray:
         """Spans (K, 2) outside of which both have the very same values."""
-        mine, others = (np.stack((nods.peak_s, nods.half_s), axis=1) for nods in (self, other))
+        mine, others = (np.stack((nods.peak_s, nods.half_s, nods.amount), axis=1) for nods in (self, other))
         spans = [np.stack((row[:, 0] - row[:, 1], row[:, 0] + 2.0 * row[:, 1]), axis=1) for row in (mine, others)]
         return rows_changed_s(mine, others, *spans)
 

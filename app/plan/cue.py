@@ -31,6 +31,7 @@ import numpy as np
 
 from app.errors import Argument, Message
 from app.plan.corrections import BY_HAND, RemoveEvent, SetBreath, SetCue, removed_ids
+from app.plan.dynamics import vigour_of
 from app.plan.line import IntArray, Line, LineTimes, Piece
 from app.plan.model import CueEvent, FloatArray, TimeFrame
 from instrument_maps.vocabulary import vocabulary
@@ -66,6 +67,8 @@ MELODY_BARS = 2
 """Who has the melody is heard in so many bars."""
 DOUBLED_SHARE = 0.8
 """Who plays so much of the melody, in any octave, has it too."""
+SMALLEST, LARGEST = 0.4, 1.2
+"""A cue to play softly is small, but seen; one to play loudly is no leap."""
 ON_BEAT = 0.12
 """What is nearer to a beat, in beats, is on it: nobody plays more exactly."""
 
@@ -337,7 +340,9 @@ def plan_cues(
             continue
         own = next((lines[line].notes[index] for line, index in entry.players if line == leader), None)
         note = own.id if own is not None and own.onset_tick == entry.tick else f"@{entry.tick}"
-        cue = _cue(lines[leader].player_id, note, entry, why, piece, frame)
+        loudness = float(np.mean([all_times[line].loudness[index] for line, index in entry.players]))
+        amount = round(min(max(float(vigour_of(np.array([loudness]))[0]), SMALLEST), LARGEST), 4)
+        cue = _cue(lines[leader].player_id, note, entry, why, piece, frame, amount)
         # Nobody nods twice at once.
         if cue.start_s >= busy_until_s.get(leader, -np.inf):
             busy_until_s[leader] = cue.end_s
@@ -362,7 +367,7 @@ def plan_cues(
     return tuple(ordered), frozenset(event.id for event in generated)
 
 
-def _cue(player_id: str, note: str, entry: Entry, why: str, piece: Piece, frame: TimeFrame) -> CueEvent:
+def _cue(player_id: str, note: str, entry: Entry, why: str, piece: Piece, frame: TimeFrame, amount: float) -> CueEvent:
     """The cue of an entry, in the tempo that begins there."""
     clock, tick, beat = piece.clock, entry.tick, _beat(piece, entry.tick)
     end_s = clock.seconds(float(tick))
@@ -387,6 +392,7 @@ def _cue(player_id: str, note: str, entry: Entry, why: str, piece: Piece, frame:
         end_s=end_s,
         beat_s=beat_s,
         reason=Message(reason, arguments),
+        amount=amount,
     )
 
 

@@ -1,5 +1,6 @@
-"""Faces: strained on high, loud and long notes, a little puffed on low and loud ones, brows up with entries, a smile
-after the last note; neutral beneath. What a name looks like is in ``metadata/expressions``.
+"""Faces: strained on high, loud and long notes, on some instruments a little puffed on low and loud ones, brows up with
+entries, a smile after the last note of a piece that ends brightly; neutral beneath. What a name looks like is in
+``metadata/expressions``.
 
 Messages
 --------
@@ -8,7 +9,7 @@ expression.effort(effort, threshold): "Effort {effort} (from {threshold}): high,
 expression.low_loud(pitch, easy_low, loudness): "{pitch} lies below {easy_low} and is loud ({loudness})."
 expression.gives_entry(): "Gives the entry."
 expression.takes_entry(rest_s): "Comes in after {rest_s} s of rest."
-expression.end(): "The last note is over."
+expression.end(bpm): "The last note is over: a bright end, in major, {bpm} beats a minute and not soft."
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from app.errors import Message
+from app.plan.ending import Ending
 from app.plan.line import LineTimes
 from app.plan.model import (
     BreathEvent,
@@ -46,6 +48,7 @@ ENTRY_REST_S = 4.0
 """After a rest this long a player's brows take the entry."""
 SMILE_AFTER_S = 0.7
 SMILE = 0.7
+SMILE_ID = "expression:smile"
 
 
 def plan_expressions(
@@ -58,6 +61,7 @@ def plan_expressions(
     breaths: tuple[BreathEvent, ...],
     cues: tuple[CueEvent, ...],
     gestures: tuple[GestureEvent, ...],
+    ending: Ending,
     faces: Mapping[str, Expression] | None = None,
 ) -> tuple[ExpressionEvent, ...]:
     """All expressions of one player, ordered by start; ``faces`` are the bundled ones unless given."""
@@ -95,10 +99,10 @@ def plan_expressions(
     )
     events += _entries(faces["brows_up"], notes, times, clock, breaths, cues)
     lowered_s = [event.start_s for event in gestures if event.id == "lower_instrument:end"]
-    if lowered_s and lowered_s[0] + SMILE_AFTER_S < frame.end_s:
+    if ending.bright and lowered_s and lowered_s[0] + SMILE_AFTER_S < frame.end_s:
         events.append(
-            _event("expression:smile", faces["smile"], lowered_s[0] + SMILE_AFTER_S, frame.end_s + 1.0, SMILE, clock,
-                   Message("expression.end"))
+            _event(SMILE_ID, faces["smile"], lowered_s[0] + SMILE_AFTER_S, frame.end_s + 1.0, SMILE, clock,
+                   Message("expression.end", {"bpm": ending.bpm}))
         )  # fmt: skip
     return tuple(sorted(events, key=lambda event: (event.start_s, event.id)))
 
@@ -109,9 +113,10 @@ def strained(effort: FloatArray) -> FloatArray:
 
 
 def puffed(pitch: FloatArray, loudness: FloatArray, instrument: InstrumentMap) -> FloatArray:
-    """How much air low and loud notes let into the cheeks."""
+    """How much air low and loud notes let into the cheeks, where the instrument lets any."""
     low = np.clip((instrument.range.easy_low - pitch + 1) / PUFF_SEMITONES, 0.0, 1.0)
-    return np.asarray(np.sqrt(low * np.clip((loudness - LOUD) / (1.0 - LOUD), 0.0, 1.0)))
+    size = np.sqrt(low * np.clip((loudness - LOUD) / (1.0 - LOUD), 0.0, 1.0))
+    return np.asarray(instrument.embouchure.puff * size)
 
 
 def _moments(

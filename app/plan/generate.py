@@ -31,8 +31,10 @@ from app.plan.corrections import (
     sound_corrections,
 )
 from app.plan.cue import cue_inputs, entries, plan_cues
+from app.plan.dynamics import dynamics_of
 from app.plan.embouchure import plan_embouchures, plan_tongues
-from app.plan.expression import plan_expressions
+from app.plan.ending import Ending, ending_of
+from app.plan.expression import SMILE_ID, plan_expressions
 from app.plan.fingering import plan_fingerings
 from app.plan.gesture import Pulse, plan_gestures, pulse
 from app.plan.heard import blown
@@ -167,6 +169,7 @@ def plan_ensemble(
     )
     first_s = min((float(times.onset_s[0]) for times in all_times if len(times.onset_s)), default=0.0)
     beat = shared.step("pulse", lambda: pulse(piece, frame, first_s), piece, frame, first_s)
+    ending = shared.step("ending", lambda: ending_of(all_times, piece), all_times, piece)
     taken: dict[bytes, frozenset[tuple[int, int]]] = {}
     plans = {}
     for done, (line, times, problems) in enumerate(playable):
@@ -175,7 +178,7 @@ def plan_ensemble(
         places = taken.get(times.part, frozenset())
         memo = own[line.player_id]
         own_cues = memo.step("cues", lambda line=line: _cues_of(cues, line.player_id), cues)  # type: ignore[misc]
-        given = _Given(piece, line, times, frame, own_cues, cue_ids, places, seed, beat, problems, faces)
+        given = _Given(piece, line, times, frame, own_cues, cue_ids, places, seed, beat, ending, problems, faces)
         plan, caught = memo.step("plan", lambda given=given, memo=memo: _plan_line(given, memo), *given)  # type: ignore[misc]
         plans[line.player_id] = plan
         taken[times.part] = places | caught
@@ -228,6 +231,7 @@ class _Given(NamedTuple):
     taken: frozenset[tuple[int, int]]
     seed: int
     pulse: Pulse
+    ending: Ending
     told: tuple[Problem, ...]
     faces: Mapping[str, Expression]
 
@@ -288,7 +292,8 @@ def _plan_line(given: _Given, memo: Memo) -> tuple[PlayerPlan, frozenset[tuple[i
         heard,
         of(SetEmbouchure),
     )
-    made_gestures = plan_gestures(notes, times, piece, frame, events, given.cues, seeds, given.pulse, memo)
+    dynamics = memo.step("dynamics", lambda: dynamics_of(times, heard), times, heard)
+    made_gestures = plan_gestures(notes, times, piece, frame, events, given.cues, seeds, given.pulse, dynamics, memo)
     moved = of(ChangeGesture, AddGesture, RemoveEvent, SetBreath, SetCue)
     gestures = memo.step(
         "corrected gestures",
@@ -297,10 +302,13 @@ def _plan_line(given: _Given, memo: Memo) -> tuple[PlayerPlan, frozenset[tuple[i
         moved,
         clock,
     )
+    # Who corrected the smile after the last note keeps it, whatever the ending is.
+    named = any(item.event_id == SMILE_ID for item in corrections if isinstance(item, ChangeExpression | RemoveEvent))
+    ending = msgspec.structs.replace(given.ending, bright=True) if named else given.ending
     made_expressions = memo.step(
         "expressions",
         lambda: plan_expressions(
-            notes, times, clock, instrument, frame, embouchures, events, given.cues, gestures, given.faces
+            notes, times, clock, instrument, frame, embouchures, events, given.cues, gestures, ending, given.faces
         ),
         *sound,
         clock,
@@ -310,6 +318,7 @@ def _plan_line(given: _Given, memo: Memo) -> tuple[PlayerPlan, frozenset[tuple[i
         events,
         given.cues,
         gestures,
+        ending,
         given.faces,
     )
     faced = of(ChangeExpression, AddExpression, RemoveEvent, SetBreath, SetCue)

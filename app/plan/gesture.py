@@ -3,7 +3,8 @@
 How to read the events: sway, weight_shift and bell_height each lie end to end, and an event's ``amount`` is where the
 body goes: at the end of a sway (a half swing from beat to beat), and for as long as it lasts for the other two.
 ``lower_instrument`` spans from leaving the lips to being back at them; one that reaches beyond the time frame begins
-(or stays) lowered. Sizes belong to the motion, which scales by the player's amplitude.
+(or stays) lowered. Amounts follow the dynamics (`app.plan.dynamics`); sizes belong to the motion, which scales by the
+player's amplitude.
 
 In a rest longer than twice `STIR_S` the body is still but at its edges: what is made is in proportion to the notes,
 however long the silence between them.
@@ -16,6 +17,7 @@ Messages
 gesture.sway(beats, beat_s): "Half a swing in {beats} beats of {beat_s} s."
 gesture.weight_shift(side): "A shift of weight to the {side} foot."
 gesture.bell_height(pitch, mean_pitch): "The melody is around {pitch}; the line's mean is {mean_pitch}."
+gesture.bell_accent(more): "An accent, {more} louder (0..1) than the notes around it."
 gesture.lower_instrument(rest_s): "{rest_s} s of rest: the instrument comes down and is up again before the entry."
 gesture.lower_at_end(after_s): "{after_s} s after the last note the instrument comes down."
 gesture.lower_at_start(rest_s): "The entry is {rest_s} s away: the instrument is still down."
@@ -30,8 +32,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
+import numpy.typing as npt
 
 from app.errors import Message
+from app.plan.dynamics import Dynamics, grown
 from app.plan.line import IntArray, LineTimes, Piece, Seeds
 from app.plan.memo import Memo
 from app.plan.model import BreathEvent, Clock, CueEvent, FloatArray, GestureEvent, Note, TimeFrame
@@ -46,6 +50,14 @@ CONTOUR_SEMITONES = 10.0
 """This far above or below the line's mean the bell is as high or as low as it gets."""
 CONTOUR_STEP = 0.12
 """Smaller differences of the bell's height are one gesture."""
+VIGOUR_STEP = 1.4
+"""So is what is not louder or softer by this factor of the vigour."""
+ARCH, RELEASE, ARCH_BEATS = 0.15, 0.6, 4
+"""The bell rises so much to the climax of a phrase, and sinks at its end by that share of it; of so many beats."""
+ARCH_LOUDNESS, ARCH_DOWNBEAT = 1.0, 0.1
+"""What makes a climax beside the height of the bell: loudness above the phrase's mean, and the first beat of a bar."""
+ACCENT_LIFT, MOST_ACCENT_LIFT = 1.5, 0.4
+"""The bell rises with an accent by so much for its loudness, and no more."""
 LOWER_REST_S = 6.0
 """A shorter rest does not take the instrument off the lips."""
 LOWER_S = 1.1
@@ -67,6 +79,7 @@ def plan_gestures(
     cues: tuple[CueEvent, ...],
     seeds: Seeds,
     pulse: Pulse,
+    dynamics: Dynamics,
     memo: Memo,
 ) -> tuple[GestureEvent, ...]:
     """All gestures of one player, ordered by start.
@@ -77,27 +90,38 @@ def plan_gestures(
         The player's.
     pulse : Pulse
         The same for all players.
+    dynamics : Dynamics
+        Of the line.
     memo : Memo
         Each kind is a step of its own: a pitch that changes moves the bell, and no swing.
     """
     kinds = (
         memo.step(
             "sways",
-            lambda: tuple(sways(times, pulse, frame, seeds)),
+            lambda: tuple(sways(times, pulse, frame, seeds, dynamics)),
             times.rhythm,
             pulse,
             frame,
             seeds,
+            dynamics,
         ),
         memo.step(
             "weight shifts",
-            lambda: tuple(weight_shifts(times, pulse, frame, seeds, piece.clock)),
+            lambda: tuple(weight_shifts(times, pulse, frame, seeds, piece.clock, dynamics)),
             times.rhythm,
             pulse,
             frame,
             seeds,
+            dynamics,
         ),
-        memo.step("bell heights", lambda: tuple(bell_heights(notes, times, piece)), notes, times, piece),
+        memo.step(
+            "bell heights",
+            lambda: tuple(bell_heights(notes, times, piece, dynamics)),
+            notes,
+            times,
+            piece,
+            dynamics,
+        ),
         memo.step(
             "lowered",
             lambda: tuple(lowered_spans(notes, times, piece, frame, breaths, cues)),
@@ -156,7 +180,7 @@ def pulse(piece: Piece, frame: TimeFrame, swing_at_s: float) -> Pulse:
     return Pulse(swing_beats, beat_s, beats, in_s(beats.astype(np.float64)), bars, in_s(bars.astype(np.float64)))
 
 
-def sways(times: LineTimes, pulse: Pulse, frame: TimeFrame, seeds: Seeds) -> list[GestureEvent]:
+def sways(times: LineTimes, pulse: Pulse, frame: TimeFrame, seeds: Seeds, dynamics: Dynamics) -> list[GestureEvent]:
     """Half swings from beat to beat, left and right in turn, each of its own size; small where the player rests."""
     beats, beat_s = pulse.swing_beats, pulse.beat_s
     if seeds.chance("swing") < 0.3 and beats * beat_s < 1.5 * SWING_S:
@@ -176,6 +200,7 @@ def sways(times: LineTimes, pulse: Pulse, frame: TimeFrame, seeds: Seeds) -> lis
     held = seeds.chances_at("sway held", ticks) < 0.12
     sides, sizes = np.where(held, -sides, sides), np.where(held, 0.5 * sizes, sizes)
     amounts = sides * sizes * (_RESTING + (1.0 - _RESTING) * playing)
+    amounts = grown(amounts, dynamics.at((starts_s + ends_s) / 2.0))
     reason = Message("gesture.sway", {"beats": beats, "beat_s": round(beat_s, 3)})
     rows = zip(ticks.tolist(), ends.tolist(), starts_s.tolist(), ends_s.tolist(), amounts.tolist(), strict=True)
     return [
@@ -214,7 +239,9 @@ def _stirring(times: LineTimes, frame: TimeFrame, edges_s: FloatArray) -> IntArr
     return places
 
 
-def weight_shifts(times: LineTimes, pulse: Pulse, frame: TimeFrame, seeds: Seeds, clock: Clock) -> list[GestureEvent]:
+def weight_shifts(
+    times: LineTimes, pulse: Pulse, frame: TimeFrame, seeds: Seeds, clock: Clock, dynamics: Dynamics
+) -> list[GestureEvent]:
     """Shifts of weight at arbitrary times (T7), about every `SHIFT_MEAN_S`: bar by bar a player shifts or not."""
     places = _stirring(times, frame, pulse.bars_s)
     ticks, ends = pulse.bar_ticks[places], pulse.bar_ticks[places + 1]
@@ -233,6 +260,7 @@ def weight_shifts(times: LineTimes, pulse: Pulse, frame: TimeFrame, seeds: Seeds
             continue
         amount = 2.0 * seeds.chance_at("shift to", tick) - 1.0
         amount = float(np.copysign(0.25 + 0.75 * abs(amount), amount))
+        amount = float(grown(np.array([amount]), dynamics.at(np.array([start_s])))[0])
         reason = Message("gesture.weight_shift", {"side": "left" if amount > 0.0 else "right"})
         events.append(
             GestureEvent(
@@ -242,9 +270,10 @@ def weight_shifts(times: LineTimes, pulse: Pulse, frame: TimeFrame, seeds: Seeds
     return events
 
 
-def bell_heights(notes: tuple[Note, ...], times: LineTimes, piece: Piece) -> list[GestureEvent]:
+def bell_heights(notes: tuple[Note, ...], times: LineTimes, piece: Piece, dynamics: Dynamics) -> list[GestureEvent]:
     """The bell follows the melody: per felt beat the mean pitch (by sounding time) against the line's; beats at about
-    the same height are one gesture, and a silence of a beat ends it."""
+    the same height are one gesture, and a silence of a beat ends it. It goes further where the line is loud, rises with
+    accents and to the climax of a phrase, and sinks at its end."""
     if not notes:
         return []
     weight = np.maximum(times.duration_s, 1e-3)
@@ -257,26 +286,65 @@ def bell_heights(notes: tuple[Note, ...], times: LineTimes, piece: Piece) -> lis
     sums = np.add.reduceat(times.pitch * weight, starts) / np.add.reduceat(weight, starts)
     heights = np.clip((sums - mean) / CONTOUR_SEMITONES, -1.0, 1.0)
     ends = np.append(starts[1:], len(notes))
-    groups: list[tuple[int, int, float, float]] = []
-    for start, end, height, pitch in zip(starts.tolist(), ends.tolist(), heights.tolist(), sums.tolist(), strict=True):
-        joined = groups and times.silence_tick[start] < beat_ticks[start] and abs(groups[-1][2] - height) < CONTOUR_STEP
-        if joined:
-            groups[-1] = (groups[-1][0], end, groups[-1][2], groups[-1][3])
-        else:
-            groups.append((start, end, height, pitch))
-    return [
-        GestureEvent(
-            id=f"bell_height:{notes[start].id}",
-            kind="bell_height",
-            start_tick=int(times.onset_tick[start]),
-            end_tick=int(times.played_end_tick[end - 1]),
-            start_s=float(times.onset_s[start]),
-            end_s=float(times.played_end_s[end - 1]),
-            amount=round(height, 4),
-            reason=Message("gesture.bell_height", {"pitch": round(pitch, 1), "mean_pitch": round(mean, 1)}),
+    apart = times.silence_tick[starts] >= beat_ticks[starts]
+    vigour = dynamics.at(times.onset_s[starts])
+    accents = np.maximum.reduceat(dynamics.accents, starts)
+    loud = np.add.reduceat(times.loudness * weight, starts) / np.add.reduceat(weight, starts)
+    first_of_bar = np.insert(np.diff(bar[starts]) > 0, 0, True)
+    arches, turns = _arches(times.onset_s[starts], heights, loud, first_of_bar, apart)
+    arches = arches * np.minimum(vigour, 1.5)
+    amounts = grown(heights, vigour) + arches + np.minimum(ACCENT_LIFT * accents, MOST_ACCENT_LIFT)
+    firsts: list[int] = []
+    for place in range(len(starts)):
+        held = firsts and not apart[place] and abs(heights[firsts[-1]] - heights[place]) < CONTOUR_STEP
+        if held and not turns[place] and not accents[place] and not accents[firsts[-1]]:
+            change = vigour[place] / vigour[firsts[-1]]
+            if max(change, 1.0 / change) < VIGOUR_STEP:
+                continue
+        firsts.append(place)
+    events = []
+    for place, after in itertools.pairwise([*firsts, len(starts)]):
+        start, end = int(starts[place]), int(ends[after - 1])
+        reason = Message("gesture.bell_height", {"pitch": round(float(sums[place]), 1), "mean_pitch": round(mean, 1)})
+        if accents[place]:
+            reason = Message("gesture.bell_accent", {"more": round(float(accents[place]), 2)})
+        events.append(
+            GestureEvent(
+                id=f"bell_height:{notes[start].id}",
+                kind="bell_height",
+                start_tick=int(times.onset_tick[start]),
+                end_tick=int(times.played_end_tick[end - 1]),
+                start_s=float(times.onset_s[start]),
+                end_s=float(times.played_end_s[end - 1]),
+                amount=round(float(np.clip(amounts[place], -1.0, 1.0)), 4),
+                reason=reason,
+            )
         )
-        for start, end, height, pitch in groups
-    ]
+    return events
+
+
+def _arches(
+    at_s: FloatArray,
+    heights: FloatArray,
+    loudness: FloatArray,
+    first_of_bar: npt.NDArray[np.bool_],
+    apart: npt.NDArray[np.bool_],
+) -> tuple[FloatArray, npt.NDArray[np.bool_]]:
+    """What the phrases add to the bell's height, beat by beat: up to the climax (the highest, loudest beat, sooner the
+    first of a bar) and down at the end; and which beats these are. Rests of a beat (``apart``) divide phrases."""
+    arches, turns = np.zeros(len(at_s)), np.zeros(len(at_s), dtype=bool)
+    edges = np.flatnonzero(apart | (np.arange(len(at_s)) == 0))
+    for first, end in itertools.pairwise([*edges.tolist(), len(at_s)]):
+        if end - first < ARCH_BEATS:
+            continue
+        here = slice(first, end)
+        climb = heights[here] + ARCH_LOUDNESS * loudness[here] + ARCH_DOWNBEAT * first_of_bar[here]
+        climax, last = first + int(np.argmax(climb)), end - 1
+        knots = {first: 0.0, last: -RELEASE, climax: 1.0}
+        places = sorted(knots)
+        turns[[climax, last]] = True
+        arches[here] = ARCH * np.interp(at_s[here], at_s[places], [knots[place] for place in places])
+    return arches, turns
 
 
 def lowered_spans(

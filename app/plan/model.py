@@ -145,7 +145,8 @@ class EmbouchureEvent(msgspec.Struct, frozen=True, gc=False):
 
 class CueEvent(msgspec.Struct, frozen=True, gc=False):
     """A lead-in by body and instrument. The nod starts at ``start_s``; its acceleration peaks at ``peak_s``, the
-    preparatory beat, one beat (``beat_s``) before the entry at ``end_s``."""
+    preparatory beat, one beat (``beat_s``) before the entry at ``end_s`` (before a pickup more). ``amount`` is its size
+    as a share of that of a cue to play mezzoforte."""
 
     id: str
     player_id: str
@@ -157,6 +158,7 @@ class CueEvent(msgspec.Struct, frozen=True, gc=False):
     beat_s: float
     reason: Message
     corrected: bool = False
+    amount: float = 1.0
 
 
 class GestureEvent(msgspec.Struct, frozen=True, gc=False):

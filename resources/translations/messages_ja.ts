@@ -836,7 +836,7 @@
             <translation>1 分に {bpm:g} 拍の新しいテンポを示す合図（{leader_reason}）。予備拍は {beat_s:g} 秒です</translation>
         </message>
         <message>
-            <source>brings in {count} players after {rest_s:g} s of rest, while others play ({leader_reason}); the preparatory beat lasts {beat_s:g} s</source>
+            <source>brings in {count} {count:player|players} after {rest_s:g} s of rest, while others play ({leader_reason}); the preparatory beat lasts {beat_s:g} s</source>
             <translation>ほかの奏者の演奏中、{rest_s:g} 秒休んだ奏者 {count} 人を入れる合図（{leader_reason}）。予備拍は {beat_s:g} 秒です</translation>
         </message>
         <message>
@@ -858,6 +858,10 @@
         <message>
             <source>the melody is around {pitch}; the line's mean is {mean_pitch}</source>
             <translation>旋律は {pitch} のあたり。パートの平均は {mean_pitch}</translation>
+        </message>
+        <message>
+            <source>an accent, {more:g} louder than the notes around it</source>
+            <translation>アクセント：前後の音より {more:g} 大きく演奏されます</translation>
         </message>
         <message>
             <source>{rest_s:g} s of rest: the instrument comes down and is up again before the entry</source>
@@ -900,8 +904,8 @@
             <translation>{rest_s:g} 秒の休みの後に入る</translation>
         </message>
         <message>
-            <source>the last note is over</source>
-            <translation>最後の音が終わった</translation>
+            <source>the last note is over: a bright end, in major, {bpm:g} beats a minute and not soft</source>
+            <translation>最後の音が終わりました：長調、1 分に {bpm:g} 拍、弱くない明るい終わり</translation>
         </message>
         <message>
             <source>set by hand</source>

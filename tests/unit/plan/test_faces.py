@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import msgspec
 import pytest
 
+from app.plan.corrections import ChangeExpression, RemoveEvent
 from app.plan.embouchure import TONGUE_S
 from app.plan.generate import Line, Piece, make_plans, time_frame
 from app.plan.line import MEZZOFORTE, chance, line_times
-from app.plan.model import PlayerParameters, PlayerPlan
+from app.plan.model import ExpressionEvent, PlayerParameters, PlayerPlan
+from instrument_maps.load import bundled_maps
 from tests.support.plan import PlainClock, PlainMetre, PlainNote, even, line_of, slide, valves
 
 Q = 480
@@ -82,11 +85,42 @@ def test_faces_follow_effort_entries_and_the_end() -> None:
     entry = faces["expression:brows_up:1:17"]
     assert entry.end_s == 20.0
     assert entry.reason.id == "expression.takes_entry"
-    smile = faces["expression:smile"]
-    assert smile.start_s > 21.0
     leader = {event.id: event for event in plan(Line("p", notes, valves())).expressions}
     assert leader["expression:brows_up:cue:1:1"].reason.id == "expression.gives_entry"
     assert leader["expression:brows_up:cue:1:1"].end_s == 0.0
+
+
+@pytest.mark.parametrize(
+    ("third", "bpm", "velocity", "smiles"),
+    [(4, 132.0, 90, True), (3, 132.0, 90, False), (4, 60.0, 90, False), (4, 132.0, 40, False)],
+    ids=["lively and major", "minor", "slow", "soft"],
+)
+def test_only_a_bright_ending_is_smiled_at(third: int, bpm: float, velocity: int, smiles: bool) -> None:
+    tune = [60 + step for step in (0, third, 7, third, 2, third, 2, 0)] * 8
+    # Loud enough before the end: the velocities say something.
+    notes = line_of(
+        *((index * Q, Q, pitch, 100 if index < 16 else velocity) for index, pitch in enumerate(tune)),
+    )
+    clock = PlainClock(((0, bpm),))
+    line = Line("p", notes, valves())
+
+    def smile(line: Line) -> list[ExpressionEvent]:
+        plan = make_plans(Piece(clock, (PlainMetre(0, 4, 4),)), (line,), time_frame((line,), clock))["p"]
+        assert plan.problems == ()
+        return [event for event in plan.expressions if event.id == "expression:smile"]
+
+    assert bool(smile(line)) == smiles
+    # Who changed or removed the smile of an old project finds it changed, or removed.
+    changed = (ChangeExpression("expression:smile", strength=0.3),)
+    assert [event.strength for event in smile(msgspec.structs.replace(line, corrections=changed))] == [0.3]
+    assert smile(msgspec.structs.replace(line, corrections=(RemoveEvent("expression:smile"),))) == []
+
+
+@pytest.mark.parametrize("map_id", ["flute", "piccolo", "oboe", "english_horn", "clarinet_Bb"])
+def test_cheeks_that_stay_flat_do_not_puff(map_id: str) -> None:
+    instrument = bundled_maps()[map_id]
+    notes = line_of((0, 4 * Q, instrument.range.low, 127), (8 * Q, 4 * Q, instrument.range.low + 4, 60))
+    assert not [event for event in plan(Line("p", notes, instrument)).expressions if event.expression == "puffed"]
 
 
 def test_low_and_loud_notes_puff() -> None:

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from app.plan.generate import Line, Piece, make_plans, time_frame
-from app.plan.gesture import LOWER_S, LOWERED_LEAST_S, RAISE_S, STIR_S
+from app.plan.gesture import ARCH, LOWER_S, LOWERED_LEAST_S, RAISE_S, RELEASE, STIR_S
 from app.plan.model import GestureEvent, PlayerParameters, PlayerPlan
 from tests.support.plan import PlainClock, PlainMetre, PlainNote, even, line_of, valves
 
@@ -104,8 +104,15 @@ def test_weight_rests_somewhere_from_shift_to_shift() -> None:
 def test_the_bell_follows_the_melody() -> None:
     notes = even([60] * 8 + [72] * 8 + [60] * 8, Q)
     bells = of_kind(plans(Line("p", notes, valves()))["p"], "bell_height")
-    assert [event.id for event in bells] == ["bell_height:1:1", "bell_height:1:9", "bell_height:1:17"]
-    assert bells[0].amount == bells[2].amount < 0.0 < bells[1].amount
+    assert [event.id for event in bells] == [
+        "bell_height:1:1",
+        "bell_height:1:9",
+        "bell_height:1:17",
+        "bell_height:1:24",
+    ]
+    assert bells[0].amount == pytest.approx(-0.4) == pytest.approx(bells[2].amount, abs=0.03)
+    assert bells[1].amount == pytest.approx(0.8 + ARCH)
+    assert bells[3].amount == pytest.approx(-0.4 - RELEASE * ARCH)
     assert (bells[1].start_tick, bells[1].end_tick) == (8 * Q, 16 * Q)
 
 
