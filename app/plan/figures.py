@@ -76,15 +76,17 @@ def chromatic_notes(times: LineTimes) -> BoolArray:
     return result
 
 
-def attacked_notes(times: LineTimes, register: IntArray) -> BoolArray:
+def attacked_notes(times: LineTimes, register: IntArray, trill: BoolArray) -> BoolArray:
     """(N,): whether a note needs help to speak: tongued, or slurred to from a lower register; never within a trill.
 
     Parameters
     ----------
     register : (N,) int64
         How many breaks lie below each note.
+    trill : (N-1,) bool
+        What `trill_steps` finds.
     """
     result = np.ones(len(times.pitch), dtype=bool)
     tongued = ~times.slurs_next[:-1]
-    result[1:] = (tongued | (register[1:] > register[:-1])) & ~trill_steps(times)
+    result[1:] = (tongued | (register[1:] > register[:-1])) & ~trill
     return result

@@ -54,51 +54,52 @@ class Ways:
 
 
 @dataclass(frozen=True)
-class Finger:
-    """What one finger holds in every fingering, as bits of controls: (P, K) int64 each."""
+class FingerPlaces:
+    """Where every finger is in every fingering of a table, as bits of controls.
 
-    name: str
+    Attributes
+    ----------
+    holds, half : (F, P, K) int64
+        What each finger holds wholly, and half.
+    levers : int
+        Bits of the thumbs' levers.
+    weight, key_to_key : (F, 1, 1, 1) float64
+        What a finger's move counts in a hurry, and what its way from one key to another costs.
+    """
+
     holds: IntArray
     half: IntArray
     levers: int
-    """Bits of the thumbs' levers."""
-
-
-@dataclass(frozen=True)
-class FingerPlaces:
-    """Where every finger is in every fingering of a table."""
-
-    fingers: tuple[Finger, ...]
-    shape: tuple[int, int]
+    weight: FloatArray
+    key_to_key: FloatArray
 
     def between(self, before: IntArray, after: IntArray) -> Ways:
         """Count what it takes from each fingering of the pitches ``before`` to each of those ``after``, (U,) both."""
-        shape = (len(before), self.shape[1], self.shape[1])
-        moves, weighted, key_to_key, rolls, levers, others, jumps = (np.zeros(shape) for _ in range(7))
-        up, down = np.zeros(shape, dtype=bool), np.zeros(shape, dtype=bool)
-        for finger in self.fingers:
-            a, b = finger.holds[before][:, :, None], finger.holds[after][:, None, :]
-            half_a, half_b = finger.half[before][:, :, None], finger.half[after][:, None, :]
-            moved = (a != b) | (half_a != half_b)
-            if not moved.any():
-                continue
-            lever = moved & (((a ^ b) & finger.levers) != 0)
-            whole_a, whole_b = a | half_a, b | half_b
-            busy = moved & (whole_a != 0) & (whole_b != 0)
-            apart = busy & ((whole_a & whole_b) == 0)
-            moves += moved
-            name = finger.name.split(".")[1]
-            weighted += np.where(lever, LEVER_COST, FINGER_WEIGHT.get(name, 1.0)) * moved
-            key_to_key += apart * KEY_TO_KEY_COST.get(name, KEY_TO_KEY_USUAL_COST)
-            jumps += apart
-            rolls += busy & ~apart
-            levers += lever
-            others += moved & ~lever
-            up |= moved & ~lever & ((whole_a & ~whole_b) != 0)
-            down |= moved & ~lever & ((whole_b & ~whole_a) != 0)
-        weighted += CONTRARY_COST * (up & down)
+        a, b = self.holds[:, before, :, None], self.holds[:, after, None, :]
+        whole = self.holds | self.half
+        whole_a, whole_b = whole[:, before, :, None], whole[:, after, None, :]
+        # Where what is held half differs, so does what is held wholly, or all of what is held.
+        moved = (a != b) | (whole_a != whole_b)
+        busy = moved & (whole_a != 0) & (whole_b != 0)
+        apart = busy & ((whole_a & whole_b) == 0)
+        up, down = (whole_a & ~whole_b) != 0, (whole_b & ~whole_a) != 0
+        moves, jumps = moved.sum(axis=0, dtype=np.float64), apart.sum(axis=0, dtype=np.float64)
+        weighted = (moved * self.weight).sum(axis=0)
+        levers = np.zeros_like(moves)
+        if self.levers:
+            lever = moved & (((a ^ b) & self.levers) != 0)
+            levers = lever.sum(axis=0, dtype=np.float64)
+            weighted += (lever * (LEVER_COST - self.weight)).sum(axis=0)
+            up, down = up & ~lever, down & ~lever
+        weighted += CONTRARY_COST * (up.any(axis=0) & down.any(axis=0))
         return Ways(
-            moves, weighted, key_to_key, jumps, rolls, levers, ((levers > 0.0) & (others > 0.0)).astype(np.float64)
+            moves=moves,
+            weighted=weighted,
+            key_to_key=(apart * self.key_to_key).sum(axis=0),
+            apart=jumps,
+            rolls=busy.sum(axis=0, dtype=np.float64) - jumps,
+            levers=levers,
+            together=((levers > 0.0) & (moves > levers)).astype(np.float64),
         )
 
 
@@ -125,5 +126,12 @@ def finger_places(
                 chosen[finger][row, column] |= bits[control.name]
     # Under a finger a lever is worked like any valve.
     levers = sum(bits[item.name] for item in controls if item.kind == "lever" and item.finger.endswith(".thumb"))
-    found = (Finger(name, holds[name], half[name], levers) for name in names)
-    return FingerPlaces(tuple(finger for finger in found if finger.holds.any() or finger.half.any()), shape)
+    used = [name for name in names if holds[name].any() or half[name].any()]
+    kinds = [name.split(".")[1] for name in used]
+    return FingerPlaces(
+        np.array([holds[name] for name in used], dtype=np.int64).reshape(len(used), *shape),
+        np.array([half[name] for name in used], dtype=np.int64).reshape(len(used), *shape),
+        levers,
+        np.array([FINGER_WEIGHT.get(kind, 1.0) for kind in kinds]).reshape(-1, 1, 1, 1),
+        np.array([KEY_TO_KEY_COST.get(kind, KEY_TO_KEY_USUAL_COST) for kind in kinds]).reshape(-1, 1, 1, 1),
+    )

@@ -201,7 +201,7 @@ class FingeringProblem:
             case "chromatic":
                 return chromatic_notes(times)
             case "attack":
-                return attacked_notes(times, self.table.register[self.pitch_index])
+                return attacked_notes(times, self.table.register[self.pitch_index], self.in_trill)
             case "forte":
                 return times.loudness >= LOUD
             case _:

@@ -67,7 +67,8 @@ def test_a_chromatic_note_has_semitones_on_both_sides() -> None:
 def test_an_attack_is_tongued_or_slurred_up_over_a_break() -> None:
     pitches = [53, 57, 59, 57]
     register = np.array([0, 1, 1, 1])
-    assert attacked_notes(line(pitches, 240, sounds=1.02), register).tolist() == [True, True, False, False]
+    still = np.zeros(3, dtype=bool)
+    assert attacked_notes(line(pitches, 240, sounds=1.02), register, still).tolist() == [True, True, False, False]
     # Where everything touches and nothing is slurred, an engraved score was rendered: nothing is known to be slurred.
-    assert attacked_notes(line(pitches, 240), register).all()
-    assert attacked_notes(line(pitches, 240, sounds=0.5), register).all()
+    assert attacked_notes(line(pitches, 240), register, still).all()
+    assert attacked_notes(line(pitches, 240, sounds=0.5), register, still).all()
