@@ -61,6 +61,7 @@ _HOMOPHONIC: Final = 0.5
 
 _UNISON_NUMBERS: Final = 10_000_000
 _ROUNDING_TICKS = 1e-6
+_ROUNDING_S = 1e-9
 
 # In semitones of movement: for a voice that comes in while another could have gone on, and for one that crosses a held
 # one.
@@ -139,9 +140,13 @@ def _spans(notes: Sequence[Note], tempo_map: TempoMap) -> _Spans:
     onset_ticks = np.array([note.onset_tick for note in notes], np.float64)
     end_ticks = onset_ticks + np.array([note.duration_tick for note in notes], np.float64)
     onsets, ends = tempo_map.seconds(onset_ticks), tempo_map.seconds(end_ticks)
-    lengths = ends - onsets
-    legato = np.clip(_LEGATO_SHARE * lengths, _LEGATO_LEAST_S, _LEGATO_MOST_S)
-    return _Spans(onsets, ends, ends - np.minimum(legato, _LEGATO_MOST_SHARE * lengths))
+    return _Spans(onsets, ends, ends - _legato_s(ends - onsets))
+
+
+def _legato_s(lengths_s: Floats) -> Floats:
+    """How long notes of these lengths may last into the next one of their player."""
+    legato = np.clip(_LEGATO_SHARE * lengths_s, _LEGATO_LEAST_S, _LEGATO_MOST_S)
+    return np.minimum(legato, _LEGATO_MOST_SHARE * lengths_s)
 
 
 def is_one_voice(notes: Sequence[Note], tempo_map: TempoMap) -> bool:
@@ -348,16 +353,19 @@ def _chords(onsets: Floats, releases: Floats) -> Floats:
 
 
 def _legato(notes: Sequence[Note], spans: _Spans, tempo_map: TempoMap) -> tuple[tuple[Note, ...], list[Note]]:
-    """The notes of one player, none of which lasts into the next for longer than legato; and those that did."""
+    """The notes of one player, none of which lasts into the next longer than planning accepts; and those that did so
+    for longer than legato notes do."""
     long = np.flatnonzero(spans.ends[:-1] > spans.onsets[1:] + LEGATO_OVERLAP_S)
     if not len(long):
         return tuple(notes), []
     line, shortened = list(notes), []
+    overlong = (spans.ends - _legato_s(spans.ends - spans.onsets))[long] > spans.onsets[1:][long] + _ROUNDING_S
     latest = np.floor(tempo_map.ticks(spans.onsets[1:][long] + LEGATO_OVERLAP_S) + _ROUNDING_TICKS)
-    for index, end in zip(long.tolist(), latest.tolist(), strict=True):
+    for index, end, is_overlong in zip(long.tolist(), latest.tolist(), overlong.tolist(), strict=True):
         note = notes[index]
         if note.end_tick > end:
-            shortened.append(note)
+            if is_overlong:
+                shortened.append(note)
             line[index] = Note(note.id, note.onset_tick, max(int(end) - note.onset_tick, 1), note.pitch, note.velocity)
     return tuple(line), shortened
 

