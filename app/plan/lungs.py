@@ -117,14 +117,18 @@ def lungful_s(parameters: PlayerParameters, air: Air | None = None) -> float:
 
 def levels(used: FloatArray, lung_s: float, refill: FloatArray) -> FloatArray:
     """(N,): how full the lungs are (0..1) at each note's onset, after the breath before it."""
-    level = []
     # Nobody enters on empty lungs: without any breath before the first note (removed by hand) a normal one is assumed.
-    here = 0.5 if refill[0] == 0.0 else 0.0
-    spent = np.diff(used[: len(refill)], prepend=used[0]) / lung_s
-    for out, more in zip(spent.tolist(), refill.tolist(), strict=True):
-        here = min(max(here - out, 0.0) + more, 1.0)
-        level.append(here)
-    return np.array(level)
+    here, before = (0.5 if refill[0] == 0.0 else 0.0), 0
+    breaths = np.flatnonzero(refill > 0.0)
+    full = [here]
+    for index, air, more in zip(breaths.tolist(), used[breaths].tolist(), refill[breaths].tolist(), strict=True):
+        spent = (air - float(used[before])) / lung_s
+        here, before = min(max(here - spent, 0.0) + more, 1.0), index
+        full.append(here)
+    # Until the next breath it goes down as the air is used.
+    last = np.searchsorted(breaths, np.arange(len(refill)), side="right")
+    since = used[np.insert(breaths, 0, 0)[last]]
+    return np.asarray(np.maximum(np.array(full)[last] - (used[: len(refill)] - since) / lung_s, 0.0))
 
 
 def needed_rests(
