@@ -86,8 +86,8 @@ TEMPLATES: Final[dict[str, str]] = {
     "breath.prepared": "a rest of {rest_beats:g} beats (from {prepare_beats:g}): prepared, then the last beat",
     "breath.preparation": "a rest of {rest_beats:g} beats (from {prepare_beats:g}): getting ready to breathe",
     "breath.catch": (
-        "a catch breath after note {after_note}: {phrase_s:g} s without a rest ask for more than the {lung_s:g} s of "
-        "a full lung; {from_note_ms:g} ms come out of that note's tail"
+        "a catch breath after note {after_note}: {phrase_s:g} s without a breath in a rest need more than the "
+        "{lung_s:g} s of air there are; {from_note_ms:g} ms come out of that note's tail"
     ),
     "breath.too_long": (
         "from note {note} on, {phrase_s:g} s must be played on one breath; it takes {air_s:g} s of air, and there are "

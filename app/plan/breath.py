@@ -18,7 +18,8 @@ breath.prepared(rest_beats, prepare_beats): "A rest of {rest_beats} beats (from 
 breath.preparation(rest_beats, prepare_beats): "A rest of {rest_beats} beats (from {prepare_beats}): getting ready to
     breathe."
 breath.catch(after_note, phrase_s, lung_s, from_note_ms): "A catch breath after note {after_note}: {phrase_s} s
-    without a rest ask for more than the {lung_s} s of air there are; {from_note_ms} ms come out of that note's tail."
+    without a breath in a rest need more than the {lung_s} s of air there are; {from_note_ms} ms come out of that
+    note's tail."
 breath.heard(gap_s): "Heard in the breath: {gap_s} s without blowing."
     Within a note too, which is blown on afterwards.
 breath.heard_preparation(gap_s): "Heard in the breath: {gap_s} s without blowing; getting ready to breathe."

@@ -808,8 +808,8 @@
             <translation>{rest_beats:g} 拍の休符（{prepare_beats:g} 以上）: ブレスの準備</translation>
         </message>
         <message>
-            <source>a catch breath after note {after_note}: {phrase_s:g} s without a rest ask for more than the {lung_s:g} s of a full lung; {from_note_ms:g} ms come out of that note's tail</source>
-            <translation>音符 {after_note} の後の素早いブレス: 休符なしの {phrase_s:g} 秒は、満杯の肺 {lung_s:g} 秒では足りません。その音の終わりから {from_note_ms:g} ms を使います</translation>
+            <source>a catch breath after note {after_note}: {phrase_s:g} s without a breath in a rest need more than the {lung_s:g} s of air there are; {from_note_ms:g} ms come out of that note's tail</source>
+            <translation>音符 {after_note} の後の素早いブレス: 休符でブレスしないまま {phrase_s:g} 秒続き、{lung_s:g} 秒分の息では足りません。その音の終わりから {from_note_ms:g} ms を使います</translation>
         </message>
         <message>
             <source>from note {note} on, {phrase_s:g} s must be played on one breath; it takes {air_s:g} s of air, and there are {lung_s:g}</source>
