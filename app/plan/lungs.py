@@ -307,10 +307,10 @@ def _place_costs(
     like = _like_entries(rests, onsets, at, bars)
     good += LIKE_ENTRIES * like
     good += AGAIN * _begins_again(steps, times.pitch, rests)[at]
-    # A long note or a rest ends what led to the next one, and where the line comes in on the beat nothing leads there.
-    leads = (~rest & (long < 1.0)) * (1.0 - like)
     runs = steps[at - 1] <= RUNNING * beat
-    good += SQUARE * _squareness(rests, onsets, at, bars)
+    # A long note or a rest ends what led to the next one; unless notes run, nothing leads to where the line comes in.
+    leads = (~rest & (long < 1.0)) * (1.0 - like * ~runs)
+    good += SQUARE * _squareness(rests, onsets, at, bars) * ~runs
     good += BEFORE_UPBEAT * np.clip(falls, 0, np.where(runs, 3, 1)) + AFTER_UPBEAT * np.maximum(-falls, 0) * leads
     good += SHORTER * np.clip(np.log2(np.maximum(before, EPSILON) / np.maximum(duration[at], EPSILON)), 0.0, 2.0)
     good += LEAP * times.leaps[at - 1]

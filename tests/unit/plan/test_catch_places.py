@@ -40,3 +40,10 @@ def test_a_note_is_long_by_those_before_it(after: int) -> None:
 def test_even_notes_are_breathed_between_in_phrases_of_four_bars() -> None:
     notes = line_of(*((beat * Q, Q, 65 + beat % 2) for beat in range(32)))
     assert catches(notes, lung_s=12.0) == [16.0]
+
+
+def test_running_notes_are_breathed_between_after_the_first_of_a_bar() -> None:
+    notes = line_of(*((step * Q // 2, Q // 2, 65 + step % 2) for step in range(64)))
+    found = catches(notes, lung_s=14.0)
+    assert found
+    assert all(place % 4 == 0.5 for place in found)
