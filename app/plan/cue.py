@@ -142,11 +142,12 @@ def _beat(piece: Piece, tick: int) -> int:
 
 
 def _together(piece: Piece, tick: int) -> int:
-    """How long after a tick others still come in with it, ticks: within a beat, or of the bar line after a pickup."""
+    """How long after a tick others still come in with it, ticks: at once, or within a beat of the bar line after a
+    pickup."""
     beat, bar = _beat(piece, tick), piece.bar_length_tick(tick)
     bars = piece.bars(tick, tick + bar + 1)
     following = int(bars[np.searchsorted(bars, tick, side="right")]) - tick if bars[-1] > tick else bar
-    return following + beat if following <= bar / 2 else beat
+    return following + beat if following <= bar / 2 else max(round(ON_BEAT * beat), 1)
 
 
 def _coming_in(sounding: list[tuple[int, LineTimes]], tick: int, ticks: int) -> tuple[tuple[int, int], ...]:
