@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -81,9 +82,12 @@ def vigour_of(loudness: FloatArray) -> FloatArray:
     return np.asarray(np.interp(np.round(loudness, 6), LOUDNESSES, VIGOURS))
 
 
-def grown(amounts: FloatArray, vigour: FloatArray) -> FloatArray:
-    """Amounts -1..1 at a vigour: smaller in proportion below 1; above 1 what is small grows more, and 1 stays 1."""
-    return amounts * vigour / (1.0 + np.abs(amounts) * np.maximum(vigour - 1.0, 0.0))
+Size = TypeVar("Size", float, FloatArray)
+
+
+def grown(amount: Size, vigour: Size) -> Size:
+    """An amount -1..1 at a vigour: smaller in proportion below 1; above 1 what is small grows more, and 1 stays 1."""
+    return amount * vigour / (1.0 + abs(amount) * (vigour - 1.0) * (vigour > 1.0))
 
 
 def _around(starts_s: FloatArray, lasts_s: FloatArray, loudness: FloatArray, at_s: FloatArray) -> FloatArray:

@@ -255,12 +255,13 @@ def weight_shifts(
             starts.append((at, at_s))
     events = []
     last = (int(pulse.bar_ticks[-1]), frame.end_s)
-    for (tick, start_s), (end_tick, end_s) in zip(starts, [*starts, last][1:], strict=True):
+    vigours = dynamics.at(np.array([start_s for _, start_s in starts])).tolist()
+    for (tick, start_s), (end_tick, end_s), vigour in zip(starts, [*starts, last][1:], vigours, strict=True):
         if end_s <= start_s:
             continue
         amount = 2.0 * seeds.chance_at("shift to", tick) - 1.0
         amount = float(np.copysign(0.25 + 0.75 * abs(amount), amount))
-        amount = float(grown(np.array([amount]), dynamics.at(np.array([start_s])))[0])
+        amount = grown(amount, vigour)
         reason = Message("gesture.weight_shift", {"side": "left" if amount > 0.0 else "right"})
         events.append(
             GestureEvent(
@@ -294,33 +295,44 @@ def bell_heights(notes: tuple[Note, ...], times: LineTimes, piece: Piece, dynami
     arches, turns = _arches(times.onset_s[starts], heights, loud, first_of_bar, apart)
     arches = arches * np.minimum(vigour, 1.5)
     amounts = grown(heights, vigour) + arches + np.minimum(ACCENT_LIFT * accents, MOST_ACCENT_LIFT)
+    # Plain lists: a loop over single numbers of an array costs several times as much.
+    contour, vigours, breaks = heights.tolist(), vigour.tolist(), (apart | turns | (accents > 0.0)).tolist()
+    accented = accents.tolist()
     firsts: list[int] = []
-    for place in range(len(starts)):
-        held = firsts and not apart[place] and abs(heights[firsts[-1]] - heights[place]) < CONTOUR_STEP
-        if held and not turns[place] and not accents[place] and not accents[firsts[-1]]:
-            change = vigour[place] / vigour[firsts[-1]]
-            if max(change, 1.0 / change) < VIGOUR_STEP:
+    for place, height in enumerate(contour):
+        if firsts and not breaks[place] and not accented[firsts[-1]]:
+            change = vigours[place] / vigours[firsts[-1]]
+            near = abs(contour[firsts[-1]] - height) < CONTOUR_STEP
+            if near and 1.0 / VIGOUR_STEP < change < VIGOUR_STEP:
                 continue
         firsts.append(place)
-    events = []
-    for place, after in itertools.pairwise([*firsts, len(starts)]):
-        start, end = int(starts[place]), int(ends[after - 1])
-        reason = Message("gesture.bell_height", {"pitch": round(float(sums[place]), 1), "mean_pitch": round(mean, 1)})
-        if accents[place]:
-            reason = Message("gesture.bell_accent", {"more": round(float(accents[place]), 2)})
-        events.append(
-            GestureEvent(
-                id=f"bell_height:{notes[start].id}",
-                kind="bell_height",
-                start_tick=int(times.onset_tick[start]),
-                end_tick=int(times.played_end_tick[end - 1]),
-                start_s=float(times.onset_s[start]),
-                end_s=float(times.played_end_s[end - 1]),
-                amount=round(float(np.clip(amounts[place], -1.0, 1.0)), 4),
-                reason=reason,
-            )
+    first, last = starts[firsts], ends[[*(place - 1 for place in firsts[1:]), len(starts) - 1]] - 1
+    rows = zip(
+        firsts,
+        first.tolist(),
+        times.onset_tick[first].tolist(),
+        times.played_end_tick[last].tolist(),
+        times.onset_s[first].tolist(),
+        times.played_end_s[last].tolist(),
+        np.clip(amounts[firsts], -1.0, 1.0).tolist(),
+        strict=True,
+    )
+    pitches, mean = sums.tolist(), round(mean, 1)
+    return [
+        GestureEvent(
+            f"bell_height:{notes[note].id}",
+            "bell_height",
+            start_tick,
+            end_tick,
+            start_s,
+            end_s,
+            round(amount, 4),
+            Message("gesture.bell_accent", {"more": round(accented[place], 2)})
+            if accented[place]
+            else Message("gesture.bell_height", {"pitch": round(pitches[place], 1), "mean_pitch": mean}),
         )
-    return events
+        for place, note, start_tick, end_tick, start_s, end_s, amount in rows
+    ]
 
 
 def _arches(
