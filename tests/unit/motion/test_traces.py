@@ -75,9 +75,13 @@ def test_cheeks_follow_the_breath_and_the_breath_is_seen_with_every_contact_kept
     shown = seen(BLOWN, vibrato_curve(7.0, 8.6, 0.15, 5.5), map_id=map_id)
     times_s = shown.times_s[shown.frames(1.3, 4.9)]
     asked = SWELL.dynamics(times_s - SWELL.start_s)
-    cheeks = shown.between("cheekPuff", 1.3, 4.9)
-    assert np.corrcoef(asked, cheeks)[0, 1] > 0.97
-    assert cheeks[-1] > 2.0 * cheeks[0]
+    if map_id in ("oboe", "flute"):
+        # Their cheeks stay flat; nothing else moves them here.
+        assert "cheekPuff" not in shown.motion.morphs
+    else:
+        cheeks = shown.between("cheekPuff", 1.3, 4.9)
+        assert np.corrcoef(asked, cheeks)[0, 1] > 0.97
+        assert cheeks[-1] > 2.0 * cheeks[0]
     breath = next(event for event in shown.plan.breaths if event.id == "breath:1:3")
     assert (breath.start_s, breath.end_s) == pytest.approx(BREATH_S, abs=0.04)
     inside = shown.between("jawOpen", *BREATH_S).max()
