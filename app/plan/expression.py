@@ -159,13 +159,11 @@ def _entries(
         for cue in cues
     ]  # fmt: skip
     given_s = {cue.end_s for cue in cues}
-    rests_s = dict(
-        zip(
-            (f"breath:{note.id}" for note in notes[1:]),
-            (times.onset_s[1:] - times.played_end_s[:-1]).tolist(),
-            strict=True,
-        )
-    )
+    entry = np.flatnonzero(times.onset_s[1:] - times.played_end_s[:-1] >= ENTRY_REST_S) + 1
+    rests_s = {
+        f"breath:{notes[index].id}": float(times.onset_s[index] - times.played_end_s[index - 1])
+        for index in entry.tolist()
+    }
     for breath in breaths:
         rest_s = rests_s.get(breath.id, 0.0)
         if breath.kind == "breath" and rest_s >= ENTRY_REST_S and breath.end_s not in given_s:

@@ -44,6 +44,7 @@ def plan_fingerings(
     events = []
     problems: list[Problem] = []
     reasons: dict[str, Message] = {}
+    corrected: dict[tuple[int, int, tuple[str, ...]], dict[str, float]] = {}
     held = [
         (control.name, control.held_min_s or 0.0) for control in instrument.controls if control.role == "intonation"
     ]
@@ -61,15 +62,18 @@ def plan_fingerings(
         controls = fingering.controls
         if fingering.correction:
             length_s = end_s[index] - onset_s[index]
-            extra = {name: fingering.correction[name] for name, minimum in held
-                     if name in fingering.correction and length_s >= minimum}  # fmt: skip
-            controls = {**controls, **extra}
+            extra = tuple([name for name, minimum in held if length_s >= minimum and name in fingering.correction])
+            place = rows[index], columns[index], extra
+            if place not in corrected:
+                corrected[place] = {**controls, **{name: fingering.correction[name] for name in extra}}
+            controls = corrected[place]
         if pinned:
             reason = Message("fingering.by_hand", {"label": fingering.label})
         elif fingering.rank > 1:
             reason = _alternate_reason(problem, index, ranked[0], fingering)
         else:
-            reason = reasons.setdefault(fingering.label, Message("fingering.first_choice", {"label": fingering.label}))
+            reason = reasons.get(fingering.label) or Message("fingering.first_choice", {"label": fingering.label})
+            reasons[fingering.label] = reason
         events.append(
             FingeringEvent(
                 id=f"fingering:{note.id}",
