@@ -64,7 +64,7 @@ READABLE = {
     "a foreign header of 128 bytes": (b"\0" * 128 + midi(ONE), [0.0]),
     "rubbish after the end": (midi(ONE) + b"rubbish" * 9, [0.0]),
     "a key of ten sharps": (midi(b"\0\xff\x59\x02\x0a\x07" + ONE), [0.0]),
-    "a name with line breaks": (midi(b"\0\xff\x03\x05a\nb\r{" + ONE), [0.0]),
+    "a name with line breaks": (midi(b"\0\xff\x03\x09Flute\n1\r{" + ONE), [0.0]),
     "an empty track": (midi(b""), []),
     "500 notes that never end": (midi(b"\0\x90\x3c\x50" * 500 + END), [0.0]),
 }
