@@ -242,6 +242,7 @@ class LiveMotion:
 
     def work(self, stop_wanted: StopWanted = lambda: False) -> bool:
         """Make the most wanted chunk that is missing; whether there was one. Raises PlayerFault, once for a player."""
+        self._judge_made()
         with self._working:
             return self._work(stop_wanted)
 
@@ -267,12 +268,6 @@ class LiveMotion:
             if self._todo is None:
                 self._todo = self._missing(shown)
             todo = self._todo
-        # Not with the frames, for which a picture waits.
-        unjudged, self._made = self._made, []
-        for track, index, motion in unjudged:
-            if shown.tracks.get(track.player.id) is track and index in track.chunks and track.error is None:
-                with self._own_fault(track):
-                    self._judge(track, index, motion)
         for player_id, index in todo:
             if stop_wanted():
                 return True
@@ -297,9 +292,19 @@ class LiveMotion:
             track.outdated.pop(index, None)
             self._chunk_bytes = chunk.bytes
             self._seen += index == self._in_sight(shown.grid)[0]
-        if index not in track.judged:
-            self._made.append((track, index, motion))
+            if index not in track.judged:
+                self._made.append((track, index, motion))
         return True
+
+    def _judge_made(self) -> None:
+        """Judge what was made last: not with the frames, for which a picture waits, and while others are made."""
+        with self._lock:
+            shown, unjudged = self._shown, self._made
+            self._made = []
+        for track, index, motion in unjudged:
+            if shown.tracks.get(track.player.id) is track and index in track.chunks and track.error is None:
+                with self._own_fault(track):
+                    self._judge(track, index, motion)
 
     def judge(self, stop_wanted: StopWanted = lambda: False) -> bool:
         """Judge the contacts of some frames that there is no room to keep, once `work` is done; whether there were any.
