@@ -43,9 +43,24 @@ def test_the_tip_is_on_the_floor_as_long_as_somebody_plays(instrument: str, char
     map = bundled_maps()[instrument]
     assert map.endpin is not None
     line(tmp_path / "x.mid", map.range.easy_low)
-    settings = {"instrument": instrument, "posture": "seated", "character": character, "amplitude": "1"}
+    settings = {"posture": "seated", "character": character, "amplitude": "1"}
     told = [word for name, value in settings.items() for word in ("--set", f"*.{name}={value}")]
-    assert main(["export", str(tmp_path / "x.mid"), "--to", str(tmp_path), "--fps", "24", *told]) == 0
+    assert (
+        main(
+            [
+                "export",
+                str(tmp_path / "x.mid"),
+                "--to",
+                str(tmp_path),
+                "--fps",
+                "24",
+                "--assign",
+                f"x={instrument}",
+                *told,
+            ]
+        )
+        == 0
+    )
     report = json.loads((tmp_path / "report.json").read_text(encoding="utf-8"))
     scene = read_scene(tmp_path / f"x_{instrument}.fbx")
     assert scene.clip is not None

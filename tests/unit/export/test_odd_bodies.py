@@ -27,8 +27,7 @@ def exported(folder: Path, instrument_id: str, character_id: str) -> dict[str, A
         track.append(mido.Message("note_off", note=pitch, velocity=0, time=240))
         wait = 0
     mido.MidiFile(ticks_per_beat=480, tracks=[track]).save(folder / "x.mid")
-    chosen = [f"*.instrument={instrument_id}", f"*.character={character_id}"]
-    settings = [word for setting in chosen for word in ("--set", setting)]
+    settings = ("--assign", f"x={instrument_id}", "--set", f"*.character={character_id}")
     with playing():
         main(["export", str(folder / "x.mid"), "--to", str(folder / "out"), "--fps", "24", *settings])
     report: dict[str, Any] = msgspec.json.decode((folder / "out" / "report.json").read_bytes())

@@ -288,7 +288,9 @@ def test_it_is_asked_while_it_works(performance: Performance) -> None:
         assert one is not None
         assert other is not None
         assert np.array_equal(one.rotations, other.rotations)
-        assert one.morphs == other.morphs
+        # What an edit took back stays in the list of shapes, at 0.
+        names = one.morphs.keys() | other.morphs.keys()
+        assert all(one.morphs.get(name, 0.0) == other.morphs.get(name, 0.0) for name in names)
 
 
 def test_who_is_another_character_under_the_same_name_is_made_anew(
