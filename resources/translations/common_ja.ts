@@ -519,7 +519,7 @@
         <translation>リーダー指定</translation>
     </message>
     <message>
-        <source>first of the section with the melody</source>
+        <source>leads the melody</source>
         <translation>旋律を担当するセクションの首席</translation>
     </message>
 </context>
@@ -534,7 +534,7 @@
         <translation>右</translation>
     </message>
     <message>
-        <source>first of the section with the melody</source>
+        <source>leads the melody</source>
         <translation>旋律を担当するセクションの首席</translation>
     </message>
     <message>

@@ -10,7 +10,7 @@ def argument_word(value: str) -> str:
     words = {
         "left": QCoreApplication.translate("Word", "left"),
         "right": QCoreApplication.translate("Word", "right"),
-        "melody": QCoreApplication.translate("Word", "first of the section with the melody"),
+        "melody": QCoreApplication.translate("Word", "leads the melody"),
         "chosen": QCoreApplication.translate("Word", "chosen as leader"),
         "pin_fingering": QCoreApplication.translate("Word", "fingering"),
         "remove": QCoreApplication.translate("Word", "removal"),

@@ -186,7 +186,7 @@ _WORDS: Mapping[str, Callable[[], dict[str, str]]] = {
     },
     "leader_reason": lambda: {
         "chosen": QCoreApplication.translate("Told", "chosen as leader"),
-        "melody": QCoreApplication.translate("Told", "first of the section with the melody"),
+        "melody": QCoreApplication.translate("Told", "leads the melody"),
     },
 }
 """Arguments that are one of a few words."""
