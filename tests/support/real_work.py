@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 import numpy as np
@@ -101,9 +101,14 @@ class Work:
 
     def key(self, widget: QWidget, key: Qt.Key) -> None:
         """Press a key with the focus somewhere."""
+        self.keys(widget, (key,))
+
+    def keys(self, widget: QWidget, keys: Iterable[Qt.Key]) -> None:
+        """Press keys one right after the other, faster than a slow machine draws."""
         widget.setFocus()
         self.program.editor.table.refresh()
-        QTest.keyClick(widget, key)
+        for key in keys:
+            QTest.keyClick(widget, key)
         self.application.processEvents()
 
     @property
@@ -170,8 +175,7 @@ def pin_three(work: Work) -> None:
         bar = work.session.project.score.bar_of_tick(note.onset_tick)
         work.show_bars(max(bar - 1, 1), bar + 2)
         work.click_note(note.id)
-        for sign in others[0]:
-            work.key(work.timeline.roll.plot, digits[sign])
+        work.keys(work.timeline.roll.plot, [digits[sign] for sign in others[0]])
         QTest.qWait(900)
         work.planned()
         now = next(event for event in work.plan.fingerings if event.note_id == note.id)

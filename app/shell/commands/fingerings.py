@@ -57,7 +57,7 @@ def type_fingering(session: Session, sign: str, now_s: float | None = None) -> N
         return
     if at_s - typed.at_s > TYPED_TOGETHER_S or typed.notes != session.selection.notes:
         typed.text, typed.gesture = "", object()
-    typed.at_s, typed.notes = at_s, session.selection.notes
+    typed.notes = session.selection.notes
     labels = [
         [fingering.label for fingering in choices(session, player, note)]
         for player, found in notes.items()
@@ -81,6 +81,8 @@ def type_fingering(session: Session, sign: str, now_s: float | None = None) -> N
             Message("edit.no_such_fingering", {"label": typed.text, "known": known_labels}), Severity.WARNING
         )
         typed.text = ""
+    # The time the program needs to show a sign is not a pause between two.
+    typed.at_s = time.monotonic() if now_s is None else now_s
 
 
 def _holds(label: str, signs: str) -> bool:

@@ -166,6 +166,8 @@ def studio(
     program.editor.files.begin()
     program.session.actions["players.add"].trigger()
     program.recorder.begin_where_remembered()
+    # Its pictures take most of the time, and no test looks at them.
+    program.window.viewport.hide()
     result.wait(lambda: program.session.recording.connection == "open")
     yield result
     program.window.hide()

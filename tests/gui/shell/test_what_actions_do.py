@@ -924,9 +924,14 @@ def do(desk: Desk, action_id: str) -> None:
     """By its shortcut where it has one, else from its menu or the palette."""
     row = desk.program.editor.table.rows[action_id]
     keys = desk.program.editor.table.keys(action_id)
-    desk.program.editor.table.refresh()
     action = desk.session.actions[action_id]
-    assert action.isEnabled(), "greyed out"
+
+    def is_enabled() -> bool:
+        desk.program.editor.table.refresh()
+        return action.isEnabled()
+
+    # On a slow machine the plan is made beside the window.
+    assert QTest.qWaitFor(is_enabled, 30_000), "greyed out"
     if keys:
         target = focus(desk, row.context)
         sequence = QKeySequence.fromString(keys.split(";")[0], QKeySequence.SequenceFormat.PortableText)[0]

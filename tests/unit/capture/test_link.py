@@ -63,6 +63,19 @@ def started(ear: Ear, path: Path) -> Ear:
     return ear
 
 
+def heard_one(ear: Ear, player: WindPlayer, message: bytes) -> int:
+    """Play a message until one arrives, for JACK may lose some on a busy machine; how many have arrived."""
+    before = len(ear.messages)
+    end_s = time.monotonic() + PATIENCE_S
+    while len(ear.messages) == before and time.monotonic() < end_s:
+        player.send(message)
+        # None is on its way when the next is sent.
+        time.sleep(10 * PATIENT_FRAMES / RATE_HZ)
+        ear.look()
+    assert len(ear.messages) > before
+    return len(ear.messages)
+
+
 def finished(ear: Ear, path: Path) -> Journal:
     ear.link.stop()
     told = ear.wait(Finished)
@@ -148,18 +161,18 @@ def test_a_take_goes_on_when_another_port_is_opened(ear: Ear, tmp_path: Path) ->
     path = tmp_path / "take"
     with WindPlayer("First") as first, WindPlayer("Second") as second:
         started(opened(ear, first.name), path)
-        first.send(b"\x90\x3c\x40")
-        ear.wait_for_messages(1)
+        before = heard_one(ear, first, b"\x90\x3c\x40")
         place = len(ear.told)
         ear.link.open(second.name)
         for number in range(5):
             # Told while one recorder takes over from the other.
             ear.link.sync(time.perf_counter_ns(), float(number))
         ear.wait(Opened, after=place)
-        second.send(b"\x80\x3c\x40")
-        ear.wait_for_messages(2)
+        heard_one(ear, second, b"\x80\x3c\x40")
         journal = finished(ear, path)
-    assert journal.messages == (b"\x90\x3c\x40", b"\x80\x3c\x40")
+    assert list(zip(journal.times_ns, journal.messages, strict=True)) == ear.messages
+    assert set(journal.messages[:before]) == {b"\x90\x3c\x40"}
+    assert set(journal.messages[before:]) == {b"\x80\x3c\x40"}
     assert len(journal.syncs) == 6
     ((_, back_ns),) = journal.gaps
     assert back_ns is not None
@@ -202,7 +215,7 @@ EDITOR = """
 import sys, time
 from app.capture.journal import Header
 from app.capture.link import RecorderLink
-from app.capture.protocol import Opened, Ports, Written
+from app.capture.protocol import Events, Opened, Ports, Written
 link = RecorderLink()
 name, path = sys.argv[1:]
 def wait(kind):
@@ -215,7 +228,11 @@ link.start(path, Header("p", "player", name, "ewi_usb", 0.0, ""))
 link.sync(time.perf_counter_ns(), 0.0)
 wait(Written)
 print(link._child.pid, flush=True)
-time.sleep(600)
+while True:
+    for told in link.poll():
+        if isinstance(told, Events):
+            print(*(message.hex() for message in told.messages), sep="\n", flush=True)
+    time.sleep(0.01)
 """
 
 
@@ -227,20 +244,27 @@ def test_a_killed_editor_loses_nothing(tmp_path: Path) -> None:
             cwd=ROOT,
             env={**os.environ, "PYTHONPATH": str(ROOT)},
             stdout=subprocess.PIPE,
+            text=True,
         )
         assert editor.stdout is not None
         assert editor.stdout.readline()
-        sent = player.play(PHRASE)
+        sent = [message.hex() for _, message in player.play(PHRASE)]
         # What is on its way is not yet heard.
         time.sleep(4 * PATIENT_FRAMES / RATE_HZ)
         editor.kill()
-        editor.communicate()
+        # A line may be torn off.
+        heard = [line.strip() for line in editor.communicate()[0].splitlines(keepends=True) if line.endswith("\n")]
         end_s = time.monotonic() + PATIENCE_S
         while is_locked(path) and time.monotonic() < end_s:
             time.sleep(0.02)
     journal = read_journal(path)
     assert journal.complete
-    assert list(journal.messages) == [message for _, message in sent]
+    kept = [message.hex() for message in journal.messages]
+    assert kept[: len(heard)] == heard
+    # JACK may lose some on a busy machine, before we hear them.
+    assert len(kept) > len(sent) / 2
+    rest = iter(sent)
+    assert all(message in rest for message in kept), "in the order in which they were played"
 
 
 def test_a_journal_that_is_there_is_not_written_over(ear: Ear, tmp_path: Path) -> None:
