@@ -231,7 +231,8 @@ print(link._child.pid, flush=True)
 while True:
     for told in link.poll():
         if isinstance(told, Events):
-            print(*(message.hex() for message in told.messages), sep="\n", flush=True)
+            for message in told.messages:
+                print(message.hex(), flush=True)
     time.sleep(0.01)
 """
 
