@@ -63,6 +63,12 @@ def tasks() -> ImmediateTasks:
     return ImmediateTasks()
 
 
+@pytest.fixture(autouse=True)
+def _planned_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A slow machine plans a small piece beside the window; here no test has to wait for it."""
+    monkeypatch.setattr("app.shell.generator.AT_ONCE_S", 60.0)
+
+
 @pytest.fixture
 def session(qt_app: QApplication, tasks: ImmediateTasks) -> Iterator[Session]:
     """The editor's state with the bundled quartet open."""

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QWidget
+import time
+from collections.abc import Callable
 
-PATIENCE_MS = 10_000
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication, QWidget
+
+PATIENCE_MS = 30_000
 
 
 def show(window: QWidget) -> None:
@@ -19,3 +22,12 @@ def show_in_front(window: QWidget) -> None:
     window.show()
     window.activateWindow()
     assert QTest.qWaitForWindowActive(window, PATIENCE_MS)
+
+
+def wait_until(condition: Callable[[], bool]) -> bool:
+    """Let the application work until a condition holds; whether it came to hold."""
+    end_s = time.monotonic() + PATIENCE_MS / 1000
+    while not (holds := condition()) and time.monotonic() < end_s:
+        QApplication.processEvents()
+        time.sleep(0.001)
+    return holds

@@ -83,6 +83,19 @@ def settings(tmp_path: Path) -> Settings:
     return result
 
 
+@pytest.fixture(autouse=True)
+def _drawn(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Draw players in tests marked ``drawn`` only, and generate their motion in those and in tests marked ``moved``.
+
+    Where the processor does OpenGL's work, every change of the window costs up to 100 ms: 60 times as much as without.
+    """
+    marks = {mark.name for mark in request.node.iter_markers()}
+    if "drawn" not in marks:
+        monkeypatch.setattr("widgets.viewport.panel.why_no_gl", lambda: "not in this test")
+        if "moved" not in marks:
+            monkeypatch.setattr("app.performance.live.LiveMotion.work", lambda self, stop_wanted: False)
+
+
 Start = Callable[[], Program]
 
 
@@ -166,8 +179,6 @@ def studio(
     program.editor.files.begin()
     program.session.actions["players.add"].trigger()
     program.recorder.begin_where_remembered()
-    # Its pictures take most of the time, and no test looks at them.
-    program.window.viewport.hide()
     result.wait(lambda: program.session.recording.connection == "open")
     yield result
     program.window.hide()

@@ -8,6 +8,7 @@ from collections import Counter
 from collections.abc import Callable
 from pathlib import Path
 
+import pytest
 from PySide6.QtCore import QTimer
 from PySide6.QtWidgets import QApplication, QDialog, QMessageBox
 
@@ -93,6 +94,7 @@ def shut(way: str) -> set[str]:
     return seen
 
 
+@pytest.mark.drawn
 def test_nothing_is_left(studio: Studio) -> None:
     program = studio.program
     program.editor.files.open(QUARTET, ask=False)

@@ -236,6 +236,7 @@ def questions(program: Program, judge: Judge) -> None:
         ask()
 
 
+@pytest.mark.drawn
 def test_no_name_from_a_file_is_taken_for_html(walked: Program, watched: Canary, tmp_path: Path) -> None:
     judge = Judge(watched)
     start_page(walked, judge, tmp_path)

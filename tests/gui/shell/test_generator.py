@@ -30,6 +30,8 @@ from widgets.common.text import message_text
 from widgets.timeline.axis import TimeAxis
 from widgets.timeline.lanes.problems import ProblemsLane
 
+pytestmark = pytest.mark.drawn
+
 EDIT = Message("edit.test")
 
 

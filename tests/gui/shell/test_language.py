@@ -91,6 +91,7 @@ def left_overs(program: Program) -> list[str]:
     return found
 
 
+@pytest.mark.drawn
 def test_a_switch_leaves_no_english(program: Program, qtbot: QtBot) -> None:
     assert len(left_overs(program)) > 100, "the search finds English while the editor speaks it"
     program.editor.speak("ja")
@@ -102,6 +103,7 @@ def test_a_switch_leaves_no_english(program: Program, qtbot: QtBot) -> None:
     assert program.window.menus.menu("File").title() == "&File"
 
 
+@pytest.mark.drawn
 def test_the_start_page_and_preferences_speak_both(empty: Program, qtbot: QtBot) -> None:
     dialog = show_preferences(empty.editor, "general")
     empty.editor.speak("ja")

@@ -15,6 +15,8 @@ from app.shell.settings import Settings
 from tests.gui.conftest import delete_now
 from tests.support.long_session import LongDay, footprint, larger_piece
 
+pytestmark = pytest.mark.drawn
+
 WARM_UP, ROUNDS, MOST_ROUNDS = 2, 2, 8
 DRAWN = ("widgets.viewport.renderer._Solid", "vispy.gloo.")
 """One for each level of detail that was drawn of the figures that are there: which, the speed of drawing decides. They

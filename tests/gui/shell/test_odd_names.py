@@ -159,6 +159,7 @@ def test_dialogs_give_the_bytes_and_begin_where_qt_can_be(
     assert begun == [str(folder.parent), f"{folder.parent}/{NAME}.suisou", str(folder.parent), str(Path.home())]
 
 
+@pytest.mark.drawn
 def test_names_that_no_file_can_have(start: Start, settings: Settings, answers: Answers, qtbot: QtBot) -> None:
     """Longer than the system takes them: from a settings file, a project and a field, each is refused and named."""
     name = "長" * 2_000
@@ -194,6 +195,7 @@ def test_names_that_no_file_can_have(start: Start, settings: Settings, answers: 
     film.close()
 
 
+@pytest.mark.drawn
 def test_a_name_is_proposed_that_a_file_can_have(empty: Program, answers: Answers) -> None:
     """Whatever the piece is called."""
     proposals: list[str] = []

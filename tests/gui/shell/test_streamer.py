@@ -27,6 +27,8 @@ from tests.support.performed import playing_of
 from widgets.dialogs.stream import StreamDialog
 from widgets.players.player_list import PlayerList
 
+pytestmark = pytest.mark.moved
+
 ARM = "RightLowerArm"
 
 
