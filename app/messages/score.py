@@ -109,7 +109,7 @@ TEMPLATES: Final[dict[str, str]] = {
     "score.too_many_players": "the piece has {most} players already, and more cannot play",
     "score.unknown_instrument": "nothing says which instrument plays it ({lowest} to {highest}); choose one",
     "score.notes_left_out": (
-        "{part}: {most} players share it, and {count} {count:note that sounds|notes that sound} together with theirs "
+        "{part}: split between {most} players; {count} {count:note that sounds|notes that sound} together with theirs "
         "{count:is|are} left out, the first at bar {bar}, beat {beat:g} ({pitch})"
     ),
     "score.doubling": (
@@ -129,7 +129,7 @@ TEMPLATES: Final[dict[str, str]] = {
         "the first at bar {bar}, beat {beat:g} ({pitch})"
     ),
     "score.voices": (
-        "{part}: {voices} players share it, for {count} {count:note goes|notes go} on sounding together with others, "
-        "the first at bar {bar}, beat {beat:g} ({pitch})"
+        "{part}: split between {voices} players, because {count} {count:note keeps|notes keep} sounding together with "
+        "others, the first at bar {bar}, beat {beat:g} ({pitch})"
     ),
 }

@@ -1372,7 +1372,7 @@
             <translation>楽器が分かりません（{lowest}～{highest}）。楽器を選んでください</translation>
         </message>
         <message>
-            <source>{part}: {most} players share it, and {count} {count:note that sounds|notes that sound} together with theirs {count:is|are} left out, the first at bar {bar}, beat {beat:g} ({pitch})</source>
+            <source>{part}: split between {most} players; {count} {count:note that sounds|notes that sound} together with theirs {count:is|are} left out, the first at bar {bar}, beat {beat:g} ({pitch})</source>
             <translation>{part}: {most} 人で分担し、それ以上に重なる {count} 音を省きました（最初は {bar} 小節 {beat:g} 拍目の {pitch}）</translation>
         </message>
         <message>
@@ -1392,7 +1392,7 @@
             <translation>楽器の音域から遠い {count} 音はキースイッチと見なしました（最初は {bar} 小節 {beat:g} 拍目の {pitch}）</translation>
         </message>
         <message>
-            <source>{part}: {voices} players share it, for {count} {count:note goes|notes go} on sounding together with others, the first at bar {bar}, beat {beat:g} ({pitch})</source>
+            <source>{part}: split between {voices} players, because {count} {count:note keeps|notes keep} sounding together with others, the first at bar {bar}, beat {beat:g} ({pitch})</source>
             <translation>{part}: {count} 音がほかの音と重なって鳴り続けるため、{voices} 人で分担します（最初は {bar} 小節 {beat:g} 拍目の {pitch}）</translation>
         </message>
         <message>
