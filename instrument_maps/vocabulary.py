@@ -33,9 +33,20 @@ _NAME_LETTERS = 4
 """In a running text "Ob" or "Tr" may be anything; "Oboe" is not."""
 _MOST_WORDS = 64
 """Of a text that names a part; more is no name."""
+_MOST_PARTS = 8
+"""Instruments of one player that are looked for."""
 _IN = frozenset({"in", "en", "em"})
 """Before a key."""
-_CAMEL = re.compile(r"(?<=[a-z])(?=[A-Z])")
+_CAMEL = re.compile(r"(?<=[a-z])(?=[A-Z])|(?<=\b[A-Z])(?=[A-Z][ac-z])")
+"""Between joined words, also after a single letter ("ACl"), but not in "BBb"."""
+_ORDINAL = re.compile(r"(?<=\d)(?:st|nd|rd|th|ers?|eres?|res?|emes?|es?|[ao])(?![^\W\d_])")
+"""What is written after a number: 1st, 2es, 3ª; no key ("Es", "A")."""
+_DOUBLING = re.compile(r"[/&+,;]|\b(?:and|und|et|ed?|y)\b", re.IGNORECASE)
+"""Between two instruments of one player."""
+_LEAST_PLURAL = 5
+"""Letters of a word from which on an ending may be a plural."""
+_PLURALS = (("es", ""), ("s", ""), ("i", "o"), ("i", "e"), ("e", "a"), ("en", "e"), ("en", ""), ("e", ""))
+"""Endings of plurals in the languages of the table and what the singular has instead; the longest come first."""
 
 
 class Instrument(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -63,6 +74,10 @@ class Instrument(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         Its names may mean a part of any instrument ("Voice 1"): a program other than 0 says more.
     vague_names : tuple of str
         Names that mean a part of this instrument in some ensembles only ("Tenor 1"); found by one of them, it is vague.
+    keyed_names : tuple of str
+        Names that mean a part of this instrument only beside a key, its own or one of its forms ("Bass in C").
+    key : str
+        Its own key, one of the table.
     form_of : str
         Id of the instrument whose name, beside one of the ``marks``, names this one ("Clarinet" and "bass").
     marks : tuple of str
@@ -80,6 +95,8 @@ class Instrument(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     any_pitch: bool = False
     vague: bool = False
     vague_names: tuple[str, ...] = ()
+    keyed_names: tuple[str, ...] = ()
+    key: str = ""
     form_of: str = ""
     marks: tuple[str, ...] = ()
 
@@ -88,6 +105,7 @@ class _Table(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     seating: tuple[tuple[str, ...], ...]
     sizes: dict[str, tuple[str, ...]]
     keys: dict[str, tuple[str, ...]]
+    prefixes: tuple[str, ...]
     instruments: tuple[Instrument, ...]
 
 
@@ -104,6 +122,8 @@ class Vocabulary:
         Families of winds, by row from the audience's side, each row from the audience's left.
     sizes, keys : dict of str to tuple of str
         The marks that tell the forms of an instrument apart, and the words for each.
+    prefixes : tuple of str
+        Words that may be joined to a name and do not change its meaning ("Soloflöte").
 
     Raises
     ------
@@ -118,6 +138,7 @@ class Vocabulary:
         seating: tuple[tuple[str, ...], ...] = (),
         sizes: Mapping[str, tuple[str, ...]] = MappingProxyType({}),
         keys: Mapping[str, tuple[str, ...]] = MappingProxyType({}),
+        prefixes: tuple[str, ...] = (),
     ) -> None:
         self.seating = seating
         self.instruments = {instrument.id: instrument for instrument in instruments}
@@ -134,11 +155,14 @@ class Vocabulary:
                 tokens, found = _tokens(name), instrument if name in instrument.names else vague
                 if not tokens or self._by_tokens.setdefault(tokens, found) is not found:
                     raise MapError("vocabulary.invalid", file=file, detail=f"'{name}' belongs to two instruments")
-        self._longest = max(map(len, self._by_tokens), default=0)
+        self._keyed = {_tokens(name): each for each in instruments for name in each.keyed_names}
+        self._longest = max(map(len, (*self._by_tokens, *self._keyed)), default=0)
         self._marks = {
             _tokens(word): mark for table in (sizes, keys) for mark, words in table.items() for word in words
         }
         self._keys = frozenset(keys)
+        self._prefixes = frozenset(word for prefix in prefixes for word in _tokens(prefix))
+        self._words = frozenset(word for name in (*self._by_tokens, *self._marks) for word in name)
         self._longest_mark = max(map(len, self._marks), default=0)
         self._forms: dict[str, list[Instrument]] = {}
         for instrument in instruments:
@@ -201,43 +225,83 @@ class Vocabulary:
 
         Whole words only. Of several names the one counts that explains most words, sizes and keys beside it included
         ("bass trombone" before "trombone", "Contrabass Cl." before "Contrabass"); among equals one that is more than
-        an abbreviation, then the first. Japanese is written without spaces, so its names are found anywhere within a
-        run of kana and kanji.
+        an abbreviation, then the first. Of two instruments of one player ("Oboe 2 / Engl. Horn") the first counts,
+        unless the second says more exactly what it is ("Trombone 3 / Bass Trombone"). Japanese is written without
+        spaces, so its names are found anywhere within a run of kana and kanji.
         """
+        split = _DOUBLING.split(text, _MOST_PARTS)
+        parts = [named for part in split if (named := self._one_by_name(part)) is not None]
+        sure = [named for named in parts if not named.vague]
+        if len(parts) < 2 or not sure:
+            return self._one_by_name(text)
+        return next((named for named in sure[1:] if self.is_sort(named.id, sure[0].id)), sure[0])
+
+    def _one_by_name(self, text: str) -> Instrument | None:
         tokens = tuple(part for token in _tokens(text)[:_MOST_WORDS] for part in self._parts(token))
+        singular = tuple(map(self._singular, tokens))
         best: tuple[tuple[bool, int, int, bool, int], Instrument] | None = None
         for start in range(len(tokens)):
             for length in range(1, min(self._longest, len(tokens) - start) + 1):
-                named = self._by_tokens.get(tokens[start : start + length])
-                if named is None:
+                own, beside = tokens[start : start + length], tokens[:start] + tokens[start + length :]
+                alone = self._by_tokens.get(own) or self._by_tokens.get(singular[start : start + length])
+                if alone is None and own not in self._keyed:
                     continue
-                marks = self._marks_beside(tokens, start, start + length)
-                if all(self._keys.issuperset(form.marks) for form in self._forms.get(named.id, ())):
-                    marks = {mark: words for mark, words in marks.items() if mark in self._keys}
-                written_out = len("".join(tokens[start : start + length])) >= _NAME_LETTERS or _is_wide(tokens[start])
-                words = length - len(_IN.intersection(tokens[start : start + length]))
-                # A name of the table goes before one that is put together.
-                total = 2 * (words + sum(marks.values())) - bool(marks)
-                rank = not named.vague, total, words, written_out, -start
-                if best is None or rank > best[0]:
-                    best = rank, self._form(named, frozenset(marks))
+                all_marks = self._marks_beside(tokens, singular, start, start + length)
+                for named in filter(None, (alone, self._with_key(own, all_marks))):
+                    marks, keyed = all_marks, self._keyed.get(own) is named
+                    if all(self._keys.issuperset(form.marks) for form in self._forms.get(named.id, ())):
+                        marks = {mark: words for mark, words in marks.items() if mark in self._keys}
+                    written_out = len("".join(own)) >= _NAME_LETTERS or _is_wide(tokens[start])
+                    words = length - len(_IN.intersection(own))
+                    # A name of the table goes before one that is put together.
+                    total = 2 * (words + sum(marks.values())) - (bool(marks) and not keyed)
+                    vague = named.vague or (keyed and self._is_loose(marks, beside))
+                    rank = not vague, total, words, written_out, -start
+                    if best is None or rank > best[0]:
+                        form = self._form(named, frozenset(marks))
+                        best = rank, msgspec.structs.replace(form, vague=True) if keyed and vague else form
         return None if best is None else best[1]
 
+    def _with_key(self, own: tuple[str, ...], marks: Mapping[str, int]) -> Instrument | None:
+        """What words name only with one of the keys beside them."""
+        keyed = self._keyed.get(own)
+        if keyed is None or marks.keys().isdisjoint({keyed.key, *self._form_keys(keyed)}):
+            return None
+        return keyed
+
+    def _is_loose(self, marks: Mapping[str, int], beside: tuple[str, ...]) -> bool:
+        """Whether the keys beside a name are mere letters, as in "Bass B", which may be anything."""
+        written = any(len(word) > 1 and (word,) in self._marks for word in beside)
+        return not written and _IN.isdisjoint(beside) and max(marks.values()) == 1
+
+    def _form_keys(self, instrument: Instrument) -> frozenset[str]:
+        return self._keys.intersection(mark for form in self._forms.get(instrument.id, ()) for mark in form.marks)
+
+    def _singular(self, word: str) -> str:
+        """The word of the table that this one is the plural of; itself where there is none."""
+        if len(word) >= _LEAST_PLURAL and not _is_wide(word):
+            for plural, singular in _PLURALS:
+                if word.endswith(plural) and (one := word.removesuffix(plural) + singular) in self._words:
+                    return one
+        return word
+
     def _parts(self, token: str) -> tuple[str, ...]:
-        """A word that is joined of a size, or "solo", and a name: both ("Altklar", "Soloflöte"); any other as it is."""
+        """A word that is joined of a name and a size or prefix: both ("Altklar", "Soloflöte", "saxtenor")."""
         if (token,) not in self._by_tokens and (token,) not in self._marks and not _is_wide(token):
             for cut in range(len(token) - 2, 2, -1):
                 before, name = token[:cut], token[cut:]
-                if (name,) in self._by_tokens and (before == "solo" or (before,) in self._marks):
+                if (name,) in self._by_tokens and (before in self._prefixes or (before,) in self._marks):
+                    return before, name
+                if (before,) in self._by_tokens and (name,) in self._marks and len(name) >= _NAME_LETTERS:
                     return before, name
         return (token,)
 
     def _form(self, instrument: Instrument, marks: frozenset[str]) -> Instrument:
         """The form of an instrument that the marks name: by its size, else by its key; itself where there is none."""
         forms = [form for form in self._forms.get(instrument.id, ()) if not marks.isdisjoint(form.marks)]
-        return min(forms, key=lambda form: self._keys.issuperset(form.marks), default=instrument)
+        return min(forms, key=lambda form: self._keys.issuperset(marks.intersection(form.marks)), default=instrument)
 
-    def _marks_beside(self, tokens: tuple[str, ...], begin: int, end: int) -> dict[str, int]:
+    def _marks_beside(self, tokens: tuple[str, ...], singular: tuple[str, ...], begin: int, end: int) -> dict[str, int]:
         """The sizes and keys among the words before and after a name, and how many words each is."""
         found: dict[str, int] = {}
         place = 0
@@ -247,7 +311,8 @@ class Vocabulary:
                 continue
             room = (begin if place < begin else len(tokens)) - place
             for length in range(min(self._longest_mark, room), 0, -1):
-                mark = self._marks.get(tokens[place : place + length])
+                span = slice(place, place + length)
+                mark = self._marks.get(tokens[span]) or self._marks.get(singular[span])
                 if mark is None:
                     continue
                 beside = place + length == begin or place == end or (place > 0 and tokens[place - 1] in _IN)
@@ -266,7 +331,7 @@ def _is_wide(token: str) -> bool:
 def _tokens(text: str) -> tuple[str, ...]:
     """The words of a text, case, width, diacritics and punctuation dropped."""
     spaced = _CAMEL.sub(" ", unicodedata.normalize("NFKC", text))
-    return tuple(_TOKEN.findall(_without_marks(spaced).casefold()))
+    return tuple(_TOKEN.findall(_ORDINAL.sub("", _without_marks(spaced).casefold())))
 
 
 def _without_marks(text: str) -> str:
@@ -276,7 +341,8 @@ def _without_marks(text: str) -> str:
         if _WIDE.match(character):
             kept.append(character)
         else:
-            decomposed = unicodedata.normalize("NFD", character)
+            # "Bässe" are no "Basse"; ö and ü are more often written without their dots than as two letters.
+            decomposed = unicodedata.normalize("NFD", character).replace("a\u0308", "ae")
             kept.append("".join(c for c in decomposed if not unicodedata.combining(c)))
     return "".join(kept)
 
@@ -291,7 +357,7 @@ def vocabulary() -> Vocabulary:
         If the table is not valid.
     """
     table = shaped(read_toml(PATH, PATH.name), _Table, PATH.name)
-    return Vocabulary(table.instruments, PATH.name, table.seating, table.sizes, table.keys)
+    return Vocabulary(table.instruments, PATH.name, table.seating, table.sizes, table.keys, table.prefixes)
 
 
 # Worked out here, under the import's lock: two threads that use a type for the first time at once crash msgspec.
