@@ -24,7 +24,7 @@ from app.errors import Message
 from app.plan.line import IntArray, LineTimes
 from app.plan.model import FingeringEvent, Note, Problem
 from app.plan.search import TOLERANCE, FingeringProblem, best_path, fingering_problem, never_worse
-from instrument_maps.model import Fingering, InstrumentMap
+from instrument_maps.model import InstrumentMap
 
 
 def plan_fingerings(
@@ -43,7 +43,8 @@ def plan_fingerings(
     path = never_worse(problem, best_path(problem))
     events = []
     problems: list[Problem] = []
-    reasons: dict[str, Message] = {}
+    reasons: dict[tuple[str, str, str, int], Message] = {}
+    shortest_s, in_trill = _shortest_steps(problem)
     corrected: dict[tuple[int, int, tuple[str, ...]], dict[str, float]] = {}
     held = [
         (control.name, control.held_min_s or 0.0) for control in instrument.controls if control.role == "intonation"
@@ -69,11 +70,16 @@ def plan_fingerings(
             controls = corrected[place]
         if pinned:
             reason = Message("fingering.by_hand", {"label": fingering.label})
-        elif fingering.rank > 1:
-            reason = _alternate_reason(problem, index, ranked[0], fingering)
         else:
-            reason = reasons.get(fingering.label) or Message("fingering.first_choice", {"label": fingering.label})
-            reasons[fingering.label] = reason
+            rule, first, time_ms = "fingering.first_choice", fingering.label, 0
+            if fingering.rank > 1:
+                rule = "fingering.trill" if in_trill[index] else "fingering.speed"
+                first, time_ms = ranked[0].label, round(shortest_s[index] * 1000.0)
+            kind = rule, fingering.label, first, time_ms
+            if kind not in reasons:
+                more = {"first": first, "time_ms": time_ms} if fingering.rank > 1 else {}
+                reasons[kind] = Message(rule, {"label": fingering.label, **more})
+            reason = reasons[kind]
         events.append(
             FingeringEvent(
                 id=f"fingering:{note.id}",
@@ -96,12 +102,14 @@ def plan_fingerings(
     return tuple(events), tuple(problems)
 
 
-def _alternate_reason(problem: FingeringProblem, index: int, first: Fingering, chosen: Fingering) -> Message:
-    times, trill = problem.times, problem.in_trill
-    sides = [step for step in (index - 1, index) if 0 <= step < len(trill)]
-    time_s = min((float(times.onset_s[step + 1] - times.onset_s[step]) for step in sides), default=0.0)
-    rule = "fingering.trill" if any(trill[step] for step in sides) else "fingering.speed"
-    return Message(rule, {"label": chosen.label, "first": first.label, "time_ms": round(time_s * 1000.0)})
+def _shortest_steps(problem: FingeringProblem) -> tuple[list[float], list[bool]]:
+    """Of every note the shorter of the steps to it and from it, in seconds, and whether one of them is in a trill."""
+    steps = np.diff(problem.times.onset_s)
+    if not len(steps):
+        return [0.0], [False]
+    shortest = np.minimum(np.append(steps, np.inf), np.insert(steps, 0, np.inf))
+    in_trill = np.append(problem.in_trill, False) | np.insert(problem.in_trill, 0, False)
+    return shortest.tolist(), in_trill.tolist()
 
 
 def _out_of_range(notes: tuple[Note, ...], times: LineTimes, instrument: InstrumentMap) -> list[Problem]:
