@@ -115,15 +115,17 @@ def finger_places(
     bits = {control.name: 1 << place for place, control in enumerate(controls)}
     holds = {name: np.zeros(shape, dtype=np.int64) for name in names}
     half = {name: np.zeros(shape, dtype=np.int64) for name in names}
+    worked = {control.name: control for control in controls if control.kind != "slide"}
+    at_rest = {name: control.rest_value for name, control in worked.items() if control.rest_value > 0.0}
     for row, ranked in enumerate(choices):
         for column, fingering in enumerate(ranked):
-            for control in controls:
-                value = fingering.controls.get(control.name, control.rest_value)
-                if control.kind == "slide" or value <= 0.0:
+            values = {**at_rest, **fingering.controls} if at_rest else fingering.controls
+            for name, value in values.items():
+                if value <= 0.0 or name not in worked:
                     continue
-                finger = fingering.fingers.get(control.name, control.finger)
+                finger = fingering.fingers.get(name, worked[name].finger)
                 chosen = holds if value > _DOWN else half
-                chosen[finger][row, column] |= bits[control.name]
+                chosen[finger][row, column] |= bits[name]
     # Under a finger a lever is worked like any valve.
     levers = sum(bits[item.name] for item in controls if item.kind == "lever" and item.finger.endswith(".thumb"))
     used = [name for name in names if holds[name].any() or half[name].any()]
