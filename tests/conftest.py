@@ -18,9 +18,9 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     group.addoption(
         "--fuzz",
         type=float,
-        default=1.0,
+        default=0.25,
         metavar="MINUTES",
-        help="of tests marked fuzz (default: 1)",
+        help="of tests marked fuzz (default: 0.25)",
     )
     group.addoption("--fuzz-seed", type=int, default=1, metavar="SEED", help="another seed makes other attacks")
 

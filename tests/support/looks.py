@@ -151,6 +151,10 @@ class Look:
         self.found: dict[str, str] = {}
         self.language = "en"
         self.window.resize(*size)
+        # Composing the window with a picture by OpenGL takes most of the time where the processor does its work.
+        canvas = self.window.viewport.canvas_widget()
+        assert canvas is not None
+        canvas.hide()
         self.window.show()
         self.window.resize(*size)
 

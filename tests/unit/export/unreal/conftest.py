@@ -6,6 +6,7 @@ import json
 from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
+from functools import cache
 from pathlib import Path
 
 import msgspec
@@ -24,7 +25,9 @@ from instrument_maps.library import all_maps
 QUARTET = Path(__file__).parents[4] / "resources" / "examples" / "quartet.mid"
 
 
+@cache
 def quartet() -> Project:
+    """The bundled quartet, read once; values never change."""
     maps = all_maps()
     return project_from_score(read_midi(QUARTET, maps=map_choices(maps.values())), maps)
 
