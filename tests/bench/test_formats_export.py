@@ -1,4 +1,4 @@
-"""FBX and BVH against Blender's exporters in one run: the like skeleton, mesh, shapes and 10,800 frames at 60 frames/s.
+"""FBX and BVH against Blender's exporters in one run: the like skeleton, mesh, shapes and 3,600 frames at 60 frames/s.
 
 Blender is the module ``bpy`` in the interpreter that ``SUISOU_BLENDER_PYTHON`` names, as ``./test`` sets it up.
 """
@@ -24,7 +24,7 @@ from app.formats.fbx import Bone, Clip, Material, MorphTarget, Scene, SkinnedMes
 from app.formats.gltf.write import write_glb
 from app.formats.usd import usd_installed, write_usd
 
-BONES, FRAMES, FPS = 60, 10_800, 60
+BONES, FRAMES, FPS = 60, 3_600, 60
 TOOL = Path(__file__).parent.parent / "support" / "blender_reference.py"
 RUNS = 5
 
