@@ -2,14 +2,40 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Callable
+from typing import Any, Final
 
 import pytest
 from hypothesis import settings
+from pytestqt.qtbot import QtBot
 
 # Machines are noisy: how long an example took says nothing. Speed is measured in tests/bench, as ratios.
-settings.register_profile("suisou", deadline=None)
+# The same examples in every run; `--hypothesis-profile explore` tries new ones.
+settings.register_profile("suisou", deadline=None, derandomize=True)
+settings.register_profile("explore", deadline=None)
 settings.load_profile("suisou")
+
+
+PATIENCE_MS: Final = 30_000
+"""Of what waits for Qt: the machine may be busy with other tests."""
+
+
+class PatientQtBot(QtBot):
+    """Waits longer than pytest-qt's 5 s for what a slow machine does late."""
+
+    def waitUntil(self, callback: Callable[[], bool | None], *, timeout: int = PATIENCE_MS) -> None:  # noqa: N802
+        """As pytest-qt's."""
+        super().waitUntil(callback, timeout=timeout)
+
+    def waitSignal(self, signal: Any, *, timeout: int = PATIENCE_MS, **options: Any) -> Any:  # noqa: N802
+        """As pytest-qt's."""
+        return super().waitSignal(signal, timeout=timeout, **options)
+
+
+@pytest.fixture
+def qtbot(qapp: object, request: pytest.FixtureRequest) -> QtBot:
+    """pytest-qt's, more patient."""
+    return PatientQtBot(request)
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:

@@ -125,9 +125,9 @@ def test_cancelled_it_leaves_nothing(qt_app: object, qtbot: QtBot, tmp_path: Pat
     assert button is not None
     assert not button.isEnabled()
     QTest.mouseClick(dialog.findChild(QPushButton, "export_close"), Qt.MouseButton.LeftButton)
-    qtbot.waitUntil(button.isEnabled, timeout=30_000)
+    qtbot.waitUntil(button.isEnabled)
     assert dialog.isVisible()
-    qtbot.waitUntil(lambda: not (tmp_path / "out").exists(), timeout=30_000)
+    qtbot.waitUntil(lambda: not (tmp_path / "out").exists())
     tasks.cancel_all(5.0)
     session.deleteLater()
 

@@ -239,7 +239,7 @@ def test_many_tracks_are_shown_turn_by_turn(
     dialog.show()
     assert dialog._table.rowCount() == 40
     assert dialog.findChild(QLineEdit, "name_39") is None
-    qtbot.waitUntil(lambda: dialog.findChild(QLineEdit, "name_39") is not None, timeout=20_000)
+    qtbot.waitUntil(lambda: dialog.findChild(QLineEdit, "name_39") is not None)
     looked: list[object] = []
     monkeypatch.setattr(importing, "_instruments", lambda contents, wish, *more: looked.append(wish) or ("flute",))
     name = dialog.findChild(QLineEdit, "name_39")

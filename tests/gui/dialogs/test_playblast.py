@@ -75,8 +75,8 @@ def test_cancelled_it_leaves_nothing(threaded: Session, qtbot: QtBot, tmp_path: 
     press(dialog, "playblast_close")
     button = dialog.findChild(QPushButton, "playblast_start")
     assert button is not None
-    qtbot.waitUntil(button.isEnabled, timeout=20_000)
-    qtbot.waitUntil(lambda: list(tmp_path.iterdir()) == [], timeout=20_000)
+    qtbot.waitUntil(button.isEnabled)
+    qtbot.waitUntil(lambda: list(tmp_path.iterdir()) == [])
 
 
 def test_a_picture_that_cannot_be_drawn_ends_it_and_is_told(threaded: Session, qtbot: QtBot, tmp_path: Path) -> None:
@@ -85,6 +85,6 @@ def test_a_picture_that_cannot_be_drawn_ends_it_and_is_told(threaded: Session, q
     button, state = dialog.findChild(QPushButton, "playblast_start"), dialog.findChild(QLabel, "playblast_state")
     assert button is not None
     assert state is not None
-    qtbot.waitUntil(button.isEnabled, timeout=20_000)
+    qtbot.waitUntil(button.isEnabled)
     assert "of the test" in state.text()
     assert list(tmp_path.iterdir()) == []

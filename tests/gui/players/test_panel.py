@@ -405,7 +405,7 @@ def test_snapping_arrows_and_numbers(panel: PlayersPanel, session: Session) -> N
 def test_characters_have_portraits(panel: PlayersPanel, qtbot: QtBot) -> None:
     combo = child(panel, QComboBox, "player_character")
     assert isinstance(combo, QComboBox)
-    qtbot.waitUntil(lambda: not combo.itemIcon(0).isNull(), timeout=10000)
+    qtbot.waitUntil(lambda: not combo.itemIcon(0).isNull())
     heads = [combo.itemIcon(number).pixmap(28, 28).toImage() for number in range(combo.count())]
     for head in heads:
         # Skin or hair in the middle, nothing in the upper corners.

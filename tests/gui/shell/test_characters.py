@@ -297,7 +297,7 @@ def test_a_file_put_into_the_folder_is_there_by_itself(program: Program, qtbot: 
     (folder / "tot.toml").write_text('file = "tot.vrm"\ntitle = "Tot"\n')
     chooser = program.window.findChild(QComboBox, "player_character")
     assert chooser is not None
-    qtbot.waitUntil(lambda: "Tot" in [chooser.itemText(row) for row in range(chooser.count())], timeout=10_000)
+    qtbot.waitUntil(lambda: "Tot" in [chooser.itemText(row) for row in range(chooser.count())])
 
 
 def test_steps() -> None:

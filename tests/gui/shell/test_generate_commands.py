@@ -30,14 +30,14 @@ def test_it_says_how_many_corrections_it_kept(
     try:
         before = session.project
         generate.vary_everyone(session)
-        qtbot.waitUntil(lambda: bool(told), timeout=10_000)
+        qtbot.waitUntil(lambda: bool(told))
         assert told == [Message("generate.kept_and_lost", {"kept": 1, "lost": 1})]
         assert session.project.seed != before.seed
         assert session.project.corrections == before.corrections
         assert session.performance.project is session.project
         session.set_players((session.project.players[1].id,))
         generate.vary_players(session)
-        qtbot.waitUntil(lambda: len(told) == 2, timeout=10_000)
+        qtbot.waitUntil(lambda: len(told) == 2)
         assert told[1] == Message("generate.kept", {"kept": 0})
         session.document.undo()
         session.document.undo()

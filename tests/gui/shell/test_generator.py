@@ -197,7 +197,7 @@ def test_plans_that_take_longer_come_from_a_thread(
         for tension in (0.5, 0.6, 0.7, 0.8):
             _correct(session, tension)
         assert not generator.up_to_date
-        qtbot.waitUntil(lambda: generator.up_to_date, timeout=10_000)
+        qtbot.waitUntil(lambda: generator.up_to_date)
         player = session.project.players[0]
         assert session.performance.plan(player).embouchures[20].tension == 0.8
         fresh = Performance(session.project)
@@ -219,7 +219,7 @@ def test_what_is_planned_of_a_document_that_was_closed_is_dropped(
         dropped = session.project
         other = replace(session.project, seed=5)
         session.document.open(other)
-        qtbot.waitUntil(lambda: generator.up_to_date, timeout=10_000)
+        qtbot.waitUntil(lambda: generator.up_to_date)
         assert seen == [other]
         assert dropped not in seen
     finally:
@@ -316,23 +316,23 @@ def test_how_a_new_body_holds_an_instrument_is_found_beside_the_window(
                 return [problem.message.id for problem in session.performance.plan(player).problems]
 
             session.apply(EDIT, players.change(session.project, [first.id], character_id="unmarked"))
-            qtbot.waitUntil(lambda: bool(where), timeout=10_000)
+            qtbot.waitUntil(lambda: bool(where))
             assert where[0] is not here
             # The others play on, and what is edited meanwhile is seen; it begins nothing again.
-            qtbot.waitUntil(lambda: "character.hold_waiting" in told(), timeout=10_000)
+            qtbot.waitUntil(lambda: "character.hold_waiting" in told())
             _correct(session, 0.8)
-            qtbot.waitUntil(lambda: generator.live.pose(second.id, 1.0) is not None, timeout=20_000)
+            qtbot.waitUntil(lambda: generator.live.pose(second.id, 1.0) is not None)
             assert generator.live.pose(first.id, 1.0) is None
             assert session.performance.plan(session.project.players[0]).embouchures[20].tension == 0.8
             assert len(where) == 1
             # Stopped, the next edit asks again.
             tasks.cancel(tasks.running[0])
-            qtbot.waitUntil(lambda: not tasks.running, timeout=10_000)
+            qtbot.waitUntil(lambda: not tasks.running)
             assert len(where) == 1
             _correct(session, 0.7)
-            qtbot.waitUntil(lambda: len(where) == 2, timeout=10_000)
+            qtbot.waitUntil(lambda: len(where) == 2)
             go.set()
-            qtbot.waitUntil(lambda: generator.live.pose(first.id, 1.0) is not None, timeout=20_000)
+            qtbot.waitUntil(lambda: generator.live.pose(first.id, 1.0) is not None)
             assert told() == []
             assert session.performance.plan(session.project.players[0]).embouchures[20].tension == 0.7
             assert all(thread is not here for thread in where)

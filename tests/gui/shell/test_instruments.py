@@ -59,7 +59,7 @@ def test_a_map_that_is_edited_is_played_at_once_and_a_wrong_one_is_told(
     folder.mkdir(parents=True)
     qtbot.wait(400)
     write(folder / "trumpet_Bb.toml", OWN, 1)
-    qtbot.waitUntil(lambda: session.performance is not before and session.performance.planned, timeout=5000)
+    qtbot.waitUntil(lambda: session.performance is not before and session.performance.planned)
     assert labels() == {"13"}
     assert session.performance.plans[trombone.id] is before.plans[trombone.id]
     assert program.generator.up_to_date
@@ -67,7 +67,7 @@ def test_a_map_that_is_edited_is_played_at_once_and_a_wrong_one_is_told(
     # A wrong file: told with its place, and what was good plays on.
     good = session.performance
     write(folder / "trumpet_Bb.toml", OWN.replace('label = "13"', 'label = "19"'), 2)
-    qtbot.waitUntil(lambda: told[-1][0] == "table.invalid", timeout=5000)
+    qtbot.waitUntil(lambda: told[-1][0] == "table.invalid")
     assert told[-1][1]["file"] == str(folder / "trumpet_Bb.toml")
     assert str(told[-1][1]["place"]).startswith("fingerings[")
     assert labels() == {"13"}
@@ -86,11 +86,11 @@ def test_a_map_that_is_edited_is_played_at_once_and_a_wrong_one_is_told(
     # Saved as editors do, by renaming a new file over the old one: the watch goes on.
     write(folder / "new", OWN.replace('label = "13"', 'label = "1"'), 3)
     (folder / "new").replace(folder / "trumpet_Bb.toml")
-    qtbot.waitUntil(lambda: labels() == {"1"}, timeout=5000)
+    qtbot.waitUntil(lambda: labels() == {"1"})
     assert not lasting.isVisible()
     assert not wrong.isVisible()
     dialog.close()
     # Gone: the bundled one again.
     (folder / "trumpet_Bb.toml").unlink()
-    qtbot.waitUntil(lambda: session.performance.instrument(trumpet) is bundled_maps()["trumpet_Bb"], timeout=5000)
+    qtbot.waitUntil(lambda: session.performance.instrument(trumpet) is bundled_maps()["trumpet_Bb"])
     monkeypatch.setattr(module, "_library", None)

@@ -434,7 +434,7 @@ def test_a_piece_that_nobody_would_write(
     program.editor.table.refresh()
     assert session.actions["export.files"].isEnabled() == bool(project.players)
     if project.players:
-        qtbot.waitUntil(lambda: session.performance.project is session.project, timeout=20_000)
+        qtbot.waitUntil(lambda: session.performance.project is session.project)
         fresh = Performance(session.project)
         for player in session.project.players:
             assert session.performance.plan(player) == fresh.plan(player)

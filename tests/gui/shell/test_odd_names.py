@@ -117,7 +117,7 @@ def test_players_are_exported(empty: Program, folder: Path, qtbot: QtBot) -> Non
     assert told is not None
     assert line.text().startswith("bytes:///")
     dialog.start()
-    qtbot.waitUntil(lambda: f"{NAME}/{NAME}.out" in told.text(), timeout=30_000)
+    qtbot.waitUntil(lambda: f"{NAME}/{NAME}.out" in told.text())
     assert (odd(folder, ".out") / "report.json").is_file()
     dialog.close()
     assert program.editor.settings.export_folder == str(odd(folder, ".out"))
@@ -188,7 +188,7 @@ def test_names_that_no_file_can_have(start: Start, settings: Settings, answers: 
     export.start()
     outcome = export.findChild(QLabel, "export_outcome")
     assert outcome is not None
-    qtbot.waitUntil(lambda: name in outcome.text(), timeout=30_000)
+    qtbot.waitUntil(lambda: name in outcome.text())
     export.close()
     trigger(program, "export.playblast")
     (film,) = program.window.findChildren(PlayblastDialog)

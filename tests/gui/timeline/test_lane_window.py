@@ -22,7 +22,7 @@ from widgets.timeline.panel import TimelinePanel
 def panel(program: Program, qtbot: QtBot) -> TimelinePanel:  # noqa: F811
     result = program.window.findChild(TimelinePanel)
     assert isinstance(result, TimelinePanel)
-    qtbot.waitUntil(lambda: program.session.performance.planned, timeout=20_000)
+    qtbot.waitUntil(lambda: program.session.performance.planned)
     result.axis.show(0.0, 20.0)
     return result
 
@@ -34,9 +34,7 @@ def plan(program: Program) -> PlayerPlan:  # noqa: F811
 
 def up_to_date(program: Program, qtbot: QtBot) -> None:  # noqa: F811
     session = program.session
-    qtbot.waitUntil(
-        lambda: session.performance.planned and session.performance.project is session.project, timeout=20_000
-    )
+    qtbot.waitUntil(lambda: session.performance.planned and session.performance.project is session.project)
 
 
 def test_a_breath_is_dragged_while_plans_are_made_elsewhere(

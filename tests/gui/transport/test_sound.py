@@ -40,7 +40,7 @@ def ready(sound: Sound, session: Session, qtbot: QtBot) -> Sound:
 
 
 def wait_ready(session: Session, qtbot: QtBot) -> None:
-    qtbot.waitUntil(lambda: session.listening.ready == 1.0 and not playing_task(session), timeout=20_000)
+    qtbot.waitUntil(lambda: session.listening.ready == 1.0 and not playing_task(session))
 
 
 def playing_task(session: Session) -> bool:
@@ -124,7 +124,7 @@ def test_after_an_edit_only_what_changed_is_rendered(
     score = project.score
     parts = (score.parts[0], replace_notes(score.parts[1], other.notes))
     edit(session, replace(project, score=replace_parts(score, parts)))
-    qtbot.waitUntil(lambda: len(rendered) == 1, timeout=5000)
+    qtbot.waitUntil(lambda: len(rendered) == 1)
     wait_ready(session, qtbot)
     assert len(rendered) == 1
     assert (heard(ready, 0.0, 1.0) == before).all()
@@ -147,7 +147,7 @@ def replace_parts(score: object, parts: object) -> object:
 
 def test_another_tempo_is_heard(ready: Sound, session: Session, qtbot: QtBot) -> None:
     edit(session, set_tempo(session.project, 0, 60.0))
-    qtbot.waitUntil(lambda: loudness(ready, 4.2, 5.0) > 0.01, timeout=10_000)
+    qtbot.waitUntil(lambda: loudness(ready, 4.2, 5.0) > 0.01)
     assert heard(ready, 0.0, 6.0) == pytest.approx(mixdown(session.project, 0.0, 6.0), abs=1e-6)
 
 
@@ -181,7 +181,7 @@ def recording(tmp_path: Path, session: Session, ready: Sound) -> Path:
 
 def add(session: Session, path: Path, qtbot: QtBot) -> None:
     assert session.attempt(NAME, lambda project: set_audio(project, path))
-    qtbot.waitUntil(lambda: session.listening.waveform is not None, timeout=20_000)
+    qtbot.waitUntil(lambda: session.listening.waveform is not None)
 
 
 def test_a_recording_is_heard_at_its_place(
@@ -224,7 +224,7 @@ def test_a_new_recording_finds_its_place_by_itself(
     assert session.project.audio.offset_s == 0.0
     session.document.undo()
     session.document.redo()
-    qtbot.waitUntil(lambda: session.listening.waveform is not None, timeout=20_000)
+    qtbot.waitUntil(lambda: session.listening.waveform is not None)
     assert session.project.audio.offset_s == 0.0, "it is not estimated again behind one's back"
     assert len(session.document.undone) == 1
 
@@ -279,7 +279,7 @@ def test_a_project_brings_its_own_offset(sound: Sound, session: Session, qtbot: 
     soundfile.write(tmp_path / "r.wav", mixdown(session.project, 0.0, 10.0), RATE_HZ)
     project = set_offset(set_audio(session.project, tmp_path / "r.wav"), 1.5)
     session.document.open(project)
-    qtbot.waitUntil(lambda: session.listening.waveform is not None, timeout=20_000)
+    qtbot.waitUntil(lambda: session.listening.waveform is not None)
     assert session.project is project
 
 
@@ -293,7 +293,7 @@ def test_a_recording_that_was_moved_keeps_its_offset(
     assert session.project.audio.offset_s == 1.5
     session.attempt(NAME, lambda project: set_audio(project, None))
     session.document.undo()
-    qtbot.waitUntil(lambda: session.listening.waveform is not None, timeout=20_000)
+    qtbot.waitUntil(lambda: session.listening.waveform is not None)
     assert session.project.audio.offset_s == 1.5
     assert len(session.document.done) == 1
 

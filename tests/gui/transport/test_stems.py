@@ -64,7 +64,7 @@ def loud(stems: Stems, project: Project, at_s: float) -> bool:
 
 
 def settle(stems: Stems, qtbot: QtBot) -> None:
-    qtbot.waitUntil(lambda: not stems._settle_timer.isActive(), timeout=5000)
+    qtbot.waitUntil(lambda: not stems._settle_timer.isActive())
 
 
 def test_what_is_heard_next_comes_first(owner: QObject, qtbot: QtBot) -> None:

@@ -247,7 +247,7 @@ def test_ctrl_c_leaves_nothing(tmp_path: Path) -> None:
         assert process.poll() is None
         assert not list(target.glob("*.*"))[1:]  # only the hidden folder
         process.send_signal(signal.SIGINT)
-        out, err = process.communicate(timeout=60)
+        out, err = process.communicate(timeout=240)
     assert process.returncode == 130
     assert out == b""
     assert b"Traceback" not in err
