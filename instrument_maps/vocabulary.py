@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Mapping
+from collections.abc import Mapping, Set
 from functools import cache
 from pathlib import Path
 from types import MappingProxyType
@@ -23,27 +23,29 @@ import msgspec
 
 from app.errors import MapError
 from app.formats.toml import read_toml, shaped
+from instrument_maps.name_words import is_katakana, is_wide, words_of
 
 PATH = Path(__file__).with_name("vocabulary.toml")
 
-# A token is a word, one kana or kanji (Japanese has no spaces), a number or an accidental.
-_WIDE = re.compile(r"[\u3040-\u30fa\u30fc-\u30ff\u3400-\u9fff]")
-_TOKEN = re.compile(r"[\u3040-\u30fa\u30fc-\u30ff\u3400-\u9fff]|[^\W\d_\u3040-\u30ff\u3400-\u9fff]+|\d+|[♭♯#]")
 _NAME_LETTERS = 4
 """In a running text "Ob" or "Tr" may be anything; "Oboe" is not."""
+_MOST_SHORT_KANA = 3
+"""Kana of a wind's name that is found only where its run of kana ends ("クラ", not in "スクラッチ")."""
+_MOST_KANA = 8
+"""Kana beside such a name that are looked at."""
 _MOST_WORDS = 64
 """Of a text that names a part; more is no name."""
 _MOST_PARTS = 8
 """Instruments of one player that are looked for."""
 _IN = frozenset({"in", "en", "em"})
 """Before a key."""
-_CAMEL = re.compile(r"(?<=[a-z])(?=[A-Z])|(?<=\b[A-Z])(?=[A-Z][ac-z])")
-"""Between joined words, also after a single letter ("ACl"), but not in "BBb"."""
-_ORDINAL = re.compile(r"(?<=\d)(?:st|nd|rd|th|ers?|eres?|res?|emes?|es?|[ao])(?![^\W\d_])")
-"""What is written after a number: 1st, 2es, 3ª; no key ("Es", "A")."""
-_DOUBLING = re.compile(r"[/&+,;]|\b(?:and|und|et|ed?|y)\b", re.IGNORECASE)
+_DOUBLING = re.compile(r"[/&+,;、]|\s[-–]\s|\b(?:and|und|et|ed|y|e(?!\W?(?:♭|b\b|flat\b)))\b", re.IGNORECASE)
 """Between two instruments of one player."""
-_LEAST_PLURAL = 5
+_TOGETHER = re.compile(r"(?<!\w)[aàá] ?\d(?!\w)")
+"""How many players play from a part ("a2"), which is no key."""
+_PLAYER = re.compile(r"\d+|i{1,3}|iv|vi{0,3}")
+"""The number of a player, between a name and its key ("Bass 1 C")."""
+_LEAST_PLURAL = 4
 """Letters of a word from which on an ending may be a plural."""
 _PLURALS = (("es", ""), ("s", ""), ("i", "o"), ("i", "e"), ("e", "a"), ("en", "e"), ("en", ""), ("e", ""))
 """Endings of plurals in the languages of the table and what the singular has instead; the longest come first."""
@@ -78,10 +80,10 @@ class Instrument(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         Names that mean a part of this instrument only beside a key, its own or one of its forms ("Bass in C").
     key : str
         Its own key, one of the table.
-    form_of : str
-        Id of the instrument whose name, beside one of the ``marks``, names this one ("Clarinet" and "bass").
+    form_of : tuple of str
+        Ids of the instruments whose names, beside one of the ``marks``, name this one ("Clarinet" and "bass").
     marks : tuple of str
-        Sizes or keys of the table.
+        Sizes, keys or clefs of the table; of two joined by a plus ("contrabass+E♭") both are required.
     """
 
     id: str
@@ -97,7 +99,7 @@ class Instrument(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     vague_names: tuple[str, ...] = ()
     keyed_names: tuple[str, ...] = ()
     key: str = ""
-    form_of: str = ""
+    form_of: tuple[str, ...] = ()
     marks: tuple[str, ...] = ()
 
 
@@ -105,6 +107,7 @@ class _Table(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     seating: tuple[tuple[str, ...], ...]
     sizes: dict[str, tuple[str, ...]]
     keys: dict[str, tuple[str, ...]]
+    clefs: dict[str, tuple[str, ...]]
     prefixes: tuple[str, ...]
     instruments: tuple[Instrument, ...]
 
@@ -120,10 +123,10 @@ class Vocabulary:
         The table's name for messages.
     seating : tuple of tuple of str
         Families of winds, by row from the audience's side, each row from the audience's left.
-    sizes, keys : dict of str to tuple of str
+    sizes, keys, clefs : dict of str to tuple of str
         The marks that tell the forms of an instrument apart, and the words for each.
     prefixes : tuple of str
-        Words that may be joined to a name and do not change its meaning ("Soloflöte").
+        Words that may be joined to a name and do not change its meaning ("Soloflöte", "ソロホルン").
 
     Raises
     ------
@@ -138,6 +141,7 @@ class Vocabulary:
         seating: tuple[tuple[str, ...], ...] = (),
         sizes: Mapping[str, tuple[str, ...]] = MappingProxyType({}),
         keys: Mapping[str, tuple[str, ...]] = MappingProxyType({}),
+        clefs: Mapping[str, tuple[str, ...]] = MappingProxyType({}),
         prefixes: tuple[str, ...] = (),
     ) -> None:
         self.seating = seating
@@ -152,24 +156,40 @@ class Vocabulary:
                     )
             vague = msgspec.structs.replace(instrument, vague=True)
             for name in (*instrument.names, *instrument.vague_names):
-                tokens, found = _tokens(name), instrument if name in instrument.names else vague
+                tokens, found = words_of(name), instrument if name in instrument.names else vague
                 if not tokens or self._by_tokens.setdefault(tokens, found) is not found:
                     raise MapError("vocabulary.invalid", file=file, detail=f"'{name}' belongs to two instruments")
-        self._keyed = {_tokens(name): each for each in instruments for name in each.keyed_names}
+        self._written_out = frozenset(
+            words_of(name)
+            for instrument in instruments
+            for name in (*instrument.names, *instrument.vague_names, *instrument.keyed_names)
+            if sum(map(str.isalpha, name)) >= _NAME_LETTERS or is_wide(name[0])
+        )
+        self._keyed = {words_of(name): each for each in instruments for name in each.keyed_names}
         self._longest = max(map(len, (*self._by_tokens, *self._keyed)), default=0)
         self._marks = {
-            _tokens(word): mark for table in (sizes, keys) for mark, words in table.items() for word in words
+            words_of(word): mark for table in (sizes, keys, clefs) for mark, words in table.items() for word in words
         }
-        self._keys = frozenset(keys)
-        self._prefixes = frozenset(word for prefix in prefixes for word in _tokens(prefix))
+        self._keys, self._clefs = frozenset(keys), frozenset(clefs)
+        self._prefixes = frozenset(map(words_of, prefixes))
+        self._short_kana = frozenset(
+            words_of(name)
+            for instrument in instruments
+            if instrument.kind == "wind"
+            for name in instrument.names
+            if len(name) <= _MOST_SHORT_KANA and all(map(is_katakana, words_of(name)))
+        )
         self._words = frozenset(word for name in (*self._by_tokens, *self._marks) for word in name)
         self._longest_mark = max(map(len, self._marks), default=0)
         self._forms: dict[str, list[Instrument]] = {}
+        marks = {*sizes, *keys, *clefs}
         for instrument in instruments:
-            if instrument.form_of not in {"", *self.instruments} or not {*sizes, *keys}.issuperset(instrument.marks):
+            own = {part for mark in instrument.marks for part in mark.split("+")}
+            if not self.instruments.keys() >= {*instrument.form_of} or not marks >= own:
                 detail = f"'{instrument.id}' is a form that the table does not have"
                 raise MapError("vocabulary.invalid", file=file, detail=detail)
-            self._forms.setdefault(instrument.form_of, []).append(instrument)
+            for general in instrument.form_of:
+                self._forms.setdefault(general, []).append(instrument)
         families = {"", *(family for row in seating for family in row)}
         for instrument in instruments:
             for family in (instrument.family, *instrument.families):
@@ -207,13 +227,13 @@ class Vocabulary:
 
     def all_by_name(self, text: str) -> tuple[Instrument, ...]:
         """Every instrument that a running text names, once, in its order. Abbreviations do not count."""
-        tokens, found, start = _tokens(text), dict[str, Instrument](), 0
+        tokens, found, start = words_of(text), dict[str, Instrument](), 0
         while start < len(tokens):
             step = 1
             for length in range(min(self._longest, len(tokens) - start), 0, -1):
                 own = tokens[start : start + length]
                 named = self._by_tokens.get(own)
-                if named is not None and (len("".join(own)) >= _NAME_LETTERS or _WIDE.match(own[0])):
+                if named is not None and own in self._written_out and self._is_whole(tokens, start, start + length):
                     found.setdefault(named.id, named)
                     step = length
                     break
@@ -229,38 +249,58 @@ class Vocabulary:
         unless the second says more exactly what it is ("Trombone 3 / Bass Trombone"). Japanese is written without
         spaces, so its names are found anywhere within a run of kana and kanji.
         """
+        text = _TOGETHER.sub(" ", unicodedata.normalize("NFKC", text))
         split = _DOUBLING.split(text, _MOST_PARTS)
         parts = [named for part in split if (named := self._one_by_name(part)) is not None]
         sure = [named for named in parts if not named.vague]
         if len(parts) < 2 or not sure:
             return self._one_by_name(text)
-        return next((named for named in sure[1:] if self.is_sort(named.id, sure[0].id)), sure[0])
+        first = next((named for named in sure[1:] if self.is_sort(named.id, sure[0].id)), sure[0])
+        words = words_of(text)[:_MOST_WORDS]
+        clefs = (
+            self._clefs & self._marks_beside(words, tuple(map(self._singular, words)), len(words), len(words)).keys()
+        )
+        return self._form(first, clefs)[0]
 
     def _one_by_name(self, text: str) -> Instrument | None:
-        tokens = tuple(part for token in _tokens(text)[:_MOST_WORDS] for part in self._parts(token))
+        tokens = tuple(part for token in words_of(text)[:_MOST_WORDS] for part in self._parts(token))
         singular = tuple(map(self._singular, tokens))
-        best: tuple[tuple[bool, int, int, bool, int], Instrument] | None = None
+        best: tuple[tuple[bool, int, bool, bool, int, bool, int], Instrument] | None = None
         for start in range(len(tokens)):
             for length in range(1, min(self._longest, len(tokens) - start) + 1):
-                own, beside = tokens[start : start + length], tokens[:start] + tokens[start + length :]
-                alone = self._by_tokens.get(own) or self._by_tokens.get(singular[start : start + length])
-                if alone is None and own not in self._keyed:
+                own, one = tokens[start : start + length], singular[start : start + length]
+                alone = self._by_tokens.get(own) or self._by_tokens.get(one)
+                if (alone is None and own not in self._keyed) or not self._is_whole(tokens, start, start + length):
                     continue
-                all_marks = self._marks_beside(tokens, singular, start, start + length)
-                for named in filter(None, (alone, self._with_key(own, all_marks))):
-                    marks, keyed = all_marks, self._keyed.get(own) is named
-                    if all(self._keys.issuperset(form.marks) for form in self._forms.get(named.id, ())):
-                        marks = {mark: words for mark, words in marks.items() if mark in self._keys}
-                    written_out = len("".join(own)) >= _NAME_LETTERS or _is_wide(tokens[start])
+                beside = self._marks_beside(tokens, singular, start, start + length)
+                for named in filter(None, (alone, self._with_key(own, beside))):
+                    keyed = self._keyed.get(own) is named
+                    form, told_by = self._form(named, beside.keys())
+                    marks = {mark: count for mark, count in beside.items() if mark in self._keys | told_by}
                     words = length - len(_IN.intersection(own))
                     # A name of the table goes before one that is put together.
                     total = 2 * (words + sum(marks.values())) - (bool(marks) and not keyed)
-                    vague = named.vague or (keyed and self._is_loose(marks, beside))
-                    rank = not vague, total, words, written_out, -start
+                    vague = form.vague or (keyed and self._is_loose(marks, tokens[:start] + tokens[start + length :]))
+                    no_size = own not in self._marks and one not in self._marks
+                    written_out = own in self._written_out or one in self._written_out
+                    rank = not vague, total, len(told_by) > 1, no_size, words, written_out, -start
                     if best is None or rank > best[0]:
-                        form = self._form(named, frozenset(marks))
                         best = rank, msgspec.structs.replace(form, vague=True) if keyed and vague else form
         return None if best is None else best[1]
+
+    def _is_whole(self, tokens: tuple[str, ...], start: int, end: int) -> bool:
+        """Whether a name is more than some kana of a longer word: a short one has only words of the table beside it."""
+        if tokens[start:end] not in self._short_kana:
+            return True
+        before, after = tokens[max(start - _MOST_KANA, 0) : start], tokens[end : end + _MOST_KANA]
+        ends = (before[place:] for place in range(len(before)))
+        begins = (after[:length] for length in range(1, len(after) + 1))
+        return (not before or not is_katakana(before[-1]) or any(map(self._is_known, ends))) and (
+            not after or not is_katakana(after[0]) or any(map(self._is_known, begins))
+        )
+
+    def _is_known(self, words: tuple[str, ...]) -> bool:
+        return words in self._by_tokens or words in self._marks or words in self._prefixes
 
     def _with_key(self, own: tuple[str, ...], marks: Mapping[str, int]) -> Instrument | None:
         """What words name only with one of the keys beside them."""
@@ -270,7 +310,7 @@ class Vocabulary:
         return keyed
 
     def _is_loose(self, marks: Mapping[str, int], beside: tuple[str, ...]) -> bool:
-        """Whether the keys beside a name are mere letters, as in "Bass B", which may be anything."""
+        """Whether the keys beside a name are mere letters, as in "Bass B", which may be anything; not beside a clef."""
         written = any(len(word) > 1 and (word,) in self._marks for word in beside)
         return not written and _IN.isdisjoint(beside) and max(marks.values()) == 1
 
@@ -279,7 +319,7 @@ class Vocabulary:
 
     def _singular(self, word: str) -> str:
         """The word of the table that this one is the plural of; itself where there is none."""
-        if len(word) >= _LEAST_PLURAL and not _is_wide(word):
+        if len(word) >= _LEAST_PLURAL and not is_wide(word):
             for plural, singular in _PLURALS:
                 if word.endswith(plural) and (one := word.removesuffix(plural) + singular) in self._words:
                     return one
@@ -287,23 +327,31 @@ class Vocabulary:
 
     def _parts(self, token: str) -> tuple[str, ...]:
         """A word that is joined of a name and a size or prefix: both ("Altklar", "Soloflöte", "saxtenor")."""
-        if (token,) not in self._by_tokens and (token,) not in self._marks and not _is_wide(token):
+        if (token,) not in self._by_tokens and (token,) not in self._marks and not is_wide(token):
             for cut in range(len(token) - 2, 2, -1):
                 before, name = token[:cut], token[cut:]
-                if (name,) in self._by_tokens and (before in self._prefixes or (before,) in self._marks):
+                if (name,) in self._by_tokens and ((before,) in self._prefixes or (before,) in self._marks):
                     return before, name
                 if (before,) in self._by_tokens and (name,) in self._marks and len(name) >= _NAME_LETTERS:
                     return before, name
         return (token,)
 
-    def _form(self, instrument: Instrument, marks: frozenset[str]) -> Instrument:
-        """The form of an instrument that the marks name: by its size, else by its key; itself where there is none."""
-        forms = [form for form in self._forms.get(instrument.id, ()) if not marks.isdisjoint(form.marks)]
-        return min(forms, key=lambda form: self._keys.issuperset(marks.intersection(form.marks)), default=instrument)
+    def _form(self, instrument: Instrument, marks: Set[str]) -> tuple[Instrument, frozenset[str]]:
+        """The form of an instrument that the marks name, and those that do: by most of them, by its size before its
+        key; itself where there is none."""
+        found, told_by, best = instrument, frozenset[str](), (0, False)
+        for form in self._forms.get(instrument.id, ()):
+            for mark in form.marks:
+                parts = frozenset(mark.split("+"))
+                rank = len(parts), self._keys.isdisjoint(parts)
+                if parts <= marks and rank > best:
+                    found, told_by, best = form, parts, rank
+        return found, told_by
 
     def _marks_beside(self, tokens: tuple[str, ...], singular: tuple[str, ...], begin: int, end: int) -> dict[str, int]:
-        """The sizes and keys among the words before and after a name, and how many words each is."""
+        """The sizes, clefs and the nearest key among the words before and after a name, and how many words each is."""
         found: dict[str, int] = {}
+        nearest: tuple[int, str] | None = None
         place = 0
         while place < len(tokens):
             if begin <= place < end:
@@ -315,36 +363,20 @@ class Vocabulary:
                 mark = self._marks.get(tokens[span]) or self._marks.get(singular[span])
                 if mark is None:
                     continue
-                beside = place + length == begin or place == end or (place > 0 and tokens[place - 1] in _IN)
+                between = tokens[place + length : begin] if place < begin else tokens[end:place]
+                beside = all(map(_PLAYER.fullmatch, between)) or (place > 0 and tokens[place - 1] in _IN)
                 if length > 1 or len(tokens[place]) > 1 or beside:
+                    if mark in self._keys:
+                        if nearest is not None and nearest[0] <= len(between):
+                            break
+                        if nearest is not None:
+                            del found[nearest[1]]
+                        nearest = len(between), mark
                     found[mark] = length
                     place += length - 1
                     break
             place += 1
         return found
-
-
-def _is_wide(token: str) -> bool:
-    return _WIDE.match(token) is not None
-
-
-def _tokens(text: str) -> tuple[str, ...]:
-    """The words of a text, case, width, diacritics and punctuation dropped."""
-    spaced = _CAMEL.sub(" ", unicodedata.normalize("NFKC", text))
-    return tuple(_TOKEN.findall(_ORDINAL.sub("", _without_marks(spaced).casefold())))
-
-
-def _without_marks(text: str) -> str:
-    """Diacritics dropped from Latin letters; the voicing marks of kana stay, for they tell names apart."""
-    kept = []
-    for character in text:
-        if _WIDE.match(character):
-            kept.append(character)
-        else:
-            # "Bässe" are no "Basse"; ö and ü are more often written without their dots than as two letters.
-            decomposed = unicodedata.normalize("NFD", character).replace("a\u0308", "ae")
-            kept.append("".join(c for c in decomposed if not unicodedata.combining(c)))
-    return "".join(kept)
 
 
 @cache
@@ -357,7 +389,7 @@ def vocabulary() -> Vocabulary:
         If the table is not valid.
     """
     table = shaped(read_toml(PATH, PATH.name), _Table, PATH.name)
-    return Vocabulary(table.instruments, PATH.name, table.seating, table.sizes, table.keys, table.prefixes)
+    return Vocabulary(table.instruments, PATH.name, table.seating, table.sizes, table.keys, table.clefs, table.prefixes)
 
 
 # Worked out here, under the import's lock: two threads that use a type for the first time at once crash msgspec.

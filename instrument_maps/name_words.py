@@ -1,0 +1,77 @@
+"""The words of a part's name as they are compared: case, width, diacritics, punctuation and habits of spelling dropped.
+
+Both sides of a comparison go through here, the table's names and those of the score, so that "FLUEGELHORN" and
+"Flügelhorn", "Saxophon" and "Saxofon", "Clarinnette" and "Clarinete", "サキソフォーン" and "サキソホン" are one
+word each.
+"""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+
+# A word is a run of letters, one kana or kanji (Japanese has no spaces), a number or an accidental.
+_WIDE = re.compile(r"[\u3040-\u30fa\u30fc-\u30ff\u3400-\u9fff]")
+_WORD = re.compile(r"[\u3040-\u30fa\u30fc-\u30ff\u3400-\u9fff]|[^\W\d_\u3040-\u30ff\u3400-\u9fff]+|\d+|[♭♯#]")
+_CAMEL = re.compile(r"(?<=[a-z])(?=[A-Z])|(?<=\b[A-Z])(?=[A-Z][ac-z])")
+"""Between joined words, also after a single letter ("ACl"), but not in "BBb"."""
+_ORDINAL = re.compile(r"(?<=\d)(?:st|nd|rd|th|ers?|eres?|res?|emes?|es?|v[ab]|m[ab]|[mdrt]?[ao])(?![^\W\d_])")
+"""What is written after a number: 1st, 2es, 3ª, 1mo, 8va; no key ("Es", "A")."""
+_LEAST_SPELLED = 4
+"""Letters of a word from which on its spelling is made uniform; shorter ones are abbreviations and keys."""
+_SPELLING = re.compile(r"ph|oe|ue|y|(?<=[^\W\d_])([b-df-hj-np-tv-z])\1(?=[aeiouy])")
+_SPELLED = {"ph": "f", "oe": "o", "ue": "u", "y": "i"}
+"""Greek, German and Italian spellings; a doubled consonant between vowels is written once."""
+_KANA = re.compile("ー|ヴ[ァィェォ]?|フォ|テュ|ウィ|ウェ|ウォ")
+_KANA_SPELLED = {
+    "ー": "",
+    "ヴ": "ブ",
+    "ヴァ": "バ",
+    "ヴィ": "ビ",
+    "ヴェ": "ベ",
+    "ヴォ": "ボ",
+    "フォ": "ホ",
+    "テュ": "チュ",
+    "ウィ": "ウイ",
+    "ウェ": "ウエ",
+    "ウォ": "ウオ",
+}
+
+
+def is_wide(word: str) -> bool:
+    """Whether a word is a kana or kanji."""
+    return _WIDE.match(word) is not None
+
+
+def is_katakana(word: str) -> bool:
+    """Whether a word is a katakana."""
+    return "\u30a1" <= word <= "\u30fa"
+
+
+def words_of(text: str) -> tuple[str, ...]:
+    """The words of a text."""
+    spaced = _CAMEL.sub(" ", unicodedata.normalize("NFKC", text))
+    plain = _ORDINAL.sub("", _without_marks(spaced).casefold())
+    return tuple(map(_spelled, _WORD.findall(_KANA.sub(lambda found: _KANA_SPELLED[found[0]], plain))))
+
+
+def _spelled(word: str) -> str:
+    """A word in the spelling that all its spellings have in common."""
+    if len(word) < _LEAST_SPELLED:
+        return word
+    return _SPELLING.sub(lambda found: found[1] or _SPELLED[found[0]], word)
+
+
+def _without_marks(text: str) -> str:
+    """Diacritics dropped from Latin letters; the voicing marks of kana stay, for they tell names apart."""
+    if text.isascii():
+        return text
+    kept = []
+    for character in text:
+        if _WIDE.match(character):
+            kept.append(character)
+        else:
+            # "Bässe" are no "Basse"; ö and ü are more often written without their dots than as two letters.
+            decomposed = unicodedata.normalize("NFD", character).replace("a\u0308", "ae")
+            kept.append("".join(c for c in decomposed if not unicodedata.combining(c)))
+    return "".join(kept)
