@@ -164,7 +164,7 @@ class Candidates(msgspec.Struct, frozen=True):
 
     def best(self, pitches: Sequence[int], written: bool = False) -> MapChoice:
         """The map that plays just this instrument where it has the notes; else the one that reaches most of them, among
-        equals the one in the middle of whose range they lie.
+        equals (a few notes aside) the one in the middle of whose range they lie.
 
         Parameters
         ----------
@@ -182,7 +182,7 @@ class Candidates(msgspec.Struct, frozen=True):
             few = (1.0 - share) * len(pitches) < _FEW + 0.5 and share >= _FEW_SHARE
             return (
                 choice.map_id in self.exact and (few or share >= _OWN_SHARE),
-                share,
+                1.0 if few else share,
                 -abs(below - above),
                 min(below, above),
             )
