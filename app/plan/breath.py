@@ -50,6 +50,7 @@ from app.plan.lungs import (
     levels,
     lungful_s,
     needed_rests,
+    notated,
 )
 from app.plan.model import BreathEvent, FloatArray, Note, PlayerParameters, Problem, TimeFrame
 from app.plan.rests import rest_ticks
@@ -111,7 +112,8 @@ def plan_breaths(
     placed = {(item.kind, item.note_id): item for item in corrections
               if isinstance(item, SetBreath) and item.note_id in index_of}  # fmt: skip
     gaps = None if heard is None or not heard.tells_breaths(times) else silences(heard, times)
-    rests = rest_ticks(times, piece.beat_ticks_at(times.onset_tick))
+    score = notated(times, piece) if gaps is None else times
+    rests = rest_ticks(score, piece.beat_ticks_at(times.onset_tick))
     if gaps is None:
         generated = rest_breaths(notes, times, piece, parameters, frame, rests)
     else:
@@ -122,7 +124,7 @@ def plan_breaths(
     hand_ids = {event.id for event in by_hand}
     kept = [event for event in without_removed(generated, removed) if event.id not in hand_ids]
     refill = np.zeros(len(notes))
-    used, lung_s = air_used_s(times, air, None if gaps is None else heard), lungful_s(parameters, air)
+    used, lung_s = air_used_s(score, air, None if gaps is None else heard), lungful_s(parameters, air)
     taken_s = np.diff(used)
     for event in [*kept, *by_hand]:
         index, share = index_of[_note_id(event)], max(0.0, drawn(event.end_s - event.start_s) * _full(event))
@@ -132,7 +134,8 @@ def plan_breaths(
         elif event.kind == "breath":
             refill[index] = share
     used = np.concatenate(([0.0], np.cumsum(taken_s)))
-    length_s = catch_lengths_s(times)
+    # No longer than the notes that really sound leave room for.
+    length_s = np.minimum(catch_lengths_s(score), catch_lengths_s(times))
     spare: dict[int, BreathEvent] = {}
     if gaps is not None:
         length_s = np.where(gaps.played, gaps.length_s, length_s)
@@ -148,7 +151,7 @@ def plan_breaths(
             refill[index], length_s[index] = 0.0, event.end_s - event.start_s
     level = levels(used, lung_s, refill)
     catches = catch_places(
-        notes, times, used, piece, lung_s, refill, level, removed | hand_ids, taken, seeds, rests, length_s
+        notes, score, used, piece, lung_s, refill, level, removed | hand_ids, taken, seeds, rests, length_s
     )
     breaths, air_s = np.flatnonzero(refill > 0.0), level * lung_s
     caught = []
@@ -202,7 +205,8 @@ def rest_breaths(
         lambda index, rest, long, prepared: _rest_reason(index, rest, long, prepared, parameters),
         lambda index, rest: _preparation_reason(rest, parameters),
     )
-    return _in_silences(notes, serving, silence, times.onset_tick, times.onset_s, piece, parameters, told)
+    room = np.minimum(silence, times.silence_tick)
+    return _in_silences(notes, serving, silence, room, times.onset_tick, times.onset_s, piece, parameters, told)
 
 
 def heard_breaths(
@@ -243,7 +247,7 @@ def heard_breaths(
         return _preparation_reason(rest, parameters)
 
     told = _Told(reason, preparation)
-    return _in_silences(notes, serving, silence, end_tick, end_s, piece, parameters, told)
+    return _in_silences(notes, serving, silence, silence, end_tick, end_s, piece, parameters, told)
 
 
 class _Told(NamedTuple):
@@ -263,6 +267,7 @@ def _in_silences(
     notes: tuple[Note, ...],
     serving: IntArray,
     silence: FloatArray,
+    room: FloatArray,
     end_tick: IntArray,
     end_s: FloatArray,
     piece: Piece,
@@ -276,7 +281,9 @@ def _in_silences(
     serving : (K,) int64
         The notes before which a breath is taken.
     silence : (N,) float64
-        Ticks of silence before each note ...
+        Ticks of silence before each note as written, which decides the kind of breath ...
+    room : (N,) float64
+        ... as it sounds, which the breath has to fit into ...
     end_tick, end_s : (N,)
         ... and where it ends.
     """
@@ -285,9 +292,10 @@ def _in_silences(
     onsets = end_tick[serving].astype(np.float64)
     long = rests[serving] >= parameters.breath_last_beat_beats
     # A threshold below one beat lets a rest shorter than a beat count as "last beat": then it is all there is.
-    starts = np.where(long, onsets - np.minimum(silence[serving], beat), onsets - silence[serving])
+    lasts = np.where(long, np.minimum(silence[serving], beat), silence[serving])
+    starts = onsets - np.minimum(lasts, room[serving])
     prepared = rests[serving] >= parameters.breath_prepare_beats
-    preparations = np.maximum(onsets - np.minimum(silence[serving], 2 * beat), onsets - silence[serving])
+    preparations = onsets - np.minimum(np.minimum(silence[serving], 2 * beat), room[serving])
     start_s, preparation_s = piece.clock.seconds(starts), piece.clock.seconds(preparations)
     events: list[BreathEvent] = []
     for place, index in enumerate(serving.tolist()):

@@ -73,7 +73,7 @@ def dynamics_of(times: LineTimes, heard: Blown | None) -> Dynamics:
         loudness = loudness.copy()
         loudness[blown] = heard.mean(starts_s[blown], (starts_s + step_s)[blown])
     at_s = starts_s + step_s / 2.0
-    vigour = vigour_of(_around(starts_s, step_s, loudness, at_s)) if len(at_s) else loudness
+    vigour = vigour_of(mean_around(starts_s, step_s, loudness, at_s, AROUND_S)) if len(at_s) else loudness
     return Dynamics(at_s, vigour, _accents(times.loudness))
 
 
@@ -90,14 +90,24 @@ def grown(amount: Size, vigour: Size) -> Size:
     return amount * vigour / (1.0 + abs(amount) * (vigour - 1.0) * (vigour > 1.0))
 
 
-def _around(starts_s: FloatArray, lasts_s: FloatArray, loudness: FloatArray, at_s: FloatArray) -> FloatArray:
-    """Mean loudness of what sounds around each time."""
+def mean_around(
+    starts_s: FloatArray, lasts_s: FloatArray, loudness: FloatArray, at_s: FloatArray, around_s: float
+) -> FloatArray:
+    """(K,): mean loudness of what sounds from ``around_s`` before each time to as long after it.
+
+    Parameters
+    ----------
+    starts_s, lasts_s, loudness : (N,) float64
+        Notes in order, or parts of them.
+    at_s : (K,) float64
+    around_s : float
+    """
     knots_s = np.stack((starts_s, starts_s + lasts_s), axis=1).ravel()
     sums = []
     for weights in (lasts_s, lasts_s * loudness):
         total = np.concatenate(([0.0], np.cumsum(weights)))
         reached = np.stack((total[:-1], total[1:]), axis=1).ravel()
-        sums.append(np.interp(at_s + AROUND_S, knots_s, reached) - np.interp(at_s - AROUND_S, knots_s, reached))
+        sums.append(np.interp(at_s + around_s, knots_s, reached) - np.interp(at_s - around_s, knots_s, reached))
     return np.where(sums[0] > 1e-9, sums[1] / np.maximum(sums[0], 1e-9), loudness)
 
 

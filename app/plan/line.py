@@ -19,6 +19,10 @@ IntArray = npt.NDArray[np.int64]
 
 MEZZOFORTE = 0.63
 """Loudness 0..1 of mezzoforte: MIDI velocity 80 of 127."""
+UNMEANT_SPREAD = 16.0
+"""Velocities between the 10th and 90th percentile of notes played equally loud (a standard deviation of 6)."""
+MEANT_SPREAD = 32.0
+"""From here on the velocities are dynamics: two marks apart."""
 
 DYNAMICS = (("ppp", 16), ("pp", 33), ("p", 49), ("mp", 64), ("mf", 80), ("f", 96), ("ff", 112), ("fff", 126))
 """Dynamic marks and the velocities with which notation programs play them."""
@@ -255,11 +259,22 @@ LEAP_SEMITONES = 5
 
 
 def velocity_loudness(velocity: IntArray) -> FloatArray:
-    """Loudness 0..1 by velocities (N,) alone."""
-    if len(velocity) and np.ptp(velocity) == 0:
-        # One velocity throughout is a file that says nothing about dynamics (engraved scores, most wind controllers).
-        return np.full(len(velocity), MEZZOFORTE)
-    return np.clip(velocity / 127.0, 0.0, 1.0)
+    """Loudness 0..1 by velocities (N,) alone.
+
+    One velocity throughout says nothing about dynamics (engraved scores, most wind controllers): mezzoforte. Nor do
+    the differences between the strokes of one hand: the level, and how much louder or softer than usual a note is,
+    count as far as the velocities spread beyond them.
+    """
+    if not len(velocity):
+        return np.zeros(0)
+    low, usual, high = np.percentile(velocity, [10, 50, 90])
+    meant = np.clip((high - low - UNMEANT_SPREAD) / (MEANT_SPREAD - UNMEANT_SPREAD), 0.0, 1.0)
+    level = MEZZOFORTE + meant * (usual / 127.0 - MEZZOFORTE)
+    unmeant = (1.0 - meant) * UNMEANT_SPREAD / 2.0
+    stroke = velocity - usual
+    accent: FloatArray = np.sign(stroke) * np.maximum(np.abs(stroke) - unmeant, 0.0)
+    loudness: FloatArray = np.clip(level + accent / 127.0, 0.0, 1.0)
+    return loudness
 
 
 TOUCHING_GATE = 0.97

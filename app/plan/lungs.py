@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import dataclasses
 from functools import lru_cache
 
 import numpy as np
 import numpy.typing as npt
 
+from app.plan.dynamics import mean_around
 from app.plan.heard import STOPS_AT, Blown, step_means
 from app.plan.line import MEZZOFORTE, IntArray, LineTimes, Piece, Seeds
 from app.plan.model import FloatArray, Note, PlayerParameters
@@ -28,6 +30,8 @@ USUAL_LUNG_S = 9.0
 PIANO, FORTE = 0.39, 0.77
 """Loudness of the dynamics a map's `Air` names: velocities 49 and 98 of 127."""
 
+PHRASE_S = 2.0
+"""The air of a note follows the mean loudness so far before and after."""
 STALE_S = 12.0
 """However little air an instrument takes, usual lungs want fresh air after so long (an oboist breathes out first)."""
 
@@ -58,7 +62,13 @@ AGAIN = 2.0
 """Where what came after a rest comes again."""
 AGAIN_NOTES = 4
 WRITTEN_SHARE = 0.9
-"""Where so many notes lie on fractions of a quarter, nobody played them into the file."""
+"""Where so many notes lie on fractions of a quarter, nobody played them into the file ..."""
+PLAYED_LEAST = 4
+"""... nor where fewer than this lie elsewhere."""
+RESTS = (0.0, 1 / 4, 1 / 3, 1 / 2, 2 / 3, 3 / 4)
+"""What a score writes as a rest beside whole quarters, in quarters ..."""
+LATE_RELEASE = 0.05
+"""... and how much shorter the silence may be because a note was held too long."""
 SHORTER = 0.5
 """Before a note half as long as the one before."""
 SLURRED = -40.0
@@ -90,14 +100,18 @@ def air_used_s(times: LineTimes, air: Air | None = None, heard: Blown | None = N
     heard : Blown or None
         The breath, where it tells when air is blown: then all of it counts, also between the notes.
     """
+    lasts_s = times.duration_s
+    # A phrase's dynamic takes the air, not how each of its notes turned out.
+    loudness = mean_around(times.onset_s, lasts_s, times.loudness, times.onset_s + lasts_s / 2.0, PHRASE_S)
+    noted_s = lasts_s * air_rate(loudness, air)
     if heard is None:
-        return np.concatenate(([0.0], np.cumsum(times.duration_s * air_rate(times.loudness, air))))
+        return np.concatenate(([0.0], np.cumsum(noted_s)))
     rate = np.where(heard.values > STOPS_AT, air_rate(heard.values, air), 0.0)
     ends_s = np.append(times.onset_s[1:], times.played_end_s[-1])
-    lasts_s = np.maximum(ends_s - times.onset_s, EPSILON)
-    taken = step_means(heard.at_s, rate, times.onset_s, times.onset_s + lasts_s) * lasts_s
+    blown_s = np.maximum(ends_s - times.onset_s, EPSILON)
+    taken = step_means(heard.at_s, rate, times.onset_s, times.onset_s + blown_s) * blown_s
     # Notes that were not blown take what their loudness says.
-    taken = np.where(heard.plays(times), taken, times.duration_s * air_rate(times.loudness, air))
+    taken = np.where(heard.plays(times), taken, noted_s)
     return np.concatenate(([0.0], np.cumsum(taken)))
 
 
@@ -310,7 +324,8 @@ def _place_costs(
     runs = steps[at - 1] <= RUNNING * beat
     # A long note or a rest ends what led to the next one; unless notes run, nothing leads to where the line comes in.
     leads = (~rest & (long < 1.0)) * (1.0 - like * ~runs)
-    good += SQUARE * _squareness(rests, onsets, at, bars) * ~runs
+    # Out of running notes a breath comes after the note on the beat.
+    good += SQUARE * _squareness(rests, onsets, at - runs, bars)
     good += BEFORE_UPBEAT * np.clip(falls, 0, np.where(runs, 3, 1)) + AFTER_UPBEAT * np.maximum(-falls, 0) * leads
     good += SHORTER * np.clip(np.log2(np.maximum(before, EPSILON) / np.maximum(duration[at], EPSILON)), 0.0, 2.0)
     good += LEAP * times.leaps[at - 1]
@@ -328,9 +343,42 @@ def written_onsets(onsets: IntArray, quarter_ticks: int) -> IntArray:
 
     Onsets that mostly lie on fractions of a quarter are written ones, and are kept as they are.
     """
-    if np.count_nonzero(onsets * 24 % quarter_ticks == 0) >= WRITTEN_SHARE * len(onsets):
+    if _are_written(onsets, quarter_ticks):
         return onsets
     return np.asarray(np.rint(np.rint(onsets * 12 / quarter_ticks) * quarter_ticks / 12), np.int64)
+
+
+def _are_written(ticks: IntArray, quarter_ticks: int) -> bool:
+    elsewhere = np.count_nonzero(ticks * 24 % quarter_ticks)
+    return bool(elsewhere < max(PLAYED_LEAST, (1.0 - WRITTEN_SHARE) * len(ticks) + EPSILON))
+
+
+def notated(times: LineTimes, piece: Piece) -> LineTimes:
+    """The line as a score would have it: a musician decides where to breathe by that, not by how each note turned out.
+
+    Onsets stand on the grid of `written_onsets`. Where the ends were played, a silence is what of it a score writes as
+    a rest (`RESTS`), and the remainder belongs to the note before it.
+    """
+    quarter = piece.clock.ticks_per_quarter
+    onset, end = written_onsets(times.onset_tick, quarter), times.played_end_tick
+    ends_are_written = _are_written(end, quarter)
+    if onset is times.onset_tick and ends_are_written:
+        return times
+    gap = np.clip(onset[1:] - end[:-1], 0, np.diff(onset))
+    if not ends_are_written:
+        whole, part = np.divmod(gap / quarter + LATE_RELEASE, 1.0)
+        written = whole + np.take(RESTS, np.searchsorted(RESTS, part, side="right") - 1)
+        gap = np.minimum(np.rint(written * quarter).astype(np.int64), np.diff(onset))
+    last = onset[-1] + times.played_end_tick[-1] - times.onset_tick[-1]
+    end = np.append(onset[1:] - gap, last)
+    return dataclasses.replace(
+        times,
+        onset_tick=onset,
+        played_end_tick=end,
+        silence_tick=np.append(times.silence_tick[:1], gap),
+        onset_s=piece.clock.seconds(onset.astype(np.float64)),
+        played_end_s=piece.clock.seconds(end.astype(np.float64)),
+    )
 
 
 def _strength(ticks: IntArray, bars: IntArray, beat_ticks: IntArray) -> IntArray:

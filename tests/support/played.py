@@ -1,12 +1,13 @@
 """An engraved MIDI file as somebody might have played it into a sequencer. Synthetic: made by rule and by chance.
 
-Every note begins up to 20 ms early or late; some legato notes last 5 to 60 ms into the next; velocities follow a phrase
-arch; controllers 1, 2 and 11 move; the tempo bends by 8 % and slows down at the end; some long notes have a
-grace note; key switches far below the range stand before phrases.
+Every note begins up to 20 ms early or late; in some half bars the notes are slurred, each lasting 5 to 60 ms into the
+next; velocities follow a phrase arch; controllers 1, 2 and 11 move around mezzoforte; the tempo bends by 8 % and slows
+down at the end; some long notes have a grace note; key switches far below the range stand before phrases.
 """
 
 from __future__ import annotations
 
+import bisect
 import io
 import math
 import random
@@ -16,7 +17,7 @@ from typing import Final, NamedTuple
 import mido
 import numpy as np
 
-from app.score.read import read_contents
+from app.score.read import MidiContents, read_contents
 from app.score.tempo import TempoChange, TempoMap
 
 PERCUSSION: Final = 9
@@ -24,9 +25,20 @@ _CONTROL_EVERY_S: Final = 0.2
 
 
 class Manner(NamedTuple):
-    """What a player does; shares of the notes are 0..1."""
+    """What a player does.
 
-    overlapped: float = 0.3
+    Attributes
+    ----------
+    slurred : float
+        0..1 of the half bars in which notes overlap. As players slur: not into the next half bar, and not from a note
+        into a shorter one.
+    overlap_s : tuple of float
+        How long, at least and at most.
+    graced : float
+        0..1 of the long notes that have a grace note.
+    """
+
+    slurred: float = 0.5
     overlap_s: tuple[float, float] = (0.005, 0.060)
     early_or_late_s: float = 0.020
     graced: float = 0.02
@@ -49,10 +61,9 @@ def played(path: Path, seed: int = 0, manner: Manner | None = None) -> bytes:
     manner = manner or Manner()
     by_chance = random.Random(f"{seed}:{path.stem}")
     contents = read_contents(path)
-    file = mido.MidiFile(type=1, ticks_per_beat=960)
-    scale = 960 / contents.tempo_map.ticks_per_quarter
-    conductor = mido.MidiTrack()
-    file.tracks.append(conductor)
+    # Fine, and the same player's chances fall at the same places: `app.plan.line.Seeds` counts ticks and tracks.
+    scale = math.ceil(192 / contents.tempo_map.ticks_per_quarter)
+    file = mido.MidiFile(type=1, ticks_per_beat=scale * contents.tempo_map.ticks_per_quarter)
     end_tick = max(max(stream.end_ticks) for stream in contents.streams)
     events: list[tuple[int, mido.MetaMessage]] = [
         (
@@ -63,13 +74,14 @@ def played(path: Path, seed: int = 0, manner: Manner | None = None) -> bytes:
     ]
     tempi = _bent(contents.tempo_map, end_tick, manner.rubato)
     events += [(round(tick * scale), mido.MetaMessage("set_tempo", tempo=tempo)) for tick, tempo in tempi]
-    _write(conductor, [(tick, 0, message) for tick, message in events])
     bent = TempoMap.of_changes(contents.tempo_map.ticks_per_quarter, [TempoChange(*tempo) for tempo in tempi])
     for index in range(contents.streams[-1].track + 1):
         streams = [stream for stream in contents.streams if stream.track == index]
         track = mido.MidiTrack()
         file.tracks.append(track)
         rows: list[tuple[int, int, mido.Message | mido.MetaMessage]] = []
+        if index == 0:
+            rows += [(tick, 0, message) for tick, message in events]
         for stream in streams:
             if stream is streams[0]:
                 rows.append((0, 0, mido.MetaMessage("track_name", name=stream.name)))
@@ -82,8 +94,9 @@ def played(path: Path, seed: int = 0, manner: Manner | None = None) -> bytes:
                     stream.onset_ticks, stream.end_ticks, stream.pitches, stream.velocities, strict=True
                 )
             ]
+            half_bars = _half_bars(sorted(stream.onset_ticks), contents)
             if stream.channel != PERCUSSION:
-                notes = _performed(notes, manner, by_chance)
+                notes = _performed(notes, half_bars, manner, by_chance)
                 rows += _controllers(notes, stream.channel, manner, bent, scale)
             for note in notes:
                 on, off = (max(round(float(bent.ticks(at_s)) * scale), 0) for at_s in (note.begin_s, note.end_s))
@@ -95,19 +108,44 @@ def played(path: Path, seed: int = 0, manner: Manner | None = None) -> bytes:
     return stored.getvalue()
 
 
-def _performed(notes: list[_Sounding], manner: Manner, by_chance: random.Random) -> list[_Sounding]:
-    """The notes of a track with onsets, ends and velocities as played, grace notes and key switches among them."""
+def _half_bars(onset_ticks: list[int], contents: MidiContents) -> list[int]:
+    """Where the half bar of each onset begins, in ticks; a bar of an odd number of beats has a beat left over."""
+    starts = [metre.tick for metre in contents.metres]
+    result = []
+    for tick in onset_ticks:
+        metre = contents.metres[max(bisect.bisect_right(starts, tick) - 1, 0)]
+        beat = contents.tempo_map.ticks_per_quarter * 4 // metre.denominator
+        beats = 3 if metre.numerator % 3 == 0 and metre.numerator > 3 else 2
+        bar, within = divmod(tick - metre.tick, metre.numerator * beat)
+        result.append(metre.tick + bar * metre.numerator * beat + within // (beats * beat) * beats * beat)
+    return result
+
+
+def _performed(
+    notes: list[_Sounding], half_bars: list[int], manner: Manner, by_chance: random.Random
+) -> list[_Sounding]:
+    """The notes of a track with onsets, ends and velocities as played, grace notes and key switches among them.
+
+    Parameters
+    ----------
+    half_bars : list of int
+        The half bar of each note, in the order of time.
+    """
     notes = sorted(notes)
-    begins = {round(note.begin_s, 4) for note in notes}
+    following = {
+        round(note.begin_s, 4): (half_bar, note.end_s - note.begin_s)
+        for note, half_bar in zip(notes, half_bars, strict=True)
+    }
+    slurred = {half_bar for half_bar in sorted(set(half_bars)) if by_chance.random() < manner.slurred}
     shifts = [by_chance.uniform(-1.0, 1.0) * manner.early_or_late_s for _ in notes]
     lowest = min(note.pitch for note in notes)
     result: list[_Sounding] = []
     last_end_s = -10.0
-    for note, shift_s in zip(notes, shifts, strict=True):
+    for note, half_bar, shift_s in zip(notes, half_bars, shifts, strict=True):
         begin_s, end_s = max(note.begin_s + shift_s, 0.0), note.end_s
-        touches = round(note.end_s, 4) in begins
         length_s = end_s - note.begin_s
-        if touches and by_chance.random() < manner.overlapped:
+        next_half_bar, next_length_s = following.get(round(note.end_s, 4), (None, 0.0))
+        if half_bar in slurred and half_bar == next_half_bar and length_s < next_length_s + 0.01:
             end_s += manner.early_or_late_s + by_chance.uniform(*manner.overlap_s)
         else:
             end_s -= min(0.025 + 0.04 * length_s, 0.3 * length_s)
@@ -115,10 +153,10 @@ def _performed(notes: list[_Sounding], manner: Manner, by_chance: random.Random)
         level = note.velocity if manner.arched is None else 75 + manner.arched * (arch - 0.5)
         velocity = min(max(round(level + by_chance.gauss(0.0, 5.0)), 1), 127)
         if length_s > 0.4 and by_chance.random() < manner.graced and begin_s > 0.2:
-            before_s = by_chance.uniform(0.06, 0.09)
-            result.append(
-                _Sounding(begin_s - before_s, begin_s + 0.01, note.pitch + by_chance.choice((1, 2)), velocity)
-            )
+            grace_s = begin_s - by_chance.uniform(0.06, 0.09)
+            if result:
+                result[-1] = result[-1]._replace(end_s=min(result[-1].end_s, grace_s + 0.01))
+            result.append(_Sounding(grace_s, begin_s + 0.01, note.pitch + by_chance.choice((1, 2)), velocity))
         if manner.key_switches and begin_s - last_end_s > 0.3 and begin_s > 0.15:
             switch = max(min(24, (lowest - 18) // 12 * 12), 0) + by_chance.choice((0, 1, 2, 4))
             result.append(_Sounding(begin_s - 0.1, begin_s - 0.04, switch, 100))
@@ -146,7 +184,7 @@ def _controllers(
     times_s = np.arange(0.0, max(note.end_s for note in notes), _CONTROL_EVERY_S)
     ticks = np.rint(bent.ticks(times_s) * scale).astype(int).tolist()
     for number in manner.controllers:
-        levels = 70 + 40 * np.sin(np.pi * (times_s % 6.0) / 6.0) + 5 * np.sin(times_s * number)
+        levels = 80 + 40 * (np.sin(np.pi * (times_s % 6.0) / 6.0) - 2 / np.pi) + 5 * np.sin(times_s * number)
         for tick, level in zip(ticks, np.rint(levels).astype(int).tolist(), strict=True):
             rows.append((tick, 1, mido.Message("control_change", channel=channel, control=number, value=level)))
     return rows

@@ -52,8 +52,8 @@ class Planned(NamedTuple):
     warnings: Counter[str]
 
 
-def planned(path: Path, first_track: int = 0) -> Planned:
-    """The plan of a file whose tracks are counted from `first_track`."""
+def planned(path: Path) -> Planned:
+    """The plan of a file."""
     maps = bundled_maps()
     score = read_midi(path, maps=map_choices(maps.values()))
     performance = Performance(project_from_score(score, maps))
@@ -65,7 +65,7 @@ def planned(path: Path, first_track: int = 0) -> Planned:
         breaths |= {event.id.removeprefix("breath:") for event in plan.breaths if event.kind == "breath"}
         breaths -= {note.id for note in part.notes[:1]}
         rows += [
-            (part.track - first_track, note.pitch, note.onset_tick, note.id, labels[note.id])
+            (part.track, note.pitch, note.onset_tick, note.id, labels[note.id])
             for note in part.notes
             if note.id in labels
         ]
@@ -75,7 +75,7 @@ def planned(path: Path, first_track: int = 0) -> Planned:
         key = track, pitch, turns[track, pitch]
         turns[track, pitch] += 1
         own[id_], fingerings[key] = key, label
-    players = Counter((part.track - first_track, part.map_id) for part in score.parts)
+    players = Counter((part.track, part.map_id) for part in score.parts)
     warnings = Counter(warning.id for warning in score.warnings)
     return Planned(players, fingerings, {own[id_] for id_ in breaths if id_ in own}, warnings)
 
@@ -89,7 +89,7 @@ def main(folder: Path, seed: int) -> None:
         with tempfile.TemporaryDirectory() as temporary:
             copy = Path(temporary) / path.name
             copy.write_bytes(played(path, seed, MANNER))
-            again = planned(copy, 1)
+            again = planned(copy)
         same = sum(again.fingerings.get(key) == label for key, label in engraved.fingerings.items())
         common = len(engraved.breaths & again.breaths)
         figures = [

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import itertools
 
 import msgspec
@@ -36,6 +37,14 @@ def before(plan_: PlayerPlan, note_id: str) -> dict[str, BreathEvent]:
 
 def with_rest(rest_tick: int, start: int = 4 * Q) -> tuple[PlainNote, ...]:
     return line_of((start, Q, 65), (start + Q + rest_tick, Q, 67))
+
+
+def with_velocities(notes: tuple[PlainNote, ...], *velocities: int) -> tuple[PlainNote, ...]:
+    """The notes with these velocities in turn."""
+    return tuple(
+        dataclasses.replace(note, velocity=velocity)
+        for note, velocity in zip(notes, itertools.cycle(velocities), strict=False)
+    )
 
 
 @pytest.mark.parametrize("bpm", [60.0, 90.0, 120.0, 200.0])
@@ -191,8 +200,7 @@ def test_a_quarter_is_cut_rather_than_an_eighth() -> None:
 
 def test_loud_playing_needs_more_breaths_and_big_lungs_fewer() -> None:
     notes = even([65] * 60, Q)
-    loud = tuple(PlainNote(note.id, note.onset_tick, note.duration_tick, note.pitch, 127) for note in notes[:-1])
-    loud += (PlainNote("1:60", 59 * Q, Q, 65, 126),)
+    loud = with_velocities(notes, 127, 95)
 
     def count(notes_: tuple[PlainNote, ...], **parameters: object) -> int:
         return len(plan(notes_, **parameters).breaths)  # type: ignore[arg-type]
@@ -220,7 +228,7 @@ def test_an_instrument_that_takes_little_air_is_breathed_for_seldom() -> None:
     assert breaths(notes, Air(9.0, 9.0, 9.0)) == breaths(notes, None)
     # What a map says is about usual lungs; larger ones last longer in proportion.
     assert len(breaths(notes, tuba, lung_s=18.0)) == len(breaths(notes, Air(20.0, 13.0, 8.0)))
-    soft = tuple(PlainNote(n.id, n.onset_tick, n.duration_tick, n.pitch, 40 + i % 2) for i, n in enumerate(notes))
+    soft = with_velocities(notes, 24, 56)
     assert len(breaths(soft, flute)) < len(breaths(notes, flute))
     (message,) = {
         event.reason.arguments["lung_s"] for event in breaths(notes, clarinet) if event.reason.id == "breath.catch"

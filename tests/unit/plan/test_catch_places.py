@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import random
+
 import pytest
 
 from app.plan.generate import Line, Piece, make_plans, time_frame
@@ -47,3 +49,32 @@ def test_running_notes_are_breathed_between_after_the_first_of_a_bar() -> None:
     found = catches(notes, lung_s=14.0)
     assert found
     assert all(place % 4 == 0.5 for place in found)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_played_line_is_breathed_in_where_the_written_one_is(seed: int) -> None:
+    by_chance = random.Random(seed)
+    lengths = [1, 1, 0.5, 0.5, 1, 1.5, 0.5, 1, 1] * 8
+    onsets = [round(sum(lengths[:place]) * Q) for place in range(len(lengths))]
+    written = [
+        (onset, round(length * Q), 65 + place % 3)
+        for place, (onset, length) in enumerate(zip(onsets, lengths, strict=True))
+    ]
+    # Up to 15 ms early or late, and ends 30 to 60 ms before the next note should begin.
+    played = [
+        (
+            max(onset + round(by_chance.uniform(-0.015, 0.015) * 2 * Q), 0),
+            length - round(by_chance.uniform(0.03, 0.06) * 2 * Q),
+            pitch,
+        )
+        for onset, length, pitch in written
+    ]
+    expected, found = (breathed_before(line_of(*notes)) for notes in (written, played))
+    assert len(expected) >= 3
+    assert found == expected
+
+
+def breathed_before(notes: tuple[PlainNote, ...]) -> list[int]:
+    """Places of the notes that catch breaths come before."""
+    ends = {note.onset_tick / Q: place for place, note in enumerate(notes)}
+    return [ends[tick] for tick in catches(notes, lung_s=7.0)]

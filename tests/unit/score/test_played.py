@@ -160,7 +160,7 @@ def test_a_few_low_notes_do_not_change_a_named_instrument() -> None:
     [
         # Two notes beside each other may be early and late: overlaps of 5 to 75 ms.
         Manner(overlap_s=(0.005, 0.045), early_or_late_s=0.015, graced=0.0, key_switches=False, rubato=0.1),
-        Manner(overlapped=0.0, early_or_late_s=0.015, graced=0.3, key_switches=False),
+        Manner(slurred=0.0, early_or_late_s=0.015, graced=0.3, key_switches=False),
     ],
     ids=["overlaps, tempo ramps", "grace notes"],
 )
