@@ -73,6 +73,7 @@ TEMPLATES: Final[dict[str, str]] = {
     "edit.parameter_breath_prepare_beats": "rest with a prepared breath, players: {count}",
     "edit.parameter_breath_need": "air used up before a short rest is breathed in, players: {count}",
     "edit.parameter_lung_s": "lungs of players: {count}",
+    "edit.parameter_circular_breathing": "circular breathing of players: {count}",
     "edit.parameter_embouchure_tension": "embouchure tension of players: {count}",
     "edit.parameter_sway": "sway of players: {count}",
     "edit.parameter_weight_shift": "weight shift of players: {count}",

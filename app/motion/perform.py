@@ -36,6 +36,7 @@ PLANNED_WITH = (
     "breath_prepare_beats",
     "breath_need",
     "lung_s",
+    "circular_breathing",
     "cue_leader",
 )
 """Parameters that decide what is planned, and not how a plan looks."""

@@ -51,6 +51,7 @@ from app.plan.lungs import (
     lungful_s,
     needed_rests,
     notated,
+    with_circular_breathing,
 )
 from app.plan.model import BreathEvent, FloatArray, Note, PlayerParameters, Problem, TimeFrame
 from app.plan.rests import rest_ticks
@@ -149,6 +150,8 @@ def plan_breaths(
         kept = [event for event in kept if index_of[_note_id(event)] not in spare]
         for index, event in spare.items():
             refill[index], length_s[index] = 0.0, event.end_s - event.start_s
+    if parameters.circular_breathing:
+        used = with_circular_breathing(used, lung_s, refill)
     level = levels(used, lung_s, refill)
     catches = catch_places(
         notes, score, used, piece, lung_s, refill, level, removed | hand_ids, taken, seeds, rests, length_s

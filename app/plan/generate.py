@@ -49,7 +49,14 @@ from metadata.model import Expression
 
 __all__ = ["EnsemblePlan", "Line", "Piece", "make_plans", "plan_ensemble", "time_frame"]
 
-BREATH_PARAMETERS = ("breath_min_beats", "breath_last_beat_beats", "breath_prepare_beats", "breath_need", "lung_s")
+BREATH_PARAMETERS = (
+    "breath_min_beats",
+    "breath_last_beat_beats",
+    "breath_prepare_beats",
+    "breath_need",
+    "lung_s",
+    "circular_breathing",
+)
 """Parameters that the breaths look at."""
 
 PREROLL_BEATS = 4.0

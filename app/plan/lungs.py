@@ -35,6 +35,9 @@ PHRASE_S = 2.0
 STALE_S = 12.0
 """However little air an instrument takes, usual lungs want fresh air after so long (an oboist breathes out first)."""
 
+CIRCULAR_SHARE = 0.4
+"""Part of the air that stays in the lungs of a player who breathes in through the nose."""
+
 # How good a place for a catch breath is (added up; the cost of a place is PLACE_COST minus this).
 PLACE_COST = 7.0
 LEAST_COST = 0.2
@@ -169,6 +172,22 @@ def needed_rests(
             result[index] = False
         else:
             level = min(level + float(refill[index]), 1.0)
+    return result
+
+
+def with_circular_breathing(used: FloatArray, lung_s: float, refill: FloatArray) -> FloatArray:
+    """(N + 1,): air used (`air_used_s`), less what is breathed in through the nose while the cheeks blow.
+
+    After each breath of ``refill`` (`levels`) the lungs go down to `CIRCULAR_SHARE` of what is in them, and stay so.
+    """
+    result = used.copy()
+    level = 0.5 if refill[0] == 0.0 else 0.0
+    starts = np.unique(np.concatenate(([0], np.flatnonzero(refill > 0.0))))
+    for start, end in zip(starts.tolist(), [*starts[1:].tolist(), len(refill)], strict=True):
+        level = min(level + float(refill[start]), 1.0)
+        most_s = (1.0 - CIRCULAR_SHARE) * level * lung_s
+        result[start + 1 : end + 1] = result[start] + np.minimum(used[start + 1 : end + 1] - used[start], most_s)
+        level -= float(result[end] - result[start]) / lung_s
     return result
 
 

@@ -77,6 +77,8 @@ class PlayerParameters(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     seed: int = 0
     breath_need: float = 0.35
     """Share of the lungs used up before a rest too short for a preparation is breathed in; 0: in every rest (T6)."""
+    circular_breathing: bool = False
+    """Breathing in through the nose while playing: no catch breaths."""
 
 
 # Events hold no cycles (`gc=False`): a hundred thousand notes have a million of them, and a collection that looked at

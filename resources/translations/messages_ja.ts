@@ -380,6 +380,10 @@
             <translation>一息の長さ: {count} 人</translation>
         </message>
         <message>
+            <source>circular breathing of players: {count}</source>
+            <translation>循環呼吸: {count} 人</translation>
+        </message>
+        <message>
             <source>embouchure tension of players: {count}</source>
             <translation>アンブシュアの張り: {count} 人</translation>
         </message>

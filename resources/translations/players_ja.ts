@@ -72,6 +72,18 @@
         <translation>出さない</translation>
     </message>
     <message>
+        <source>Circular breathing</source>
+        <translation>循環呼吸</translation>
+    </message>
+    <message>
+        <source>No</source>
+        <translation>なし</translation>
+    </message>
+    <message>
+        <source>Breathes in through the nose while playing, and never stops the line for a catch breath</source>
+        <translation>演奏しながら鼻から息を吸い、息継ぎでフレーズを途切れさせません</translation>
+    </message>
+    <message>
         <source>Colour of the player in the timeline and on the stage</source>
         <translation>タイムラインとステージでのプレイヤーの色</translation>
     </message>

@@ -103,6 +103,7 @@ def players(draw: st.DrawFn, id: str, name: str, part_ids: list[str]) -> Player:
             amplitude=draw(fractions01),
             breath_min_beats=draw(st.floats(0.0, 64.0)),
             lung_s=draw(st.floats(1.0, 60.0)),
+            circular_breathing=draw(st.booleans()),
             sway=draw(st.floats(0.0, 2.0)),
             posture=draw(st.sampled_from(["standing", "seated"])),
             cue_leader=draw(st.none() | st.booleans()),

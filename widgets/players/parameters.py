@@ -31,6 +31,7 @@ LABEL_PX = 88
 PORTRAIT_PX = 28
 PORTRAITS_AFTER_MS = 3000
 _LEADER = {"auto": None, "yes": True, "no": False}
+_CIRCULAR = {"no": False, "yes": True}
 
 
 @dataclass(frozen=True)
@@ -89,6 +90,7 @@ class ParameterSections(QWidget):
         self._make_player_rows()
         for row in _SLIDERS:
             self._make_slider(row)
+        self._make_circular_breathing()
         self._make_seed()
         self.retranslate()
         session.theme_changed.connect(self._dress)
@@ -146,6 +148,17 @@ class ParameterSections(QWidget):
         self._sliders[row.name] = slider
         self._sections[row.section].body.addWidget(slider)
 
+    def _make_circular_breathing(self) -> None:
+        self._circular_label, self._circular = Label(), Combo()
+        self._circular.setObjectName("parameter_circular_breathing")
+        self._circular_label.setBuddy(self._circular)
+        self._circular.chosen.connect(lambda choice: self._set("circular_breathing", _CIRCULAR[choice]))
+        line = QHBoxLayout()
+        line.setSpacing(4)
+        line.addWidget(self._circular_label)
+        line.addWidget(self._circular, 1)
+        self._sections["breath"].body.addLayout(line)
+
     def _make_seed(self) -> None:
         seed = NumberSlider(self._session, 0.0, float(_LARGEST_SEED), decimals=0, step=1.0, slides=False)
         seed.setObjectName("parameter_seed")
@@ -180,6 +193,9 @@ class ParameterSections(QWidget):
         self._character.show_option(_common(players, lambda player: player.character_id))
         self._show_postures(players)
         self._leader.show_option(_common(players, lambda player: _leader_id(player.parameters.cue_leader)))
+        self._circular.show_option(
+            _common(players, lambda player: "yes" if player.parameters.circular_breathing else "no")
+        )
         self._colour.show_colours(tuple(dict.fromkeys(self._session.colour(player) for player in players)))
         casts = [edit.cast_parameters(project, player.id, edit.instrument_of(player)) for player in players]
         for name, slider in self._sliders.items():
@@ -292,6 +308,11 @@ class ParameterSections(QWidget):
                 Option("yes", self.tr("Yes")),
                 Option("no", self.tr("Never")),
             ]
+        )
+        self._circular_label.setText(self.tr("Circular breathing"))
+        self._circular.set_options([Option("no", self.tr("No")), Option("yes", self.tr("Yes"))])
+        self._circular.setToolTip(
+            self.tr("Breathes in through the nose while playing, and never stops the line for a catch breath")
         )
         self._colour.setToolTip(self.tr("Colour of the player in the timeline and on the stage"))
         self._dice.setToolTip(self.tr("Another seed for each"))

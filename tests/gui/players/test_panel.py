@@ -271,6 +271,7 @@ def test_every_number_is_typed_and_reset(
         ("player_character", lambda player: player.character_id),
         ("player_posture", lambda player: player.parameters.posture),
         ("player_leader", lambda player: player.parameters.cue_leader),
+        ("parameter_circular_breathing", lambda player: player.parameters.circular_breathing),
     ],
 )
 def test_every_choice_is_made_by_keys(panel: PlayersPanel, session: Session, name: str, read: object) -> None:

@@ -8,6 +8,7 @@ import itertools
 import msgspec
 import pytest
 
+from app.plan.corrections import SetBreath
 from app.plan.generate import Line, Piece, make_plans, time_frame
 from app.plan.lungs import CATCH_MAX_S, CATCH_MIN_S, CATCH_NOTE_SHARE
 from app.plan.model import BreathEvent, PlayerParameters, PlayerPlan
@@ -206,6 +207,21 @@ def test_loud_playing_needs_more_breaths_and_big_lungs_fewer() -> None:
         return len(plan(notes_, **parameters).breaths)  # type: ignore[arg-type]
 
     assert count(loud) > count(notes) > count(notes, lung_s=14.0)
+
+
+def test_with_circular_breathing_the_line_goes_on_until_a_rest() -> None:
+    notes = (*even([65, 67] * 60, Q), PlainNote("1:121", 124 * Q, Q, 65))
+    usual = plan(notes)
+    assert "breath.catch" in {event.reason.id for event in usual.breaths}
+    found = plan(notes, circular_breathing=True)
+    assert [event.id for event in found.breaths if event.kind == "breath"] == ["breath:1:1", "breath:1:121"]
+    assert not found.problems
+    # A breath by hand stays one.
+    hand = SetBreath("1:40", -240, 0, 0.5)
+    line = Line("p", notes, valves(), PlayerParameters(circular_breathing=True), (hand,))
+    clock = PlainClock()
+    made = make_plans(Piece(clock, METRE), (line,), time_frame((line,), clock))["p"]
+    assert "breath:1:40" in {event.id for event in made.breaths}
 
 
 def test_an_instrument_that_takes_little_air_is_breathed_for_seldom() -> None:
