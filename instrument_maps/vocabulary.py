@@ -282,7 +282,10 @@ class Vocabulary:
                     total = 2 * (words + sum(marks.values())) - (bool(marks) and not keyed)
                     vague = form.vague or (keyed and self._is_loose(marks, tokens[:start] + tokens[start + length :]))
                     no_size = own not in self._marks and one not in self._marks
-                    written_out = own in self._written_out or one in self._written_out
+                    # A single letter abbreviates: "Sax Alto" goes before "S Sax".
+                    written_out = (own in self._written_out or one in self._written_out) and not any(
+                        len(word) == 1 and word.isascii() for word in own
+                    )
                     rank = not vague, total, len(told_by) > 1, no_size, words, written_out, -start
                     if best is None or rank > best[0]:
                         best = rank, msgspec.structs.replace(form, vague=True) if keyed and vague else form
