@@ -65,12 +65,16 @@ def glissando_steps(times: LineTimes) -> BoolArray:
 
 
 def chromatic_notes(times: LineTimes) -> BoolArray:
-    """(N,): whether a note is reached and left by semitones within `CHROMATIC_S`, as far as it is in such a hurry."""
+    """(N,): whether a note is reached and left by semitones within `CHROMATIC_S`, as far as it is in such a hurry.
+
+    One of these notes is the semitone below: fingerings for chromatic runs add a key to its fingering.
+    """
     near = np.diff(times.onset_s) <= CHROMATIC_S + TOLERANCE
-    semitone = np.abs(np.diff(times.pitch)) == 1
+    interval = np.diff(times.pitch)
+    semitone = np.abs(interval) == 1
     result = np.zeros(len(times.pitch), dtype=bool)
-    result[:-1] |= near & semitone
-    result[1:] |= near & semitone
+    result[:-1] |= near & (interval == -1)
+    result[1:] |= near & (interval == 1)
     result[:-1] &= ~(near & ~semitone)
     result[1:] &= ~(near & ~semitone)
     return result

@@ -5,6 +5,7 @@ A finger is where the controls are that it holds; those that two pitches' finger
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -12,10 +13,13 @@ import numpy as np
 
 from app.plan.line import IntArray
 from app.plan.model import FloatArray
-from instrument_maps.model import Control, Fingering
+from instrument_maps.model import Contact, Control, Fingering
 
 _DOWN = 0.5
 """A control is held beyond this part of its way; short of it, a hole is half closed."""
+
+_SIDE = re.compile(r"\.(index|middle|ring|little)\.(side|pad_proximal)")
+"""The parts of a finger other than its tip; a thumb lies aside by nature."""
 
 LEVER_COST = 0.5
 """A thumb that has a lever of its own moves beside the fingers."""
@@ -41,6 +45,7 @@ class Ways:
     apart : how many fingers do
     rolls : fingers that roll onto a further key, or off it
     levers : thumbs' levers that are turned
+    turns : hands in which one finger goes to a key with its side, or leaves one, while others move
     together : 1 where a thumb's lever is turned while fingers move
     """
 
@@ -50,6 +55,7 @@ class Ways:
     apart: FloatArray
     rolls: FloatArray
     levers: FloatArray
+    turns: FloatArray
     together: FloatArray
 
 
@@ -63,6 +69,10 @@ class FingerPlaces:
         What each finger holds wholly, and half.
     levers : int
         Bits of the thumbs' levers.
+    aside : int
+        Bits of what fingers work with their sides: the hand turns for it.
+    hands : tuple of list of int
+        The rows of the fingers of each hand.
     weight, key_to_key : (F, 1, 1, 1) float64
         What a finger's move counts in a hurry, and what its way from one key to another costs.
     """
@@ -70,6 +80,8 @@ class FingerPlaces:
     holds: IntArray
     half: IntArray
     levers: int
+    aside: int
+    hands: tuple[list[int], ...]
     weight: FloatArray
     key_to_key: FloatArray
 
@@ -91,6 +103,11 @@ class FingerPlaces:
             levers = lever.sum(axis=0, dtype=np.float64)
             weighted += (lever * (LEVER_COST - self.weight)).sum(axis=0)
             up, down = up & ~lever, down & ~lever
+        turns = np.zeros_like(moves)
+        if self.aside:
+            turning = moved & (((a ^ b) & self.aside) != 0)
+            for hand in self.hands:
+                turns += turning[hand].any(axis=0) & (moved[hand] & ~turning[hand]).any(axis=0)
         weighted += CONTRARY_COST * (up.any(axis=0) & down.any(axis=0))
         return Ways(
             moves=moves,
@@ -99,12 +116,16 @@ class FingerPlaces:
             apart=jumps,
             rolls=busy.sum(axis=0, dtype=np.float64) - jumps,
             levers=levers,
+            turns=turns,
             together=((levers > 0.0) & (moves > levers)).astype(np.float64),
         )
 
 
 def finger_places(
-    choices: Sequence[Sequence[Fingering]], shape: tuple[int, int], controls: Sequence[Control]
+    choices: Sequence[Sequence[Fingering]],
+    shape: tuple[int, int],
+    controls: Sequence[Control],
+    contacts: Sequence[Contact],
 ) -> FingerPlaces:
     """Work out where the fingers are in the fingerings of every pitch, padded to ``shape`` (P, K); slides are no
     fingers' matter."""
@@ -128,12 +149,16 @@ def finger_places(
                 chosen[finger][row, column] |= bits[name]
     # Under a finger a lever is worked like any valve.
     levers = sum(bits[item.name] for item in controls if item.kind == "lever" and item.finger.endswith(".thumb"))
+    beside = {contact.control for contact in contacts if _SIDE.search(contact.part)}
+    aside = sum(bits[item.name] for item in controls if item.name in beside)
     used = [name for name in names if holds[name].any() or half[name].any()]
     kinds = [name.split(".")[1] for name in used]
     return FingerPlaces(
         np.array([holds[name] for name in used], dtype=np.int64).reshape(len(used), *shape),
         np.array([half[name] for name in used], dtype=np.int64).reshape(len(used), *shape),
         levers,
+        aside,
+        tuple([row for row, name in enumerate(used) if name.startswith(hand)] for hand in ("left.", "right.")),
         np.array([FINGER_WEIGHT.get(kind, 1.0) for kind in kinds]).reshape(-1, 1, 1, 1),
         np.array([KEY_TO_KEY_COST.get(kind, KEY_TO_KEY_USUAL_COST) for kind in kinds]).reshape(-1, 1, 1, 1),
     )

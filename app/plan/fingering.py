@@ -23,7 +23,7 @@ import numpy as np
 from app.errors import Message
 from app.plan.line import IntArray, LineTimes
 from app.plan.model import FingeringEvent, Note, Problem
-from app.plan.search import TOLERANCE, FingeringProblem, best_path, fingering_problem, never_worse
+from app.plan.search import TOLERANCE, FingeringProblem, best_path, even_trills, fingering_problem, never_worse
 from instrument_maps.model import InstrumentMap
 
 
@@ -40,7 +40,7 @@ def plan_fingerings(
     if not notes:
         return (), ()
     problem = fingering_problem(notes, times, instrument, pins)
-    path = never_worse(problem, best_path(problem))
+    path = never_worse(problem, even_trills(problem, best_path(problem)))
     events = []
     problems: list[Problem] = []
     reasons: dict[tuple[str, str, str, int], Message] = {}

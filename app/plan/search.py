@@ -40,7 +40,9 @@ OUT_OF_PLACE_COST = 6.0
 HELD_COST = 0.1
 """A key left down that the note does not need (tag "held") costs this, whatever its rank."""
 RARE_COST = 4.0
-"""A fingering that players know and hardly ever take (tag "rare") costs this beside its rank."""
+"""A fingering that players know and hardly ever take (tag "rare") costs this beside its rank, ..."""
+RARE_TRILL_COST = 11.0
+"""... and so much more in a trill, which saves motion with every step."""
 QUICK_S = 0.15
 """A note is fast that lasts no longer than this, from the one before or to the next."""
 LOUD, SOFT = 0.75, 0.35
@@ -68,6 +70,8 @@ ROLL_COST = 0.8
 """A finger rolls onto a further key, or off it."""
 TOGETHER_COST = 0.9
 """A thumb's lever is turned while fingers move: on a double horn the sides are changed."""
+TURN_COST = 0.6
+"""A hand turns to work a key with the side of a finger while others of its fingers move."""
 BREAK_COST, BREAK_FINGERS = 0.25, 3
 """Each finger beyond so many that moves as the line crosses into another register."""
 SLIDE_EASY = 0.7
@@ -109,6 +113,8 @@ class Table:
         Which are meant for a trill, for fast, loud or soft notes.
     register : (P,) int64
         How many breaks lie below the pitch.
+    rare : (P, K) bool
+        Which hardly anybody takes.
     leaves_down : bool
         Whether any fingering of the instrument leaves a key down that its note does not need (tag "held").
     places : FingerPlaces
@@ -122,6 +128,7 @@ class Table:
     valid: BoolArray
     meant_for: dict[str, BoolArray]
     register: IntArray
+    rare: BoolArray
     leaves_down: bool
     places: FingerPlaces
 
@@ -187,6 +194,8 @@ class FingeringProblem:
                 least = np.where(fits, np.minimum(least, IN_PLACE_COST[tag]), least)
             cost = np.where(meant, np.where(np.isfinite(least), least, cost + OUT_OF_PLACE_COST), cost)
         cost = cost + out_of_tune[index] * heard
+        if table.rare.any() and self.in_trill.any():
+            cost += RARE_TRILL_COST * (table.rare[index] & self._where("trill")[:, None])
         return np.where(self.allowed, cost, np.inf)
 
     def _where(self, tag: str) -> BoolArray:
@@ -219,6 +228,7 @@ class FingeringProblem:
         crossing = self.table.register[before] != self.table.register[after]
         crossed = np.where(crossing[:, None, None], np.maximum(fingers.moves - BREAK_FINGERS, 0.0), 0.0)
         awkward = ROLL_COST * fingers.rolls + TOGETHER_COST * fingers.together + BREAK_COST * crossed
+        awkward += TURN_COST * fingers.turns
         if table.leaves_down:
             awkward += MOVE_COST * fingers.moves
         hurry = np.maximum(FAST_S / step - 1.0, 0.0)
@@ -348,13 +358,14 @@ def table_of(pitches: tuple[int, ...], instrument: InstrumentMap) -> Table:
     shape = (len(choices), max((len(ranked) for ranked in choices), default=1))
     values = np.zeros((*shape, len(controls)))
     cost, cents, valid = np.zeros(shape), np.zeros(shape), np.zeros(shape, dtype=bool)
+    rare = np.zeros(shape, dtype=bool)
     meant_for: dict[str, BoolArray] = {}
     for row, ranked in enumerate(choices):
         for column, fingering in enumerate(ranked):
             values[row, column] = [fingering.controls.get(item.name, item.rest_value) for item in controls]
             forked = FORKED_COST if fingering.rank > 1 and "forked" in fingering.tags else 0.0
-            rare = RARE_COST if fingering.rank > 1 and "rare" in fingering.tags else 0.0
-            cost[row, column] = RANK_COST * min(fingering.rank - 1, MOST_RANKS) + forked + rare
+            rare[row, column] = fingering.rank > 1 and "rare" in fingering.tags
+            cost[row, column] = RANK_COST * min(fingering.rank - 1, MOST_RANKS) + forked + RARE_COST * rare[row, column]
             if fingering.rank > 1 and "held" in fingering.tags:
                 cost[row, column] = HELD_COST
             cents[row, column] = fingering.cents
@@ -364,9 +375,9 @@ def table_of(pitches: tuple[int, ...], instrument: InstrumentMap) -> Table:
                     meant_for.setdefault(tag, np.zeros(shape, dtype=bool))[row, column] = True
     written = np.array([ranked[0].written_pitch for ranked in choices], dtype=np.int64)
     register = np.searchsorted(np.sort(np.array(instrument.breaks, dtype=np.int64)), written, side="right")
-    places = finger_places(choices, shape, controls)
+    places = finger_places(choices, shape, controls, instrument.contacts)
     leaves_down = any("held" in fingering.tags for fingering in instrument.fingerings)
-    return Table(choices, values, cost, cents, valid, meant_for, register.astype(np.int64), leaves_down, places)
+    return Table(choices, values, cost, cents, valid, meant_for, register.astype(np.int64), rare, leaves_down, places)
 
 
 def _either_side(steps: BoolArray, count: int) -> BoolArray:
@@ -490,6 +501,21 @@ def _chain_of_pairs(local: FloatArray, cost: FloatArray, reversal: FloatArray) -
     for origin in reversed(back):
         chosen.append(int(origin[chosen[-1], chosen[-2]]))
     return np.array(chosen[::-1], dtype=np.int64)
+
+
+def even_trills(problem: FingeringProblem, path: IntArray) -> IntArray:
+    """Finger the first and the last two notes of every trill as those within: nobody changes while trilling."""
+    steps = np.concatenate(([False], problem.in_trill, [False]))
+    if not steps.any():
+        return path
+    even = path.copy()
+    edges = np.flatnonzero(steps[1:] != steps[:-1]).tolist()
+    for first, last in zip(edges[::2], edges[1::2], strict=True):
+        for note, within in ((first, first + 2), (first + 1, first + 3), (last, last - 2), (last - 1, last - 3)):
+            same = problem.pitch_index[note] == problem.pitch_index[within]
+            if same and problem.allowed[note, path[within]]:
+                even[note] = path[within]
+    return even
 
 
 def never_worse(problem: FingeringProblem, path: IntArray) -> IntArray:

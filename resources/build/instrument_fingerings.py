@@ -101,6 +101,7 @@ def trumpet() -> list[dict[str, object]]:
         # two and three valves where none or one serve, and 123 above the staff, are what nobody takes
         others = [label for label in others if abs(found[label]) <= 60]
         for rank, label in enumerate((first, *others), start=1):
+            tags = _tags(rank, label, first)
             controls = {f"valve_{valve}": 1.0 for valve in label if valve != "0"}
             rows.append(
                 {
@@ -110,10 +111,18 @@ def trumpet() -> list[dict[str, object]]:
                     "controls": controls,
                     "cents": round(found[label]),
                     "correction": trumpet_correction(label),
-                    "tags": [] if rank == 1 else ["trill"] if rank == 2 else ["fast"],
+                    "tags": tags,
                 }
             )
     return rows
+
+
+def _tags(rank: int, label: str, first: str) -> list[str]:
+    """What a fingering with valves is for; hardly anybody takes one with more valves than the first choice."""
+    valves, fewest = (sum(sign in "12345" for sign in one) for one in (label, first))
+    if valves > fewest:
+        return ["rare"]
+    return [] if rank == 1 else ["trill"] if rank == 2 else ["fast"]
 
 
 class Side(NamedTuple):
@@ -226,7 +235,8 @@ class Valves(NamedTuple):
     ``fundamental`` is the written pitch of the open tube's first harmonic. ``semitones`` says by sign of the label what
     each valve or lever lowers the tube by when it is alone; ``compensator`` is the valve with which the others lengthen
     the tube in proportion: it sends the air through them once more, or to tubes of their own (a double horn). ``first``
-    gives the published first choices; other combinations of at most ``most`` valves follow.
+    gives the published first choices; other combinations of at most ``most`` valves follow. ``open_side``
+    gives those of a double horn's longer side where the first choice is on the other one.
     """
 
     fundamental: int
@@ -234,6 +244,7 @@ class Valves(NamedTuple):
     first: dict[int, str]
     compensator: str = ""
     most: int = 3
+    open_side: dict[int, str] = {}
     partials: range = range(2, HIGHEST_PARTIAL + 1)
 
 
@@ -245,6 +256,7 @@ def valved(instrument: Valves) -> list[dict[str, object]]:
     rows: list[dict[str, object]] = []
     for written, first in sorted(instrument.first.items()):
         found: dict[str, tuple[float, int]] = {}
+        kept = (first, instrument.open_side.get(written))
         for label, pick in labels.items():
             ratio = _ratio(instrument, pick)
             lower = sum(instrument.semitones[sign] for sign in pick)
@@ -252,13 +264,13 @@ def valved(instrument: Valves) -> list[dict[str, object]]:
                 cents = 100 * (instrument.fundamental + 12 * math.log2(partial / ratio) - written)
                 near = abs(instrument.fundamental + 12 * math.log2(partial) - lower - written) < 0.5
                 usable = near and partial not in SKIPPED_PARTIALS and partial not in (13, 14)
-                if abs(cents) <= (MOST_OFF_CENTS if label == first else 40) and (usable or label == first):
+                if abs(cents) <= (MOST_OFF_CENTS if label in kept else 40) and (usable or label in kept):
                     found[label] = min(found.get(label, (1e9, 0)), (cents, partial), key=lambda one: abs(one[0]))
         if first not in found:
             raise ValueError(f"written {written}: {first} is no harmonic of its tube")
         others = sorted((label for label in found if label != first), key=lambda label: _rarity(found[label][0], label))
         for rank, label in enumerate((first, *others[:MOST_ALTERNATES]), start=1):
-            tags = [] if rank == 1 else ["trill"] if rank == 2 else ["fast"]
+            tags = _tags(rank, label, first)
             if rank > 1 and instrument.compensator == "T" and found[label][1] == 5 and "T" in label:
                 tags = ["rare"]
             rows.append({"written_pitch": written, "rank": rank, "label": label, "controls": {}, "correction": {},
@@ -306,10 +318,11 @@ HORN_F_FIRST = {
 """From written F 3 the chart; below, the same valves on the second harmonic."""
 HORN_DOUBLE_FIRST = {
     **{written: label for written, label in HORN_F_FIRST.items() if written < 68},
+    49: "T23", 50: "T3",
     68: "T23", 69: "T12", 70: "T1", 71: "T2", 72: "T0", 73: "T23", 74: "T12", 75: "T1", 76: "T2", 77: "T0", 78: "T2",
     79: "T0", 80: "T23", 81: "T12", 82: "T1", 83: "T2", 84: "T0",
 }  # fmt: skip
-"""The F side up to written G 4, then the B flat side."""
+"""The F side up to written G 4, then the B flat side; that too for the low notes that are too sharp with 13 and 123."""
 TUBA_FIRST = {
     23: "1234", 24: "134", 25: "234", 26: "124", 27: "14", 28: "24", 29: "4", 30: "23", 31: "12", 32: "1", 33: "2",
     34: "0", 35: "24", 36: "4", 37: "23", 38: "12", 39: "1", 40: "2", 41: "0", 42: "23", 43: "12", 44: "1", 45: "2",
@@ -330,7 +343,14 @@ HORN_PARTIALS = range(2, 17)
 VALVED = {
     "horn_F_single": (Valves(36, VALVE_SEMITONES, HORN_F_FIRST, partials=HORN_PARTIALS), 7),
     "horn_double_F_Bb": (
-        Valves(36, {**VALVE_SEMITONES, "T": -5}, HORN_DOUBLE_FIRST, compensator="T", partials=HORN_PARTIALS),
+        Valves(
+            36,
+            {**VALVE_SEMITONES, "T": -5},
+            HORN_DOUBLE_FIRST,
+            compensator="T",
+            partials=HORN_PARTIALS,
+            open_side={49: HORN_F_FIRST[49]},
+        ),
         7,
     ),
     "euphonium_Bb_bassclef": (Valves(34, FOUR, EUPHONIUM_FIRST, compensator="4"), 0),

@@ -85,9 +85,9 @@ def test_all_saxophones_are_fingered_alike_and_sound_elsewhere() -> None:
         assert instrument.range.high == 90 - shifts[name]
 
 
-def test_b_flat_has_its_three_ways_and_front_f_its_alternates() -> None:
+def test_b_flat_has_its_three_ways_and_one_for_trills_and_front_f_its_alternates() -> None:
     labels = [fingering.label for fingering in ALTO.fingerings_for(70 - 9)]
-    assert labels == ["1L 2L sbb", "1L bbb", "1L 1R"]
+    assert labels == ["1L 2L sbb", "1L 1R", "1L bbb", "1L 2L gs sbb"]
     assert "2L ff oct" in [fingering.label for fingering in ALTO.fingerings_for(89 - 9)]
 
 

@@ -56,13 +56,35 @@ def test_a_slow_scale_keeps_first_choices() -> None:
 
 
 def test_a_trill_shares_valves() -> None:
-    # 66 is 23 and 68 is 1: three fingers a step; 68 on 123 leaves one.
-    notes = even([66, 68] * 6, 120, start_tick=480)
+    # 60 is 13 and 62 is 12: two fingers a step; 62 on 3 leaves one.
+    notes = even([60, 62] * 6, 120, start_tick=480)
     events, _ = plan(notes, TRUMPET, bpm=150.0)
-    assert [event.label for event in events[2:-2]] == ["23", "123"] * 4
+    assert [event.label for event in events] == ["13", "3"] * 6
     assert events[3].reason.id == "fingering.trill"
-    slow, _ = plan(even([66, 68] * 6, 480), TRUMPET)
+    slow, _ = plan(even([60, 62] * 6, 480), TRUMPET)
     assert {event.rank for event in slow} == {1}
+
+
+def test_no_trill_is_fast_enough_for_what_hardly_anybody_takes() -> None:
+    # 63 on 1 and 64 on 2: 64 on 123 would be as few fingers, and none in contrary motion.
+    for step_tick in (60, 120):
+        events, _ = plan(even([63, 64] * 6, step_tick, start_tick=480), TRUMPET, bpm=120.0)
+        assert {event.label for event in events} == {"1", "2"}
+
+
+def test_a_hand_that_turns_to_side_keys_moves_nothing_else_where_it_can() -> None:
+    # Palm keys take the left hand off the pearls: from high C the front key gives E; from D the palm keys go on.
+    sax = bundled_maps()["sax_alto_Eb"]
+    for low, label in ((84, "2L 3L ff oct"), (86, "oct pd peb se")):
+        events, _ = plan(even([low - 9, 88 - 9] * 2, 120), sax, bpm=120.0)
+        assert [event.label for event in events[1::2]] == [label] * 2
+
+
+def test_a_trill_is_fingered_alike_from_its_first_note_to_its_last() -> None:
+    flute = bundled_maps()["flute"]
+    for low, high in ((66, 67), (66, 68), (78, 79)):
+        events, _ = plan(even([low, high] * 6, 60), flute, bpm=120.0)
+        assert len({event.label for event in events}) == 2
 
 
 def test_alternating_thirds_are_no_trill() -> None:

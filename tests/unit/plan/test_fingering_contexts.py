@@ -59,8 +59,9 @@ def test_a_glissando_is_slurred_and_goes_one_way() -> None:
     assert not glissando_steps(line([72, 73, 74, 73], 60)).any()
 
 
-def test_a_chromatic_note_has_semitones_on_both_sides() -> None:
-    assert chromatic_notes(line([65, 66, 67, 69], 120)).tolist() == [True, True, False, False]
+def test_a_chromatic_note_has_semitones_on_both_sides_one_of_them_below() -> None:
+    assert chromatic_notes(line([65, 66, 67, 69], 120)).tolist() == [False, True, False, False]
+    assert chromatic_notes(line([66, 67, 66, 64], 120)).tolist() == [False, True, False, False]
     assert not chromatic_notes(line([65, 66, 67], 480)).any()
 
 
