@@ -72,6 +72,7 @@ def _without_marks(text: str) -> str:
             kept.append(character)
         else:
             # "Bässe" are no "Basse"; ö and ü are more often written without their dots than as two letters.
-            decomposed = unicodedata.normalize("NFD", character).replace("a\u0308", "ae").replace("œ", "oe")
+            letter = "oe" if character in "œŒ" else character
+            decomposed = unicodedata.normalize("NFD", letter).replace("a\u0308", "ae")
             kept.append("".join(c for c in decomposed if not unicodedata.combining(c)))
     return "".join(kept)

@@ -41,6 +41,8 @@ _IN = frozenset({"in", "en", "em"})
 """Before a key."""
 _DOUBLING = re.compile(r"[/&+,;、]|\s[-–]\s|\b(?:and|und|et|ed|y|e(?!\W?(?:♭|b\b|flat\b)))\b", re.IGNORECASE)
 """Between two instruments of one player."""
+_JOINED_KEYS = ("bb", "eb", "es", "b", "c", "d", "f")
+"""Keys that are joined to a name ("Ebcl", "Fhorn"); not "Ahorn", "Repiano"."""
 _TOGETHER = re.compile(r"(?<!\w)[aàá] ?\d(?!\w)")
 """How many players play from a part ("a2"), which is no key."""
 _PLAYER = re.compile(r"\d+|i{1,3}|iv|vi{0,3}")
@@ -246,10 +248,24 @@ class Vocabulary:
         Whole words only. Of several names the one counts that explains most words, sizes and keys beside it included
         ("bass trombone" before "trombone", "Contrabass Cl." before "Contrabass"); among equals one that is more than
         an abbreviation, then the first. Of two instruments of one player ("Oboe 2 / Engl. Horn") the first counts,
-        unless the second says more exactly what it is ("Trombone 3 / Bass Trombone"). Japanese is written without
-        spaces, so its names are found anywhere within a run of kana and kanji.
+        unless the second says more exactly what it is ("Trombone 3 / Bass Trombone"); so does what stands in brackets,
+        "Flute (Piccolo)" being a flute and "Saxophone (alto)" an alto saxophone. Japanese is written without spaces, so
+        its names are found anywhere within a run of kana and kanji.
         """
         text = _TOGETHER.sub(" ", unicodedata.normalize("NFKC", text))
+        found = self._of_player(text)
+        before, bracket, _ = text.partition("(")
+        # An abbreviation may mean anything: "Cor. 1 (Cornet)" is a cornet.
+        first = self._of_player(before) if bracket and self.all_by_name(before) else None
+        if found is None or first is None or first.vague or self._is_kind(found, first):
+            return found
+        return first
+
+    def _is_kind(self, named: Instrument, general: Instrument) -> bool:
+        """Whether one instrument is a form or a sort of another one."""
+        return general.id in named.form_of or self.is_sort(named.id, general.id)
+
+    def _of_player(self, text: str) -> Instrument | None:
         split = _DOUBLING.split(text, _MOST_PARTS)
         parts = [named for part in split if (named := self._one_by_name(part)) is not None]
         sure = [named for named in parts if not named.vague]
@@ -322,7 +338,7 @@ class Vocabulary:
 
     def _singular(self, word: str) -> str:
         """The word of the table that this one is the plural of; itself where there is none."""
-        if len(word) >= _LEAST_PLURAL and not is_wide(word):
+        if len(word) >= _LEAST_PLURAL and not is_wide(word) and (word,) not in self._marks:
             for plural, singular in _PLURALS:
                 if word.endswith(plural) and (one := word.removesuffix(plural) + singular) in self._words:
                     return one
@@ -337,6 +353,10 @@ class Vocabulary:
                     return before, name
                 if (before,) in self._by_tokens and (name,) in self._marks and len(name) >= _NAME_LETTERS:
                     return before, name
+            for key in _JOINED_KEYS:
+                name = token.removeprefix(key)
+                if name != token and (name,) in self._by_tokens and (len(key) > 1 or len(name) >= _NAME_LETTERS):
+                    return key, name
         return (token,)
 
     def _form(self, instrument: Instrument, marks: Set[str]) -> tuple[Instrument, frozenset[str]]:
