@@ -86,8 +86,6 @@ SLIDE_MAX_SPEED_M_S = 2.5
 """Where the map does not say: speed of a trombonist's arm in fast passages."""
 LEGATO_COST = 1.25
 """A slide moved between notes that touch smears; counts more than one moved in a gap."""
-SMEAR_COST, STILL_M = 0.6, 0.015
-"""A slide that goes farther than so many metres within a slur, in a hurry: a slur with the slide still is cleaner."""
 REVERSAL_COST = 0.5
 """Turning the slide back at speed."""
 
@@ -181,11 +179,6 @@ class FingeringProblem:
         return trill_steps(self.times)
 
     @cached_property
-    def _pace(self) -> FloatArray:
-        """(N-1,): how much of what is awkward counts in each step (see `EASY_STEP_S`)."""
-        return np.clip((EASY_STEP_S - np.diff(self.times.onset_s)) / (EASY_STEP_S - HURRIED_STEP_S), 0.0, 1.0)
-
-    @cached_property
     def local_cost(self) -> FloatArray:
         """(N, K): what a fingering costs by itself; inf where there is none or a correction forbids it."""
         table, index, times = self.table, self.pitch_index, self.times
@@ -241,7 +234,7 @@ class FingeringProblem:
         hurry = np.maximum(FAST_S / step - 1.0, 0.0)
         trill_hurry = TRILL_COST * np.maximum(TRILL_S / step - 1.0, 0.0)
         hurry = np.where(self.in_trill, np.maximum(trill_hurry, hurry), hurry)
-        pace = self._pace
+        pace = np.clip((EASY_STEP_S - step) / (EASY_STEP_S - HURRIED_STEP_S), 0.0, 1.0)
         touching = np.clip(1.0 - gap / LIFTED_S, 0.0, 1.0)
         trill = np.where(self.in_trill, TRILL_COST, 1.0)
         cost = np.zeros((len(pair), *fingers.weighted.shape[1:]))
@@ -275,7 +268,6 @@ class FingeringProblem:
         values, played = self.table.values[self.pitch_index], self.times.duration_s[:-1]
         shape = (len(gap), values.shape[1], values.shape[1])
         slide_m, needed_s, share, cost = (np.zeros(shape) for _ in range(4))
-        smeared = (self._pace * self.times.slurs_next[:-1])[:, None, None]
         for place, control in enumerate(self.controls):
             if control.kind != "slide":
                 continue
@@ -289,7 +281,6 @@ class FingeringProblem:
             needed_s = np.maximum(needed_s, takes)
             smear = np.where(gap > 0.0, 1.0, LEGATO_COST)[:, None, None]
             cost += smear * SLIDE_COST * np.clip(part - SLIDE_EASY, 0.0, 1.0 - SLIDE_EASY)
-            cost += SMEAR_COST * smeared * (distance > STILL_M)
             cost += np.where(part > 1.0, SLIDE_LATE + SLIDE_LATE_RATE * (part - 1.0), 0.0)
         return slide_m, needed_s, share, cost
 

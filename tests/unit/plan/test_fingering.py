@@ -87,16 +87,6 @@ def test_a_trill_is_fingered_alike_from_its_first_note_to_its_last() -> None:
         assert len({event.label for event in events}) == 2
 
 
-def test_a_quick_slur_keeps_the_slide_still_where_it_can() -> None:
-    pitches = [55, 59, 62, 59]
-    tongued, slurred = (
-        line_of(*((240 * place, length, pitch) for place, pitch in enumerate(pitches))) for length in (190, 250)
-    )
-    for notes, labels in ((tongued, ["4", "4", "1", "4"]), (slurred, ["4", "4", "4", "4"])):
-        events, _ = plan(notes, TROMBONE, bpm=120.0)
-        assert [event.label for event in events] == labels
-
-
 def test_alternating_thirds_are_no_trill() -> None:
     times = line_times(Line("p", even([60, 64] * 6, 100), TRUMPET), PlainClock())
     assert not trill_steps(times).any()
