@@ -4,7 +4,8 @@ By the length of the rest, in felt beats (T6 of the 2018 thesis; the thresholds 
 last_beat) the breath takes the whole rest; in [last_beat, prepare) the last beat; from prepare on a preparatory
 motion comes in the beat before that. Every breath ends at the onset it serves. Where no rest serves within the
 lungs' budget, a catch breath is taken before a note that follows a phrase's end: in the short silence there, or out
-of the tail of the note before, whose lips then leave early while its sound stays.
+of the tail of the note before, whose lips then leave early while its sound stays. In runs whose notes are too short
+for that the player leaves out a note: its lips leave at once.
 
 Messages
 --------
@@ -20,6 +21,9 @@ breath.preparation(rest_beats, prepare_beats): "A rest of {rest_beats} beats (fr
 breath.catch(after_note, phrase_s, lung_s, from_note_ms): "A catch breath after note {after_note}: {phrase_s} s
     without a breath in a rest need more than the {lung_s} s of air there are; {from_note_ms} ms come out of that
     note's tail."
+breath.catch_dropped(after_note, phrase_s, lung_s): "A catch breath instead of note {after_note}, which is left out:
+    {phrase_s} s without a breath in a rest need more than the {lung_s} s of air there are, and no note is long enough
+    to take it from."
 breath.heard(gap_s): "Heard in the breath: {gap_s} s without blowing."
     Within a note too, which is blown on afterwards.
 breath.heard_preparation(gap_s): "Heard in the breath: {gap_s} s without blowing; getting ready to breathe."
@@ -37,16 +41,18 @@ from typing import NamedTuple
 import msgspec
 import numpy as np
 
-from app.errors import Message
+from app.errors import Argument, Message
 from app.plan.corrections import BY_HAND, WITHIN, Correction, SetBreath, removed_ids, without_removed
 from app.plan.heard import BREATH_S, Blown, Silences, gaps_within, silences
 from app.plan.line import IntArray, LineTimes, Piece, Seeds
 from app.plan.lungs import (
+    CATCH_MIN_S,
     EPSILON,
     air_used_s,
     catch_lengths_s,
     catch_places,
     drawn,
+    drop_lengths_s,
     levels,
     lungful_s,
     needed_rests,
@@ -153,8 +159,9 @@ def plan_breaths(
     if parameters.circular_breathing:
         used = with_circular_breathing(used, lung_s, refill)
     level = levels(used, lung_s, refill)
+    drop_s = drop_lengths_s(times) if gaps is None else None
     catches = catch_places(
-        notes, score, used, piece, lung_s, refill, level, removed | hand_ids, taken, seeds, rests, length_s
+        notes, score, used, piece, lung_s, refill, level, removed | hand_ids, taken, seeds, rests, length_s, drop_s
     )
     breaths, air_s = np.flatnonzero(refill > 0.0), level * lung_s
     caught = []
@@ -162,7 +169,10 @@ def plan_breaths(
         if index in spare:
             caught.append(spare[index])
         elif gaps is None or not gaps.played[index]:
-            caught.append(_catch(notes, times, piece, air_s, breaths, float(length_s[index]), index))
+            dropped_s = 0.0 if drop_s is None or length_s[index] >= CATCH_MIN_S - EPSILON else float(drop_s[index])
+            caught.append(
+                _catch(notes, times, piece, air_s, breaths, dropped_s or float(length_s[index]), index, dropped_s > 0.0)
+            )
         else:
             caught.append(_heard_catch(notes[index], piece, gaps, index))
     for event, index in zip(caught, catches, strict=True):
@@ -208,7 +218,7 @@ def rest_breaths(
         lambda index, rest, long, prepared: _rest_reason(index, rest, long, prepared, parameters),
         lambda index, rest: _preparation_reason(rest, parameters),
     )
-    room = np.minimum(silence, times.silence_tick)
+    room = times.silence_tick.astype(np.float64)
     return _in_silences(notes, serving, silence, room, times.onset_tick, times.onset_s, piece, parameters, told)
 
 
@@ -295,7 +305,7 @@ def _in_silences(
     onsets = end_tick[serving].astype(np.float64)
     long = rests[serving] >= parameters.breath_last_beat_beats
     # A threshold below one beat lets a rest shorter than a beat count as "last beat": then it is all there is.
-    lasts = np.where(long, np.minimum(silence[serving], beat), silence[serving])
+    lasts = np.where(long, np.minimum(silence[serving], beat), room[serving])
     starts = onsets - np.minimum(lasts, room[serving])
     prepared = rests[serving] >= parameters.breath_prepare_beats
     preparations = onsets - np.minimum(np.minimum(silence[serving], 2 * beat), room[serving])
@@ -364,14 +374,25 @@ def _catch(
     breaths: IntArray,
     length_s: float,
     index: int,
+    drops: bool,
 ) -> BreathEvent:
-    """``breaths`` are the notes before which rests give a breath, ascending."""
+    """``breaths`` are the notes before which rests give a breath, ascending; ``drops`` that the note before the breath
+    is left out for it."""
     onset_s = float(times.onset_s[index])
     start_s = onset_s - length_s
     place = int(np.searchsorted(breaths, index))
     first = int(breaths[place - 1]) if place else 0
     last = int(breaths[place]) if place < len(breaths) else len(notes)
-    from_note_s = max(float(times.played_end_s[index - 1]) - start_s, 0.0)
+    arguments: dict[str, Argument] = {
+        "after_note": notes[index - 1].id,
+        "phrase_s": round(float(times.played_end_s[last - 1] - times.onset_s[first]), 2),
+        "lung_s": round(float(air_s[first]), 2),
+    }
+    if drops:
+        reason = Message("breath.catch_dropped", arguments)
+    else:
+        from_note_s = max(float(times.played_end_s[index - 1]) - start_s, 0.0)
+        reason = Message("breath.catch", {**arguments, "from_note_ms": round(from_note_s * 1000.0)})
     return BreathEvent(
         id=f"breath:{notes[index].id}",
         kind="breath",
@@ -380,15 +401,7 @@ def _catch(
         start_s=start_s,
         end_s=onset_s,
         depth=1.0,
-        reason=Message(
-            "breath.catch",
-            {
-                "after_note": notes[index - 1].id,
-                "phrase_s": round(float(times.played_end_s[last - 1] - times.onset_s[first]), 2),
-                "lung_s": round(float(air_s[first]), 2),
-                "from_note_ms": round(from_note_s * 1000.0),
-            },
-        ),
+        reason=reason,
     )
 
 

@@ -91,6 +91,8 @@ HASTY_SHARE = 0.3
 HASTY_COST = 10.0
 """... that is used up at least before the next breath."""
 TOO_LONG_COST = 1000.0
+DROPPED_COST = 30.0
+"""Leaving out a note, where none is long enough to take a gasp from."""
 EPSILON = 1e-6
 """Rounding of air summed over an hour of notes, seconds."""
 
@@ -209,6 +211,7 @@ def catch_places(
     seeds: Seeds,
     rests: IntArray,
     length_s: FloatArray | None = None,
+    drop_s: FloatArray | None = None,
 ) -> list[int]:
     """Indices of the notes before which a catch breath is needed.
 
@@ -230,46 +233,56 @@ def catch_places(
         Ticks of rest before each note, as `app.plan.rests.rest_ticks` finds them.
     length_s : (N,) float, optional
         How long a catch breath before each note may be, where that was heard; `catch_lengths_s` otherwise.
+    drop_s : (N,) float, optional
+        `drop_lengths_s`: taken where nothing else gives the air.
     """
     length_s = catch_lengths_s(times) if length_s is None else length_s
+    drop_s = np.zeros(len(notes)) if drop_s is None else drop_s
     open_ = (length_s >= CATCH_MIN_S - EPSILON) & (refill == 0.0)
     open_[0] = False
     breaths = np.flatnonzero(refill > 0.0)
     starts = np.unique(np.concatenate(([0], breaths)))
     ends = np.append(starts[1:], len(notes))
     short = used[ends] - used[starts] > level[starts] * lung_s + EPSILON
-    stretches = [
-        (
-            start,
-            end,
-            [index for index in range(start + 1, end) if open_[index] and f"breath:{notes[index].id}" not in removed],
-        )
-        for start, end in zip(starts[short].tolist(), ends[short].tolist(), strict=True)
-    ]
-    everywhere = [index for _, _, places in stretches for index in places]
-    if not everywhere:
+    stretches = list(zip(starts[short].tolist(), ends[short].tolist(), strict=True))
+    if not stretches:
         return []
-    cost = _place_costs(notes, times, piece, rests, everywhere, taken, seeds)
-    air_s = np.array([drawn(length) * lung_s for length in length_s.tolist()])
+    may = np.zeros(len(notes), dtype=bool)
+    for start, end in stretches:
+        may[start + 1 : end] = [f"breath:{note.id}" not in removed for note in notes[start + 1 : end]]
+    dropping = ~open_ & (drop_s > 0.0) & (refill == 0.0)
+    cost = np.full(len(notes), np.inf)
+    at = np.flatnonzero(open_ & may)
+    cost[at] = _place_costs(notes, times, piece, rests, at, taken, seeds)
+    air_s = np.minimum(np.where(dropping, drop_s, length_s) / FULL_BREATH_S, 1.0) * lung_s
+
+    def chain(start: int, end: int, allowed: npt.NDArray[np.bool_]) -> tuple[list[int], bool]:
+        places = start + 1 + np.flatnonzero(allowed[start + 1 : end])
+        nodes = np.concatenate(([start], places, [end]))
+        found, is_enough = _cheapest_chain(
+            used[nodes].tobytes(), cost[places].tobytes(), air_s[places].tobytes(), float(level[start]), lung_s
+        )
+        return places[list(found)].tolist(), is_enough
+
     result: list[int] = []
-    first = 0
-    for start, end, places in stretches:
-        own = cost[first : first + len(places)]
-        first += len(places)
-        if places:
-            nodes = [start, *places, end]
-            chain = _cheapest_chain(
-                used[nodes].tobytes(), own.tobytes(), air_s[places].tobytes(), float(level[start]), lung_s
-            )
-            result += [places[place] for place in chain]
+    for start, end in stretches:
+        found, is_enough = chain(start, end, open_ & may)
+        also = start + 1 + np.flatnonzero(dropping[start + 1 : end] & may[start + 1 : end])
+        if not is_enough and len(also):
+            # As good as a breath before the note that is left out, but for the note.
+            cost[also] = _place_costs(notes, times, piece, rests, also - 1, taken, seeds) + DROPPED_COST
+            found, _ = chain(start, end, (open_ | dropping) & may)
+        result += found
     return result
 
 
 @lru_cache(maxsize=4096)
 def _cheapest_chain(
     used_bytes: bytes, cost_bytes: bytes, drawn_bytes: bytes, level: float, lung_s: float
-) -> tuple[int, ...]:
-    """Label by label: what is left of the best way so far, and what the catch breath adds, is the air of a place.
+) -> tuple[tuple[int, ...], bool]:
+    """The places, and whether the air lasts with them.
+
+    Label by label: what is left of the best way so far, and what the catch breath adds, is the air of a place.
 
     Remembered by its numbers: an edit leaves nearly all stretches of a line as they were.
 
@@ -307,7 +320,7 @@ def _cheapest_chain(
     while node > 0:
         chain.append(node - 1)
         node = int(origin[node])
-    return tuple(chain[::-1])
+    return tuple(chain[::-1]), bool(total[-1] < TOO_LONG_COST)
 
 
 def _place_costs(
@@ -315,12 +328,13 @@ def _place_costs(
     times: LineTimes,
     piece: Piece,
     rests: IntArray,
-    places: list[int],
+    at: IntArray,
     taken: frozenset[str],
     seeds: Seeds,
 ) -> FloatArray:
-    """(K,): what a breath before each of ``places`` costs."""
-    at = np.array(places)
+    """(K,): what a breath before each of the notes ``at`` (1 and up) costs."""
+    if not len(at):
+        return np.zeros(0)
     duration, onsets = times.duration_s, times.onset_tick
     onset, before = onsets[at], duration[at - 1]
     beat = piece.beat_ticks_at(onset)
@@ -353,7 +367,7 @@ def _place_costs(
     good += BEFORE_REST * (~rest & _rest_follows(rests, onsets, at, beat))
     good += CLIPPED * (_gap_s(times)[at] + CATCH_NOTE_SHARE * before < CATCH_MIN_S)
     good += JITTER * seeds.chances_at("catch", onset)
-    good -= TAKEN_COST * np.array([notes[index].id in taken for index in places])
+    good -= TAKEN_COST * np.array([notes[index].id in taken for index in at.tolist()])
     return np.asarray(np.maximum(PLACE_COST - good, LEAST_COST), dtype=np.float64)
 
 
@@ -473,6 +487,14 @@ def catch_lengths_s(times: LineTimes) -> FloatArray:
     tail = np.maximum(CATCH_NOTE_SHARE * before, np.minimum(CATCH_MIN_S - gap, CATCH_MOST_SHARE * before))
     length = np.where(gap >= CATCH_MIN_S, gap, gap + tail)
     return np.asarray(np.minimum(length, CATCH_MAX_S), dtype=np.float64)
+
+
+def drop_lengths_s(times: LineTimes) -> FloatArray:
+    """(N,): how long a catch breath before each note may be that takes the place of the note before; 0 where it would
+    be no gasp, or where the note before is the first."""
+    step_s = np.diff(times.onset_s, prepend=times.onset_s[:1])
+    step_s[:2] = 0.0
+    return np.where(step_s >= CATCH_MIN_S - EPSILON, np.minimum(step_s, CATCH_MAX_S), 0.0)
 
 
 def _gap_s(times: LineTimes) -> FloatArray:

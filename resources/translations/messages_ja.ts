@@ -816,6 +816,10 @@
             <translation>音符 {after_note} の後の素早いブレス: 休符でブレスしないまま {phrase_s:g} 秒続き、{lung_s:g} 秒分の息では足りません。その音の終わりから {from_note_ms:g} ms を使います</translation>
         </message>
         <message>
+            <source>a catch breath instead of note {after_note}, which is left out: {phrase_s:g} s without a breath in a rest need more than the {lung_s:g} s of air there are, and no note is long enough to take it from</source>
+            <translation>音符 {after_note} を省いた素早いブレス: 休符でブレスしないまま {phrase_s:g} 秒続き、{lung_s:g} 秒分の息では足りません。息継ぎできる長さの音もありません</translation>
+        </message>
+        <message>
             <source>from note {note} on, {phrase_s:g} s must be played on one breath; it takes {air_s:g} s of air, and there are {lung_s:g}</source>
             <translation>音符 {note} から {phrase_s:g} 秒をひと息で吹く必要があります。{air_s:g} 秒分の息が要りますが、{lung_s:g} 秒分しかありません</translation>
         </message>

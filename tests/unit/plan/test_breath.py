@@ -8,7 +8,7 @@ import itertools
 import msgspec
 import pytest
 
-from app.plan.corrections import SetBreath
+from app.plan.corrections import RemoveEvent, SetBreath
 from app.plan.generate import Line, Piece, make_plans, time_frame
 from app.plan.lungs import CATCH_MAX_S, CATCH_MIN_S, CATCH_NOTE_SHARE
 from app.plan.model import BreathEvent, PlayerParameters, PlayerPlan
@@ -168,8 +168,8 @@ def test_a_short_silence_serves_a_catch_breath_before_any_note_is_cut() -> None:
 
 
 def test_a_phrase_longer_than_a_lungful_is_flagged() -> None:
-    # 20 s of 16ths: no note is long enough to breathe out of.
-    plan_ = plan(even([65, 67] * 80, Q // 4))
+    # 20 s of 32nds: no note is long enough to breathe instead of.
+    plan_ = plan(even([65, 67] * 160, Q // 8))
     (problem,) = plan_.problems
     assert problem.message.id == "breath.too_long"
     assert problem.note_id == "1:1"
@@ -207,6 +207,29 @@ def test_loud_playing_needs_more_breaths_and_big_lungs_fewer() -> None:
         return len(plan(notes_, **parameters).breaths)  # type: ignore[arg-type]
 
     assert count(loud) > count(notes) > count(notes, lung_s=14.0)
+
+
+def test_in_endless_quick_notes_a_weak_note_is_left_out() -> None:
+    notes = even([60 + index % 5 for index in range(320)], Q // 4)
+    made = plan(notes)
+    caught = [event for event in made.breaths if event.kind == "breath" and event.id != "breath:1:1"]
+    assert caught
+    assert {event.reason.id for event in caught} == {"breath.catch_dropped"}
+    assert not made.problems
+    lips = {event.note_id: event for event in made.embouchures}
+    for event in caught:
+        assert event.end_tick - event.start_tick == Q // 4
+        assert event.start_tick % Q != 0, "not the one on the beat"
+        left_out = lips[str(event.reason.arguments["after_note"])]
+        assert left_out.start_s == left_out.end_s == event.start_s
+    # Deleted, it is taken elsewhere, and the note is played.
+    gone = caught[0]
+    corrections = (RemoveEvent(gone.id, gone.id.removeprefix("breath:")),)
+    line, clock = Line("p", notes, valves(), PlayerParameters(), corrections), PlainClock()
+    again = make_plans(Piece(clock, METRE), (line,), time_frame((line,), clock))["p"]
+    assert gone.id not in {event.id for event in again.breaths}
+    played = {event.note_id: event for event in again.embouchures}[str(gone.reason.arguments["after_note"])]
+    assert played.end_s > played.start_s
 
 
 def test_with_circular_breathing_the_line_goes_on_until_a_rest() -> None:
