@@ -513,7 +513,8 @@ def even_trills(problem: FingeringProblem, path: IntArray) -> IntArray:
     for first, last in zip(edges[::2], edges[1::2], strict=True):
         for note, within in ((first, first + 2), (first + 1, first + 3), (last, last - 2), (last - 1, last - 3)):
             same = problem.pitch_index[note] == problem.pitch_index[within]
-            if same and problem.allowed[note, path[within]]:
+            # A correction of one of the two is for that note alone.
+            if same and (problem.allowed[note] == problem.allowed[within]).all():
                 even[note] = path[within]
     return even
 

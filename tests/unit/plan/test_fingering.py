@@ -87,6 +87,15 @@ def test_a_trill_is_fingered_alike_from_its_first_note_to_its_last() -> None:
         assert len({event.label for event in events}) == 2
 
 
+def test_a_correction_within_a_trill_is_for_its_note_alone() -> None:
+    notes = even([63, 64] * 6, 60)
+    usual = [event.label for event in plan(notes, TRUMPET, bpm=120.0)[0]]
+    for place in (1, 3, 9, 11):
+        events, _ = plan(notes, TRUMPET, {notes[place].id: "123"}, bpm=120.0)
+        assert [at for at, event in enumerate(events) if event.label != usual[at]] == [place]
+        assert events[place].corrected
+
+
 def test_alternating_thirds_are_no_trill() -> None:
     times = line_times(Line("p", even([60, 64] * 6, 100), TRUMPET), PlainClock())
     assert not trill_steps(times).any()
