@@ -150,6 +150,7 @@ class Vocabulary:
         self.instruments = {instrument.id: instrument for instrument in instruments}
         self._by_program: dict[int, Instrument] = {}
         self._by_tokens: dict[tuple[str, ...], Instrument] = {}
+        words = cache(words_of)
         for instrument in instruments:
             for program in instrument.programs:
                 if self._by_program.setdefault(program, instrument) is not instrument:
@@ -157,12 +158,15 @@ class Vocabulary:
                         "vocabulary.invalid", file=file, detail=f"program {program} belongs to two instruments"
                     )
             vague = msgspec.structs.replace(instrument, vague=True)
-            for name in (*instrument.names, *instrument.vague_names):
-                tokens, found = words_of(name), instrument if name in instrument.names else vague
+            called = [(name, instrument) for name in instrument.names] + [
+                (name, vague) for name in instrument.vague_names
+            ]
+            for name, found in called:
+                tokens = words(name)
                 if not tokens or self._by_tokens.setdefault(tokens, found) is not found:
                     raise MapError("vocabulary.invalid", file=file, detail=f"'{name}' belongs to two instruments")
         self._written_out = frozenset(
-            words_of(name)
+            words(name)
             for instrument in instruments
             for name in (*instrument.names, *instrument.vague_names, *instrument.keyed_names)
             if sum(map(str.isalpha, name)) >= _NAME_LETTERS or is_wide(name[0])
@@ -175,11 +179,11 @@ class Vocabulary:
         self._keys, self._clefs = frozenset(keys), frozenset(clefs)
         self._prefixes = frozenset(map(words_of, prefixes))
         self._short_kana = frozenset(
-            words_of(name)
+            words(name)
             for instrument in instruments
             if instrument.kind == "wind"
             for name in instrument.names
-            if len(name) <= _MOST_SHORT_KANA and all(map(is_katakana, words_of(name)))
+            if len(name) <= _MOST_SHORT_KANA and all(map(is_katakana, words(name)))
         )
         self._words = frozenset(word for name in (*self._by_tokens, *self._marks) for word in name)
         self._longest_mark = max(map(len, self._marks), default=0)
