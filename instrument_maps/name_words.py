@@ -22,6 +22,7 @@ _LEAST_SPELLED = 4
 _SPELLING = re.compile(r"ph|oe|ue|y|(?<=[^\W\d_])([b-df-hj-np-tv-z])\1(?=[aeiouy])")
 _SPELLED = {"ph": "f", "oe": "o", "ue": "u", "y": "i"}
 """Greek, German and Italian spellings; a doubled consonant between vowels is written once."""
+_MARKED = re.compile(r"[^\x00-\x7f]")
 _KANA = re.compile("ー|ヴ[ァィェォ]?|フォ|テュ|ウィ|ウェ|ウォ")
 _KANA_SPELLED = {
     "ー": "",
@@ -51,8 +52,10 @@ def is_katakana(word: str) -> bool:
 def words_of(text: str) -> tuple[str, ...]:
     """The words of a text."""
     spaced = _CAMEL.sub(" ", unicodedata.normalize("NFKC", text))
-    plain = _ORDINAL.sub("", _without_marks(spaced).casefold())
-    return tuple(map(_spelled, _WORD.findall(_KANA.sub(lambda found: _KANA_SPELLED[found[0]], plain))))
+    plain = _ORDINAL.sub("", _MARKED.sub(_unmarked, spaced).casefold())
+    if not plain.isascii():
+        plain = _KANA.sub(lambda found: _KANA_SPELLED[found[0]], plain)
+    return tuple(map(_spelled, _WORD.findall(plain)))
 
 
 def _spelled(word: str) -> str:
@@ -62,17 +65,11 @@ def _spelled(word: str) -> str:
     return _SPELLING.sub(lambda found: found[1] or _SPELLED[found[0]], word)
 
 
-def _without_marks(text: str) -> str:
-    """Diacritics dropped from Latin letters; the voicing marks of kana stay, for they tell names apart."""
-    if text.isascii():
-        return text
-    kept = []
-    for character in text:
-        if _WIDE.match(character):
-            kept.append(character)
-        else:
-            # "Bässe" are no "Basse"; ö and ü are more often written without their dots than as two letters.
-            letter = "oe" if character in "œŒ" else character
-            decomposed = unicodedata.normalize("NFD", letter).replace("a\u0308", "ae")
-            kept.append("".join(c for c in decomposed if not unicodedata.combining(c)))
-    return "".join(kept)
+def _unmarked(found: re.Match[str]) -> str:
+    """A letter without its diacritics; the voicing marks of kana stay, for they tell names apart."""
+    if _WIDE.match(found[0]):
+        return found[0]
+    # "Bässe" are no "Basse"; ö and ü are more often written without their dots than as two letters.
+    letter = "oe" if found[0] in "œŒ" else found[0]
+    decomposed = unicodedata.normalize("NFD", letter).replace("a\u0308", "ae")
+    return "".join(c for c in decomposed if not unicodedata.combining(c))
