@@ -18,7 +18,7 @@ from app.project.model import Project
 from tests.bench.window.editor import LargeEditor, Turn, calibration_s, memory_mb
 from widgets.common.selection import Selection
 
-FRAMES = 60
+FRAMES = 40
 CORRECTIONS = 3
 """How often each is made; the median is told."""
 
