@@ -16,7 +16,7 @@ settings.register_profile("explore", deadline=None)
 settings.load_profile("suisou")
 
 
-PATIENCE_MS: Final = 30_000
+PATIENCE_MS: Final = 180_000
 """Of what waits for Qt: the machine may be busy with other tests."""
 
 

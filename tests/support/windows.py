@@ -8,7 +8,7 @@ from collections.abc import Callable
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QWidget
 
-PATIENCE_MS = 30_000
+PATIENCE_MS = 180_000
 
 
 def show(window: QWidget) -> None:

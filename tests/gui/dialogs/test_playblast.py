@@ -56,7 +56,7 @@ def test_the_loop_becomes_a_film(threaded: Session, qtbot: QtBot, tmp_path: Path
     times: list[float] = []
     path = tmp_path / "film.mp4"
     dialog = film(threaded, path, times)
-    with qtbot.waitSignal(dialog.filmed, timeout=20_000):
+    with qtbot.waitSignal(dialog.filmed):
         press(dialog, "playblast_start")
     assert path.read_bytes()[4:8] == b"ftyp"
     assert len(times) in (15, 16)

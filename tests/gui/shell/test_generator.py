@@ -63,7 +63,7 @@ def test_the_picture_of_the_player_in_front_is_right_before_a_small_edit_returns
     session: Session, generator: Generator, qtbot: QtBot
 ) -> None:
     player = session.project.players[0]
-    qtbot.waitUntil(lambda: generator.ready_share == 1.0, timeout=60_000)
+    qtbot.waitUntil(lambda: generator.ready_share == 1.0)
     at_s = session.performance.plan(player).embouchures[20].start_s + 0.02
     session.set_playhead(at_s)
     before = generator.live.pose(player.id, at_s)
@@ -83,14 +83,14 @@ def test_motion_is_made_by_itself_and_again_where_an_edit_touched_it(
     session: Session, generator: Generator, qtbot: QtBot
 ) -> None:
     player = session.project.players[0]
-    qtbot.waitUntil(lambda: generator.ready_share == 1.0, timeout=60_000)
+    qtbot.waitUntil(lambda: generator.ready_share == 1.0)
     at_s = session.performance.plan(player).embouchures[20].start_s + 0.02
     before = generator.live.pose(player.id, at_s)
     other = generator.live.pose(player.id, at_s + 20.0)
     start, end = (round(session.project.score.tempo_map.ticks(at_s + offset)) for offset in (-1.0, 1.0))
     session.apply(EDIT, put(session.project, player.id, [AddExpression("mine", "strained", start, end)]))
     assert generator.ready_share < 1.0
-    qtbot.waitUntil(lambda: generator.ready_share == 1.0, timeout=60_000)
+    qtbot.waitUntil(lambda: generator.ready_share == 1.0)
     after = generator.live.pose(player.id, at_s)
     assert before is not None
     assert after is not None
@@ -102,7 +102,7 @@ def test_the_viewport_is_told_only_of_poses_at_the_playhead(
     session: Session, generator: Generator, qtbot: QtBot
 ) -> None:
     player, score = session.project.players[0], session.project.score
-    qtbot.waitUntil(lambda: generator.ready_share == 1.0, timeout=60_000)
+    qtbot.waitUntil(lambda: generator.ready_share == 1.0)
     session.set_playhead(4.0)
     qtbot.wait(100)
     told: list[bool] = []
@@ -111,7 +111,7 @@ def test_the_viewport_is_told_only_of_poses_at_the_playhead(
         told.clear()
         start = round(score.tempo_map.ticks(at_s))
         session.apply(EDIT, put(session.project, player.id, [AddExpression("x", "strained", start, start + 480)]))
-        qtbot.waitUntil(lambda: generator.ready_share == 1.0, timeout=60_000)
+        qtbot.waitUntil(lambda: generator.ready_share == 1.0)
         qtbot.wait(100)
         # Once that there are other plans; then, where the playhead is in what changed, that its pose is right.
         assert len(told) == expected, at_s
@@ -234,7 +234,7 @@ def test_a_player_without_an_instrument_is_a_problem_and_the_others_play(
     session.apply(EDIT, replace(session.project, players=(lost, *others)))
     assert generator.up_to_date
     assert [problem.message.id for problem in session.performance.plan(lost).problems] == ["project.instrument_missing"]
-    qtbot.waitUntil(lambda: generator.ready_share == 1.0, timeout=60_000)
+    qtbot.waitUntil(lambda: generator.ready_share == 1.0)
     assert generator.live.pose(first.id, 1.0) is None
     assert generator.live.pose_now(first.id, 1.0) is None
     assert generator.live.pose(others[0].id, 1.0) is not None
@@ -264,7 +264,7 @@ def test_a_broken_contact_is_listed_walked_and_gone_when_it_is_mended(
 ) -> None:
     """Lowered by hand while it plays, the instrument leaves the lips: the lane and F8 show it, undo takes it away."""
     player = session.project.players[0]
-    qtbot.waitUntil(lambda: generator.ready_share == 1.0, timeout=60_000)
+    qtbot.waitUntil(lambda: generator.ready_share == 1.0)
     before = session.problems(player.id)
     lane = ProblemsLane(session, TimeAxis())
     qtbot.addWidget(lane)
@@ -275,7 +275,7 @@ def test_a_broken_contact_is_listed_walked_and_gone_when_it_is_mended(
         return [problem for problem in session.problems(player.id) if problem.message.id == "contact.lips_off"]
 
     session.apply(EDIT, put(session.project, player.id, [gesture]))
-    qtbot.waitUntil(lambda: len(lips_off()) == 1, timeout=60_000)
+    qtbot.waitUntil(lambda: len(lips_off()) == 1)
     broken = lips_off()
     assert [problem for problem in session.problems(player.id) if problem not in broken] == list(before)
     assert broken[0] in lane.problems
@@ -285,7 +285,7 @@ def test_a_broken_contact_is_listed_walked_and_gone_when_it_is_mended(
     assert session.selection.notes == {broken[0].note_id}
     assert "mouthpiece" in message_text(broken[0].message, session)
     session.document.undo()
-    qtbot.waitUntil(lambda: session.problems(player.id) == before, timeout=60_000)
+    qtbot.waitUntil(lambda: session.problems(player.id) == before)
     assert lane.problems == before
 
 

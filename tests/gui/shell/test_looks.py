@@ -32,7 +32,7 @@ def test_everything_fits(scale: float, theme: str, width: int, height: int) -> N
         capture_output=True,
         text=True,
         check=False,
-        timeout=240,
+        timeout=900,
     )
     assert done.returncode == 0, done.stderr
     first, *found = done.stdout.splitlines()

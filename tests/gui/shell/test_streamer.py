@@ -7,7 +7,7 @@ import time
 
 import numpy as np
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import Qt, QTimer
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLabel, QLineEdit, QPushButton
 from pytestqt.qtbot import QtBot
@@ -86,9 +86,8 @@ def test_it_follows_the_playhead_and_rests_slowly(program: Program, qtbot: QtBot
         expected = np.asarray(pose.rotations[joint], float) * (1, -1, -1, 1)
         np.testing.assert_allclose(receiver.frames[-1].bones[ARM][3:], expected, atol=2e-6)
         # At rest: alive, but seldom.
-        before = len(receiver.frames)
-        qtbot.wait(1000)
-        assert 3 <= len(receiver.frames) - before <= 8
+        frames = heard(receiver, qtbot, 5)[-5:]
+        assert frames[-1].at_s - frames[0].at_s > 4 / 8.0
 
 
 def test_the_rate_is_kept_while_it_plays(program: Program, qtbot: QtBot) -> None:
@@ -102,12 +101,19 @@ def test_the_rate_is_kept_while_it_plays(program: Program, qtbot: QtBot) -> None
         program.session.playback.play(1.0)
         qtbot.wait(700)
         start = len(receiver.frames)
+        # What the machine can keep at this moment: a bare timer of the same rate in the same loop of events.
+        ticks: list[float] = []
+        metronome = QTimer(timerType=Qt.TimerType.PreciseTimer)
+        metronome.timeout.connect(lambda: ticks.append(time.perf_counter()))
+        metronome.start(1000 // 30)
         qtbot.wait(3000)
+        metronome.stop()
         frames = receiver.frames[start:]
         program.session.playback.stop()
     # What a busy machine misses is not made up for, so that it is never more.
     rate_hz = (len(frames) - 1) / (frames[-1].time_s - frames[0].time_s)
-    assert 24.0 < rate_hz < 30.5
+    possible_hz = (len(ticks) - 1) / (ticks[-1] - ticks[0])
+    assert 0.7 * possible_hz < rate_hz < 30.5
     assert len({frame.bones[ARM] for frame in frames}) > 0.8 * len(frames)
 
 
@@ -123,10 +129,11 @@ def test_who_is_played_from_a_controller_is_sent_as_they_play(program: Program, 
         session.live_players.hear(player.id, time.perf_counter(), "b0027f", Wiring())
         low = session.performance.instrument(player).range.low
         session.live_players.hear(player.id, time.perf_counter(), f"90{low + 8:02x}64", Wiring())
-        qtbot.wait(600)
-        frames = receiver.frames
-        moved = [frame for frame in frames if frame.face != rested.face and frame.bones != rested.bones]
-        assert len(moved) > 5
+
+        def moved() -> list[Frame]:
+            return [frame for frame in receiver.frames if frame.face != rested.face and frame.bones != rested.bones]
+
+        qtbot.waitUntil(lambda: len(moved()) > 5)
         session.live_players.end(player.id)
 
 

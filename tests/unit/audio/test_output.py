@@ -113,7 +113,7 @@ def test_the_program_ends_though_sound_plays() -> None:
         "import time; from miniaudio import Backend; from app.audio.output import OutputSink;"
         "sink = OutputSink((Backend.NULL,)); time.sleep(0.1)"
     )
-    subprocess.run([sys.executable, "-c", script], cwd=ROOT, check=True, timeout=60)
+    subprocess.run([sys.executable, "-c", script], cwd=ROOT, check=True, timeout=900)
 
 
 def test_this_machine_s_own_output_or_none(capfd: pytest.CaptureFixture[str]) -> None:

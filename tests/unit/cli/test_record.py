@@ -128,7 +128,7 @@ def test_ctrl_c_ends_the_take(playing: WindPlayer, tmp_path: Path) -> None:
     assert recording.stderr.readline() == "suisou: recording; Ctrl+C ends it\n"
     time.sleep(1.5)
     recording.send_signal(signal.SIGINT)
-    told, errors = recording.communicate(timeout=240)
+    told, errors = recording.communicate(timeout=900)
     assert (recording.returncode, errors) == (0, "")
     assert told.startswith(f"{path}: ")
     assert pitches(path)
