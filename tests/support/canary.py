@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import os
+import re
 import struct
 import sys
 from collections.abc import Iterator
@@ -47,7 +48,9 @@ class Canary:
     def name(self, field: str) -> str:
         """A name that says where it stands: as HTML it opens the picture, in a button ``&8`` is a key, in a window's
         title ``[*]`` is a mark."""
-        return f'<img alt="{field}" src="file://{self.picture}">&8[*]'
+        # A folder may be named as an instrument is ("tmp": timpani); in an address, its first letter may be a code.
+        address = re.sub(r"/(\w)", lambda found: f"/%{ord(found[1]):02x}", self.picture.as_posix())
+        return f'<img alt="{field}" src="file://{address}">&8[*]'
 
     def file_name(self, field: str) -> str:
         """The same for a file: it opens the picture if this is in the working directory."""

@@ -13,6 +13,7 @@ from app.plan.model import PlayerParameters
 from app.project import limits
 from app.project.casting import StagePosition
 from app.project.model import AudioTrack, Player, Project
+from app.score.limits import too_long
 from app.score.model import ControllerCurve, Metre, Note, Part, Score, UnplayedPart
 from app.score.tempo import TempoChange, TempoMap
 from metadata.model import ARKIT_MORPHS, Expression
@@ -152,7 +153,8 @@ expressions = st.builds(
 
 @st.composite
 def projects(draw: st.DrawFn, folder: str = "/music") -> Project:
-    score = draw(scores())
+    # What is longer cannot be saved.
+    score = draw(scores().filter(lambda score: too_long(score) is None))
     part_ids = [part.id for part in score.parts]
     player_ids = draw(st.lists(ids, max_size=3, unique=True)) if part_ids else []
     names = draw(
